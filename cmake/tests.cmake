@@ -1,0 +1,33 @@
+# Unit tests: every test/unit/<folder>/*_test.cpp goes into unit_<folder>; nothing is listed by hand.
+find_package(GTest REQUIRED)
+
+file(GLOB unit_folders RELATIVE ${PROJECT_SOURCE_DIR}/test/unit CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/unit/*)
+foreach(folder ${unit_folders})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/unit/${folder}/*_test.cpp)
+  if(NOT sources OR (folder STREQUAL adapters AND WINDOW_INGRESS_CORE_ONLY))
+    continue()
+  endif()
+  set(target unit_${folder})
+  if(WINDOW_INGRESS_CORE_ONLY)
+    add_executable(${target} ${sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
+    target_link_libraries(${target} PRIVATE GTest::GTest)
+    add_test(NAME ${target} COMMAND ${target} --gtest_output=xml:${PROJECT_BINARY_DIR}/test_results/${target}.xml)
+  else()
+    catkin_add_gtest(${target} ${sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp TIMEOUT 600)
+  endif()
+  target_link_libraries(${target} window_ingress_evaluation yaml-cpp opencv_imgcodecs)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/test/support)
+  target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                               WINDOW_INGRESS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(folder STREQUAL adapters)
+    target_link_libraries(${target} window_ingress_adapters)
+  endif()
+endforeach()
+
+if(WINDOW_INGRESS_CORE_ONLY)
+  add_test(NAME core_is_free_of_ros
+           COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_core_is_free_of_ros.py
+                   ${PROJECT_BINARY_DIR}/compile_commands.json)
+else()
+  include(${PROJECT_SOURCE_DIR}/cmake/ros_tests.cmake)
+endif()

@@ -1,0 +1,18 @@
+# One command-line tool per src/tools/<name>.cpp; those that read bags or topics need ROS.
+set(ros_tools replay_bag tune_detector)
+file(GLOB tool_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cpp)
+foreach(source ${tool_sources})
+  get_filename_component(tool ${source} NAME_WE)
+  if(tool IN_LIST ros_tools AND WINDOW_INGRESS_CORE_ONLY)
+    continue()
+  endif()
+  add_executable(${tool} ${source})
+  target_link_libraries(${tool} PRIVATE window_ingress_evaluation Boost::program_options nlohmann_json::nlohmann_json
+                        yaml-cpp opencv_highgui opencv_imgcodecs)
+  if(tool IN_LIST ros_tools)
+    target_link_libraries(${tool} PRIVATE window_ingress_adapters)
+  endif()
+  if(NOT WINDOW_INGRESS_CORE_ONLY)
+    install(TARGETS ${tool} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  endif()
+endforeach()

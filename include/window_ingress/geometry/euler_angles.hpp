@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace window_ingress::geometry {
+
+/// Euler angles of the paper [rad]: theta about x, phi about y, psi about z.
+///
+/// The paper's matrix product (its eq. 8) does not fit its own angle formulas; the formulas are those of
+/// `R = Rz(psi) * Ry(phi) * Rx(theta)`, which is what stands here. For a forward-left-up frame they are roll,
+/// pitch and yaw.
+struct EulerAngles {
+  double theta_rad = 0.0;
+  double phi_rad = 0.0;
+  double psi_rad = 0.0;
+};
+
+/// theta = atan2(r32, r33), phi = atan2(-r31, sqrt(r32^2 + r33^2)), psi = atan2(r21, r11).
+/// phi lies in [-pi/2, pi/2]; at its ends theta and psi are not unique.
+EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation);
+
+/// Rz(psi) * Ry(phi) * Rx(theta).
+Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles);
+
+}  // namespace window_ingress::geometry

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace window_ingress::geometry {
+
+/// Pinhole camera with radial-tangential distortion (`plumb_bob` of sensor_msgs/CameraInfo).
+///
+/// Pixel centres are integers: the top left pixel's centre is (0, 0), and an ideal camera has its principal
+/// point at ((width - 1) / 2, (height - 1) / 2).
+struct PinholeCamera {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< [px]
+  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
+
+  /// Ideal camera, square pixels, centred principal point, no distortion.
+  static PinholeCamera fromFieldOfView(int width_px, int height_px, double horizontal_fov_rad);
+
+  /// What is wrong with this calibration, one text a fault; empty if it can be used.
+  std::vector<std::string> validate() const;
+
+  bool hasDistortion() const;
+  Eigen::Matrix3d K() const;
+
+  /// Pixel of a point in the optical frame [m]; nothing for points not in front of the camera.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_camera) const;
+
+  /// Distorted pixel of an ideal (undistorted) pixel of the same K.
+  Eigen::Vector2d distort(const Eigen::Vector2d& ideal_px) const;
+
+  /// Ideal pixel of a distorted one, by Newton iterations; to 1e-6 px within the image of any sane lens.
+  Eigen::Vector2d undistort(const Eigen::Vector2d& distorted_px) const;
+
+  /// Line of sight (unit vector, optical frame) of an image pixel.
+  Eigen::Vector3d ray(const Eigen::Vector2d& distorted_px) const;
+
+  /// True if the pixel lies in the image, at least `margin_px` from its border.
+  bool contains(const Eigen::Vector2d& pixel, double margin_px = 0.0) const;
+};
+
+}  // namespace window_ingress::geometry

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/simulation/referee.hpp"
+#include "window_ingress/simulation/scenario.hpp"
+
+namespace window_ingress::simulation {
+
+/// The truth about the vehicle.
+struct VehicleTruth {
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();  ///< true pose, axes of odom without its drift
+  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
+};
+
+/// A picture as the camera delivers it.
+struct CameraFrame {
+  double stamp_sec = 0.0;  ///< of the exposure
+  cv::Mat image;           ///< CV_8UC3, BGR; valid until the next call of `World::takeFrame`
+  Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();  ///< truth at the exposure
+  VehicleTruth truth;
+};
+
+/// What the vehicle's odometry says: noisy, drifting.
+struct OdometrySample {
+  double stamp_sec = 0.0;
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
+};
+
+/// What the attitude estimator says: noisy.
+struct ImuSample {
+  double stamp_sec = 0.0;
+  Eigen::Quaterniond R_odom_base = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specific_force_base_mps2 = Eigen::Vector3d::Zero();  ///< at rest: +g on z (REP 145)
+};
+
+/// Wish for the vehicle's velocity controller, in odometry axes.
+struct VelocityCommand {
+  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
+  double yaw_rate_radps = 0.0;
+};
+
+/// House, vehicle, sensors and referee of one scenario and seed. Deterministic: the same calls give the same bytes.
+///
+/// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` hands out what became due and
+/// forgets it. Not for use from several threads.
+class World {
+ public:
+  /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software renderer.
+  World(const Scenario& scenario, std::uint32_t seed);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Moves the world on by one physics step (`kStepSec`).
+  void advance();
+  static constexpr double kStepSec = 0.0025;
+
+  void command(const VelocityCommand& command);
+
+  double timeSec() const;
+  const VehicleTruth& truth() const;
+  std::optional<CameraFrame> takeFrame();
+  std::optional<OdometrySample> takeOdometry();
+  std::optional<ImuSample> takeImu();
+
+  const geometry::PinholeCamera& camera() const;
+  Eigen::Isometry3d T_base_camera() const;
+  Eigen::Isometry3d T_odom_window() const;  ///< truth, of the target
+  geometry::OpeningSize opening() const;
+  Eigen::Vector3d vehicleHalfExtents() const;  ///< of the body's box [m]
+  const Referee& referee() const;
+  /// The target as an operator would have photographed it: square, sharp, with frame and surround; and the corners
+  /// of its opening in that picture.
+  cv::Mat referencePicture(geometry::Quadrilateral* corners) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Fails if any file of the ROS-free libraries includes a ROS header, however indirectly.
+
+On Debian the ROS headers lie in the system include path, so the compiler alone keeps nothing out: its
+dependency lists (-M, system headers included) are read instead. Usage: check_core_is_free_of_ros.py
+COMPILE_COMMANDS.json
+"""
+import json
+import re
+import shlex
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+ROS_HEADER = re.compile(
+    r"/(ros|rosbag|roscpp|rosgraph_msgs|std_msgs|sensor_msgs|geometry_msgs|nav_msgs|visualization_msgs|std_srvs|"
+    r"tf2|tf2_ros|tf2_eigen|tf2_geometry_msgs|cv_bridge|image_transport|image_geometry|camera_info_manager|nodelet|"
+    r"pluginlib|dynamic_reconfigure|diagnostic_updater|diagnostic_msgs|message_filters)/[^ ]+\.h(pp)?$")
+ROS_FREE = re.compile(r"/src/(geometry|detection|pose|navigation|simulation|evaluation)/[^/]+\.cpp$")
+
+
+def ros_headers(entry):
+    command = shlex.split(entry["command"])
+    output = command.index("-o")
+    command = command[:output] + command[output + 2:]
+    command = [word for word in command if word != "-c" and not word.endswith("ccache")] + ["-M"]
+    listing = subprocess.run(command, cwd=entry["directory"], check=True, capture_output=True, text=True).stdout
+    return [word for word in listing.replace("\\\n", " ").split() if ROS_HEADER.search(word)]
+
+
+def main():
+    with open(sys.argv[1]) as file:
+        entries = [entry for entry in json.load(file) if ROS_FREE.search(entry["file"])]
+    if not entries:
+        sys.exit(f"{sys.argv[1]}: no file of the ROS-free libraries in it; was it configured?")
+    bad = 0
+    with ThreadPoolExecutor(2) as pool:
+        for entry, headers in zip(entries, pool.map(ros_headers, entries)):
+            for header in headers:
+                bad += 1
+                print(f"{entry['file']}: includes ROS header {header}")
+    print(f"{len(entries)} files checked, {bad} ROS headers found")
+    sys.exit(1 if bad else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,22 @@
+#include "window_ingress/geometry/euler_angles.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace window_ingress::geometry {
+
+EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation) {
+  return {std::atan2(rotation(2, 1), rotation(2, 2)),
+          std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2))),
+          std::atan2(rotation(1, 0), rotation(0, 0))};
+}
+
+Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return (AngleAxisd(angles.psi_rad, Vector3d::UnitZ()) * AngleAxisd(angles.phi_rad, Vector3d::UnitY()) *
+          AngleAxisd(angles.theta_rad, Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+}  // namespace window_ingress::geometry

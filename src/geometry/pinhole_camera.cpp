@@ -1,0 +1,106 @@
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::geometry {
+namespace {
+
+struct Distorted {
+  Eigen::Vector2d point;
+  Eigen::Matrix2d jacobian;
+};
+
+// OpenCV's plumb_bob model on normalised coordinates, with its derivative.
+Distorted distortNormalised(const std::array<double, 5>& d, const Eigen::Vector2d& p) {
+  const auto [k1, k2, p1, p2, k3] = d;
+  const double x = p.x(), y = p.y(), r2 = p.squaredNorm();
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // d radial / d r2, times two
+  Distorted out;
+  out.point << x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+      y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
+  const double mixed = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y;
+  out.jacobian << radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x, mixed, mixed,
+      radial + slope * y * y + 6.0 * p1 * y + 2.0 * p2 * x;
+  return out;
+}
+
+}  // namespace
+
+PinholeCamera PinholeCamera::fromFieldOfView(int width_px, int height_px, double horizontal_fov_rad) {
+  PinholeCamera camera;
+  camera.width = width_px;
+  camera.height = height_px;
+  camera.fx = camera.fy = 0.5 * width_px / std::tan(0.5 * horizontal_fov_rad);
+  camera.cx = 0.5 * (width_px - 1);
+  camera.cy = 0.5 * (height_px - 1);
+  return camera;
+}
+
+std::vector<std::string> PinholeCamera::validate() const {
+  std::vector<std::string> faults;
+  if (width <= 0 || height <= 0 || width > 20000 || height > 20000)
+    faults.push_back("image size " + std::to_string(width) + "x" + std::to_string(height) +
+                     " is not within 1..20000 pixels");
+  const std::array<double, 4> intrinsics{fx, fy, cx, cy};
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(intrinsics.begin(), intrinsics.end(), finite))
+    faults.push_back("K holds a number that is not finite");
+  else if (fx == 0.0 && fy == 0.0)
+    faults.push_back("uncalibrated: K is zero; calibrate the camera or load its camera_info");
+  else if (fx <= 0.0 || fy <= 0.0)
+    faults.push_back("focal length must be positive");
+  if (!std::all_of(distortion.begin(), distortion.end(), finite))
+    faults.push_back("D holds a number that is not finite");
+  return faults;
+}
+
+bool PinholeCamera::hasDistortion() const {
+  return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
+}
+
+Eigen::Matrix3d PinholeCamera::K() const {
+  Eigen::Matrix3d k;
+  k << fx, 0, cx, 0, fy, cy, 0, 0, 1;
+  return k;
+}
+
+std::optional<Eigen::Vector2d> PinholeCamera::project(const Eigen::Vector3d& p_camera) const {
+  if (!(p_camera.z() > 1e-9)) return std::nullopt;
+  return distort({fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy});
+}
+
+Eigen::Vector2d PinholeCamera::distort(const Eigen::Vector2d& ideal_px) const {
+  if (!hasDistortion()) return ideal_px;
+  const Eigen::Vector2d normalised((ideal_px.x() - cx) / fx, (ideal_px.y() - cy) / fy);
+  const Eigen::Vector2d p = distortNormalised(distortion, normalised).point;
+  return {fx * p.x() + cx, fy * p.y() + cy};
+}
+
+Eigen::Vector2d PinholeCamera::undistort(const Eigen::Vector2d& distorted_px) const {
+  if (!hasDistortion()) return distorted_px;
+  const Eigen::Vector2d target((distorted_px.x() - cx) / fx, (distorted_px.y() - cy) / fy);
+  Eigen::Vector2d p = target;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const Distorted d = distortNormalised(distortion, p);
+    const Eigen::Vector2d step = d.jacobian.inverse() * (target - d.point);
+    if (!step.allFinite()) break;
+    p += step;
+    if (step.squaredNorm() < 1e-22) break;
+  }
+  return {fx * p.x() + cx, fy * p.y() + cy};
+}
+
+Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& distorted_px) const {
+  const Eigen::Vector2d ideal = undistort(distorted_px);
+  return Eigen::Vector3d((ideal.x() - cx) / fx, (ideal.y() - cy) / fy, 1.0).normalized();
+}
+
+bool PinholeCamera::contains(const Eigen::Vector2d& pixel, double margin_px) const {
+  return pixel.x() >= margin_px && pixel.y() >= margin_px && pixel.x() <= width - 1 - margin_px &&
+         pixel.y() <= height - 1 - margin_px;
+}
+
+}  // namespace window_ingress::geometry
