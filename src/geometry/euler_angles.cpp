@@ -6,9 +6,10 @@
 namespace window_ingress::geometry {
 
 EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation) {
-  return {std::atan2(rotation(2, 1), rotation(2, 2)),
-          std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2))),
-          std::atan2(rotation(1, 0), rotation(0, 0))};
+  const double cos_phi = std::hypot(rotation(2, 1), rotation(2, 2));
+  const double phi = std::atan2(-rotation(2, 0), cos_phi);
+  if (cos_phi < 1e-9) return {0.0, phi, std::atan2(-rotation(0, 1), rotation(1, 1))};
+  return {std::atan2(rotation(2, 1), rotation(2, 2)), phi, std::atan2(rotation(1, 0), rotation(0, 0))};
 }
 
 Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles) {

@@ -16,7 +16,7 @@ struct EulerAngles {
 };
 
 /// theta = atan2(r32, r33), phi = atan2(-r31, sqrt(r32^2 + r33^2)), psi = atan2(r21, r11).
-/// phi lies in [-pi/2, pi/2]; at its ends theta and psi are not unique.
+/// phi lies in [-pi/2, pi/2]; at its ends theta and psi are not unique: theta is then 0.
 EulerAngles eulerFromRotation(const Eigen::Matrix3d& rotation);
 
 /// Rz(psi) * Ry(phi) * Rx(theta).

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// The paper's pipeline: image in, the target window out. Reuses its buffers from frame to frame; one object a thread.
+class WindowDetector {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit WindowDetector(const DetectorParams& params);
+  ~WindowDetector();
+
+  void setParams(const DetectorParams& params);  ///< \throws std::invalid_argument, and keeps the old ones
+  void setReference(const ReferenceAppearance& reference);
+  void clearReference();
+
+  /// Finds the target in one image, independent of the images before.
+  /// \param image CV_8UC1 or CV_8UC3 (BGR), any size; not kept
+  /// \param camera calibration of the image if there is one: borders are then fitted as straight lines of the
+  ///        undistorted image; without it the image is taken as free of distortion
+  /// \return nothing if no candidate passes all gates; `trace()` then says why
+  std::optional<WindowObservation> detect(const cv::Mat& image, double stamp_sec,
+                                          const geometry::PinholeCamera* camera = nullptr);
+
+  /// What happened to every candidate of the last image.
+  const DetectionTrace& trace() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/pose/filter_params.hpp"
+#include "window_ingress/pose/window_pose_estimate.hpp"
+
+namespace window_ingress::pose {
+
+/// The window in the odometry frame, upright: position and yaw, filtered over time.
+struct FilteredWindow {
+  double stamp_sec = 0.0;  ///< of the last image that contributed
+  Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< odom axes; x, y, z [m], rotations [rad]
+  bool sign_trusted = false;               ///< one planar hypothesis is left, or the other cannot matter
+  double hypothesis_weight = 1.0;          ///< of the reported hypothesis, 0.5 to 1
+  int updates = 0;                         ///< images that contributed since the last reset
+};
+
+/// Carries both planar hypotheses until the images, seen from a moving vehicle, have killed one.
+class WindowFilter {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit WindowFilter(const FilterParams& params);
+  ~WindowFilter();
+
+  /// \param T_odom_camera from odometry, interpolated to the image's stamp
+  /// \return false if the observation was gated out or is older than the last one
+  bool update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
+              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera);
+
+  /// The state as of the last update, with its covariance grown by odometry drift until `now_sec`; nothing before the
+  /// first update or after `max_age_sec` without one.
+  std::optional<FilteredWindow> state(double now_sec) const;
+
+  void reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::pose

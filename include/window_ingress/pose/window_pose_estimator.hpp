@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/pose/pose_params.hpp"
+#include "window_ingress/pose/window_pose_estimate.hpp"
+
+namespace window_ingress::pose {
+
+/// Direction of "up" in the camera at the exposure, a soft prior: it never chooses between the two planar solutions.
+struct GravityPrior {
+  Eigen::Vector3d up_camera = Eigen::Vector3d(0, -1, 0);  ///< unit vector, optical frame
+  double sigma_rad = 0.02;                                ///< of the attitude, mounting included
+};
+
+/// Why there is no pose.
+enum class PoseReject { kNone, kBadCamera, kBadCorners, kNotInFront, kReprojection, kRange, kTilt, kNotFinite };
+
+const char* toString(PoseReject reject);
+
+struct PoseResult {
+  std::optional<WindowPoseEstimate> estimate;
+  PoseReject reject = PoseReject::kNone;
+  std::string detail;  ///< with numbers, for people: "reprojection 4.2 px > 3.0 px"
+};
+
+/// One observation and a calibration to the relative pose (P11, P12). Stateless.
+class WindowPoseEstimator {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit WindowPoseEstimator(const PoseParams& params);
+
+  PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                      const std::optional<GravityPrior>& gravity = std::nullopt) const;
+
+  const PoseParams& params() const { return params_; }
+
+ private:
+  PoseParams params_;
+};
+
+}  // namespace window_ingress::pose

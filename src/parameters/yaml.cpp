@@ -1,0 +1,100 @@
+#include "window_ingress/parameters/yaml.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+#include <sstream>
+
+namespace window_ingress::parameters {
+
+struct YamlReader::Impl {
+  std::string file;
+  YAML::Node mapping;
+  std::set<std::string> asked;
+
+  [[noreturn]] void fail(const YAML::Node& at, const std::string& text) const {
+    throw YamlError(file + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
+  }
+
+  const YAML::Node find(const std::string& name) {
+    asked.insert(name);
+    return static_cast<const YAML::Node&>(mapping)[name];
+  }
+
+  template <typename Value>
+  bool read(const std::string& name, Value& value, const char* expected) {
+    const YAML::Node node = find(name);
+    if (!node.IsDefined()) return false;
+    try {
+      value = node.as<Value>();
+    } catch (const YAML::Exception&) {
+      fail(node, name + ": must be " + expected);
+    }
+    return true;
+  }
+
+  template <typename Number>
+  void readNumber(const std::string& name, Number& value, double minimum, double maximum, const char* expected) {
+    Number number = value;
+    if (!read(name, number, expected)) return;
+    RangeCheck check;
+    check(name, number, minimum, maximum);
+    if (!check.faults().empty()) fail(find(name), check.faults().front());
+    value = number;
+  }
+};
+
+YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping) : impl_(new Impl{file, mapping, {}}) {
+  if (!mapping.IsMap()) impl_->fail(mapping, "must be a mapping of keys to values");
+}
+
+YamlReader::~YamlReader() = default;
+
+void YamlReader::operator()(const std::string& name, double& value, double minimum, double maximum) {
+  impl_->readNumber(name, value, minimum, maximum, "a number");
+}
+
+void YamlReader::operator()(const std::string& name, int& value, double minimum, double maximum) {
+  impl_->readNumber(name, value, minimum, maximum, "a whole number");
+}
+
+void YamlReader::operator()(const std::string& name, bool& value) { impl_->read(name, value, "true or false"); }
+
+void YamlReader::operator()(const std::string& name, std::string& value) { impl_->read(name, value, "a text"); }
+
+std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
+  const YAML::Node node = impl_->find(name);
+  if (!node.IsDefined()) return nullptr;
+  return std::make_unique<YamlReader>(impl_->file, node);
+}
+
+void YamlReader::refuseUnknownKeys() const {
+  for (const auto& entry : impl_->mapping) {
+    const auto key = entry.first.as<std::string>();
+    if (impl_->asked.count(key) == 0) impl_->fail(entry.first, key + ": unknown key");
+  }
+}
+
+bool visitYamlFile(const std::string& file, const std::string& section,
+                   const std::function<void(YamlReader&)>& visit) {
+  YAML::Node root;
+  try {
+    root = YAML::LoadFile(file);
+  } catch (const YAML::BadFile&) {
+    throw YamlError(file + ": cannot be read; does it exist?");
+  } catch (const YAML::Exception& error) {
+    throw YamlError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
+  }
+  if (!section.empty()) {
+    if (!root.IsMap()) throw YamlError(file + ":1: must be a mapping of keys to values");
+    const YAML::Node found = static_cast<const YAML::Node&>(root)[section];
+    if (!found.IsDefined()) return false;
+    root.reset(found);
+  }
+  YamlReader reader(file, root);
+  visit(reader);
+  reader.refuseUnknownKeys();
+  return true;
+}
+
+}  // namespace window_ingress::parameters

@@ -1,0 +1,103 @@
+#include "window_ingress/parameters/yaml.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+namespace window_ingress::parameters {
+namespace {
+
+struct Inner {
+  int count = 3;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("count", self.count, 0, 10);
+  }
+};
+
+struct Sample {
+  double speed_mps = 1.0;
+  bool fast = false;
+  std::string name = "plain";
+  Inner inner;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("speed_mps", self.speed_mps, 0.0, 5.0);
+    field("fast", self.fast);
+    field("name", self.name);
+    field.group("inner", self.inner);
+  }
+};
+
+class YamlFile : public testing::Test {
+ protected:
+  std::string file_ = (std::filesystem::temp_directory_path() /
+                       ("window_ingress_" + std::to_string(::getpid()) + "_yaml_test.yaml")).string();
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  Sample read(const std::string& text, const std::string& section = "") {
+    std::ofstream(file_) << text;
+    Sample sample;
+    readYamlFile(file_, section, sample);
+    return sample;
+  }
+  std::string error(const std::string& text) {
+    try {
+      read(text);
+    } catch (const YamlError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(YamlFile, ReadsFieldsAndKeepsDefaults) {
+  const Sample sample = read("speed_mps: 2.5\ninner: {count: 7}\nfast: true\n");
+  EXPECT_DOUBLE_EQ(sample.speed_mps, 2.5);
+  EXPECT_TRUE(sample.fast);
+  EXPECT_EQ(sample.inner.count, 7);
+  EXPECT_EQ(sample.name, "plain");
+}
+
+TEST_F(YamlFile, ReadsOneSectionOfALargerFile) {
+  EXPECT_DOUBLE_EQ(read("a: {speed_mps: 2}\nb: {other: 1}\n", "a").speed_mps, 2.0);
+  EXPECT_DOUBLE_EQ(read("b: {other: 1}\n", "a").speed_mps, 1.0);
+}
+
+TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
+  EXPECT_EQ(error("fast: true\nspeed_mps: 9\n"), file_ + ":2: speed_mps = 9 is not within 0 .. 5");
+  EXPECT_EQ(error("fast: true\nspeed: 1\n"), file_ + ":2: speed: unknown key");
+  EXPECT_EQ(error("inner:\n  cuont: 1\n"), file_ + ":2: cuont: unknown key");
+  EXPECT_EQ(error("speed_mps: quick\n"), file_ + ":1: speed_mps: must be a number");
+  EXPECT_EQ(error("inner: {count: 1.5}\n"), file_ + ":1: count: must be a whole number");
+  EXPECT_NE(error("speed_mps: .nan\n").find("not within"), std::string::npos);
+  EXPECT_NE(error("a: [1, 2\n").find("not valid yaml"), std::string::npos);
+  EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
+}
+
+TEST_F(YamlFile, MissingFileSaysSo) {
+  Sample sample;
+  try {
+    readYamlFile("/nowhere/params.yaml", "", sample);
+    FAIL();
+  } catch (const YamlError& e) {
+    EXPECT_NE(std::string(e.what()).find("/nowhere/params.yaml: cannot be read"), std::string::npos);
+  }
+}
+
+TEST(OutOfRange, ListsAllFaultsWithTheirPath) {
+  Sample sample;
+  sample.speed_mps = -1;
+  sample.inner.count = 11;
+  const auto faults = outOfRange(sample);
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[1], "inner/count = 11 is not within 0 .. 10");
+  EXPECT_TRUE(outOfRange(Sample{}).empty());
+}
+
+}  // namespace
+}  // namespace window_ingress::parameters
