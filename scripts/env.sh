@@ -1,0 +1,12 @@
+# Environment of every script here; to be sourced. Sets `root`, `build_ros`, `build_core`.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build_ros=$root/build/ros
+build_core=$root/build/core
+
+# catkin needs the system's python3: another one first on PATH fails with "No module named catkin_pkg".
+export PATH="/usr/bin:$PATH"
+
+# ROS setup files read variables that may be unset.
+source_if_there() {
+  if [ -f "$1" ]; then set +u; source "$1"; set -u; fi
+}
