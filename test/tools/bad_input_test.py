@@ -1,0 +1,149 @@
+"""What the tools answer to bad input: one clear line on stderr and the exit code of interfaces: 2 for wrong usage or
+unreadable input, 1 for a job that failed."""
+import pathlib
+import subprocess
+
+import cv2
+import numpy
+import pytest
+import rosbag
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RUN = ROOT / "scripts" / "run"
+NOMINAL = ROOT / "config" / "scenarios" / "nominal.yaml"
+TOOLS = ["detect_images", "fly", "replay_bag"]
+
+
+def run(*arguments):
+    return subprocess.run([str(RUN), *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+def assert_refused(result, code, *words):
+    """The exit code, and one line that says what is wrong and where."""
+    lines = [line for line in result.stderr.splitlines() if line.strip()]
+    assert result.returncode == code, result.stderr
+    assert len(lines) == 1, result.stderr
+    for word in words:
+        assert str(word) in lines[0], result.stderr
+
+
+@pytest.fixture
+def picture(tmp_path):
+    file = tmp_path / "plain.png"
+    cv2.imwrite(str(file), numpy.full((120, 160, 3), 128, numpy.uint8))
+    return file
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_help_explains_and_succeeds(tool):
+    result = run(tool, "--help")
+    assert result.returncode == 0
+    assert "--output" in result.stdout
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_unknown_option_is_wrong_usage(tool):
+    assert_refused(run(tool, "--no-such-option"), 2, "no-such-option")
+
+
+def test_missing_picture_is_named(tmp_path):
+    missing = tmp_path / "missing.png"
+    assert_refused(run("detect_images", "--output", tmp_path / "out.csv", missing), 2, missing)
+
+
+def test_unreadable_picture_is_named_and_the_others_are_done(tmp_path, picture):
+    broken = tmp_path / "broken.png"
+    broken.write_bytes(picture.read_bytes()[:40])
+    output = tmp_path / "out.csv"
+    result = run("detect_images", "--output", output, broken, picture)
+    assert result.returncode == 1
+    assert sum(str(broken) in line for line in result.stderr.splitlines()) == 1
+    rows = output.read_text().splitlines()
+    assert len(rows) == 3
+    assert rows[2].startswith(str(picture)) or rows[2].startswith(picture.name)
+
+
+def test_camera_without_calibration_is_refused(tmp_path, picture):
+    camera = tmp_path / "camera.yaml"
+    zeros = "[" + ", ".join(["0"] * 9) + "]"
+    camera.write_text(
+        "image_width: 160\nimage_height: 120\ncamera_name: test\n"
+        f"camera_matrix: {{rows: 3, cols: 3, data: {zeros}}}\n"
+        "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
+        f"rectification_matrix: {{rows: 3, cols: 3, data: {zeros}}}\n"
+        "projection_matrix: {rows: 3, cols: 4, data: [" + ", ".join(["0"] * 12) + "]}\n")
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", picture)
+    assert_refused(result, 2, camera, "uncalibrated")
+
+
+def test_missing_camera_file_is_named(tmp_path, picture):
+    camera = tmp_path / "camera.yaml"
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", picture)
+    assert_refused(result, 2, camera)
+
+
+def test_bad_parameter_file_is_named_with_line_and_key(tmp_path, picture):
+    params = tmp_path / "params.yaml"
+    params.write_text("detector:\n  no_such_key: 1\n")
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--params", params, picture)
+    assert_refused(result, 2, f"{params}:2", "no_such_key")
+
+
+def test_typo_in_scenario_is_named_with_line_and_key(tmp_path):
+    scenario = tmp_path / "typo.yaml"
+    text = NOMINAL.read_text()
+    scenario.write_text(text + "\nwindwo: 1\n")
+    line = len(text.splitlines()) + 2
+    result = run("fly", "--scenario", scenario, "--output", tmp_path / "out")
+    assert_refused(result, 2, f"{scenario}:{line}", "windwo")
+
+
+def test_missing_scenario_is_named(tmp_path):
+    scenario = tmp_path / "nowhere.yaml"
+    assert_refused(run("fly", "--scenario", scenario, "--output", tmp_path / "out"), 2, scenario)
+
+
+def test_seeds_that_are_no_range_are_wrong_usage(tmp_path):
+    assert_refused(run("fly", "--scenario", NOMINAL, "--seeds", "3..x", "--output", tmp_path / "out"), 2, "3..x")
+
+
+def test_missing_bag_is_named(tmp_path):
+    bag = tmp_path / "missing.bag"
+    assert_refused(run("replay_bag", "--bag", bag, "--output", tmp_path / "out"), 2, bag)
+
+
+@pytest.mark.parametrize("content", [b"", b"this is no bag at all\n" * 100])
+def test_file_that_is_no_bag_is_named(tmp_path, content):
+    bag = tmp_path / "garbage.bag"
+    bag.write_bytes(content)
+    assert_refused(run("replay_bag", "--bag", bag, "--output", tmp_path / "out"), 2, bag)
+
+
+def test_truncated_bag_is_named(tmp_path):
+    from std_msgs.msg import String
+
+    whole = tmp_path / "whole.bag"
+    with rosbag.Bag(str(whole), "w") as bag:
+        for i in range(200):
+            bag.write("/text", String("x" * 100))
+    cut = tmp_path / "cut.bag"
+    cut.write_bytes(whole.read_bytes()[: whole.stat().st_size // 2])
+    assert_refused(run("replay_bag", "--bag", cut, "--output", tmp_path / "out"), 2, cut)
+
+
+def test_bag_without_images_says_what_is_missing(tmp_path):
+    from std_msgs.msg import String
+
+    file = tmp_path / "text.bag"
+    with rosbag.Bag(str(file), "w") as bag:
+        bag.write("/text", String("hello"))
+    assert_refused(run("replay_bag", "--bag", file, "--output", tmp_path / "out"), 2, file, "image")
+
+
+def test_unknown_tool_is_named():
+    assert_refused(run("no_such_tool"), 2, "no_such_tool")
+
+
+def test_run_works_from_any_folder(tmp_path):
+    result = subprocess.run([str(RUN), "fly", "--help"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0 and "--scenario" in result.stdout
