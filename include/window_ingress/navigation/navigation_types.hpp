@@ -18,11 +18,12 @@ struct VehicleState {
 
 /// The window in the odometry frame, filtered over time.
 struct TargetEstimate {
-  double stamp_sec = 0.0;  ///< of the last image that contributed
+  double stamp_sec = 0.0;                                           ///< of the last image that contributed
   Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();  ///< upright: yaw and position only
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< odom axes; m, rad
   /// The window's normal is unambiguous. While false, only the bearing of the position may be used.
   bool sign_trusted = false;
+  int updates = 0;  ///< images that contributed since the window was last acquired
   geometry::OpeningSize opening;
 };
 

@@ -1,26 +1,33 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
+#include "window_ingress/navigation/input_monitor.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
 
 namespace window_ingress::navigation {
 
-/// The latest of everything, or nothing. The navigator itself judges age and sanity.
-struct NavigatorInput {
-  std::optional<VehicleState> vehicle;
-  std::optional<TargetEstimate> target;
+/// Figures for people and reports; zero where the state has nothing to say.
+struct NavigatorReport {
+  bool has_relative = false;       ///< the next three are set
+  double lateral_m = 0.0;          ///< of the vehicle in the window frame: y, left positive [m]
+  double vertical_m = 0.0;         ///< z, up positive [m]
+  double distance_m = 0.0;         ///< to the window's plane, positive in front [m]
+  double commit_distance_m = 0.0;  ///< where COMMIT would begin now [m]
+  double predicted_miss_m = 0.0;   ///< at the commit: offset, 3 sigma and drift, of the worse axis [m]
+  double blind_sec = 0.0;  ///< longest time in COMMIT without sight of the window, up to its plane [s]
+  int retries = 0;         ///< back-offs so far
 };
 
 struct NavigatorOutput {
   State state = State::kIdle;
-  Setpoint setpoint;   ///< always finite and within the limits
+  Setpoint setpoint;     ///< always finite and within the limits
   bool enabled = false;  ///< the setpoint is to be streamed
-  std::string reason;  ///< why the state is what it is, for people; e.g. "odometry 0.41 s old"
+  std::string reason;    ///< why the state is what it is, for people; e.g. "odometry 0.41 s old"
+  NavigatorReport report;
 };
 
 /// Answer to a request: never silent.
@@ -29,7 +36,17 @@ struct Reply {
   std::string message;
 };
 
-/// State machine, guidance and limiter. No clock inside: `now_sec` must come from the caller, in the time of the stamps.
+/// State machine, guidance and limiter. No clock inside: `now_sec` must come from the caller, in the time of
+/// the stamps.
+///
+/// Holds whatever comes in:
+/// - the setpoint is finite and within the limits; its changes too, except that velocity may be taken away at
+/// once;
+/// - without fresh, finite odometry the setpoint is zero in the same step;
+/// - no velocity towards the window unless its estimate is fresh and trusted and the vehicle within the
+/// funnel; COMMIT
+///   alone flies on without sight, for a bounded time, by a contract that held when it began;
+/// - no sideways velocity by an estimate whose sign is not trusted.
 class Navigator {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
@@ -37,7 +54,7 @@ class Navigator {
   ~Navigator();
 
   Reply start(const NavigatorInput& input, double now_sec);  ///< refused with all unmet conditions listed
-  Reply abort();
+  Reply abort();  ///< from everywhere, any number of times; zero from the next step on
   Reply reset();  ///< from any end state back to IDLE
 
   NavigatorOutput step(const NavigatorInput& input, double now_sec);

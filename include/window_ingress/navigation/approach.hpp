@@ -1,0 +1,29 @@
+#pragma once
+
+#include "window_ingress/navigation/align.hpp"
+#include "window_ingress/navigation/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// APPROACH (P16): forward along the normal, still correcting sideways and in height. The forward speed
+/// shrinks to nothing at the wall of the funnel, and so that the vehicle can stop at the commit line as long
+/// as the contract does not hold.
+class Approach {
+ public:
+  explicit Approach(const NavigatorParams& params) : params_(params), pacer_(params.align) {}
+
+  void enter();
+  Decision step(const Situation& situation, MissionMemory& memory);
+
+ private:
+  double forwardSpeed(const Contract& contract, const RelativeState& relative) const;
+  std::optional<Event> judge(const Contract& contract, const RelativeState& relative,
+                             const Situation& situation, std::string& reason);
+
+  NavigatorParams params_;
+  StepPacer pacer_;
+  std::optional<double> outside_since_sec_;
+  std::optional<double> waiting_since_sec_;
+};
+
+}  // namespace window_ingress::navigation

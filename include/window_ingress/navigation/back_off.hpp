@@ -1,0 +1,25 @@
+#pragma once
+
+#include "window_ingress/navigation/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// BACK_OFF (P17): away from the window along its last trusted normal in odom, to where it can be seen again.
+/// Within the reveal neither turning nor sideways; clear of it, yaw points the camera at where the window
+/// must be.
+class BackOff {
+ public:
+  explicit BackOff(const NavigatorParams& params) : params_(params) {}
+
+  void enter();
+  Decision step(const Situation& situation, const MissionMemory& memory);
+
+ private:
+  std::optional<Event> judge(const Situation& situation, const MissionMemory& memory,
+                             const RelativeState& relative, std::string& reason);
+
+  NavigatorParams params_;
+  int frames_ = 0;
+};
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,51 @@
+/// What one state does with one step: a wish, perhaps an event, and why.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/input_monitor.hpp"
+#include "window_ingress/navigation/transition_table.hpp"
+
+namespace window_ingress::navigation {
+
+struct Decision {
+  Setpoint wish;
+  std::optional<Event> event;
+  std::string reason;
+};
+
+/// What the mission knows beyond the present step.
+struct MissionMemory {
+  std::optional<TargetEstimate> trusted;         ///< last estimate whose normal was trusted
+  std::optional<TargetEstimate> committed;       ///< what COMMIT flies by, in odom
+  std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
+  int back_offs = 0;
+  double predicted_miss_m = 0.0;  ///< at the moment of the commit
+  double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
+
+  /// Everything that lives in an odometry frame.
+  void forgetPlaces();
+};
+
+/// Nose-down pitch of the vehicle [rad].
+double pitchOf(const VehicleState& vehicle);
+
+/// Contract of this vehicle with this window, now.
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
+                      const NavigatorParams& params);
+
+/// Yaw rate that takes the heading error away.
+double yawRateFor(double error_rad, const NavigatorParams& params);
+
+/// Upward velocity that takes the height error (goal less present) away.
+double climbFor(double error_m, double limit_mps, const NavigatorParams& params);
+
+/// Velocity in odom axes: forward as given, sideways and upward onto the window's axis, within the speed
+/// limit. What is sideways has priority: forward gets what is left.
+Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
+                                  double forward_mps, const NavigatorParams& params);
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,70 @@
+/// Judges what comes in before anybody flies by it: age, order, finiteness, jumps.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "window_ingress/navigation/navigation_types.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
+
+namespace window_ingress::navigation {
+
+/// The latest of everything, or nothing. The navigator itself judges age and sanity.
+struct NavigatorInput {
+  std::optional<VehicleState> vehicle;
+  std::optional<TargetEstimate> target;
+  /// Stamp of the last image that was searched, with or without a window in it; nothing where that is not
+  /// known.
+  std::optional<double> image_stamp_sec;
+  /// Armed and in a mode that follows setpoints; true where that is not known.
+  bool engaged = true;
+};
+
+/// The input of one step, judged. What is set can be used; what is not has a fault that says why, with
+/// numbers.
+struct Situation {
+  double now_sec = 0.0;
+  double dt_sec = 0.0;                  ///< since the step before, 0 to 0.2 s
+  std::optional<VehicleState> vehicle;  ///< predicted to now
+  std::string vehicle_fault;
+  bool vehicle_jumped = false;  ///< what was known in the old odometry frame is void
+  std::optional<TargetEstimate> target;
+  std::string target_fault;
+  bool target_is_new = false;  ///< from another image than the target of the step before
+  std::string image_fault;     ///< empty: images come, or nobody says
+};
+
+/// Remembers the last good samples. A target sample that is bad counts as none came: the last good one holds
+/// until it is too old. Odometry has no such grace: a sample that is not finite stops the vehicle in the same
+/// step.
+class InputMonitor {
+ public:
+  explicit InputMonitor(const InputParams& params, const LimitParams& limits)
+      : params_(params), limits_(limits) {}
+
+  Situation judge(const NavigatorInput& input, double now_sec);
+  void reset();
+
+ private:
+  void judgeClock(double now_sec, Situation& situation);
+  void judgeVehicle(const NavigatorInput& input, Situation& situation);
+  void judgeTarget(const NavigatorInput& input, Situation& situation);
+  void judgeImage(const NavigatorInput& input, Situation& situation) const;
+  bool hasJumped(const VehicleState& vehicle, Situation& situation) const;
+  bool acceptTarget(const TargetEstimate& target, double now_sec);
+
+  InputParams params_;
+  LimitParams limits_;
+  std::optional<double> last_now_sec_;
+  std::optional<VehicleState> vehicle_;
+  std::optional<TargetEstimate> target_;
+  std::optional<TargetEstimate> moved_target_;  ///< disagrees with `target_`; believed if it stays
+  double moved_since_sec_ = 0.0;
+  double not_before_sec_ = -1e300;  ///< targets of images up to this stamp belong to an old odometry frame
+};
+
+/// What makes this sample unusable whatever its age; empty if nothing does.
+std::string faultOf(const VehicleState& vehicle);
+std::string faultOf(const TargetEstimate& target, double max_tilt_rad);
+
+}  // namespace window_ingress::navigation

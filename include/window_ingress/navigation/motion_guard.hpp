@@ -1,0 +1,21 @@
+#pragma once
+
+#include "window_ingress/navigation/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// What of this velocity the state may command in this situation; the rest is cut away. It knows nothing of
+/// guidance: whatever a behaviour wishes by mistake, this holds.
+///
+/// - no odometry, or a state that does not move: nothing
+/// - SEARCH: only upward and downward
+/// - ALIGN: normal not trusted: only upward and downward; trusted: nothing towards the window
+/// - APPROACH: towards the window only with a fresh, trusted estimate and within the funnel
+/// - COMMIT: only with a committed window
+/// - BACK_OFF: only with a trusted normal in memory, nothing towards the window
+/// - nowhere beyond the height limits, with room to stop
+Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
+                                  const Situation& situation, const MissionMemory& memory,
+                                  const NavigatorParams& params);
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,167 @@
+/// The mission's state machine as data: enum, events, rows. No guards, no times, no strings in here: those
+/// who raise an event have reasons for it, the table only says where it leads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace window_ingress::navigation {
+
+enum class State { kIdle, kSearch, kAlign, kApproach, kCommit, kPassed, kBackOff, kHold, kAborted };
+inline constexpr std::size_t kStateCount = 9;
+
+enum class Event {
+  kStart,          ///< the operator asks for the flight and nothing speaks against it
+  kWindowFound,    ///< the target was seen often enough
+  kAligned,        ///< normal trusted and the vehicle within the funnel
+  kMisaligned,     ///< out of the funnel, or the normal no longer trusted
+  kCommitReached,  ///< the window is about to leave the view and the contract holds
+  kContractUnmet,  ///< close to the window and the predicted miss exceeds the clearance
+  kCrossed,        ///< behind the window, standing still
+  kWindowLost,     ///< not seen for long, its normal is known
+  kBackedOff,      ///< far enough away, the window still not in view
+  kReacquired,     ///< seen again
+  kResumed,        ///< inputs are back during a commit whose contract still holds
+  kInputStale,     ///< an input that this state needs is old, missing, not finite or has jumped
+  kInputFresh,     ///< inputs are back, no window known
+  kGiveUp,         ///< time-out, retries used up, nothing left to search, opening too small
+  kDisengaged,     ///< pilot or autopilot took the vehicle over
+  kAbort,          ///< the operator asks for the end
+  kReset           ///< the operator acknowledges the end
+};
+inline constexpr std::size_t kEventCount = 17;
+
+const char* toString(State state);
+const char* toString(Event event);
+
+struct Transition {
+  State from;
+  Event event;
+  State to;
+};
+
+inline constexpr std::array kTransitions = {
+    Transition{State::kIdle, Event::kStart, State::kSearch},
+    Transition{State::kIdle, Event::kAbort, State::kAborted},
+
+    Transition{State::kSearch, Event::kWindowFound, State::kAlign},
+    Transition{State::kSearch, Event::kInputStale, State::kHold},
+    Transition{State::kSearch, Event::kGiveUp, State::kAborted},
+    Transition{State::kSearch, Event::kDisengaged, State::kIdle},
+    Transition{State::kSearch, Event::kAbort, State::kAborted},
+
+    Transition{State::kAlign, Event::kAligned, State::kApproach},
+    Transition{State::kAlign, Event::kInputStale, State::kHold},
+    Transition{State::kAlign, Event::kGiveUp, State::kAborted},
+    Transition{State::kAlign, Event::kDisengaged, State::kIdle},
+    Transition{State::kAlign, Event::kAbort, State::kAborted},
+
+    Transition{State::kApproach, Event::kCommitReached, State::kCommit},
+    Transition{State::kApproach, Event::kMisaligned, State::kAlign},
+    Transition{State::kApproach, Event::kContractUnmet, State::kBackOff},
+    Transition{State::kApproach, Event::kInputStale, State::kHold},
+    Transition{State::kApproach, Event::kGiveUp, State::kAborted},
+    Transition{State::kApproach, Event::kDisengaged, State::kIdle},
+    Transition{State::kApproach, Event::kAbort, State::kAborted},
+
+    Transition{State::kCommit, Event::kCrossed, State::kPassed},
+    Transition{State::kCommit, Event::kContractUnmet, State::kBackOff},
+    Transition{State::kCommit, Event::kInputStale, State::kHold},
+    Transition{State::kCommit, Event::kGiveUp, State::kAborted},
+    Transition{State::kCommit, Event::kDisengaged, State::kIdle},
+    Transition{State::kCommit, Event::kAbort, State::kAborted},
+
+    Transition{State::kBackOff, Event::kReacquired, State::kAlign},
+    Transition{State::kBackOff, Event::kBackedOff, State::kSearch},
+    Transition{State::kBackOff, Event::kInputStale, State::kHold},
+    Transition{State::kBackOff, Event::kGiveUp, State::kAborted},
+    Transition{State::kBackOff, Event::kDisengaged, State::kIdle},
+    Transition{State::kBackOff, Event::kAbort, State::kAborted},
+
+    Transition{State::kHold, Event::kReacquired, State::kAlign},
+    Transition{State::kHold, Event::kResumed, State::kCommit},
+    Transition{State::kHold, Event::kWindowLost, State::kBackOff},
+    Transition{State::kHold, Event::kInputFresh, State::kSearch},
+    Transition{State::kHold, Event::kGiveUp, State::kAborted},
+    Transition{State::kHold, Event::kDisengaged, State::kIdle},
+    Transition{State::kHold, Event::kAbort, State::kAborted},
+
+    Transition{State::kPassed, Event::kReset, State::kIdle},
+    Transition{State::kAborted, Event::kReset, State::kIdle},
+};
+
+/// Where the event leads from this state; nothing if it means nothing there.
+constexpr std::optional<State> next(State state, Event event) {
+  for (const auto& row : kTransitions) {
+    if (row.from == state && row.event == event) return row.to;
+  }
+  return std::nullopt;
+}
+
+/// The mission is over; only a reset leads on.
+constexpr bool isEnd(State state) { return state == State::kPassed || state == State::kAborted; }
+
+/// The vehicle may be given a velocity other than zero.
+constexpr bool isMoving(State state) {
+  return state == State::kSearch || state == State::kAlign || state == State::kApproach ||
+         state == State::kCommit || state == State::kBackOff;
+}
+
+/// The diagram (Mermaid) and the table of events as the text of doc/state_machine.md.
+std::string stateMachineDocument();
+
+namespace table_checks {
+
+constexpr bool isDeterministic() {
+  for (std::size_t i = 0; i < kTransitions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (kTransitions[i].from == kTransitions[j].from && kTransitions[i].event == kTransitions[j].event)
+        return false;
+    }
+  }
+  return true;
+}
+
+constexpr bool reachesEveryState() {
+  bool reached[kStateCount] = {true};  // IDLE
+  for (std::size_t pass = 0; pass < kStateCount; ++pass) {
+    for (const auto& row : kTransitions) {
+      if (reached[static_cast<std::size_t>(row.from)]) reached[static_cast<std::size_t>(row.to)] = true;
+    }
+  }
+  for (const bool state : reached) {
+    if (!state) return false;
+  }
+  return true;
+}
+
+constexpr bool leadsTo(State from, Event event, State to) {
+  const auto state = next(from, event);
+  return state.has_value() && *state == to;
+}
+
+constexpr bool everyLiveStateAborts() {
+  for (std::size_t i = 0; i < kStateCount; ++i) {
+    const auto state = static_cast<State>(i);
+    if (!isEnd(state) && !leadsTo(state, Event::kAbort, State::kAborted)) return false;
+  }
+  return true;
+}
+
+constexpr bool everyMovingStateHoldsOnStaleInput() {
+  for (std::size_t i = 0; i < kStateCount; ++i) {
+    const auto state = static_cast<State>(i);
+    if (isMoving(state) && !leadsTo(state, Event::kInputStale, State::kHold)) return false;
+  }
+  return true;
+}
+
+static_assert(isDeterministic(), "two rows for one state and event");
+static_assert(reachesEveryState(), "a state that no row leads to");
+static_assert(everyLiveStateAborts(), "a state that cannot be aborted");
+static_assert(everyMovingStateHoldsOnStaleInput(), "a moving state that ignores stale input");
+
+}  // namespace table_checks
+}  // namespace window_ingress::navigation

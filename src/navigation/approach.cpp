@@ -1,0 +1,72 @@
+#include "window_ingress/navigation/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+namespace {
+
+/// For how long a condition has held, updating when it began.
+double heldSec(bool condition, double now_sec, std::optional<double>& since_sec) {
+  if (!condition) since_sec.reset();
+  if (condition && !since_sec) since_sec = now_sec;
+  return since_sec ? now_sec - *since_sec : -1.0;
+}
+
+bool isOutside(const Contract& contract, double factor) {
+  return contract.miss_lateral_m > factor * (contract.clearance_lateral_m + contract.funnel_m) ||
+         contract.miss_vertical_m > factor * (contract.clearance_vertical_m + contract.funnel_m);
+}
+
+}  // namespace
+
+void Approach::enter() { *this = Approach(params_); }
+
+Decision Approach::step(const Situation& situation, MissionMemory& memory) {
+  const auto& target = *situation.target;
+  const RelativeState relative = relate(*situation.vehicle, target);
+  Decision decision;
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
+  if (!target.sign_trusted) {
+    decision.event = Event::kMisaligned;
+    decision.reason = "sign of the window's yaw no longer certain";
+    return decision;
+  }
+  const Contract contract = evaluateContract(relative, target.opening, pitchOf(*situation.vehicle), params_);
+  decision.wish.velocity_odom_mps =
+      pacer_.pace(velocityAlongAxis(relative, target, forwardSpeed(contract, relative), params_), situation);
+  decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
+  decision.event = judge(contract, relative, situation, decision.reason);
+  if (decision.event == Event::kCommitReached) {
+    memory.committed = target;
+    memory.predicted_miss_m = contract.missM();
+    memory.blind_sec = 0.0;
+  }
+  return decision;
+}
+
+double Approach::forwardSpeed(const Contract& contract, const RelativeState& relative) const {
+  const double in_view = std::clamp(1.5 - std::abs(relative.bearing_rad) / 0.3, 0.0, 1.0);
+  const double speed_mps = params_.approach.speed_mps * contract.openness * in_view;
+  if (contract.holds) return speed_mps;
+  const double room_m = relative.distance() - contract.commit_distance_m;
+  return std::min(speed_mps,
+                  stoppingSpeed(room_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec));
+}
+
+std::optional<Event> Approach::judge(const Contract& contract, const RelativeState& relative,
+                                     const Situation& situation, std::string& reason) {
+  const bool at_line = relative.distance() <= contract.commit_distance_m + 0.05;
+  if (at_line && contract.holds) return Event::kCommitReached;
+  const double outside_sec =
+      heldSec(isOutside(contract, params_.approach.leave_factor), situation.now_sec, outside_since_sec_);
+  const double waiting_sec = heldSec(at_line, situation.now_sec, waiting_since_sec_);
+  if (waiting_sec > params_.approach.patience_sec) return Event::kContractUnmet;
+  if (outside_sec > params_.approach.leave_sec) {
+    reason = "out of the funnel: " + contract.unmet;
+    return at_line ? Event::kContractUnmet : Event::kMisaligned;
+  }
+  return std::nullopt;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,44 @@
+#include "window_ingress/navigation/back_off.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+
+void BackOff::enter() { *this = BackOff(params_); }
+
+Decision BackOff::step(const Situation& situation, const MissionMemory& memory) {
+  const auto& target = *memory.trusted;
+  const RelativeState relative = relate(*situation.vehicle, target);
+  const double room_m = params_.back_off.distance_m - relative.distance();
+  const double speed_mps = std::min(params_.back_off.speed_mps, 0.1 + std::max(0.0, room_m));
+  Decision decision;
+  decision.wish.velocity_odom_mps = -speed_mps * uprightRotation(target).col(0);
+  const bool is_clear = relative.distance() > params_.vehicle.half_length_m + params_.approach.margin_m;
+  if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
+  decision.reason = "away from the window along its normal";
+  if (room_m <= 0.0) {
+    decision.wish.velocity_odom_mps.setZero();
+    decision.event = judge(situation, memory, relative, decision.reason);
+  }
+  return decision;
+}
+
+std::optional<Event> BackOff::judge(const Situation& situation, const MissionMemory& memory,
+                                    const RelativeState& relative, std::string& reason) {
+  if (memory.back_offs > params_.back_off.max_retries) {
+    reason = "given up after " + std::to_string(params_.back_off.max_retries) + " retries";
+    return Event::kGiveUp;
+  }
+  if (situation.target) {
+    if (situation.target_is_new) ++frames_;
+    if (frames_ >= params_.search.found_frames) return Event::kReacquired;
+    return std::nullopt;
+  }
+  constexpr double kFacingRad = 0.1;
+  if (std::abs(relative.bearing_rad) > kFacingRad) return std::nullopt;
+  reason = "window still not in view";
+  return Event::kBackedOff;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,47 @@
+#include "window_ingress/navigation/behaviour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+
+void MissionMemory::forgetPlaces() {
+  trusted.reset();
+  committed.reset();
+  window_odom_m.reset();
+}
+
+double pitchOf(const VehicleState& vehicle) {
+  return std::asin(std::clamp(-vehicle.T_odom_base.linear()(2, 0), -1.0, 1.0));
+}
+
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
+                      const NavigatorParams& params) {
+  return evaluateContract(relate(vehicle, target), target.opening, pitchOf(vehicle), params);
+}
+
+double yawRateFor(double error_rad, const NavigatorParams& params) {
+  const double limit = params.limits.yaw_rate_radps;
+  return std::clamp(params.align.yaw_gain_hz * error_rad, -limit, limit);
+}
+
+double climbFor(double error_m, double limit_mps, const NavigatorParams& params) {
+  return std::clamp(params.align.lateral_gain_hz * error_m, -limit_mps, limit_mps);
+}
+
+Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
+                                  double forward_mps, const NavigatorParams& params) {
+  const Eigen::Vector3d coasted =
+      relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
+  const auto& align = params.align;
+  Eigen::Vector3d velocity_window(0.0, climbFor(-coasted.y(), align.lateral_speed_mps, params),
+                                  climbFor(-coasted.z(), align.vertical_speed_mps, params));
+  const double across = velocity_window.norm();
+  if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
+  const double left =
+      std::sqrt(std::max(0.0, std::pow(params.limits.speed_mps, 2) - velocity_window.squaredNorm()));
+  velocity_window.x() = std::clamp(forward_mps, -left, left);
+  return uprightRotation(target) * velocity_window;
+}
+
+}  // namespace window_ingress::navigation

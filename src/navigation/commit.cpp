@@ -1,0 +1,93 @@
+#include "window_ingress/navigation/commit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace window_ingress::navigation {
+namespace {
+
+std::string text(const char* pattern, double value) {
+  char buffer[80];
+  std::snprintf(buffer, sizeof buffer, pattern, value);
+  return buffer;
+}
+
+/// Offset and present uncertainty exceed the clearance. The drift since the last sighting is part of it.
+bool isBroken(const Contract& contract, double drift_m) {
+  return contract.miss_lateral_m + drift_m > contract.clearance_lateral_m ||
+         contract.miss_vertical_m + drift_m > contract.clearance_vertical_m;
+}
+
+/// The nose can still be stopped before it is in the opening.
+bool canStop(const RelativeState& relative, const NavigatorParams& params) {
+  const double stop_m = stoppingDistance(std::max(0.0, relative.velocity_window_mps.x()),
+                                         params.vehicle.braking_mps2, params.vehicle.response_sec);
+  return relative.distance() - params.vehicle.half_length_m > stop_m;
+}
+
+}  // namespace
+
+void Commit::enter() { *this = Commit(params_); }
+
+Decision Commit::step(const Situation& situation, MissionMemory& memory) {
+  refine(situation, memory);
+  const auto& target = *memory.committed;
+  const RelativeState relative = relate(*situation.vehicle, target);
+  const Contract contract = evaluateContract(relative, target.opening, 0.0, params_);
+  const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
+  if (relative.distance() > 0.0) memory.blind_sec = std::max(memory.blind_sec, blind_sec);
+
+  Decision decision;
+  decision.wish.velocity_odom_mps =
+      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, params_);
+  decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
+  if (is_through_) {
+    decision.wish = Setpoint();
+    decision.reason = text("%.2f m behind the window", -relative.distance());
+    if (situation.vehicle->velocity_odom_mps.norm() < params_.commit.standing_mps)
+      decision.event = Event::kCrossed;
+  } else if (canStop(relative, params_)) {
+    turnBackIfUnsafe(contract, blind_sec, decision);
+  }
+  return decision;
+}
+
+void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const {
+  if (isBroken(contract, params_.commit.drift_mps * blind_sec)) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = "turning back: " + contract.unmet;
+  } else if (blind_sec > params_.commit.max_blind_sec) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = text("turning back: window not seen for %.2f s", blind_sec);
+  }
+}
+
+void Commit::refine(const Situation& situation, MissionMemory& memory) {
+  if (!entry_odom_m_) entry_odom_m_ = memory.committed->T_odom_window.translation();
+  if (!situation.target || !situation.target->sign_trusted) return;
+  const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
+  if (moved.norm() < params_.commit.max_update_jump_m) memory.committed = situation.target;
+}
+
+double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {
+  const double room_m = params_.commit.exit_distance_m + relative.distance();
+  if (room_m < 0.1) is_through_ = true;
+  const double stop_mps = stoppingSpeed(room_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec);
+  const double off_axis = std::abs(relative.lateral()) / std::max(0.01, contract.clearance_lateral_m);
+  const double slowed = relative.distance() > 0.0 ? std::clamp(2.0 - 1.5 * off_axis, 0.2, 1.0) : 1.0;
+  return std::clamp(stop_mps, 0.1, params_.commit.speed_mps * slowed);
+}
+
+bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
+                       const NavigatorParams& params) {
+  if (!memory.committed || !situation.vehicle) return false;
+  const double blind_sec = std::max(0.0, situation.now_sec - memory.committed->stamp_sec);
+  const RelativeState relative = relate(*situation.vehicle, *memory.committed);
+  if (canStop(relative, params) && blind_sec > params.commit.max_blind_sec) return false;
+  return !isBroken(contractWith(*memory.committed, *situation.vehicle, params),
+                   params.commit.drift_mps * blind_sec);
+}
+
+}  // namespace window_ingress::navigation

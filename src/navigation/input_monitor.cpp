@@ -1,0 +1,181 @@
+#include "window_ingress/navigation/input_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[160];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
+/// Empty if the stamp is young enough and not from the future.
+std::string ageFault(const char* what, double stamp_sec, double now_sec, double max_age_sec,
+                     double max_future_sec) {
+  const double age_sec = now_sec - stamp_sec;
+  if (!std::isfinite(age_sec)) return format("%s: stamp is not finite", what);
+  if (age_sec > max_age_sec) return format("%s %.2f s old", what, age_sec);
+  if (age_sec < -max_future_sec) return format("%s: stamp is %.2f s in the future", what, -age_sec);
+  return "";
+}
+
+double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return std::abs(geometry::wrapAngle(geometry::yawOf(a.linear()) - geometry::yawOf(b.linear())));
+}
+
+constexpr double kFarAwayM = 1e5;
+constexpr double kTrustedYawJumpRad = 0.35;
+
+bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
+  return covariance.allFinite() && covariance(0, 0) > 0.0 && covariance(1, 1) > 0.0 &&
+         covariance(2, 2) > 0.0 && covariance(5, 5) > 0.0;
+}
+
+}  // namespace
+
+std::string faultOf(const VehicleState& vehicle) {
+  if (!std::isfinite(vehicle.stamp_sec)) return "odometry: stamp is not finite";
+  if (!geometry::isValidPose(vehicle.T_odom_base)) return "odometry: pose is not finite or not a rotation";
+  if (!vehicle.velocity_odom_mps.allFinite()) return "odometry: velocity is not finite";
+  const double position_m = vehicle.T_odom_base.translation().stableNorm();
+  if (position_m > kFarAwayM) return format("odometry: position %.3g m is out of this world", position_m);
+  const double speed_mps = vehicle.velocity_odom_mps.stableNorm();
+  if (speed_mps > 100.0) return format("odometry: speed %.3g m/s is out of this world", speed_mps);
+  return "";
+}
+
+std::string faultOf(const TargetEstimate& target, double max_tilt_rad) {
+  if (!std::isfinite(target.stamp_sec)) return "window: stamp is not finite";
+  if (!geometry::isValidPose(target.T_odom_window)) return "window: pose is not finite or not a rotation";
+  if (target.T_odom_window.translation().stableNorm() > kFarAwayM)
+    return "window: position is out of this world";
+  const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
+  if (tilt_rad > max_tilt_rad) return format("window: leans by %.2f rad", tilt_rad);
+  if (!isPositive(target.covariance)) return "window: covariance unknown";
+  const auto& opening = target.opening;
+  const bool has_size =
+      opening.width_m > 0.0 && opening.height_m > 0.0 && opening.width_m < 20.0 && opening.height_m < 20.0;
+  return has_size ? "" : "window: size of the opening unknown";
+}
+
+void InputMonitor::reset() { *this = InputMonitor(params_, limits_); }
+
+Situation InputMonitor::judge(const NavigatorInput& input, double now_sec) {
+  Situation situation;
+  judgeClock(now_sec, situation);
+  judgeVehicle(input, situation);
+  judgeTarget(input, situation);
+  judgeImage(input, situation);
+  return situation;
+}
+
+void InputMonitor::judgeClock(double now_sec, Situation& situation) {
+  situation.now_sec = now_sec;
+  if (!std::isfinite(now_sec)) return;
+  const double dt_sec = last_now_sec_ ? now_sec - *last_now_sec_ : 0.0;
+  if (dt_sec < -params_.max_future_sec) {
+    reset();
+    situation.vehicle_jumped = true;
+  }
+  situation.dt_sec = std::clamp(dt_sec, 0.0, 0.2);
+  last_now_sec_ = now_sec;
+}
+
+void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situation) {
+  if (!input.vehicle) {
+    situation.vehicle_fault = "no odometry";
+    return;
+  }
+  situation.vehicle_fault = faultOf(*input.vehicle);
+  if (!situation.vehicle_fault.empty()) return;
+  if (situation.vehicle_jumped) situation.vehicle_fault = "the clock jumped back";
+  if (situation.vehicle_jumped) return;
+  const bool is_newer = !vehicle_ || input.vehicle->stamp_sec > vehicle_->stamp_sec;
+  const VehicleState sample = is_newer ? *input.vehicle : *vehicle_;
+  situation.vehicle_fault = ageFault("odometry", sample.stamp_sec, situation.now_sec,
+                                     params_.max_vehicle_age_sec, params_.max_future_sec);
+  if (!situation.vehicle_fault.empty()) return;
+  const bool jumped = is_newer && hasJumped(sample, situation);
+  vehicle_ = sample;
+  if (jumped) {
+    situation.vehicle_jumped = true;
+    not_before_sec_ = sample.stamp_sec;
+    target_.reset();
+    moved_target_.reset();
+    return;
+  }
+  situation.vehicle = sample;
+  const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
+  situation.vehicle->T_odom_base.translation() += sample.velocity_odom_mps * ahead_sec;
+}
+
+bool InputMonitor::hasJumped(const VehicleState& vehicle, Situation& situation) const {
+  if (!vehicle_) return false;
+  const double dt_sec = vehicle.stamp_sec - vehicle_->stamp_sec;
+  const double moved_m = (vehicle.T_odom_base.translation() - vehicle_->T_odom_base.translation()).norm();
+  const double speed_mps =
+      std::max({limits_.speed_mps, vehicle.velocity_odom_mps.norm(), vehicle_->velocity_odom_mps.norm()});
+  const double turned_rad = yawBetween(vehicle.T_odom_base, vehicle_->T_odom_base);
+  if (moved_m > params_.max_vehicle_jump_m + 2.0 * speed_mps * dt_sec) {
+    situation.vehicle_fault = format("odometry jumped by %.2f m", moved_m);
+  } else if (turned_rad > params_.max_vehicle_jump_rad + 2.0 * limits_.yaw_rate_radps * dt_sec) {
+    situation.vehicle_fault = format("odometry's heading jumped by %.2f rad", turned_rad);
+  }
+  return !situation.vehicle_fault.empty();
+}
+
+void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation) {
+  situation.target_fault = "no window seen";
+  if (input.target) {
+    const auto& target = *input.target;
+    std::string fault = faultOf(target, params_.max_target_tilt_rad);
+    if (fault.empty()) {
+      fault = ageFault("window", target.stamp_sec, situation.now_sec, params_.max_target_age_sec,
+                       params_.max_future_sec);
+    }
+    if (fault.empty() && target.stamp_sec <= not_before_sec_)
+      fault = "window: from before the odometry jumped";
+    if (fault.empty()) situation.target_is_new = acceptTarget(target, situation.now_sec);
+    if (!fault.empty()) situation.target_fault = fault;
+  }
+  if (!target_) return;
+  const std::string age = ageFault("window", target_->stamp_sec, situation.now_sec,
+                                   params_.max_target_age_sec, params_.max_future_sec);
+  if (age.empty()) {
+    situation.target = target_;
+    situation.target_fault.clear();
+  }
+}
+
+bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
+  if (target_ && target.stamp_sec <= target_->stamp_sec) return false;
+  const bool is_known = target_ && target.stamp_sec - target_->stamp_sec < 2.0;
+  if (is_known) {
+    const double moved_m = (target.T_odom_window.translation() - target_->T_odom_window.translation()).norm();
+    const bool turned = target.sign_trusted && target_->sign_trusted &&
+                        yawBetween(target.T_odom_window, target_->T_odom_window) > kTrustedYawJumpRad;
+    if (moved_m > params_.max_target_jump_m || turned) {
+      if (!moved_target_) moved_since_sec_ = now_sec;
+      moved_target_ = target;
+      if (now_sec - moved_since_sec_ < params_.target_jump_persist_sec) return false;
+    }
+  }
+  moved_target_.reset();
+  target_ = target;
+  return true;
+}
+
+void InputMonitor::judgeImage(const NavigatorInput& input, Situation& situation) const {
+  if (!input.image_stamp_sec) return;
+  situation.image_fault = ageFault("last image", *input.image_stamp_sec, situation.now_sec,
+                                   params_.max_image_age_sec, params_.max_future_sec);
+}
+
+}  // namespace window_ingress::navigation

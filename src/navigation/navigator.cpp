@@ -1,0 +1,285 @@
+#include "window_ingress/navigation/navigator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "window_ingress/navigation/align.hpp"
+#include "window_ingress/navigation/approach.hpp"
+#include "window_ingress/navigation/back_off.hpp"
+#include "window_ingress/navigation/commit.hpp"
+#include "window_ingress/navigation/hold.hpp"
+#include "window_ingress/navigation/motion_guard.hpp"
+#include "window_ingress/navigation/search.hpp"
+#include "window_ingress/navigation/setpoint_limiter.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+NavigatorParams checked(const NavigatorParams& params) {
+  auto faults = parameters::outOfRange(params);
+  if (!(params.limits.min_height_m < params.limits.max_height_m)) {
+    faults.push_back("limits/min_height_m must be below limits/max_height_m");
+  }
+  if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
+  return params;
+}
+
+double timeoutOf(State state, const TimeoutParams& timeouts) {
+  switch (state) {
+    case State::kSearch:
+      return timeouts.search_sec;
+    case State::kAlign:
+      return timeouts.align_sec;
+    case State::kApproach:
+      return timeouts.approach_sec;
+    case State::kCommit:
+      return timeouts.commit_sec;
+    case State::kBackOff:
+      return timeouts.back_off_sec;
+    default:
+      return timeouts.total_sec;
+  }
+}
+
+/// What this state needs and does not have; empty if it has all.
+std::string missingInput(State state, const Situation& situation) {
+  if (!situation.vehicle) return situation.vehicle_fault;
+  if (state == State::kSearch) return situation.image_fault;
+  const bool needs_target = state == State::kAlign || state == State::kApproach;
+  return needs_target && !situation.target ? situation.target_fault : "";
+}
+
+}  // namespace
+
+struct Navigator::Impl {
+  explicit Impl(const NavigatorParams& given)
+      : params(checked(given)),
+        monitor(params.input, params.limits),
+        limiter(params.limits),
+        search(params),
+        align(params),
+        approach(params),
+        commit(params),
+        back_off(params),
+        hold(params) {}
+
+  NavigatorParams params;
+  InputMonitor monitor;
+  SetpointLimiter limiter;
+  Search search;
+  Align align;
+  Approach approach;
+  Commit commit;
+  BackOff back_off;
+  Hold hold;
+  State state = State::kIdle;
+  std::string reason = "waiting for start";
+  MissionMemory memory;
+  bool was_near = false;
+  double now_sec = 0.0;
+  double started_sec = 0.0;
+  double since_sec = 0.0;  ///< in this state
+
+  bool isLive() const { return isMoving(state) || state == State::kHold; }
+  void remember(const Situation& situation);
+  Decision decide(const NavigatorInput& input, const Situation& situation);
+  std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
+  Decision behave(const Situation& situation);
+  void change(State to, const std::string& why);
+  void enter(State from);
+  Setpoint output(const Decision& decision, const Situation& situation);
+  NavigatorReport report(const Situation& situation) const;
+  std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
+};
+
+void Navigator::Impl::remember(const Situation& situation) {
+  if (situation.vehicle_jumped) memory.forgetPlaces();
+  if (state == State::kCommit) {
+    memory.trusted = memory.committed;
+  } else if (situation.target) {
+    memory.window_odom_m = situation.target->T_odom_window.translation();
+    if (situation.target->sign_trusted) memory.trusted = situation.target;
+  }
+}
+
+Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& situation) {
+  if (auto overruled = overrule(input, situation)) return *overruled;
+  return behave(situation);
+}
+
+std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
+                                                  const Situation& situation) const {
+  if (!isLive()) return Decision{{}, std::nullopt, reason};
+  if (!input.engaged) return Decision{{}, Event::kDisengaged, "the vehicle no longer follows setpoints"};
+  const std::string name = toString(state);
+  if (now_sec - started_sec > params.timeouts.total_sec)
+    return Decision{{}, Event::kGiveUp, "mission timed out in " + name};
+  if (now_sec - since_sec > timeoutOf(state, params.timeouts))
+    return Decision{{}, Event::kGiveUp, name + " timed out"};
+  if (!isMoving(state)) return std::nullopt;
+  const std::string missing = missingInput(state, situation);
+  if (!missing.empty()) return Decision{{}, Event::kInputStale, missing};
+  return std::nullopt;
+}
+
+Decision Navigator::Impl::behave(const Situation& situation) {
+  switch (state) {
+    case State::kSearch:
+      return search.step(situation, memory);
+    case State::kAlign:
+      return align.step(situation);
+    case State::kApproach:
+      return approach.step(situation, memory);
+    case State::kCommit:
+      return commit.step(situation, memory);
+    case State::kBackOff:
+      return back_off.step(situation, memory);
+    case State::kHold:
+      return hold.step(situation, memory);
+    case State::kIdle:
+    case State::kPassed:
+    case State::kAborted:
+      break;
+  }
+  return Decision{{}, std::nullopt, reason};
+}
+
+void Navigator::Impl::change(State to, const std::string& why) {
+  const State from = state;
+  state = to;
+  since_sec = now_sec;
+  reason = why;
+  enter(from);
+}
+
+void Navigator::Impl::enter(State from) {
+  switch (state) {
+    case State::kSearch:
+      search.enter(!was_near);
+      break;
+    case State::kAlign:
+      align.enter(now_sec);
+      break;
+    case State::kApproach:
+      approach.enter();
+      was_near = true;
+      break;
+    case State::kCommit:
+      commit.enter();
+      break;
+    case State::kBackOff:
+      back_off.enter();
+      ++memory.back_offs;
+      break;
+    case State::kHold:
+      hold.enter(from, now_sec);
+      break;
+    case State::kIdle:
+    case State::kPassed:
+    case State::kAborted:
+      break;
+  }
+}
+
+Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situation) {
+  if (!isMoving(state) || !situation.vehicle) return limiter.stop();
+  Setpoint limited = limiter.limit(decision.wish, situation.dt_sec);
+  limited.velocity_odom_mps = permittedVelocity(limited.velocity_odom_mps, state, situation, memory, params);
+  return limiter.cutTo(limited);
+}
+
+NavigatorReport Navigator::Impl::report(const Situation& situation) const {
+  NavigatorReport report;
+  report.predicted_miss_m = memory.predicted_miss_m;
+  report.blind_sec = memory.blind_sec;
+  report.retries = memory.back_offs;
+  const auto& target = memory.committed ? memory.committed : situation.target;
+  if (!target || !situation.vehicle) return report;
+  const RelativeState relative = relate(*situation.vehicle, *target);
+  report.has_relative = true;
+  report.lateral_m = relative.lateral();
+  report.vertical_m = relative.vertical();
+  report.distance_m = relative.distance();
+  report.commit_distance_m = commitDistance(relative, target->opening, pitchOf(*situation.vehicle), params);
+  return report;
+}
+
+std::vector<std::string> Navigator::Impl::unmet(const NavigatorInput& input, double at_sec) const {
+  InputMonitor judge = monitor;
+  const Situation situation = judge.judge(input, at_sec);
+  std::vector<std::string> faults;
+  if (!std::isfinite(at_sec)) faults.push_back("no valid time");
+  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
+  if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
+  if (!input.engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
+  if (!situation.vehicle) return faults;
+  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
+    faults.push_back("above limits/max_height_m");
+  }
+  return faults;
+}
+
+Navigator::Navigator(const NavigatorParams& params) : impl_(new Impl(params)) {}
+Navigator::~Navigator() = default;
+
+Reply Navigator::start(const NavigatorInput& input, double now_sec) {
+  auto& self = *impl_;
+  if (self.isLive()) return {true, std::string("already flying: ") + toString(self.state)};
+  if (isEnd(self.state))
+    return {false, std::string("mission ended as ") + toString(self.state) + ": reset first"};
+  const auto faults = self.unmet(input, now_sec);
+  if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
+  self.memory = MissionMemory();
+  self.was_near = false;
+  self.limiter.stop();
+  self.now_sec = self.started_sec = now_sec;
+  self.change(*next(self.state, Event::kStart), "started");
+  return {true, "started"};
+}
+
+Reply Navigator::abort() {
+  auto& self = *impl_;
+  const auto to = next(self.state, Event::kAbort);
+  if (!to) return {true, std::string("already ended as ") + toString(self.state)};
+  self.limiter.stop();
+  self.change(*to, "aborted by the operator");
+  return {true, self.reason};
+}
+
+Reply Navigator::reset() {
+  auto& self = *impl_;
+  if (self.state == State::kIdle) return {true, "already idle"};
+  const auto to = next(self.state, Event::kReset);
+  if (!to) return {false, std::string("flying: ") + toString(self.state) + "; abort first"};
+  self.monitor.reset();
+  self.change(*to, "waiting for start");
+  return {true, "reset"};
+}
+
+NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
+  auto& self = *impl_;
+  const Situation situation = self.monitor.judge(input, now_sec);
+  if (std::isfinite(now_sec)) self.now_sec = now_sec;
+  self.remember(situation);
+  Decision decision = self.decide(input, situation);
+  self.reason = decision.reason;
+  const auto to = decision.event ? next(self.state, *decision.event) : std::nullopt;
+  if (to) {
+    self.change(*to, decision.reason);
+    decision = isMoving(*to) ? self.behave(situation) : Decision();
+  }
+  NavigatorOutput output;
+  output.setpoint = self.output(decision, situation);
+  output.state = self.state;
+  output.reason = self.reason;
+  output.report = self.report(situation);
+  const bool streams =
+      self.state != State::kAborted || self.now_sec - self.since_sec <= self.params.timeouts.stream_sec;
+  output.enabled = self.state != State::kIdle && streams;
+  return output;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,43 @@
+#include "window_ingress/navigation/relative_state.hpp"
+
+#include <cmath>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+
+Eigen::Matrix3d uprightRotation(const TargetEstimate& target) {
+  return geometry::yawRotation(geometry::yawOf(target.T_odom_window.linear()));
+}
+
+namespace {
+
+/// First order: a window that moves by dp and turns by dpsi about the vertical moves the vehicle's lateral
+/// offset by -e_y . dp - x dpsi.
+double lateralSigma(const Eigen::Matrix3d& R_odom_window, double x_m,
+                    const Eigen::Matrix<double, 6, 6>& covariance) {
+  Eigen::Matrix<double, 6, 1> jacobian = Eigen::Matrix<double, 6, 1>::Zero();
+  jacobian.head<3>() = -R_odom_window.col(1);
+  jacobian(5) = -x_m;
+  return std::sqrt(std::max(0.0, jacobian.dot(covariance * jacobian)));
+}
+
+}  // namespace
+
+RelativeState relate(const VehicleState& vehicle, const TargetEstimate& target) {
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const Eigen::Vector3d to_window_odom_m =
+      target.T_odom_window.translation() - vehicle.T_odom_base.translation();
+  const double heading_rad = geometry::yawOf(vehicle.T_odom_base.linear());
+  RelativeState relative;
+  relative.position_window_m = -(R_odom_window.transpose() * to_window_odom_m);
+  relative.velocity_window_mps = R_odom_window.transpose() * vehicle.velocity_odom_mps;
+  relative.bearing_rad =
+      geometry::wrapAngle(std::atan2(to_window_odom_m.y(), to_window_odom_m.x()) - heading_rad);
+  relative.heading_error_rad = geometry::wrapAngle(geometry::yawOf(R_odom_window) - heading_rad);
+  relative.sigma_lateral_m = lateralSigma(R_odom_window, relative.position_window_m.x(), target.covariance);
+  relative.sigma_vertical_m = std::sqrt(std::max(0.0, target.covariance(2, 2)));
+  return relative;
+}
+
+}  // namespace window_ingress::navigation

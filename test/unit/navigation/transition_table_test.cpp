@@ -1,0 +1,88 @@
+#include "window_ingress/navigation/transition_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace window_ingress::navigation {
+namespace {
+
+State stateAt(std::size_t i) { return static_cast<State>(i); }
+Event eventAt(std::size_t i) { return static_cast<Event>(i); }
+
+TEST(TransitionTable, EveryPairHasTheRowOfTheTableOrNone) {
+  std::size_t found = 0;
+  for (std::size_t s = 0; s < kStateCount; ++s) {
+    for (std::size_t e = 0; e < kEventCount; ++e) {
+      std::optional<State> expected;
+      for (const auto& row : kTransitions) {
+        if (row.from == stateAt(s) && row.event == eventAt(e)) expected = row.to;
+      }
+      EXPECT_EQ(next(stateAt(s), eventAt(e)), expected)
+          << toString(stateAt(s)) << " on " << toString(eventAt(e));
+      if (expected) ++found;
+    }
+  }
+  EXPECT_EQ(found, kTransitions.size());
+}
+
+TEST(TransitionTable, NamesAreThoseOfTheInterfaceAndUnique) {
+  const std::set<std::string> expected{"IDLE",   "SEARCH",   "ALIGN", "APPROACH", "COMMIT",
+                                       "PASSED", "BACK_OFF", "HOLD",  "ABORTED"};
+  std::set<std::string> states, events;
+  for (std::size_t s = 0; s < kStateCount; ++s) states.insert(toString(stateAt(s)));
+  for (std::size_t e = 0; e < kEventCount; ++e) events.insert(toString(eventAt(e)));
+  EXPECT_EQ(states, expected);
+  EXPECT_EQ(events.size(), kEventCount);
+  EXPECT_EQ(events.count("unknown"), 0u);
+  EXPECT_STREQ(toString(static_cast<State>(kStateCount)), "UNKNOWN");
+  EXPECT_STREQ(toString(static_cast<Event>(kEventCount)), "unknown");
+}
+
+TEST(TransitionTable, CommitIsEnteredOnlyByTheContract) {
+  for (const auto& row : kTransitions) {
+    if (row.to != State::kCommit) continue;
+    EXPECT_TRUE(row.event == Event::kCommitReached || row.event == Event::kResumed);
+  }
+}
+
+TEST(TransitionTable, PassedIsEnteredOnlyByCrossing) {
+  for (const auto& row : kTransitions) {
+    if (row.to == State::kPassed) {
+      EXPECT_EQ(row.from, State::kCommit);
+      EXPECT_EQ(row.event, Event::kCrossed);
+    }
+  }
+}
+
+TEST(TransitionTable, EndsAreLeftOnlyByReset) {
+  for (const auto& row : kTransitions) {
+    if (isEnd(row.from)) {
+      EXPECT_EQ(row.event, Event::kReset);
+      EXPECT_EQ(row.to, State::kIdle);
+    }
+  }
+}
+
+TEST(TransitionTable, EveryLiveStateYieldsToThePilot) {
+  for (std::size_t s = 0; s < kStateCount; ++s) {
+    if (!isMoving(stateAt(s)) && stateAt(s) != State::kHold) continue;
+    EXPECT_EQ(next(stateAt(s), Event::kDisengaged), State::kIdle);
+    EXPECT_EQ(next(stateAt(s), Event::kGiveUp), State::kAborted);
+  }
+}
+
+TEST(TransitionTable, DocumentIsUpToDate) {
+  const std::string file = WINDOW_INGRESS_SOURCE_DIR "/doc/state_machine.md";
+  if (std::getenv("WINDOW_INGRESS_UPDATE_DOC")) std::ofstream(file) << stateMachineDocument();
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_EQ(text.str(), stateMachineDocument()) << "doc/state_machine.md differs from the table";
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
