@@ -45,7 +45,8 @@ double missOf(double offset_m, double speed_mps, double sigma_m, double blind_se
 }
 
 double opennessOf(double miss_m, double wall_m) {
-  return wall_m > 0.0 ? std::clamp((wall_m - miss_m) / (0.35 * wall_m), 0.0, 1.0) : 0.0;
+  return wall_m > 0.0 && std::isfinite(miss_m) ? std::clamp((wall_m - miss_m) / (0.35 * wall_m), 0.0, 1.0)
+                                               : 0.0;
 }
 
 template <typename... Args>
@@ -56,11 +57,11 @@ std::string format(const char* pattern, Args... args) {
 }
 
 std::string whyUnmet(const Contract& contract, const RelativeState& relative, const NavigatorParams& params) {
-  if (contract.miss_lateral_m >= contract.clearance_lateral_m) {
+  if (!(contract.miss_lateral_m < contract.clearance_lateral_m)) {
     return format("predicted lateral miss %.2f m, clearance %.2f m", contract.miss_lateral_m,
                   contract.clearance_lateral_m);
   }
-  if (contract.miss_vertical_m >= contract.clearance_vertical_m) {
+  if (!(contract.miss_vertical_m < contract.clearance_vertical_m)) {
     return format("predicted vertical miss %.2f m, clearance %.2f m", contract.miss_vertical_m,
                   contract.clearance_vertical_m);
   }
@@ -94,7 +95,8 @@ Contract evaluateContract(const RelativeState& relative, const geometry::Opening
   contract.openness =
       std::min(opennessOf(contract.miss_lateral_m, contract.clearance_lateral_m + contract.funnel_m),
                opennessOf(contract.miss_vertical_m, contract.clearance_vertical_m + contract.funnel_m));
-  contract.in_funnel = contract.openness > 0.0;
+  contract.in_funnel =
+      contract.openness > 0.0 && contract.clearance_lateral_m > 0.0 && contract.clearance_vertical_m > 0.0;
   contract.unmet = whyUnmet(contract, relative, params);
   contract.holds = contract.unmet.empty();
   return contract;

@@ -1,0 +1,36 @@
+/// Good samples to spoil in tests of the navigator.
+#pragma once
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/navigation/input_monitor.hpp"
+
+namespace window_ingress::test {
+
+inline navigation::VehicleState vehicleAt(const Eigen::Vector3d& position_m, double stamp_sec,
+                                          double yaw_rad = 0.0) {
+  navigation::VehicleState vehicle;
+  vehicle.stamp_sec = stamp_sec;
+  vehicle.T_odom_base = geometry::makePose(geometry::yawRotation(yaw_rad), position_m);
+  return vehicle;
+}
+
+/// A window at the origin of odom, 1.5 m high, flown into along odom's x axis.
+inline navigation::TargetEstimate targetAtOrigin(double stamp_sec, bool sign_trusted = true) {
+  navigation::TargetEstimate target;
+  target.stamp_sec = stamp_sec;
+  target.T_odom_window.translation() = Eigen::Vector3d(0, 0, 1.5);
+  target.covariance.diagonal() << 1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5;
+  target.sign_trusted = sign_trusted;
+  target.opening = {1.2, 1.0};
+  return target;
+}
+
+inline navigation::NavigatorInput inputAt(const Eigen::Vector3d& position_m, double now_sec,
+                                          bool with_target = true) {
+  navigation::NavigatorInput input;
+  input.vehicle = vehicleAt(position_m, now_sec);
+  if (with_target) input.target = targetAtOrigin(now_sec);
+  return input;
+}
+
+}  // namespace window_ingress::test

@@ -1,0 +1,94 @@
+#include "window_ingress/navigation/approach_contract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "navigation_samples.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+RelativeState at(double distance_m, double lateral_m = 0.0, double sigma_m = 0.01) {
+  RelativeState relative;
+  relative.position_window_m = {-distance_m, lateral_m, 0.0};
+  relative.sigma_lateral_m = relative.sigma_vertical_m = sigma_m;
+  return relative;
+}
+
+const geometry::OpeningSize kOpening{1.2, 1.0};
+
+Contract contractOf(const RelativeState& relative) {
+  return evaluateContract(relative, kOpening, 0.0, NavigatorParams());
+}
+
+TEST(StoppingSpeed, IsTheInverseOfTheStoppingDistance) {
+  for (double speed = 0.05; speed < 3.0; speed += 0.1) {
+    EXPECT_NEAR(stoppingSpeed(stoppingDistance(speed, 1.2, 0.3), 1.2, 0.3), speed, 1e-12);
+  }
+  EXPECT_EQ(stoppingSpeed(0.0, 1.2, 0.3), 0.0);
+  EXPECT_EQ(stoppingSpeed(-1.0, 1.2, 0.3), 0.0);
+  EXPECT_EQ(stoppingSpeed(std::nan(""), 1.2, 0.3), 0.0);
+}
+
+TEST(CommitDistance, IsWhereTheOpeningOutgrowsTheView) {
+  NavigatorParams params;
+  params.vehicle.half_length_m = 0.05;
+  params.commit.speed_mps = 0.3;  // the stopping distance must not decide here
+  params.commit.view_margin_m = 0.0;
+  params.vehicle.camera_forward_m = 0.0;
+  const double level = commitDistance(at(2.0), kOpening, 0.0, params);
+  EXPECT_NEAR(level, 0.5 / std::tan(params.vehicle.vertical_fov_rad / 2.0), 1e-12);
+  EXPECT_NEAR(commitDistance(at(2.0), kOpening, 0.17, params),
+              0.5 / std::tan(params.vehicle.vertical_fov_rad / 2.0 - 0.17), 1e-12);
+  EXPECT_GT(commitDistance(at(2.0, 0.3), kOpening, 0.0, params), level);
+}
+
+TEST(CommitDistance, LeavesRoomToStopBeforeTheOpening) {
+  NavigatorParams params;
+  params.commit.speed_mps = 2.0;
+  const double stop = stoppingDistance(2.0, params.vehicle.braking_mps2, params.vehicle.response_sec);
+  EXPECT_DOUBLE_EQ(commitDistance(at(5.0), kOpening, 0.0, params), stop + params.vehicle.half_length_m);
+}
+
+TEST(Contract, HoldsOnTheAxisAndSaysWhyNotOffIt) {
+  EXPECT_TRUE(contractOf(at(1.2)).holds) << contractOf(at(1.2)).unmet;
+  EXPECT_NE(contractOf(at(1.2, 0.3)).unmet.find("lateral miss"), std::string::npos);
+  EXPECT_NE(contractOf(at(1.2, 0.0, 0.1)).unmet.find("lateral miss"), std::string::npos);
+  auto high = at(1.2);
+  high.position_window_m.z() = 0.35;
+  EXPECT_NE(contractOf(high).unmet.find("vertical miss"), std::string::npos);
+  auto turned = at(1.2);
+  turned.heading_error_rad = -0.3;
+  EXPECT_NE(contractOf(turned).unmet.find("heading"), std::string::npos);
+  auto drifting = at(1.2, -0.12);
+  drifting.velocity_window_mps.y() = 0.4;
+  EXPECT_NE(contractOf(drifting).unmet.find("across"), std::string::npos);
+}
+
+TEST(Contract, FunnelWidensWithTheDistance) {
+  for (double lateral = 0.05; lateral < 3.0; lateral += 0.05) {
+    double before = -1.0;
+    for (double distance = 0.5; distance < 8.0; distance += 0.1) {
+      const auto contract = contractOf(at(distance, lateral));
+      EXPECT_GE(contract.openness, 0.0);
+      EXPECT_LE(contract.openness, 1.0);
+      EXPECT_EQ(contract.in_funnel, contract.openness > 0.0);
+      if (distance <= 2.5) continue;
+      EXPECT_GE(contract.openness, before - 1e-9);
+      before = contract.openness;
+    }
+  }
+}
+
+TEST(Contract, UnknownsNeverHold) {
+  const double nan = std::nan("");
+  EXPECT_FALSE(contractOf(at(1.2, nan)).holds && contractOf(at(1.2, nan)).in_funnel);
+  EXPECT_FALSE(contractOf(at(1.2, 0.0, nan)).in_funnel);
+  NavigatorParams params;
+  EXPECT_FALSE(evaluateContract(at(1.2), {0.4, 0.4}, 0.0, params).holds);
+  EXPECT_FALSE(evaluateContract(at(1.2), {0.4, 0.4}, 0.0, params).in_funnel);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation

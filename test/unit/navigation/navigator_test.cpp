@@ -1,0 +1,262 @@
+/// The navigator's requests and edges, one step at a time.
+#include "window_ingress/navigation/navigator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "navigation_samples.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+using test::inputAt;
+using test::targetAtOrigin;
+
+constexpr double kStep = 1.0 / 30.0;
+
+/// Steps a navigator over inputs that stand still.
+class NavigatorSteps : public testing::Test {
+ protected:
+  NavigatorParams params_;
+  double now_ = 10.0;
+
+  NavigatorOutput steps(Navigator& navigator, const Eigen::Vector3d& at, int count, bool with_target = true,
+                        bool trusted = true) {
+    NavigatorOutput output;
+    for (int i = 0; i < count; ++i) {
+      now_ += kStep;
+      auto input = inputAt(at, now_, with_target);
+      if (with_target) input.target = targetAtOrigin(now_, trusted);
+      output = navigator.step(input, now_);
+    }
+    return output;
+  }
+  /// Walks the vehicle there in small steps, so that nothing jumps.
+  NavigatorOutput walk(Navigator& navigator, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    NavigatorOutput output;
+    for (int i = 0; i <= 60; ++i) output = steps(navigator, from + (to - from) * i / 60.0, 1);
+    return output;
+  }
+  void start(Navigator& navigator, const Eigen::Vector3d& at) {
+    EXPECT_TRUE(navigator.start(inputAt(at, now_), now_).success);
+  }
+};
+
+const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kAside(-4.0, 3.8, 1.5);
+
+TEST_F(NavigatorSteps, IsSilentBeforeTheStart) {
+  Navigator navigator(params_);
+  const auto output = steps(navigator, kFar, 10);
+  EXPECT_EQ(output.state, State::kIdle);
+  EXPECT_FALSE(output.enabled);
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+}
+
+TEST_F(NavigatorSteps, StartListsEveryUnmetCondition) {
+  Navigator navigator(params_);
+  NavigatorInput nothing;
+  nothing.engaged = false;
+  nothing.image_stamp_sec = 1.0;
+  const auto reply = navigator.start(nothing, now_);
+  EXPECT_FALSE(reply.success);
+  EXPECT_EQ(reply.message,
+            "not started: no odometry; last image 9.00 s old; "
+            "the vehicle is not armed or not in a mode that follows setpoints");
+  EXPECT_FALSE(navigator.start(inputAt(kFar, now_), std::numeric_limits<double>::quiet_NaN()).success);
+  EXPECT_EQ(steps(navigator, kFar, 1).state, State::kIdle);
+}
+
+TEST_F(NavigatorSteps, StartTwiceAbortTwiceResetTwice) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_EQ(navigator.start(inputAt(kFar, now_), now_).message, "already flying: SEARCH");
+  EXPECT_FALSE(navigator.reset().success);
+  EXPECT_TRUE(navigator.abort().success);
+  EXPECT_TRUE(navigator.abort().success);
+  EXPECT_EQ(navigator.start(inputAt(kFar, now_), now_).message, "mission ended as ABORTED: reset first");
+  EXPECT_TRUE(navigator.reset().success);
+  EXPECT_TRUE(navigator.reset().success);
+  start(navigator, kFar);
+}
+
+TEST_F(NavigatorSteps, AbortIsZeroInTheNextStepAndLaterSilent) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_GT(steps(navigator, kFar, 40).setpoint.velocity_odom_mps.norm(), 0.3);
+  navigator.abort();
+  auto output = steps(navigator, kFar, 1);
+  EXPECT_EQ(output.state, State::kAborted);
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+  EXPECT_TRUE(output.enabled);
+  output = steps(navigator, kFar, 120);
+  EXPECT_FALSE(output.enabled);
+  EXPECT_EQ(output.reason, "aborted by the operator");
+}
+
+TEST_F(NavigatorSteps, GoesThroughTheStatesAsTheInputSays) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_EQ(steps(navigator, kFar, 5, false).state, State::kSearch);
+  EXPECT_EQ(steps(navigator, kFar, 4).state, State::kAlign);
+  EXPECT_EQ(steps(navigator, kFar, 10).state, State::kApproach);
+  EXPECT_EQ(steps(navigator, kFar, 1, true, false).state, State::kAlign);  // sign lost: misaligned
+  EXPECT_EQ(steps(navigator, kFar, 10).state, State::kApproach);
+  EXPECT_EQ(walk(navigator, kFar, kLine).state, State::kCommit);
+  EXPECT_EQ(walk(navigator, kLine, {1.0, 0.0, 1.5}).state, State::kPassed);
+  const auto output = steps(navigator, {1.0, 0.0, 1.5}, 1);
+  EXPECT_TRUE(output.enabled);
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+}
+
+TEST_F(NavigatorSteps, BacksOffFromTheLineWithoutAContractAndComesBack) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  walk(navigator, kFar, kFar);
+  const Eigen::Vector3d aside = kLine + Eigen::Vector3d(0, 0.36, 0);
+  auto output = walk(navigator, kFar, aside);
+  output = steps(navigator, aside, 65);
+  EXPECT_EQ(output.state, State::kBackOff) << output.reason;
+  EXPECT_LT(output.setpoint.velocity_odom_mps.x(), 0.0);
+  EXPECT_EQ(output.report.retries, 1);
+  output = walk(navigator, aside, {-2.6, 0.36, 1.5});
+  EXPECT_TRUE(output.state == State::kAlign || output.state == State::kApproach) << toString(output.state);
+}
+
+TEST_F(NavigatorSteps, BacksOffAndSearchesWhenTheWindowIsLost) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  walk(navigator, kFar, {-2.0, 0, 1.5});
+  auto output = steps(navigator, {-2.0, 0, 1.5}, 11, false);
+  EXPECT_EQ(output.state, State::kHold);
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+  output = steps(navigator, {-2.0, 0, 1.5}, 35, false);
+  EXPECT_EQ(output.state, State::kBackOff);
+  output = steps(navigator, {-2.55, 0, 1.5}, 2, false);
+  EXPECT_EQ(output.state, State::kSearch) << output.reason;
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.head<2>().norm(), 0.0);
+}
+
+TEST_F(NavigatorSteps, YieldsToThePilotInEveryState) {
+  for (int walked = 0; walked < 5; ++walked) {
+    Navigator navigator(params_);
+    now_ += 100.0;
+    start(navigator, kFar);
+    if (walked > 0) steps(navigator, kAside, 4);
+    if (walked > 1) walk(navigator, kFar, kFar);
+    if (walked > 2) walk(navigator, kFar, kLine);
+    if (walked > 3) steps(navigator, kLine, 20, false);
+    auto input = inputAt(walked > 2 ? kLine : kFar, now_);
+    input.engaged = false;
+    const auto output = navigator.step(input, now_);
+    EXPECT_EQ(output.state, State::kIdle);
+    EXPECT_FALSE(output.enabled);
+    EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+  }
+}
+
+TEST_F(NavigatorSteps, EveryStateTimesOutByName) {
+  params_.timeouts.search_sec = params_.timeouts.align_sec = params_.timeouts.approach_sec = 1.0;
+  params_.timeouts.commit_sec = 1.0;
+  Navigator searching(params_), aligning(params_), approaching(params_), committed(params_);
+  start(searching, kFar);
+  EXPECT_EQ(steps(searching, kFar, 40, false).reason, "SEARCH timed out");
+  start(aligning, kAside);
+  EXPECT_EQ(steps(aligning, kAside, 60).reason, "ALIGN timed out");
+  start(approaching, kFar);
+  EXPECT_EQ(steps(approaching, kFar, 60).reason, "APPROACH timed out");
+  params_.timeouts.approach_sec = 30.0;
+  start(committed, kFar);
+  walk(committed, kFar, kFar);
+  params_.timeouts.total_sec = 2.0;
+  Navigator total(params_);
+  start(total, kFar);
+  EXPECT_EQ(steps(total, kFar, 70).state, State::kAborted);
+}
+
+TEST_F(NavigatorSteps, HoldsAndGivesUpWithoutOdometry) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  steps(navigator, kFar, 20);
+  NavigatorInput input;
+  input.target = targetAtOrigin(now_);
+  auto output = navigator.step(input, now_ += kStep);
+  EXPECT_EQ(output.state, State::kHold);
+  EXPECT_EQ(output.reason, "no odometry");
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+  for (int i = 0; i < 160; ++i) output = navigator.step(input, now_ += kStep);
+  EXPECT_EQ(output.state, State::kAborted);
+  EXPECT_EQ(output.reason, "held too long: no odometry");
+}
+
+TEST_F(NavigatorSteps, HoldsWhenTheCameraFallsSilentDuringTheSearch) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  auto input = inputAt(kFar, now_, false);
+  input.image_stamp_sec = now_ - 2.0;
+  const auto output = navigator.step(input, now_);
+  EXPECT_EQ(output.state, State::kHold);
+  EXPECT_EQ(output.reason, "last image 2.00 s old");
+}
+
+TEST(NavigatorParamsCheck, ListsEveryFault) {
+  NavigatorParams params;
+  params.limits.speed_mps = std::numeric_limits<double>::quiet_NaN();
+  params.search.turns = 0;
+  params.limits.min_height_m = 11.0;
+  try {
+    Navigator navigator(params);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    for (const char* name : {"limits/speed_mps", "search/turns", "limits/min_height_m"}) {
+      EXPECT_NE(text.find(name), std::string::npos) << text;
+    }
+  }
+}
+
+/// Sets every field to something that it is not.
+struct Poison {
+  void operator()(const std::string&, double& value, double, double) { value = -12345.0; }
+  void operator()(const std::string&, int& value, int, int) { value = -12345; }
+  void operator()(const std::string&, bool& value) { value = !value; }
+  template <typename Params>
+  void group(const std::string&, Params& params) {
+    Params::visit(params, *this);
+  }
+};
+
+/// Collects name and value of every field.
+struct FieldList {
+  std::set<std::string> names;
+  std::string prefix;
+  template <typename Value, typename... Range>
+  void operator()(const std::string& name, const Value& value, Range...) {
+    names.insert(prefix + name + "=" + std::to_string(value));
+  }
+  template <typename Params>
+  void group(const std::string& name, const Params& params) {
+    const std::string outer = prefix;
+    prefix += name + "/";
+    Params::visit(params, *this);
+    prefix = outer;
+  }
+};
+
+TEST(NavigatorParamsCheck, ShippedYamlHasEveryFieldAtItsDefault) {
+  NavigatorParams defaults, poisoned;
+  Poison poison;
+  NavigatorParams::visit(poisoned, poison);
+  ASSERT_TRUE(
+      parameters::readYamlFile(WINDOW_INGRESS_SOURCE_DIR "/config/navigator.yaml", "navigator", poisoned));
+  FieldList expected, shipped;
+  NavigatorParams::visit(defaults, expected);
+  NavigatorParams::visit(poisoned, shipped);
+  EXPECT_EQ(shipped.names, expected.names);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
