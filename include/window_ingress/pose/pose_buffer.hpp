@@ -7,8 +7,8 @@
 
 namespace window_ingress::pose {
 
-/// Recent poses by time, interpolated on request. Bounded. A sample older than the newest one is a jump back in time and
-/// clears the buffer.
+/// Recent poses by time, interpolated on request. Bounded. A sample older than the newest one is a jump back
+/// in time and clears the buffer.
 class PoseBuffer {
  public:
   explicit PoseBuffer(double span_sec = 2.0, std::size_t max_samples = 1000);
@@ -16,7 +16,8 @@ class PoseBuffer {
   /// \return false and nothing stored if the stamp or the pose is not finite, or the stamp repeats
   bool add(double stamp_sec, const Eigen::Isometry3d& pose);
 
-  /// Pose at `stamp_sec`: interpolated, or the nearest sample if the stamp lies at most `max_extrapolation_sec` outside.
+  /// Pose at `stamp_sec`: interpolated, or the nearest sample if the stamp lies at most
+  /// `max_extrapolation_sec` outside.
   std::optional<Eigen::Isometry3d> at(double stamp_sec, double max_extrapolation_sec = 0.0) const;
 
   void clear() { samples_.clear(); }

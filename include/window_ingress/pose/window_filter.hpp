@@ -32,8 +32,19 @@ class WindowFilter {
   bool update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
               const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera);
 
-  /// The state as of the last update, with its covariance grown by odometry drift until `now_sec`; nothing before the
-  /// first update or after `max_age_sec` without one.
+  /// The same without a pose of its own, for a window of which only some borders are seen. Never starts a
+  /// filter.
+  bool update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+              const Eigen::Isometry3d& T_odom_camera);
+
+  /// Where the window should be in an image taken now; nothing without a state or if it is not wholly in
+  /// front.
+  std::optional<geometry::Quadrilateral> predictedCorners(double now_sec,
+                                                          const geometry::PinholeCamera& camera,
+                                                          const Eigen::Isometry3d& T_odom_camera) const;
+
+  /// The state as of the last update, with its covariance grown by odometry drift until `now_sec`; nothing
+  /// before the first update or after `max_age_sec` without one.
   std::optional<FilteredWindow> state(double now_sec) const;
 
   void reset();

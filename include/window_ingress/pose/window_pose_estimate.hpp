@@ -26,17 +26,23 @@ struct WindowPoseEstimate {
   PlanarSolution best;                        ///< the likelier of the two
   std::optional<PlanarSolution> alternative;  ///< the other local minimum, where there is one
 
-  double yaw_rad = 0.0;        ///< heading of the window's axis against the camera's; 0 when square to it
+  /// Heading of the window's axis against the camera's, about the vertical (gravity's if known, else the
+  /// camera's own): 0 when square to it, positive when the window's axis points to the left of the camera's.
+  double yaw_rad = 0.0;
   double yaw_sigma_rad = 0.0;  ///< with the opening's size known
   /// Spread of the yaw with the opening's size unknown, i.e. from keystone alone. It decides about the sign.
   double sigma_u_rad = 0.0;
   double log_likelihood_ratio = 0.0;  ///< best over alternative, >= 0; infinite is written as 1e9
-  bool sign_trusted = false;          ///< the sign of yaw_rad is certain: sigma_u < |yaw| / 3
+  /// The sign of yaw_rad is certain: sigma_u < |yaw| / 3, and the image has indeed shown it (likelihood
+  /// ratio).
+  bool sign_trusted = false;
 
-  geometry::EulerAngles euler;      ///< the paper's angles of R_camera_window, taken in forward-left-up axes
-  double opening_width_m = 0.0;     ///< apparent: as wide as seen from here, largest when square to it
-  double left_side_px = 0.0;        ///< length of the left border in the undistorted image
-  double right_side_px = 0.0;       ///< length of the right border in the undistorted image
+  geometry::OpeningSize opening;  ///< the size that was taken as known
+
+  geometry::EulerAngles euler;   ///< the paper's angles of R_camera_window, taken in forward-left-up axes
+  double opening_width_m = 0.0;  ///< apparent: as wide as seen from here, largest when square to it
+  double left_side_px = 0.0;     ///< length of the left border in the undistorted image
+  double right_side_px = 0.0;    ///< length of the right border in the undistorted image
 };
 
 }  // namespace window_ingress::pose

@@ -5,19 +5,23 @@
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/pose/gravity_prior.hpp"
 #include "window_ingress/pose/pose_params.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
 
 namespace window_ingress::pose {
 
-/// Direction of "up" in the camera at the exposure, a soft prior: it never chooses between the two planar solutions.
-struct GravityPrior {
-  Eigen::Vector3d up_camera = Eigen::Vector3d(0, -1, 0);  ///< unit vector, optical frame
-  double sigma_rad = 0.02;                                ///< of the attitude, mounting included
-};
-
 /// Why there is no pose.
-enum class PoseReject { kNone, kBadCamera, kBadCorners, kNotInFront, kReprojection, kRange, kTilt, kNotFinite };
+enum class PoseReject {
+  kNone,
+  kBadCamera,
+  kBadCorners,
+  kNotInFront,
+  kReprojection,
+  kRange,
+  kTilt,
+  kNotFinite
+};
 
 const char* toString(PoseReject reject);
 
@@ -33,6 +37,10 @@ class WindowPoseEstimator {
   /// \throws std::invalid_argument that lists every parameter out of range
   explicit WindowPoseEstimator(const PoseParams& params);
 
+  /// \param window all four borders seen; corners in any cyclic order (they are put upright: by gravity,
+  /// without it by
+  ///        the camera's own up)
+  /// \param gravity ignored if it is not usable (not finite, no direction, no spread)
   PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                       const std::optional<GravityPrior>& gravity = std::nullopt) const;
 
