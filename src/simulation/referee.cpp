@@ -1,17 +1,131 @@
 #include "window_ingress/simulation/referee.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 namespace window_ingress::simulation {
+namespace {
+
+constexpr double kAirborneGap_m = 0.05;
+
+std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, format, a, b, c);
+  return buffer;
+}
+
+}  // namespace
 
 const char* toString(Outcome outcome) {
   switch (outcome) {
-    case Outcome::kRunning: return "RUNNING";
-    case Outcome::kPassed: return "PASSED";
-    case Outcome::kCollision: return "COLLISION";
-    case Outcome::kFalseIngress: return "FALSE_INGRESS";
-    case Outcome::kAborted: return "ABORTED";
-    case Outcome::kTimeout: return "TIMEOUT";
+    case Outcome::kRunning:
+      return "RUNNING";
+    case Outcome::kPassed:
+      return "PASSED";
+    case Outcome::kCollision:
+      return "COLLISION";
+    case Outcome::kFalseIngress:
+      return "FALSE_INGRESS";
+    case Outcome::kAborted:
+      return "ABORTED";
+    case Outcome::kTimeout:
+      return "TIMEOUT";
   }
   return "UNKNOWN";
+}
+
+Referee::Referee(const Course& course) : course_(course) {}
+
+void Referee::update(double time_sec, const VehicleTruth& truth) {
+  Sample now;
+  now.time_sec = time_sec_ = time_sec;
+  now.T_window_base = course_.T_odom_window.inverse() * truth.T_odom_base;
+  now.reach_m = boundingHalfExtents(now.T_window_base.linear(), course_.vehicle_half_extents_m);
+  const double speed_mps = truth.velocity_odom_mps.norm();
+  max_speed_mps_ = std::max(max_speed_mps_, speed_mps);
+  watchContacts(now);
+  watchSides(now);
+  watchCrossing(now);
+  watchClearance(now);
+  watchStanding(now, speed_mps);
+  previous_ = now;
+}
+
+void Referee::touch(const std::string& name, double time_sec) {
+  if (touched()) return;
+  contact_ = name;
+  contact_time_sec_ = time_sec;
+}
+
+void Referee::watchContacts(const Sample& now) {
+  const double gap_m = now.T_window_base.translation().z() - now.reach_m.z() - course_.ground_z_m;
+  airborne_ = airborne_ || gap_m > kAirborneGap_m;
+  if (airborne_ && gap_m <= 0.0) touch("ground", now.time_sec);
+  const double reach_m = now.reach_m.norm();
+  const Eigen::Vector3d position = now.T_window_base.translation();
+  for (const Obstacle& obstacle : course_.obstacles) {
+    if (touched()) return;
+    if (obstacle.box.squaredExteriorDistance(position) > reach_m * reach_m) continue;
+    if (touches(now.T_window_base, course_.vehicle_half_extents_m, obstacle.box))
+      touch(obstacle.name, now.time_sec);
+  }
+}
+
+void Referee::watchSides(const Sample& now) {
+  const double y_m = now.T_window_base.translation().y();
+  if (!start_y_m_) start_y_m_ = y_m;
+  if (now.T_window_base.translation().x() >= 0.0) return;
+  wrong_side_m_ = std::max(wrong_side_m_, std::abs(y_m) - std::abs(*start_y_m_));
+  overshoot_m_ = std::max(overshoot_m_, *start_y_m_ >= 0.0 ? -y_m : y_m);
+}
+
+void Referee::watchCrossing(const Sample& now) {
+  if (crossing_ || !previous_) return;
+  const Eigen::Vector3d a = previous_->T_window_base.translation(), b = now.T_window_base.translation();
+  if (!(a.x() < 0.0 && b.x() >= 0.0)) return;
+  const double part = -a.x() / (b.x() - a.x());
+  const Eigen::Vector3d at = a + part * (b - a);
+  const bool inside = std::abs(at.y()) + now.reach_m.y() <= 0.5 * course_.opening.width_m &&
+                      std::abs(at.z()) + now.reach_m.z() <= 0.5 * course_.opening.height_m;
+  const double time_sec = previous_->time_sec + part * (now.time_sec - previous_->time_sec);
+  crossing_ = Crossing{time_sec, at.y(), at.z(), inside};
+}
+
+void Referee::watchClearance(const Sample& now) {
+  const Eigen::Vector3d position = now.T_window_base.translation();
+  if (position.x() + now.reach_m.x() < 0.0 || position.x() - now.reach_m.x() > course_.wall_thickness_m)
+    return;
+  const double sideways_m = 0.5 * course_.opening.width_m - std::abs(position.y()) - now.reach_m.y();
+  const double upright_m = 0.5 * course_.opening.height_m - std::abs(position.z()) - now.reach_m.z();
+  const double clearance_m = std::min(sideways_m, upright_m);
+  const bool centre_outside = sideways_m + now.reach_m.y() < 0.0 || upright_m + now.reach_m.z() < 0.0;
+  if (centre_outside) return;
+  min_clearance_m_ = std::min(min_clearance_m_.value_or(clearance_m), clearance_m);
+}
+
+void Referee::watchStanding(const Sample& now, double speed_mps) {
+  const bool behind = now.T_window_base.translation().x() - now.reach_m.x() > course_.wall_thickness_m;
+  if (!behind || speed_mps >= kStandingSpeed_mps) {
+    standing_since_sec_.reset();
+    return;
+  }
+  if (!standing_since_sec_) standing_since_sec_ = now.time_sec;
+  stood_behind_ = stood_behind_ || now.time_sec - *standing_since_sec_ >= kStandingTime_sec;
+}
+
+Verdict Referee::judge(Claim claim) const {
+  const bool crossed_inside = crossing_ && crossing_->inside;
+  if (touched()) return {Outcome::kCollision, "touched " + contact_ + text(" at %.2f s", contact_time_sec_)};
+  if (crossed_inside && stood_behind_)
+    return {Outcome::kPassed, text("crossed at %.2f s, %+.3f m left and %+.3f m up of the centre",
+                                   crossing_->time_sec, crossing_->offset_y_m, crossing_->offset_z_m)};
+  if (claim == Claim::kPassed && !crossed_inside)
+    return {Outcome::kFalseIngress, text("claims to have passed at %.2f s and has not", time_sec_)};
+  if (claim == Claim::kAborted) return {Outcome::kAborted, text("gave up at %.2f s", time_sec_)};
+  if (time_sec_ >= course_.time_limit_sec)
+    return {Outcome::kTimeout, text("not done after %.1f s", course_.time_limit_sec)};
+  return {Outcome::kRunning, ""};
 }
 
 }  // namespace window_ingress::simulation

@@ -12,7 +12,9 @@
 ///     };
 ///
 /// `field(name, value, minimum, maximum)` for double and int, `field(name, value)` for bool and std::string,
-/// `field.group(name, params)` for a struct within. Names of nested fields are joined with '/', as ROS does.
+/// `field.group(name, params)` for a struct within,
+/// `field.list(name, items)` for a std::vector of structs (range checks and scenario files only).
+/// Names of nested fields are joined with '/', as ROS does.
 #pragma once
 
 #include <cmath>
@@ -41,6 +43,10 @@ class RangeCheck {
     prefix_ += name + "/";
     Params::visit(params, *this);
     prefix_ = outer;
+  }
+  template <typename Params>
+  void list(const std::string& name, const std::vector<Params>& items) {
+    for (std::size_t i = 0; i < items.size(); ++i) group(name + "[" + std::to_string(i) + "]", items[i]);
   }
   const std::vector<std::string>& faults() const { return faults_; }
 

@@ -1,3 +1,5 @@
+/// What a world consists of. Every key of a scenario file is a field listed by one of the `visit` functions
+/// here; doc/scenarios.md explains them all.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,6 +10,8 @@
 
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/simulation/house_params.hpp"
+#include "window_ingress/simulation/vehicle_params.hpp"
 
 namespace window_ingress::simulation {
 
@@ -16,5 +20,71 @@ class ScenarioError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Where the flight starts, relative to the target window.
+struct StartParams {
+  double distance_m = 5.0;    ///< horizontal distance from the opening's centre [m]
+  double off_axis_rad = 0.0;  ///< bearing of the start around the window's outward normal; positive: left of
+                              ///< it, as seen by somebody who looks at the window [rad]
+  double heading_rad = 0.0;   ///< heading beside the direction to the window, positive: turned left [rad]
+  double height_offset_m = 0.0;  ///< above the opening's centre [m]; not used on the ground
+  double odom_yaw_rad = 0.0;     ///< heading of the vehicle in the odometry frame [rad]
+  bool hovering = true;          ///< starts hovering; false: stands on the ground
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("distance_m", self.distance_m, 0.8, 15.0);
+    field("off_axis_rad", self.off_axis_rad, -1.4, 1.4);
+    field("heading_rad", self.heading_rad, -3.15, 3.15);
+    field("height_offset_m", self.height_offset_m, -3.0, 10.0);
+    field("odom_yaw_rad", self.odom_yaw_rad, -3.15, 3.15);
+    field("hovering", self.hovering);
+  }
+};
+
+/// One world. A plain `Scenario` is a calm day: 5 m straight in front of the window, facing it.
+struct Scenario {
+  double time_limit_sec = 60.0;  ///< of the flight [s]
+  StartParams start;
+  WindowParams window;
+  std::vector<DecoyParams> decoys;
+  std::vector<PosterParams> posters;
+  HouseParams house;
+  CameraParams camera;
+  OdometryParams odometry;
+  ImuParams imu;
+  VehicleParams vehicle;
+  WindParams wind;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("time_limit_sec", self.time_limit_sec, 1.0, 3600.0);
+    field.group("start", self.start);
+    field.group("window", self.window);
+    field.list("decoys", self.decoys);
+    field.list("posters", self.posters);
+    field.group("house", self.house);
+    field.group("camera", self.camera);
+    field.group("odometry", self.odometry);
+    field.group("imu", self.imu);
+    field.group("vehicle", self.vehicle);
+    field.group("wind", self.wind);
+  }
+
+  geometry::OpeningSize opening() const { return {window.width_m, window.height_m}; }
+  double windowCentreHeight() const {
+    return window.sill_m + 0.5 * window.height_m;
+  }                                             ///< above the ground [m]
+  Eigen::Isometry3d startPoseInWindow() const;  ///< T_window_base
+  /// T_odom_base; the origin of odom lies on the ground below the start.
+  Eigen::Isometry3d startPoseInOdom() const;
+  Eigen::Isometry3d T_odom_window() const;
+};
+
+/// What is wrong with the scenario, one text a fault: values out of range, things that do not fit together.
+std::vector<std::string> faultsOf(const Scenario& scenario);
+
+/// Reads a scenario. Any number may be a fixed value or a range `[min, max]` that is drawn from the seed,
+/// each key for itself: a further range leaves the values of the others as they were. \throws ScenarioError
+/// with file, line and key
+Scenario loadScenario(const std::string& file, std::uint32_t seed);
 
 }  // namespace window_ingress::simulation

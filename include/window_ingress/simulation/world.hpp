@@ -7,17 +7,14 @@
 
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/simulation/imu_sensor.hpp"
+#include "window_ingress/simulation/odometry_sensor.hpp"
+#include "window_ingress/simulation/quadrotor.hpp"
 #include "window_ingress/simulation/referee.hpp"
 #include "window_ingress/simulation/scenario.hpp"
+#include "window_ingress/simulation/vehicle_truth.hpp"
 
 namespace window_ingress::simulation {
-
-/// The truth about the vehicle.
-struct VehicleTruth {
-  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();  ///< true pose, axes of odom without its drift
-  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
-};
 
 /// A picture as the camera delivers it.
 struct CameraFrame {
@@ -27,35 +24,16 @@ struct CameraFrame {
   VehicleTruth truth;
 };
 
-/// What the vehicle's odometry says: noisy, drifting.
-struct OdometrySample {
-  double stamp_sec = 0.0;
-  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
-};
-
-/// What the attitude estimator says: noisy.
-struct ImuSample {
-  double stamp_sec = 0.0;
-  Eigen::Quaterniond R_odom_base = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d specific_force_base_mps2 = Eigen::Vector3d::Zero();  ///< at rest: +g on z (REP 145)
-};
-
-/// Wish for the vehicle's velocity controller, in odometry axes.
-struct VelocityCommand {
-  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
-  double yaw_rate_radps = 0.0;
-};
-
-/// House, vehicle, sensors and referee of one scenario and seed. Deterministic: the same calls give the same bytes.
+/// House, vehicle, sensors and referee of one scenario and seed. Deterministic: the same calls give the same
+/// bytes.
 ///
-/// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` hands out what became due and
-/// forgets it. Not for use from several threads.
+/// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` hands out what became
+/// due and forgets it; a picture is drawn only when it is taken. Not for use from several threads, but
+/// several worlds may live in several threads.
 class World {
  public:
-  /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software renderer.
+  /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software
+  /// renderer.
   World(const Scenario& scenario, std::uint32_t seed);
   ~World();
   World(const World&) = delete;
@@ -65,6 +43,7 @@ class World {
   void advance();
   static constexpr double kStepSec = 0.0025;
 
+  /// In the axes of the odometry as the vehicle knows it, drift included.
   void command(const VelocityCommand& command);
 
   double timeSec() const;
@@ -75,12 +54,15 @@ class World {
 
   const geometry::PinholeCamera& camera() const;
   Eigen::Isometry3d T_base_camera() const;
-  Eigen::Isometry3d T_odom_window() const;  ///< truth, of the target
+  Eigen::Isometry3d T_odom_window() const;  ///< truth, of the target: the opening's front inner border
+  /// Where the odometry's frame has drifted to: `p_reported = drift * p_true`.
+  Eigen::Isometry3d odometryDrift() const;
   geometry::OpeningSize opening() const;
   Eigen::Vector3d vehicleHalfExtents() const;  ///< of the body's box [m]
+  const Scenario& scenario() const;
   const Referee& referee() const;
-  /// The target as an operator would have photographed it: square, sharp, with frame and surround; and the corners
-  /// of its opening in that picture.
+  /// The target as an operator would have photographed it: square, sharp, with frame and surround; and the
+  /// corners of its opening in that picture.
   cv::Mat referencePicture(geometry::Quadrilateral* corners) const;
 
  private:

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+#include <vector>
+
+#include "window_ingress/simulation/texture.hpp"
+
+namespace window_ingress::simulation {
+
+/// A corner of a quadrilateral as the renderer wants it.
+struct Vertex {
+  std::array<float, 3> position;        ///< window frame [m]
+  std::array<float, 2> uv;              ///< texture coordinates [tiles]
+  std::array<unsigned char, 4> colour;  ///< red, green, blue, 255
+};
+
+/// How a surface looks.
+struct Surface {
+  Texture texture = Texture::kPlain;
+  Eigen::Vector3d colour = Eigen::Vector3d::Constant(200.0);  ///< red, green, blue in white light, 0..255
+};
+
+/// One direction of light and light from everywhere; brightness of a face by its normal.
+struct Lighting {
+  Eigen::Vector3d towards_sun = Eigen::Vector3d::UnitZ();
+  double sun = 0.5;
+  double ambient = 0.5;
+  double operator()(const Eigen::Vector3d& normal) const;
+};
+
+/// Quadrilaterals by texture, shaded once, with the light that was set when they were added.
+class Mesh {
+ public:
+  explicit Mesh(const Lighting& lighting) : lighting_(lighting) {}
+  void setLighting(const Lighting& lighting) { lighting_ = lighting; }
+  const Lighting& lighting() const { return lighting_; }
+
+  /// A parallelogram with a corner at `origin` and the sides `u` and `v`; its face is towards u x v. The
+  /// texture is laid along u and v in its tile size, starting from `uv0_m`.
+  void addQuad(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+               const Surface& surface, const Eigen::Vector2d& uv0_m = Eigen::Vector2d::Zero());
+  /// As `addQuad`, the texture stretched over the whole of it, its upper end at v.
+  void addPicture(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                  const Surface& surface);
+  void addBox(const Eigen::AlignedBox3d& box, const Surface& surface);
+
+  /// Four vertices a quadrilateral.
+  const std::map<Texture, std::vector<Vertex>>& batches() const { return batches_; }
+
+ private:
+  void add(const std::array<Eigen::Vector3d, 4>& corners, const std::array<Eigen::Vector2d, 4>& uv,
+           const Surface& surface);
+
+  Lighting lighting_;
+  std::map<Texture, std::vector<Vertex>> batches_;
+};
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace window_ingress::simulation {
+
+/// A solid thing in the world: a box along the axes of the window frame.
+struct Obstacle {
+  std::string name;
+  Eigen::AlignedBox3d box;  ///< [m]
+};
+
+/// True if a box of these half extents at the pose `T_window_box` touches the axis-aligned one.
+/// Exact: separating axes of both boxes and of their edges.
+bool touches(const Eigen::Isometry3d& T_window_box, const Eigen::Vector3d& half_extents_m,
+             const Eigen::AlignedBox3d& box);
+
+/// Half of the axis-aligned bounding box of a turned box [m].
+Eigen::Vector3d boundingHalfExtents(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& half_extents_m);
+
+}  // namespace window_ingress::simulation

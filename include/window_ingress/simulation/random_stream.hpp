@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace window_ingress::simulation {
+
+/// Random numbers of one purpose. Streams of different names are independent: drawing more from one, or
+/// adding one, leaves all others as they were. The numbers do not depend on the standard library's
+/// distributions.
+class RandomStream {
+ public:
+  RandomStream(std::uint32_t seed, const std::string& name);
+
+  double uniform(double low, double high);  ///< in [low, high)
+  int uniformInt(int low, int high);        ///< in low .. high, both included
+  double normal(double sigma = 1.0);        ///< zero mean
+  std::uint64_t bits();
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/simulation/scene.hpp"
+
+namespace window_ingress::simulation {
+
+/// Pictures of a scene by an ideal camera, drawn in software with four samples a pixel.
+///
+/// The projection is built from K itself: the point that `PinholeCamera::project` sends to (u, v) lies at (u,
+/// v) of the picture, pixel centres at integers. Distortion is not drawn here; see `Lens`. One renderer per
+/// thread at a time; several may exist.
+class Renderer {
+ public:
+  /// \throws std::runtime_error if there is no software renderer, std::invalid_argument for a camera that
+  /// cannot be used or has distortion
+  Renderer(const Scene& scene, const geometry::PinholeCamera& camera);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// CV_8UC3, BGR, of the camera's size; `image` is reused if it fits.
+  void render(const Eigen::Isometry3d& T_camera_window, cv::Mat& image);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::simulation

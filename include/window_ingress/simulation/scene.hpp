@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "window_ingress/simulation/mesh.hpp"
+#include "window_ingress/simulation/obstacle.hpp"
+#include "window_ingress/simulation/scenario.hpp"
+
+namespace window_ingress::simulation {
+
+/// What is to be seen and what is in the way, in the axes of the target's window frame.
+///
+/// The plane x = 0 is the front of the target's frame, and the rectangle `Scenario::opening()` in it is the
+/// frame's inner border: this *front inner border* is what `T_odom_window` and `opening()` describe
+/// everywhere. The wall begins `frame_depth_m` behind it and ends at `wall_thickness_m` behind that; the
+/// inner faces of the opening run from x = 0 to there.
+struct Scene {
+  Mesh mesh;
+  std::vector<Obstacle> obstacles;
+  double opening_depth_m = 0.0;  ///< where the opening ends in the room
+  double ground_z_m = 0.0;
+  std::uint32_t texture_seed = 0;
+};
+
+Scene buildScene(const Scenario& scenario);
+
+}  // namespace window_ingress::simulation

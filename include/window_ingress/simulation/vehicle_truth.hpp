@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace window_ingress::simulation {
+
+/// The truth about the vehicle.
+struct VehicleTruth {
+  Eigen::Isometry3d T_odom_base =
+      Eigen::Isometry3d::Identity();  ///< true pose, axes of odom without its drift
+  Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_base_radps = Eigen::Vector3d::Zero();
+};
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,70 @@
+#include "window_ingress/simulation/scenario.hpp"
+
+#include <cmath>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::simulation {
+namespace {
+
+constexpr double kLeastWallAround_m = 0.02;
+
+void checkFits(const Scenario& s, std::vector<std::string>& faults) {
+  const double side_m = 0.5 * s.window.width_m + s.window.frame_width_m + kLeastWallAround_m;
+  if (side_m > 0.5 * s.house.width_m) faults.push_back("window/width_m: the window is wider than the house");
+  const double top_m = s.window.sill_m + s.window.height_m + s.window.frame_width_m + kLeastWallAround_m;
+  if (top_m > s.house.eaves_m) faults.push_back("window/sill_m: the window reaches above house/eaves_m");
+  if (s.window.sill_m - s.window.frame_width_m < kLeastWallAround_m)
+    faults.push_back("window/sill_m: the window's frame reaches into the ground");
+}
+
+void checkStart(const Scenario& s, std::vector<std::string>& faults) {
+  const double lowest_m = s.windowCentreHeight() + s.start.height_offset_m - s.vehicle.half_height_m;
+  if (s.start.hovering && lowest_m < 0.05) faults.push_back("start/height_offset_m: starts in the ground");
+  const double gap_m = -s.startPoseInWindow().translation().x() - s.vehicle.halfExtents().norm();
+  if (gap_m < 0.05) faults.push_back("start/distance_m: starts in the wall");
+}
+
+}  // namespace
+
+geometry::PinholeCamera CameraParams::model() const {
+  auto camera = geometry::PinholeCamera::fromFieldOfView(width_px, height_px, horizontal_fov_rad);
+  camera.distortion = {k1, k2, p1, p2, k3};
+  return camera;
+}
+
+Eigen::Isometry3d CameraParams::T_base_camera() const {
+  const Eigen::Matrix3d look = geometry::yawRotation(yaw_rad) *
+                               Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return geometry::makePose(look * geometry::R_optical_flu().transpose(), {x_m, y_m, z_m});
+}
+
+Eigen::Isometry3d Scenario::startPoseInWindow() const {
+  const double height_m =
+      start.hovering ? start.height_offset_m : vehicle.half_height_m - windowCentreHeight();
+  const Eigen::Vector3d position(-start.distance_m * std::cos(start.off_axis_rad),
+                                 start.distance_m * std::sin(start.off_axis_rad), height_m);
+  return geometry::makePose(geometry::yawRotation(start.heading_rad - start.off_axis_rad), position);
+}
+
+Eigen::Isometry3d Scenario::startPoseInOdom() const {
+  const double height_m = windowCentreHeight() + startPoseInWindow().translation().z();
+  return geometry::makePose(geometry::yawRotation(start.odom_yaw_rad), {0, 0, height_m});
+}
+
+Eigen::Isometry3d Scenario::T_odom_window() const {
+  return startPoseInOdom() * startPoseInWindow().inverse();
+}
+
+std::vector<std::string> faultsOf(const Scenario& scenario) {
+  auto faults = parameters::outOfRange(scenario);
+  if (!faults.empty()) return faults;
+  if (scenario.house.wall_texture != "plaster" && scenario.house.wall_texture != "brick")
+    faults.push_back("house/wall_texture: must be plaster or brick");
+  checkFits(scenario, faults);
+  checkStart(scenario, faults);
+  return faults;
+}
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,148 @@
+#include "window_ingress/simulation/scenario_reader.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/simulation/random_stream.hpp"
+#include "window_ingress/simulation/scenario.hpp"
+
+namespace window_ingress::simulation {
+
+using parameters::YamlError;
+using parameters::YamlReader;
+
+struct ScenarioReader::Impl {
+  std::string file;
+  YAML::Node mapping;
+  std::string path;
+  std::uint32_t seed;
+  std::set<std::string> asked;
+
+  [[noreturn]] void fail(const YAML::Node& at, const std::string& text) const {
+    throw YamlError(file + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
+  }
+
+  const YAML::Node find(const std::string& name) {
+    asked.insert(name);
+    return static_cast<const YAML::Node&>(mapping)[name];
+  }
+
+  // One value through the reader of all parameter files, for the same checks and words.
+  template <typename Value, typename... Limits>
+  void readOne(const std::string& name, const YAML::Node& node, Value& value, Limits... limits) const {
+    YAML::Node single(YAML::NodeType::Map);
+    single[name] = node;
+    YamlReader reader(file, single);
+    reader(name, value, limits...);
+  }
+
+  template <typename Number>
+  std::pair<Number, Number> readRange(const std::string& name, const YAML::Node& node, double minimum,
+                                      double maximum) const {
+    if (node.size() != 2) fail(node, name + ": a range must have two ends, [min, max]");
+    std::pair<Number, Number> range{};
+    readOne(name, node[0], range.first, minimum, maximum);
+    readOne(name, node[1], range.second, minimum, maximum);
+    if (range.first > range.second)
+      fail(node, name + ": the range's first end is the greater one; swap them");
+    return range;
+  }
+
+  static double draw(RandomStream stream, std::pair<double, double> range) {
+    return stream.uniform(range.first, range.second);
+  }
+  static int draw(RandomStream stream, std::pair<int, int> range) {
+    return stream.uniformInt(range.first, range.second);
+  }
+
+  template <typename Number>
+  void readNumber(const std::string& name, Number& value, double minimum, double maximum) {
+    const YAML::Node node = find(name);
+    if (!node.IsDefined()) return;
+    if (!node.IsSequence()) return readOne(name, node, value, minimum, maximum);
+    value = draw(RandomStream(seed, path + name), readRange<Number>(name, node, minimum, maximum));
+  }
+};
+
+ScenarioReader::ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
+                               std::uint32_t seed)
+    : impl_(new Impl{file, mapping, path, seed, {}}) {
+  if (!mapping.IsMap()) impl_->fail(mapping, path + ": must be a mapping of keys to values");
+}
+
+ScenarioReader::~ScenarioReader() = default;
+
+void ScenarioReader::operator()(const std::string& name, double& value, double minimum, double maximum) {
+  impl_->readNumber(name, value, minimum, maximum);
+}
+
+void ScenarioReader::operator()(const std::string& name, int& value, double minimum, double maximum) {
+  impl_->readNumber(name, value, minimum, maximum);
+}
+
+void ScenarioReader::operator()(const std::string& name, bool& value) {
+  const YAML::Node node = impl_->find(name);
+  if (node.IsDefined()) impl_->readOne(name, node, value);
+}
+
+void ScenarioReader::operator()(const std::string& name, std::string& value) {
+  const YAML::Node node = impl_->find(name);
+  if (node.IsDefined()) impl_->readOne(name, node, value);
+}
+
+bool ScenarioReader::has(const std::string& name) const { return impl_->find(name).IsDefined(); }
+
+std::unique_ptr<ScenarioReader> ScenarioReader::descend(const std::string& name) {
+  const YAML::Node node = impl_->find(name);
+  if (!node.IsDefined()) return nullptr;
+  return std::make_unique<ScenarioReader>(impl_->file, node, impl_->path + name + "/", impl_->seed);
+}
+
+std::vector<std::unique_ptr<ScenarioReader>> ScenarioReader::descendAll(const std::string& name) {
+  const YAML::Node node = impl_->find(name);
+  if (!node.IsSequence()) impl_->fail(node, name + ": must be a list, or [] for none");
+  std::vector<std::unique_ptr<ScenarioReader>> children;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string path = impl_->path + name + "[" + std::to_string(i) + "]/";
+    children.push_back(std::make_unique<ScenarioReader>(impl_->file, node[i], path, impl_->seed));
+  }
+  return children;
+}
+
+void ScenarioReader::refuseUnknownKeys() const {
+  for (const auto& entry : impl_->mapping) {
+    const auto key = entry.first.as<std::string>();
+    if (impl_->asked.count(key) == 0)
+      impl_->fail(entry.first, impl_->path + key + ": unknown key; see doc/scenarios.md");
+  }
+}
+
+namespace {
+
+YAML::Node loadRoot(const std::string& file) {
+  try {
+    return YAML::LoadFile(file);
+  } catch (const YAML::BadFile&) {
+    throw ScenarioError(file + ": cannot be read; does it exist?");
+  } catch (const YAML::Exception& error) {
+    throw ScenarioError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
+  }
+}
+
+}  // namespace
+
+Scenario loadScenario(const std::string& file, std::uint32_t seed) {
+  Scenario scenario;
+  try {
+    ScenarioReader(file, loadRoot(file), "", seed).fill(scenario);
+  } catch (const YamlError& error) {
+    throw ScenarioError(error.what());
+  }
+  const auto faults = faultsOf(scenario);
+  if (!faults.empty()) throw ScenarioError(file + ": " + parameters::joined(faults));
+  return scenario;
+}
+
+}  // namespace window_ingress::simulation

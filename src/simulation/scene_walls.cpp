@@ -1,0 +1,91 @@
+#include <algorithm>
+
+#include "scene_parts.hpp"
+
+namespace window_ingress::simulation {
+
+Surface painted(const ColourParams& colour, Texture texture) {
+  return {texture, Eigen::Vector3d(colour.r, colour.g, colour.b)};
+}
+
+Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face) {
+  return {Eigen::Vector3d(x0, face.right_m, face.bottom_m), Eigen::Vector3d(x1, face.left_m, face.top_m)};
+}
+
+namespace {
+
+std::vector<double> cuts(double low, double high, std::vector<double> at) {
+  at.push_back(low);
+  at.push_back(high);
+  for (double& value : at) value = std::clamp(value, low, high);
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end()), at.end());
+  return at;
+}
+
+void addCell(Mesh& mesh, double x_m, bool outside, const Rectangle& cell, const Surface& surface) {
+  const Eigen::Vector3d across(0, cell.left_m - cell.right_m, 0), up(0, 0, cell.top_m - cell.bottom_m);
+  const Eigen::Vector3d right(x_m, cell.right_m, cell.bottom_m), left = right + across;
+  if (outside)
+    mesh.addQuad(left, -across, up, surface, {-cell.left_m, cell.bottom_m});
+  else
+    mesh.addQuad(right, across, up, surface, {cell.right_m, cell.bottom_m});
+}
+
+}  // namespace
+
+void addWallFace(Mesh& mesh, double x_m, bool outside, const Rectangle& wall,
+                 const std::vector<Rectangle>& holes, const Surface& surface, double shadow_z_m) {
+  std::vector<double> y, z{shadow_z_m};
+  for (const auto& hole : holes) {
+    y.insert(y.end(), {hole.right_m, hole.left_m});
+    z.insert(z.end(), {hole.bottom_m, hole.top_m});
+  }
+  y = cuts(wall.right_m, wall.left_m, y);
+  z = cuts(wall.bottom_m, wall.top_m, z);
+  const Lighting light = mesh.lighting();
+  for (std::size_t i = 0; i + 1 < y.size(); ++i)
+    for (std::size_t j = 0; j + 1 < z.size(); ++j) {
+      const double y_m = 0.5 * (y[i] + y[i + 1]), z_m = 0.5 * (z[j] + z[j + 1]);
+      const auto covers = [&](const Rectangle& hole) { return hole.contains(y_m, z_m); };
+      if (std::any_of(holes.begin(), holes.end(), covers)) continue;
+      mesh.setLighting({light.towards_sun, z_m > shadow_z_m ? 0.0 : light.sun, light.ambient});
+      addCell(mesh, x_m, outside, {y[i], y[i + 1], z[j], z[j + 1]}, surface);
+    }
+  mesh.setLighting(light);
+}
+
+void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, double x1,
+              const Surface& surface) {
+  const Rectangle outer = opening.grown(width_m);
+  addWallFace(mesh, x0, true, outer, {opening}, surface, outer.top_m);
+  const Eigen::Vector3d deep(x1 - x0, 0, 0);
+  const Eigen::Vector3d across(0, outer.left_m - outer.right_m, 0), up(0, 0, outer.top_m - outer.bottom_m);
+  const Eigen::Vector3d corner(x0, outer.right_m, outer.bottom_m);
+  mesh.addQuad(corner, deep, up, surface);           // outer side towards the right
+  mesh.addQuad(corner + across, up, deep, surface);  // towards the left
+  mesh.addQuad(corner + up, deep, across, surface);  // upwards
+  mesh.addQuad(corner, across, deep, surface);       // downwards
+}
+
+void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
+  const Eigen::Vector3d deep(x1 - x0, 0, 0);
+  const Eigen::Vector3d across(0, opening.left_m - opening.right_m, 0),
+      up(0, 0, opening.top_m - opening.bottom_m);
+  const Eigen::Vector3d corner(x0, opening.right_m, opening.bottom_m);
+  mesh.addQuad(corner, up, deep, surface);           // the right one faces left
+  mesh.addQuad(corner + across, deep, up, surface);  // the left one faces right
+  mesh.addQuad(corner + up, across, deep, surface);  // the upper one faces down
+  mesh.addQuad(corner, deep, across, surface);       // the sill faces up
+}
+
+void addSolidAround(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& opening,
+                    const Rectangle& outer, double x0, double x1) {
+  obstacles.push_back({name, box(x0, x1, {outer.right_m, opening.right_m, outer.bottom_m, outer.top_m})});
+  obstacles.push_back({name, box(x0, x1, {opening.left_m, outer.left_m, outer.bottom_m, outer.top_m})});
+  obstacles.push_back(
+      {name, box(x0, x1, {opening.right_m, opening.left_m, outer.bottom_m, opening.bottom_m})});
+  obstacles.push_back({name, box(x0, x1, {opening.right_m, opening.left_m, opening.top_m, outer.top_m})});
+}
+
+}  // namespace window_ingress::simulation
