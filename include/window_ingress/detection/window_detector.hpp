@@ -13,7 +13,8 @@
 
 namespace window_ingress::detection {
 
-/// The paper's pipeline: image in, the target window out. Reuses its buffers from frame to frame; one object a thread.
+/// The paper's pipeline: image in, the target window out. Reuses its buffers from frame to frame; one object
+/// a thread.
 class WindowDetector {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range

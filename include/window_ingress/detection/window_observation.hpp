@@ -22,10 +22,10 @@ struct WindowObservation {
   geometry::Quadrilateral corners;
   /// Covariance of each corner [px^2], from the two edges that meet in it.
   std::array<Eigen::Matrix2d, 4> corner_covariance;
-  std::array<Edge, 4> edges;   ///< top, right, bottom, left
-  double score = 0.0;          ///< 0 (barely passed the gates) to 1 (certain)
-  bool has_appearance = false; ///< a reference was given and enough pixels could be compared
-  double bhattacharyya = 0.0;  ///< 0 identical to 1 disjoint; only if has_appearance
+  std::array<Edge, 4> edges;    ///< top, right, bottom, left
+  double score = 0.0;           ///< 0 (barely passed the gates) to 1 (certain)
+  bool has_appearance = false;  ///< a reference was given and enough pixels could be compared
+  double bhattacharyya = 0.0;   ///< 0 identical to 1 disjoint; only if has_appearance
 };
 
 }  // namespace window_ingress::detection

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+struct BorderRefinementParams {
+  int samples = 80;              ///< profiles across each side, at most one a pixel
+  double skip = 0.06;            ///< left out at both ends of a side, in its lengths
+  double final_radius_px = 2.0;  ///< reach of the second pass [px]
+  double outlier_px = 0.6;       ///< scale of the robust fit [px]
+  double min_inliers = 0.45;     ///< part of a side's profiles that must lie on its line
+  double sigma_floor_px = 0.03;  ///< no edge is claimed to be known better than this [px]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("samples", self.samples, 4, 2000);
+    field("skip", self.skip, 0.0, 0.4);
+    field("final_radius_px", self.final_radius_px, 1.0, 20.0);
+    field("outlier_px", self.outlier_px, 0.05, 10.0);
+    field("min_inliers", self.min_inliers, 0.0, 1.0);
+    field("sigma_floor_px", self.sigma_floor_px, 1e-4, 10.0);
+  }
+};
+
+/// The four borders as measured in the full image.
+struct RefinedBorders {
+  geometry::Quadrilateral
+      corners;  ///< intersections of neighbouring borders, canonical order, pixels as they came
+  std::array<Eigen::Matrix2d, 4> corner_covariance;  ///< [px^2]
+  std::array<Edge, 4> edges;
+  double worst_inliers = 0.0;  ///< part of the profiles on the line, of the worst side
+};
+
+/// Sub-pixel fit of the four borders on the gradient of the full image, undilated, corners by intersection.
+/// With a camera the borders are straight lines of the undistorted image: points are undistorted, not the
+/// image.
+class BorderRefinement {
+ public:
+  explicit BorderRefinement(const BorderRefinementParams& params) : params_(params) {}
+
+  /// \param image CV_8UC1 or CV_8UC3
+  /// \param quad start, canonical order, pixels of `image`
+  /// \param radius_px how far a border may lie from its start [px]
+  /// \param worst_inliers where not null: part of the profiles on the line of the worst side, also on failure
+  std::optional<RefinedBorders> run(const cv::Mat& image, const geometry::Quadrilateral& quad,
+                                    double radius_px, const geometry::PinholeCamera* camera,
+                                    double* worst_inliers = nullptr) const;
+
+ private:
+  BorderRefinementParams params_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// What the edge map says about one side of a candidate.
+struct SideSupport {
+  double fraction = 0.0;  ///< part of the side that runs along edge pixels of its direction
+  double contrast = 0.0;  ///< mean gradient under it [grey levels a pixel]
+  double polarity = 0.0;  ///< +1 brighter inside all along, -1 darker inside all along
+};
+
+/// A quadrilateral that may be the window, in pixels of the search level, canonical order.
+struct Candidate {
+  geometry::Quadrilateral quad;
+  CandidateSource source = CandidateSource::kContour;
+  double solidity = 1.0;  ///< area of the outline over area of its hull
+  double closure =
+      1.0;  ///< 1: its sides end in its corners; towards 0 the further they stop short or run beyond
+  std::array<SideSupport, 4> sides;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+
+namespace window_ingress::detection {
+
+/// Draws what happened to each candidate of an image (P10): rejected ones thin, in the colour of their gate
+/// with a legend; the target as a green quadrilateral with a yellow centroid. \param image CV_8UC1 or
+/// CV_8UC3, as it went into the detector \param window the target, or null \param canvas CV_8UC3 of the same
+/// size, reused where it fits
+void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const WindowObservation* window,
+                   cv::Mat& canvas);
+
+}  // namespace window_ingress::detection

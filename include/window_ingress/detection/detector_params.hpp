@@ -1,0 +1,54 @@
+#pragma once
+
+#include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/candidate_gates.hpp"
+#include "window_ingress/detection/closing.hpp"
+#include "window_ingress/detection/contour_polygons.hpp"
+#include "window_ingress/detection/edge_map.hpp"
+#include "window_ingress/detection/line_support.hpp"
+#include "window_ingress/detection/nested_loops.hpp"
+#include "window_ingress/detection/preprocess.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/segment_quads.hpp"
+#include "window_ingress/detection/side_support.hpp"
+#include "window_ingress/detection/window_score.hpp"
+
+namespace window_ingress::detection {
+
+/// Parameters of all stages in the order of the pipeline.
+struct DetectorParams {
+  PreprocessParams preprocess;
+  EdgeMapParams edges;
+  LineSupportParams lines;
+  ClosingParams closing;
+  ContourPolygonsParams contours;
+  SegmentQuadsParams segment_quads;
+  SideSupportParams side_support;
+  CandidateGatesParams gates;
+  WindowScoreParams score;
+  NestedLoopsParams nested;
+  AppearanceParams appearance;
+  BorderRefinementParams refinement;
+  int max_candidates = 24;  ///< best candidates that are compared with each other and with the reference
+  double min_score = 0.35;  ///< below this there is no detection
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field.group("preprocess", self.preprocess);
+    field.group("edges", self.edges);
+    field.group("lines", self.lines);
+    field.group("closing", self.closing);
+    field.group("contours", self.contours);
+    field.group("segment_quads", self.segment_quads);
+    field.group("side_support", self.side_support);
+    field.group("gates", self.gates);
+    field.group("score", self.score);
+    field.group("nested", self.nested);
+    field.group("appearance", self.appearance);
+    field.group("refinement", self.refinement);
+    field("max_candidates", self.max_candidates, 1, 1000);
+    field("min_score", self.min_score, 0.0, 1.0);
+  }
+};
+
+}  // namespace window_ingress::detection

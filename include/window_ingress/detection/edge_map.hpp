@@ -1,0 +1,57 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace window_ingress::detection {
+
+struct EdgeMapParams {
+  bool automatic = true;  ///< thresholds from the image's own gradients; else the two fixed ones
+  double high_quantile =
+      0.88;  ///< automatic: this part of all pixels has a smaller gradient than the upper threshold
+  double low_ratio = 0.4;  ///< automatic: lower threshold over upper one
+  double floor = 6.0;      ///< automatic: the upper threshold is never below this [grey levels a pixel]
+  double ceiling = 24.0;   ///< automatic: nor above this [grey levels a pixel]
+  double low = 8.0;        ///< fixed lower threshold [grey levels a pixel]
+  double high = 20.0;      ///< fixed upper threshold [grey levels a pixel]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("automatic", self.automatic);
+    field("high_quantile", self.high_quantile, 0.0, 1.0);
+    field("low_ratio", self.low_ratio, 0.0, 1.0);
+    field("floor", self.floor, 0.1, 255.0);
+    field("ceiling", self.ceiling, 0.1, 255.0);
+    field("low", self.low, 0.1, 255.0);
+    field("high", self.high, 0.1, 255.0);
+  }
+};
+
+/// Thin edges of an image with the gradient under them.
+struct EdgeMap {
+  /// `dx` and `dy` are Sobel sums: this many times the gradient in grey levels a pixel.
+  static constexpr double kSobelGain = 8.0;
+
+  cv::Mat edges;                 ///< CV_8UC1, 0 or 255, one pixel wide
+  cv::Mat dx, dy;                ///< CV_16SC1, of the channel with the strongest gradient at that pixel
+  double low = 0.0, high = 0.0;  ///< thresholds used [grey levels a pixel]
+};
+
+/// Canny (P3) with thresholds that follow the image. Colours count: the gradient is that of the strongest
+/// channel.
+class EdgeDetector {
+ public:
+  explicit EdgeDetector(const EdgeMapParams& params) : params_(params) {}
+
+  /// \param image CV_8UC1 or CV_8UC3, at least 3 x 3. The result stays valid until the next call.
+  const EdgeMap& run(const cv::Mat& image);
+
+ private:
+  void gradient(const cv::Mat& image);
+  void chooseThresholds();
+
+  EdgeMapParams params_;
+  EdgeMap map_;
+  cv::Mat all_dx_, all_dy_;
+};
+
+}  // namespace window_ingress::detection

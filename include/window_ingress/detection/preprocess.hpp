@@ -1,0 +1,47 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace window_ingress::detection {
+
+struct PreprocessParams {
+  int search_side_px =
+      480;  ///< the search runs on the first pyramid level whose longer side is no longer [px]
+  double blur_sigma_px = 0.8;  ///< Gaussian against noise, on the search level; 0: none [px]
+  bool equalise = false;       ///< contrast-limited histogram equalisation of the search level
+  double clip_limit = 2.0;     ///< of the equalisation, in mean bin counts
+  int tiles = 6;               ///< of the equalisation, each way
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("search_side_px", self.search_side_px, 64, 4096);
+    field("blur_sigma_px", self.blur_sigma_px, 0.0, 10.0);
+    field("equalise", self.equalise);
+    field("clip_limit", self.clip_limit, 0.1, 100.0);
+    field("tiles", self.tiles, 1, 64);
+  }
+};
+
+/// A pyramid level: pixel (x, y) of it lies at (factor * x, factor * y) of the image as it came.
+struct SearchLevel {
+  cv::Mat image;  ///< CV_8UC1 or CV_8UC3, smoothed
+  int factor = 1;
+};
+
+/// Noise removal and reduction (P2): pyramid down to the search level, Gaussian blur, histogram equalisation.
+class Preprocess {
+ public:
+  explicit Preprocess(const PreprocessParams& params) : params_(params) {}
+
+  /// \param image CV_8UC1 or CV_8UC3, not empty. The result may share the object's buffers until the next
+  /// call.
+  SearchLevel run(const cv::Mat& image);
+
+ private:
+  void equalise(cv::Mat& image);
+
+  PreprocessParams params_;
+  cv::Mat levels_[2], smooth_, lab_;
+};
+
+}  // namespace window_ingress::detection

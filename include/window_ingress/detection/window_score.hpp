@@ -1,0 +1,33 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "window_ingress/detection/candidate.hpp"
+
+namespace window_ingress::detection {
+
+struct WindowScoreParams {
+  double support_low = 0.4;       ///< support of a side that counts nothing
+  double contrast_full = 12.0;    ///< gradient of a side that counts fully [grey levels a pixel]
+  double area_full = 0.06;        ///< area that counts fully, in areas of the image
+  double area_weight = 0.45;      ///< exponent of the area's part
+  double contrast_weight = 0.25;  ///< exponent of the contrast's part
+
+  double closure_weight = 0.5;  ///< exponent of the closure's part
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("support_low", self.support_low, 0.0, 0.99);
+    field("contrast_full", self.contrast_full, 0.1, 255.0);
+    field("area_full", self.area_full, 1e-4, 1.0);
+    field("area_weight", self.area_weight, 0.0, 4.0);
+    field("closure_weight", self.closure_weight, 0.0, 4.0);
+    field("contrast_weight", self.contrast_weight, 0.0, 4.0);
+  }
+};
+
+/// How much a candidate is like a window, by geometry alone: 0 (barely a quadrilateral) to 1. Product of the
+/// support of its sides, the weakest counting most, the contrast under them and its size.
+double windowScore(const Candidate& candidate, const cv::Size& level, const WindowScoreParams& params);
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,276 @@
+#include "window_ingress/detection/border_refinement.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Pixels by bilinear interpolation; three channels always, grey repeated.
+class Sampler {
+ public:
+  explicit Sampler(const cv::Mat& image) : image_(image), channels_(image.channels()) {}
+
+  bool contains(const Vector2d& p) const {
+    return p.x() >= 0.0 && p.y() >= 0.0 && p.x() < image_.cols - 1 && p.y() < image_.rows - 1;
+  }
+  Vector3d at(const Vector2d& p) const {
+    const int x = static_cast<int>(p.x()), y = static_cast<int>(p.y());
+    const double u = p.x() - x, v = p.y() - y;
+    const uchar* top = image_.ptr<uchar>(y) + x * channels_;
+    const uchar* bottom = image_.ptr<uchar>(y + 1) + x * channels_;
+    Vector3d value;
+    for (int c = 0; c < channels_; ++c)
+      value[c] = (1 - v) * ((1 - u) * top[c] + u * top[c + channels_]) +
+                 v * ((1 - u) * bottom[c] + u * bottom[c + channels_]);
+    if (channels_ == 1) value.setConstant(value[0]);
+    return value;
+  }
+
+ private:
+  const cv::Mat& image_;
+  int channels_;
+};
+
+/// A straight line of the undistorted image: {p : normal . (p - point) = 0}.
+struct Line {
+  Vector2d point, normal;
+  double sigma_px = 0.0, sigma_rad = 0.0;
+};
+
+/// One side while it is being fitted.
+class Side {
+ public:
+  Side(const Sampler& sampler, const geometry::PinholeCamera* camera, const BorderRefinementParams& params,
+       const Vector2d& a, const Vector2d& b)
+      : sampler_(sampler), camera_(camera), params_(params), length_((b - a).norm()) {
+    const Vector2d along = (b - a) / length_;
+    line_.point = 0.5 * (a + b);
+    line_.normal = Vector2d(along.y(), -along.x());
+  }
+
+  bool run(double radius_px) {
+    chooseColour(radius_px);
+    measure(radius_px, 0.6 * radius_px);
+    if (!fit(std::max(params_.outlier_px, 0.35 * radius_px))) return false;
+    measure(params_.final_radius_px, 1e3);
+    return fit(params_.outlier_px);
+  }
+  const Line& line() const { return line_; }
+  double inliers() const { return inliers_; }
+
+ private:
+  int profiles() const {
+    return std::clamp(static_cast<int>(length_ * (1.0 - 2.0 * params_.skip)), 4, params_.samples);
+  }
+  Vector2d along() const { return {-line_.normal.y(), line_.normal.x()}; }
+  Vector2d foot(int i) const {
+    const double t = -0.5 + params_.skip + (1.0 - 2.0 * params_.skip) * (i + 0.5) / profiles();
+    return line_.point + t * length_ * along();
+  }
+
+  // Colours across the line at `foot`, one pixel apart; false if it leaves the image.
+  bool profile(const Vector2d& foot, int reach, std::vector<Vector3d>& values) const {
+    values.clear();
+    for (int o = -reach - 1; o <= reach + 1; ++o) {
+      const Vector2d ideal = foot + o * line_.normal;
+      const Vector2d pixel = camera_ ? camera_->distort(ideal) : ideal;
+      if (!sampler_.contains(pixel)) return false;
+      values.push_back(sampler_.at(pixel));
+    }
+    return true;
+  }
+
+  // The direction in colour space in which the side as a whole changes most, near its start.
+  void chooseColour(double radius_px) {
+    const int reach = static_cast<int>(std::ceil(radius_px));
+    std::vector<Vector3d> mean(2 * reach + 3, Vector3d::Zero()), values;
+    for (int i = 0; i < profiles(); ++i) {
+      if (!profile(foot(i), reach, values)) continue;
+      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += values[k];
+    }
+    double best = 0.0;
+    for (int o = -reach; o <= reach; ++o) {
+      const Vector3d change = mean[o + reach + 2] - mean[o + reach];
+      const double weight = change.norm() * std::exp(-0.5 * o * o / (0.36 * radius_px * radius_px));
+      if (weight > best) best = weight, colour_ = change.normalized();
+    }
+  }
+
+  void measure(double radius_px, double prior_px) {
+    const int reach = static_cast<int>(std::ceil(radius_px));
+    points_.clear();
+    std::vector<Vector3d> values;
+    for (int i = 0; i < profiles(); ++i)
+      if (profile(foot(i), reach, values)) measureOne(foot(i), values, reach, prior_px);
+  }
+
+  void measureOne(const Vector2d& foot, const std::vector<Vector3d>& values, int reach, double prior_px) {
+    const auto slope = [&](int o) { return 0.5 * colour_.dot(values[o + reach + 2] - values[o + reach]); };
+    double best = 0.0;
+    int at = 0;
+    for (int o = -reach; o <= reach; ++o) {
+      const double weight = slope(o) * std::exp(-0.5 * o * o / (prior_px * prior_px));
+      if (weight > best) best = weight, at = o;
+    }
+    if (best < 0.5 || std::abs(at) == reach) return;
+    points_.push_back(foot + (at + peak(slope(at - 1), slope(at), slope(at + 1))) * line_.normal);
+  }
+
+  // Offset of the maximum of a bell curve through three equidistant values, the middle one the largest.
+  static double peak(double left, double middle, double right) {
+    const double floor = 0.02 * middle;
+    const double l = std::log(std::max(left, floor)), m = std::log(middle),
+                 r = std::log(std::max(right, floor));
+    const double curvature = l - 2.0 * m + r;
+    return curvature < -1e-9 ? std::clamp(0.5 * (l - r) / curvature, -1.0, 1.0) : 0.0;
+  }
+
+  // Line through the points: reweighted least squares, then its spread.
+  bool fit(double scale_px) {
+    inliers_ = 0.0;
+    if (points_.size() < 4) return false;
+    std::vector<double> weights(points_.size(), 1.0);
+    startFromMedian(scale_px, weights);
+    for (int pass = 0; pass < 6; ++pass) {
+      solve(weights);
+      for (std::size_t i = 0; i < points_.size(); ++i) weights[i] = bisquare(residual(i) / (3.0 * scale_px));
+    }
+    return judge(scale_px);
+  }
+
+  void startFromMedian(double scale_px, std::vector<double>& weights) const {
+    std::vector<double> residuals(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) residuals[i] = residual(i);
+    std::vector<double> sorted = residuals;
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double middle = sorted[sorted.size() / 2];
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      weights[i] = 1e-3 + bisquare((residuals[i] - middle) / (6.0 * scale_px));
+  }
+
+  static double bisquare(double x) { return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0; }
+  double residual(std::size_t i) const { return line_.normal.dot(points_[i] - line_.point); }
+
+  void solve(const std::vector<double>& weights) {
+    double sum = 0.0;
+    Vector2d mean = Vector2d::Zero();
+    for (std::size_t i = 0; i < points_.size(); ++i) sum += weights[i], mean += weights[i] * points_[i];
+    if (sum <= 0.0) return;
+    mean /= sum;
+    Matrix2d scatter = Matrix2d::Zero();
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      scatter += weights[i] * (points_[i] - mean) * (points_[i] - mean).transpose();
+    Vector2d normal = Eigen::SelfAdjointEigenSolver<Matrix2d>(scatter).eigenvectors().col(0);
+    if (normal.dot(line_.normal) < 0.0) normal = -normal;
+    line_.point += normal * normal.dot(mean - line_.point);
+    line_.normal = normal;
+  }
+
+  bool judge(double scale_px) {
+    int count = 0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (std::abs(residual(i)) > 2.0 * scale_px) continue;
+      ++count;
+      squares += residual(i) * residual(i);
+    }
+    inliers_ = static_cast<double>(count) / profiles();
+    if (count < 4 || inliers_ < params_.min_inliers) return false;
+    const double spacing_px = length_ / profiles();
+    const double independent = std::max(2.0, count * std::min(1.0, spacing_px / 1.5) - 2.0);
+    line_.sigma_px = std::hypot(params_.sigma_floor_px, std::sqrt(squares / count / independent));
+    line_.sigma_rad = line_.sigma_px * std::sqrt(12.0) / length_;
+    return true;
+  }
+
+  const Sampler& sampler_;
+  const geometry::PinholeCamera* camera_;
+  const BorderRefinementParams& params_;
+  double length_;
+  Line line_;
+  Vector3d colour_ = Vector3d(1, 1, 1) / std::sqrt(3.0);
+  std::vector<Vector2d> points_;
+  double inliers_ = 0.0;
+};
+
+bool intersect(const Line& a, const Line& b, Vector2d& corner) {
+  Matrix2d normals;
+  normals << a.normal.transpose(), b.normal.transpose();
+  if (std::abs(normals.determinant()) < 0.1) return false;
+  corner = normals.inverse() * Vector2d(a.normal.dot(a.point), b.normal.dot(b.point));
+  return true;
+}
+
+double sigmaAt(const Line& line, const Vector2d& corner) {
+  return std::hypot(line.sigma_px, line.sigma_rad * (corner - line.point).norm());
+}
+
+Matrix2d cornerCovariance(const Line& a, const Line& b, const Vector2d& corner) {
+  Matrix2d normals, spread = Matrix2d::Zero();
+  normals << a.normal.transpose(), b.normal.transpose();
+  spread.diagonal() << std::pow(sigmaAt(a, corner), 2), std::pow(sigmaAt(b, corner), 2);
+  const Matrix2d inverse = normals.inverse();
+  return inverse * spread * inverse.transpose();
+}
+
+// Canonical order again: a corner may have become the first by a fraction of a pixel.
+void startAtTopLeft(RefinedBorders& borders) {
+  const auto first = std::min_element(borders.corners.begin(), borders.corners.end(),
+                                      [](const Vector2d& a, const Vector2d& b) { return a.sum() < b.sum(); });
+  const auto shift = first - borders.corners.begin();
+  std::rotate(borders.corners.begin(), borders.corners.begin() + shift, borders.corners.end());
+  std::rotate(borders.corner_covariance.begin(), borders.corner_covariance.begin() + shift,
+              borders.corner_covariance.end());
+  std::rotate(borders.edges.begin(), borders.edges.begin() + shift, borders.edges.end());
+}
+
+bool finish(const std::array<Line, 4>& lines, const geometry::PinholeCamera* camera,
+            RefinedBorders& borders) {
+  for (int i = 0; i < 4; ++i) {
+    const Line &before = lines[(i + 3) % 4], &after = lines[i];
+    Vector2d corner = Vector2d::Zero();
+    if (!intersect(before, after, corner)) return false;
+    borders.corner_covariance[i] = cornerCovariance(before, after, corner);
+    borders.corners[i] = camera ? camera->distort(corner) : corner;
+    borders.edges[i] = {true, after.sigma_px, after.sigma_rad};
+  }
+  if (!geometry::isFinite(borders.corners) || !geometry::isConvex(borders.corners)) return false;
+  startAtTopLeft(borders);
+  return true;
+}
+
+}  // namespace
+
+std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const geometry::Quadrilateral& quad,
+                                                    double radius_px, const geometry::PinholeCamera* camera,
+                                                    double* worst_inliers) const {
+  const Sampler sampler(image);
+  const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  std::array<Line, 4> lines;
+  RefinedBorders borders;
+  borders.worst_inliers = 1.0;
+  bool good = true;
+  for (int i = 0; i < 4 && good; ++i) {
+    const Vector2d a = lens ? lens->undistort(quad[i]) : quad[i];
+    const Vector2d b = lens ? lens->undistort(quad[(i + 1) % 4]) : quad[(i + 1) % 4];
+    good = (b - a).norm() > 4.0;
+    if (!good) break;
+    Side side(sampler, lens, params_, a, b);
+    good = side.run(radius_px);
+    lines[i] = side.line();
+    borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
+  }
+  if (worst_inliers) *worst_inliers = borders.worst_inliers;
+  if (!good || !finish(lines, lens, borders)) return std::nullopt;
+  return borders;
+}
+
+}  // namespace window_ingress::detection

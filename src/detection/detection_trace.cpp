@@ -1,0 +1,81 @@
+#include "window_ingress/detection/detection_trace.hpp"
+
+#include <cstdio>
+
+namespace window_ingress::detection {
+namespace {
+
+struct Wording {
+  const char* name;      ///< in tables
+  const char* quantity;  ///< measured by the gate
+  const char* relation;  ///< of the value to the limit when the gate rejects
+};
+
+Wording wording(RejectReason reason) {
+  switch (reason) {
+    case RejectReason::kNone:
+      return {"none", "score", ">="};
+    case RejectReason::kBadImage:
+      return {"bad_image", "side", "<"};
+    case RejectReason::kNoCandidate:
+      return {"no_candidate", "candidates", "<"};
+    case RejectReason::kCorners:
+      return {"corners", "corners", "!="};
+    case RejectReason::kAreaSmall:
+      return {"area_small", "area", "<"};
+    case RejectReason::kAreaLarge:
+      return {"area_large", "area", ">"};
+    case RejectReason::kAspect:
+      return {"aspect", "aspect", "outside"};
+    case RejectReason::kSolidity:
+      return {"solidity", "solidity", "<"};
+    case RejectReason::kAngle:
+      return {"angle", "angle off 90 deg [rad]", ">"};
+    case RejectReason::kBorder:
+      return {"border", "distance from border [px]", "<"};
+    case RejectReason::kLineSupport:
+      return {"line_support", "line support", "<"};
+    case RejectReason::kContrast:
+      return {"contrast", "contrast", "<"};
+    case RejectReason::kRefinement:
+      return {"refinement", "profiles on the line", "<"};
+    case RejectReason::kOuterBorder:
+      return {"outer_border", "inner loop's area ratio", "<"};
+    case RejectReason::kDuplicate:
+      return {"duplicate", "score", "<"};
+    case RejectReason::kPane:
+      return {"pane", "larger loop's area ratio", ">"};
+    case RejectReason::kAppearance:
+      return {"appearance", "Bhattacharyya distance", ">"};
+    case RejectReason::kScore:
+      return {"score", "score", "<"};
+    case RejectReason::kOutscored:
+      return {"outscored", "score", "<"};
+    case RejectReason::kBudget:
+      return {"budget", "rank", ">"};
+  }
+  return {"unknown", "value", "?"};
+}
+
+}  // namespace
+
+const char* toString(RejectReason reason) { return wording(reason).name; }
+
+const char* toString(CandidateSource source) {
+  return source == CandidateSource::kContour ? "contour" : "segments";
+}
+
+std::string describe(const CandidateTrace& candidate) {
+  const Wording words = wording(candidate.reject);
+  const char* relation = words.relation;
+  if (candidate.reject == RejectReason::kAspect) relation = candidate.value > candidate.limit ? ">" : "<";
+  char text[96];
+  if (candidate.reject == RejectReason::kNone)
+    std::snprintf(text, sizeof text, "target, score %.2f", candidate.score);
+  else
+    std::snprintf(text, sizeof text, "%s %.3g %s %.3g", words.quantity, candidate.value, relation,
+                  candidate.limit);
+  return text;
+}
+
+}  // namespace window_ingress::detection

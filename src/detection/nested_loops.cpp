@@ -1,0 +1,119 @@
+#include "window_ingress/detection/nested_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using geometry::Quadrilateral;
+
+constexpr int kRingSamples = 24;
+
+cv::Vec3d colourAt(const cv::Mat& image, const Vector2d& p) {
+  const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
+  const int y = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.rows - 1);
+  if (image.channels() == 1) return cv::Vec3d::all(image.at<uchar>(y, x));
+  return image.at<cv::Vec3b>(y, x);
+}
+
+// Distance of a point from side i of a quadrilateral in canonical order, positive towards its inside.
+double depth(const Quadrilateral& quad, int i, const Vector2d& point) {
+  const Vector2d along = (quad[(i + 1) % 4] - quad[i]).normalized(), d = point - quad[i];
+  return along.x() * d.y() - along.y() * d.x();
+}
+
+double meanSide(const Quadrilateral& quad) {
+  const auto sides = geometry::sideLengths(quad);
+  return std::accumulate(sides.begin(), sides.end(), 0.0) / 4.0;
+}
+
+bool isWithin(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
+  for (int i = 0; i < 4; ++i)
+    for (const Vector2d& p : inner)
+      if (depth(outer, i, p) < -tolerance_px) return false;
+  return true;
+}
+
+// Colour in the middle of one side of the ring: mean, and its spread along the side.
+double sideColour(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner, int i,
+                  cv::Vec3d& mean) {
+  std::array<cv::Vec3d, kRingSamples> values;
+  mean = cv::Vec3d();
+  const Vector2d a = 0.5 * (outer[i] + inner[i]), b = 0.5 * (outer[(i + 1) % 4] + inner[(i + 1) % 4]);
+  for (int k = 0; k < kRingSamples; ++k) {
+    values[k] = colourAt(image, a + (b - a) * (0.1 + 0.8 * (k + 0.5) / kRingSamples));
+    mean += values[k] * (1.0 / kRingSamples);
+  }
+  double squares = 0.0;
+  for (const cv::Vec3d& value : values) squares += (value - mean).dot(value - mean);
+  return std::sqrt(squares / kRingSamples);
+}
+
+}  // namespace
+
+Ring measureRing(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
+  Ring ring;
+  std::array<cv::Vec3d, 4> sides;
+  for (int i = 0; i < 4; ++i) {
+    ring.spread = std::max(ring.spread, sideColour(image, outer, inner, i, sides[i]));
+    ring.mean += 0.25 * sides[i];
+  }
+  for (const cv::Vec3d& side : sides) ring.spread = std::max(ring.spread, cv::norm(side - ring.mean));
+  return ring;
+}
+
+bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px,
+                  const NestedLoopsParams& params) {
+  if (!isWithin(outer, inner, 0.0)) return false;
+  double least = 1e9, most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double width = depth(outer, i, 0.5 * (inner[i] + inner[(i + 1) % 4]));
+    least = std::min(least, width);
+    most = std::max(most, width);
+  }
+  return most <= params.max_ring * meanSide(outer) + tolerance_px && most > tolerance_px &&
+         most + tolerance_px <= params.ring_ratio * (least + tolerance_px);
+}
+
+std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
+                                          const std::vector<double>& scores, double tolerance_px) const {
+  const int count = static_cast<int>(quads.size());
+  std::vector<LoopVerdict> verdicts(count);
+  std::vector<int> order(count);
+  std::vector<double> areas(count);
+  for (int i = 0; i < count; ++i) areas[i] = std::abs(geometry::signedArea(quads[i]));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return areas[a] > areas[b]; });
+
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    const int outer = order[a];
+    if (verdicts[outer].reject != RejectReason::kNone) continue;
+    int front = outer;
+    cv::Vec3d paint;
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      const int inner = order[b];
+      if (verdicts[inner].reject != RejectReason::kNone) continue;
+      if (!isWithin(quads[front], quads[inner], tolerance_px)) continue;
+      if (isConcentric(quads[front], quads[inner], tolerance_px, params_)) {
+        const Ring ring = measureRing(image, quads[front], quads[inner]);
+        const bool same = front == outer || cv::norm(ring.mean - paint) < params_.continued;
+        if (ring.spread < params_.uniform && same) {
+          if (front == outer) paint = ring.mean;
+          verdicts[front] = {RejectReason::kOuterBorder, inner, false};
+          front = inner;
+          verdicts[front].framed = true;
+          continue;
+        }
+      }
+      if (areas[front] <= params_.max_panes * areas[inner] &&
+          scores[front] >= params_.container_score * scores[inner])
+        verdicts[inner] = {RejectReason::kPane, front, false};
+    }
+  }
+  return verdicts;
+}
+
+}  // namespace window_ingress::detection

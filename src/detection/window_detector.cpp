@@ -1,0 +1,284 @@
+#include "window_ingress/detection/window_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
+constexpr int kRefinementTries = 6;
+constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
+
+void check(const DetectorParams& params) {
+  const auto faults = parameters::outOfRange(params);
+  if (!faults.empty()) throw std::invalid_argument("detector: " + parameters::joined(faults));
+}
+
+std::string imageFault(const cv::Mat& image) {
+  if (image.empty()) return "the image is empty";
+  if (image.type() != CV_8UC1 && image.type() != CV_8UC3)
+    return "type " + std::to_string(image.type()) + " is neither CV_8UC1 nor CV_8UC3";
+  if (std::min(image.cols, image.rows) < kSmallestSide)
+    return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " is smaller than " +
+           std::to_string(kSmallestSide) + " px";
+  return {};
+}
+
+geometry::Quadrilateral scaled(const geometry::Quadrilateral& quad, double factor) {
+  return {factor * quad[0], factor * quad[1], factor * quad[2], factor * quad[3]};
+}
+
+// The same loop, or one with some sides swapped for those of a neighbouring loop. Loops round each other are
+// not.
+bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b, double tolerance_px,
+               const NestedLoopsParams& nested) {
+  return geometry::intersectionOverUnion(a, b) > 0.6 && !isConcentric(a, b, tolerance_px, nested) &&
+         !isConcentric(b, a, tolerance_px, nested);
+}
+
+}  // namespace
+
+struct WindowDetector::Impl {
+  /// A candidate that passed the gates on single candidates.
+  struct Rival {
+    Candidate candidate;
+    geometry::Quadrilateral quad;  ///< pixels of the image as it came
+    double score = 0.0;
+    LoopVerdict verdict;
+    std::optional<double> distance;
+  };
+
+  explicit Impl(const DetectorParams& p)
+      : params(p),
+        preprocess(p.preprocess),
+        edges(p.edges),
+        lines(p.lines),
+        closing(p.closing),
+        contours(p.contours),
+        segment_quads(p.segment_quads),
+        gates(p.gates),
+        nested(p.nested),
+        refinement(p.refinement) {}
+
+  void search(const cv::Mat& image);
+  void admit(std::vector<Candidate>& found, const EdgeMap& map);
+  void keepBest();
+  void judgeLoops(const cv::Mat& image);
+  void judgeAppearance(const cv::Mat& image);
+  std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
+                                          const geometry::PinholeCamera* camera);
+  void record(const Candidate& candidate, const Rejection& rejection);
+  CandidateTrace& record(const Rival& rival, RejectReason reason, double value, double limit);
+  WindowObservation observe(const Rival& rival, const RefinedBorders& borders, double stamp_sec) const;
+  void explain();
+
+  DetectorParams params;
+  Preprocess preprocess;
+  EdgeDetector edges;
+  LineSupport lines;
+  Closing closing;
+  ContourPolygons contours;
+  SegmentQuads segment_quads;
+  CandidateGates gates;
+  NestedLoops nested;
+  BorderRefinement refinement;
+  std::optional<ReferenceAppearance> reference;
+  DetectionTrace trace;
+  std::vector<Rival> rivals;
+  int factor = 1;
+  cv::Size level_size;
+};
+
+void WindowDetector::Impl::record(const Candidate& candidate, const Rejection& rejection) {
+  trace.candidates.push_back({scaled(candidate.quad, factor), candidate.source, rejection.reason,
+                              rejection.value, rejection.limit, 0.0, false, 0.0});
+}
+
+CandidateTrace& WindowDetector::Impl::record(const Rival& rival, RejectReason reason, double value,
+                                             double limit) {
+  trace.candidates.push_back({rival.quad, rival.candidate.source, reason, value, limit, rival.score,
+                              rival.distance.has_value(), rival.distance.value_or(0.0)});
+  return trace.candidates.back();
+}
+
+void WindowDetector::Impl::search(const cv::Mat& image) {
+  const SearchLevel level = preprocess.run(image);
+  factor = level.factor;
+  level_size = level.image.size();
+  const EdgeMap& map = edges.run(level.image);
+  const std::vector<Segment> segments = lines.run(map);
+  ContourPolygons::Result outlines = contours.run(closing.run(map.edges), closing.radiusPx(level_size));
+  SegmentQuads::Result quads = segment_quads.run(segments, params.gates.min_area * level_size.area());
+  trace.segments = static_cast<int>(segments.size());
+  trace.contours = outlines.contours;
+  trace.budget_exceeded = outlines.budget_exceeded || quads.budget_exceeded;
+  for (CandidateTrace& rejected : outlines.rejected) {
+    rejected.quad = scaled(rejected.quad, factor);
+    trace.candidates.push_back(rejected);
+  }
+  admit(quads.candidates, map);
+  admit(outlines.candidates, map);
+}
+
+void WindowDetector::Impl::admit(std::vector<Candidate>& found, const EdgeMap& map) {
+  for (Candidate& candidate : found) {
+    auto rejection = gates.shape(candidate, level_size);
+    if (!rejection) {
+      candidate.sides = measureSides(map, candidate.quad, params.side_support);
+      rejection = gates.support(candidate);
+    }
+    if (rejection)
+      record(candidate, *rejection);
+    else
+      rivals.push_back({candidate,
+                        scaled(candidate.quad, factor),
+                        windowScore(candidate, level_size, params.score),
+                        {},
+                        std::nullopt});
+  }
+}
+
+// Best first, each loop once, no more than the budget.
+void WindowDetector::Impl::keepBest() {
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.score > b.score; });
+  std::vector<Rival> kept;
+  for (const Rival& rival : rivals) {
+    const auto twin = std::find_if(kept.begin(), kept.end(), [&](const Rival& better) {
+      return isVariant(rival.candidate.quad, better.candidate.quad, kLoopTolerancePx, params.nested);
+    });
+    if (twin != kept.end())
+      record(rival, RejectReason::kDuplicate, rival.score, twin->score);
+    else if (static_cast<int>(kept.size()) >= params.max_candidates)
+      record(rival, RejectReason::kOutscored, rival.score, kept.back().score);
+    else
+      kept.push_back(rival);
+  }
+  rivals.swap(kept);
+}
+
+void WindowDetector::Impl::judgeLoops(const cv::Mat& image) {
+  std::vector<geometry::Quadrilateral> quads;
+  std::vector<double> scores;
+  for (const Rival& rival : rivals) quads.push_back(rival.quad), scores.push_back(rival.score);
+  const auto verdicts = nested.run(image, quads, scores, kLoopTolerancePx * factor);
+  for (std::size_t i = 0; i < rivals.size(); ++i) rivals[i].verdict = verdicts[i];
+}
+
+void WindowDetector::Impl::judgeAppearance(const cv::Mat& image) {
+  if (!reference) return;
+  for (Rival& rival : rivals) {
+    rival.distance = reference->distance(image, rival.quad, params.appearance);
+    if (rival.distance) rival.score *= 1.0 - *rival.distance;
+  }
+}
+
+WindowObservation WindowDetector::Impl::observe(const Rival& rival, const RefinedBorders& borders,
+                                                double stamp_sec) const {
+  WindowObservation window;
+  window.stamp_sec = stamp_sec;
+  window.corners = borders.corners;
+  window.corner_covariance = borders.corner_covariance;
+  window.edges = borders.edges;
+  window.score = rival.score;
+  window.has_appearance = rival.distance.has_value();
+  window.bhattacharyya = rival.distance.value_or(0.0);
+  return window;
+}
+
+std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& image, double stamp_sec,
+                                                              const geometry::PinholeCamera* camera) {
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.score > b.score; });
+  std::optional<WindowObservation> window;
+  int tries = 0;
+  for (const Rival& rival : rivals) {
+    const bool matched = rival.distance && *rival.distance <= params.appearance.max_distance;
+    if (rival.distance && !matched) {
+      record(rival, RejectReason::kAppearance, *rival.distance, params.appearance.max_distance);
+    } else if (rival.verdict.reject != RejectReason::kNone && !matched) {
+      record(rival, rival.verdict.reject, 0.0, 0.0);
+    } else if (window) {
+      record(rival, RejectReason::kOutscored, rival.score, window->score);
+    } else if (rival.score < params.min_score) {
+      record(rival, RejectReason::kScore, rival.score, params.min_score);
+    } else if (tries >= kRefinementTries) {
+      record(rival, RejectReason::kBudget, tries + 1, kRefinementTries);
+    } else {
+      ++tries;
+      double inliers = 0.0;
+      const auto borders = refinement.run(image, rival.quad, 1.5 * factor + 1.0, camera, &inliers);
+      if (!borders) {
+        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        continue;
+      }
+      window = observe(rival, *borders, stamp_sec);
+      record(rival, RejectReason::kNone, rival.score, params.min_score).quad = borders->corners;
+      trace.target = static_cast<int>(trace.candidates.size()) - 1;
+    }
+  }
+  return window;
+}
+
+// Without a target: the reason of the candidate that came furthest.
+void WindowDetector::Impl::explain() {
+  if (trace.target >= 0) {
+    trace.outcome = RejectReason::kNone;
+    return;
+  }
+  const CandidateTrace* furthest = nullptr;
+  for (const CandidateTrace& c : trace.candidates)
+    if (!furthest || c.score > furthest->score || (c.score == furthest->score && c.reject > furthest->reject))
+      furthest = &c;
+  if (!furthest) {
+    trace.detail =
+        std::to_string(trace.contours) + " contours, " + std::to_string(trace.segments) + " segments";
+    return;
+  }
+  trace.outcome = furthest->reject;
+  trace.detail = describe(*furthest);
+}
+
+WindowDetector::WindowDetector(const DetectorParams& params) {
+  check(params);
+  impl_ = std::make_unique<Impl>(params);
+}
+
+WindowDetector::~WindowDetector() = default;
+
+void WindowDetector::setParams(const DetectorParams& params) {
+  check(params);
+  auto next = std::make_unique<Impl>(params);
+  next->reference = impl_->reference;
+  impl_ = std::move(next);
+}
+
+void WindowDetector::setReference(const ReferenceAppearance& reference) { impl_->reference = reference; }
+
+void WindowDetector::clearReference() { impl_->reference.reset(); }
+
+std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
+                                                        const geometry::PinholeCamera* camera) {
+  impl_->trace = DetectionTrace();
+  impl_->rivals.clear();
+  if (const std::string fault = imageFault(image); !fault.empty()) {
+    impl_->trace.outcome = RejectReason::kBadImage;
+    impl_->trace.detail = fault;
+    return std::nullopt;
+  }
+  impl_->search(image);
+  impl_->keepBest();
+  impl_->judgeLoops(image);
+  impl_->judgeAppearance(image);
+  const auto window = impl_->choose(image, stamp_sec, camera);
+  impl_->explain();
+  return window;
+}
+
+const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
+
+}  // namespace window_ingress::detection

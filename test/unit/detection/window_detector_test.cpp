@@ -1,0 +1,92 @@
+#include "window_ingress/detection/window_detector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "drawn_window.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using test::WindowPicture;
+
+geometry::Quadrilateral randomOpening(std::mt19937& random, int width, int height) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const double w = uniform(0.09, 0.45) * width, h = w * uniform(0.7, 1.2) * 0.9;
+  const double x = uniform(0.1, 0.9) * (width - 1.4 * w) + 0.7 * w,
+               y = uniform(0.1, 0.9) * (height - 1.4 * h) + 0.7 * h;
+  return test::turned(test::rectangle(x - w / 2, y - h / 2, x + w / 2, y + h / 2), uniform(-0.15, 0.15),
+                      uniform(-0.2, 0.2));
+}
+
+TEST(WindowDetector, FindsFramedWindowsAndTheirInnerBorder) {
+  WindowDetector detector{DetectorParams()};
+  std::mt19937 random(7);
+  int found = 0;
+  const int trials = 60;
+  for (int i = 0; i < trials; ++i) {
+    WindowPicture picture;
+    picture.opening = randomOpening(random, picture.width, picture.height);
+    picture.frame_px = 0.05 * std::sqrt(geometry::signedArea(picture.opening));
+    picture.seed = i;
+    const auto window = detector.detect(picture.draw(), 0.1 * i);
+    if (window && test::worstCorner(window->corners, picture.opening) < 0.3) ++found;
+  }
+  EXPECT_GE(found, 48) << "of " << trials;
+}
+
+TEST(WindowDetector, FindsBareHoles) {
+  WindowDetector detector{DetectorParams()};
+  std::mt19937 random(8);
+  int found = 0;
+  const int trials = 60;
+  for (int i = 0; i < trials; ++i) {
+    WindowPicture picture;
+    picture.opening = randomOpening(random, picture.width, picture.height);
+    picture.type = i % 2 ? CV_8UC1 : CV_8UC3;
+    picture.seed = i;
+    const auto window = detector.detect(picture.draw(), 0.1 * i);
+    if (window && test::worstCorner(window->corners, picture.opening) < 0.2) ++found;
+  }
+  EXPECT_GE(found, 48) << "of " << trials;
+}
+
+TEST(WindowDetector, ImagesThatCannotHoldAWindowGiveAReason) {
+  WindowDetector detector{DetectorParams()};
+  for (const cv::Mat& image :
+       {cv::Mat(), cv::Mat(1, 1, CV_8UC1, cv::Scalar(0)), cv::Mat(3, 900, CV_8UC3, cv::Scalar(9)),
+        cv::Mat(480, 640, CV_16UC1, cv::Scalar(9)), cv::Mat(480, 640, CV_8UC4, cv::Scalar(9)),
+        cv::Mat(480, 640, CV_32FC1, cv::Scalar(1))}) {
+    EXPECT_FALSE(detector.detect(image, 0.0));
+    EXPECT_EQ(detector.trace().outcome, RejectReason::kBadImage);
+    EXPECT_FALSE(detector.trace().detail.empty());
+  }
+}
+
+TEST(WindowDetector, PlainImagesHoldNoWindow) {
+  WindowDetector detector{DetectorParams()};
+  for (int value : {0, 128, 255})
+    for (int side : {16, 17, 64, 640}) {
+      EXPECT_FALSE(detector.detect(cv::Mat(side, side, CV_8UC3, cv::Scalar::all(value)), 0.0));
+      EXPECT_EQ(detector.trace().outcome, RejectReason::kNoCandidate);
+    }
+}
+
+TEST(WindowDetector, RefusesBadParameters) {
+  DetectorParams params;
+  params.min_score = std::nan("");
+  params.gates.min_aspect = -1.0;
+  try {
+    WindowDetector detector(params);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("min_score"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("gates/min_aspect"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace window_ingress::detection
