@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSamples = 4;
 constexpr double kNear_m = 0.03;
-constexpr double kFar_m = 200.0;
+constexpr double kFar_m = 1000.0;
 
 // From the optical frame to clip coordinates. Row 0 of the picture is OpenGL's lowest, so that no row needs
 // to be moved after reading; pixel u has its centre at u + 0.5 in OpenGL's window.
@@ -29,6 +29,13 @@ Eigen::Matrix4d projectionOf(const geometry::PinholeCamera& camera) {
   return clip;
 }
 
+// Blending two levels costs as much as all the rest; only regular patterns show where levels meet.
+GLint minifyingFilter(Texture texture) {
+  const bool regular =
+      texture == Texture::kBrick || texture == Texture::kTiles || texture == Texture::kPaving;
+  return regular ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST;
+}
+
 void requireUsable(const geometry::PinholeCamera& camera) {
   const auto faults = camera.validate();
   if (!faults.empty()) throw std::invalid_argument("Renderer: " + parameters::joined(faults));
@@ -39,6 +46,7 @@ void requireUsable(const geometry::PinholeCamera& camera) {
 
 struct Renderer::Impl {
   struct Batch {
+    bool textured;
     GLuint texture;
     GLint first;
     GLsizei count;
@@ -77,14 +85,15 @@ struct Renderer::Impl {
       throw std::runtime_error("OpenGL refuses a framebuffer with 4 samples a pixel");
   }
 
-  static GLuint uploadTexture(const GlFunctions& gl, const cv::Mat& image) {
+  static GLuint uploadTexture(const GlFunctions& gl, Texture kind, std::uint32_t seed) {
+    const cv::Mat image = makeTexture(kind, seed);
     GLuint texture = 0;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.cols, image.rows, 0, GL_RGB, GL_UNSIGNED_BYTE,
                   image.data);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minifyingFilter(kind));
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl.GenerateMipmap(GL_TEXTURE_2D);
     return texture;
@@ -93,7 +102,7 @@ struct Renderer::Impl {
   void upload(const GlFunctions& gl, const Scene& scene) {
     std::vector<Vertex> vertices;
     for (const auto& [texture, quads] : scene.mesh.batches()) {
-      batches.push_back({uploadTexture(gl, makeTexture(texture, scene.texture_seed)),
+      batches.push_back({texture != Texture::kPlain, uploadTexture(gl, texture, scene.texture_seed),
                          static_cast<GLint>(vertices.size()), static_cast<GLsizei>(quads.size())});
       vertices.insert(vertices.end(), quads.begin(), quads.end());
     }
@@ -111,7 +120,7 @@ struct Renderer::Impl {
   void setState(const GlFunctions& gl) const {
     for (const GLenum array : {GL_VERTEX_ARRAY, GL_TEXTURE_COORD_ARRAY, GL_COLOR_ARRAY})
       gl.EnableClientState(array);
-    for (const GLenum ability : {GL_TEXTURE_2D, GL_DEPTH_TEST, GL_MULTISAMPLE}) gl.Enable(ability);
+    for (const GLenum ability : {GL_DEPTH_TEST, GL_MULTISAMPLE}) gl.Enable(ability);
     gl.Disable(GL_DITHER);
     gl.DepthFunc(GL_LESS);
     gl.ClearColor(0.75F, 0.85F, 0.98F, 1.0F);
@@ -126,6 +135,7 @@ struct Renderer::Impl {
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl.LoadMatrixd(T_camera_window.matrix().data());
     for (const Batch& batch : batches) {
+      (batch.textured ? gl.Enable : gl.Disable)(GL_TEXTURE_2D);
       gl.BindTexture(GL_TEXTURE_2D, batch.texture);
       gl.DrawArrays(GL_QUADS, batch.first, batch.count);
     }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "scene_parts.hpp"
 
@@ -88,7 +89,7 @@ Rectangle roomWalls(const Scenario& scenario) {
 
 void addGarden(Scene& scene) {
   const double ground_m = scene.ground_z_m;
-  scene.mesh.addQuad({-60, -60, ground_m}, {120, 0, 0}, {0, 120, 0},
+  scene.mesh.addQuad({-400, -400, ground_m}, {800, 0, 0}, {0, 800, 0},
                      painted({190, 195, 165}, Texture::kGrass));
   scene.mesh.addQuad({-2.2, -7, ground_m + 0.01}, {2.2, 0, 0}, {0, 14, 0},
                      painted({205, 200, 195}, Texture::kPaving));
@@ -104,18 +105,22 @@ void addGarden(Scene& scene) {
   addTree(scene, -13, -20.5, 5.0);
 }
 
+// Clouds on a plane overhead, haze around the horizon: no corners that a detector could like.
 void addSky(Scene& scene) {
   const Lighting outdoors = scene.mesh.lighting();
   scene.mesh.setLighting({Vector3d::UnitZ(), 0.0, 1.0});
-  const double far_m = 90.0, low_m = scene.ground_z_m - 1.0, high_m = 40.0;
-  const Surface air = painted({190, 215, 250}, Texture::kClouds);
-  const Vector3d x(2 * far_m, 0, 0), y(0, 2 * far_m, 0), z(0, 0, high_m - low_m),
-      corner(-far_m, -far_m, low_m);
-  scene.mesh.addQuad(corner, x, z, air);
-  scene.mesh.addQuad(corner + y, x, z, air);
-  scene.mesh.addQuad(corner, y, z, air);
-  scene.mesh.addQuad(corner + x, y, z, air);
-  scene.mesh.addQuad(corner + z, y, x, painted({150, 190, 245}, Texture::kClouds));
+  constexpr int kSides = 24;
+  const double far_m = 450.0, low_m = scene.ground_z_m - 30.0, high_m = 45.0;
+  const auto ring = [&](int i, double radius_m, double z_m) {
+    const double angle = 2.0 * M_PI * i / kSides;
+    return Vector3d(radius_m * std::cos(angle), radius_m * std::sin(angle), z_m);
+  };
+  const Surface haze = painted({190, 209, 236}), air = painted({206, 227, 255}, Texture::kClouds);
+  for (int i = 0; i < kSides; ++i) {
+    const Vector3d a = ring(i, far_m, low_m), b = ring(i + 1, far_m, low_m), up(0, 0, high_m - low_m);
+    scene.mesh.addQuad(a, b - a, up, haze);
+  }
+  scene.mesh.addQuad({-far_m, -far_m, high_m}, {2 * far_m, 0, 0}, {0, 2 * far_m, 0}, air);
   scene.mesh.setLighting(outdoors);
 }
 
