@@ -50,28 +50,36 @@ struct WindowFilter::Impl {
             std::max(1.0, params.systematic_renewal_sec / interval_sec)};
   }
 
-  void add(const PlanarSolution& solution, const FilterView& view) {
-    WindowHypothesis hypothesis(params, view.T_odom_camera * solution.T_camera_window);
-    const auto outcome = hypothesis.update(params, view);
-    if (!outcome) return;
-    if (hypotheses.empty() && outcome->squares > params.gate_squares) return;
-    hypotheses.push_back({hypothesis, outcome->log_evidence});
-  }
-
+  // The alternative of a free fit may be missing where that of an upright window is not: it is sought anew.
   bool start(const WindowPoseEstimate& estimate, const FilterView& view) {
     reset();
-    add(estimate.best, view);
-    if (hypotheses.empty()) return false;
-    if (estimate.alternative) add(*estimate.alternative, view);
-    normalise();
-    if (hypotheses.size() == 2) {
-      auto& other = hypotheses[1].log_weight;
-      other = std::max(other, hypotheses[0].log_weight - params.max_evidence);
-    }
+    WindowHypothesis window(params, view.T_odom_camera * estimate.best.T_camera_window);
+    const auto outcome = window.update(params, view);
+    if (!outcome || outcome->squares > params.gate_squares) return false;
+    hypotheses.push_back({window, 0.0});
     opening = estimate.opening;
     may_split = true;
+    addMirrorImage(view, outcome->squares);
     accept(estimate.stamp_sec, view);
     return true;
+  }
+
+  // Where noise has levelled the mirror image's own minimum, its mass is still there: it is then held by the
+  // spread of the first belief. Weighted by how much worse it explains the image.
+  void addMirrorImage(const FilterView& view, double squares) {
+    const WindowHypothesis& window = hypotheses[0].window;
+    const Eigen::Vector3d position = view.T_odom_camera.translation();
+    const Eigen::Isometry3d image = window.mirrored(position).T_odom_window();
+    WindowHypothesis other(params, image);
+    auto outcome = other.update(params, view);
+    if (!outcome || window.distanceTo(other) < kMergeDistance) {
+      if (std::abs(window.yawFromSight(position)) < kSplitSigmas * window.yawSigma()) return;
+      other = WindowHypothesis(params, image, window.yawSigma());
+      outcome = other.update(params, view);
+    }
+    if (outcome)
+      hypotheses.push_back(
+          {other, std::clamp(0.5 * (squares - outcome->squares), -params.max_evidence, 0.7)});
   }
 
   // All hypotheses over one image; false if none of them can explain it.
@@ -109,6 +117,8 @@ struct WindowFilter::Impl {
 
   void prune() {
     if (hypotheses.size() == 2 && hypotheses[0].window.distanceTo(hypotheses[1].window) < kMergeDistance) {
+      const double share = std::exp(hypotheses[1].log_weight);
+      hypotheses[0].window = hypotheses[0].window.mergedWith(hypotheses[1].window, share);
       hypotheses.pop_back();
       may_split = true;
     } else if (hypotheses.size() == 2 && std::exp(hypotheses[1].log_weight) < params.dead_weight) {

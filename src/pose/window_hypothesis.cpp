@@ -13,7 +13,6 @@ using State = WindowHypothesis::State;
 
 constexpr int kMaxIterations = 20;
 constexpr double kPriorPositionSigmaM = 3.0;
-constexpr double kPriorYawSigmaRad = 0.7;
 
 Eigen::Isometry3d windowPose(const State& state) {
   return geometry::makePose(geometry::yawRotation(state(WindowHypothesis::kYaw)), state.head<3>());
@@ -137,10 +136,11 @@ struct HypothesisFit {
   }
 };
 
-WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window) {
+WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
+                                   double yaw_sigma_rad) {
   state_ << T_odom_window.translation(), geometry::yawOf(T_odom_window.linear()), 0.0, 0.0;
   State sigma;
-  sigma << Eigen::Vector3d::Constant(kPriorPositionSigmaM), kPriorYawSigmaRad,
+  sigma << Eigen::Vector3d::Constant(kPriorPositionSigmaM), yaw_sigma_rad,
       Eigen::Vector2d::Constant(params.attitude_bias_sigma_rad);
   covariance_ = sigma.cwiseAbs2().asDiagonal();
 }
@@ -204,6 +204,16 @@ WindowHypothesis WindowHypothesis::mirrored(const Eigen::Vector3d& camera_positi
   jacobian.block<1, 2>(kYaw, kX) << -2.0 * sight.y() / sight.squaredNorm(),
       2.0 * sight.x() / sight.squaredNorm();
   out.covariance_ = jacobian * covariance_ * jacobian.transpose();
+  return out;
+}
+
+WindowHypothesis WindowHypothesis::mergedWith(const WindowHypothesis& other, double share) const {
+  const State apart = difference(other.state_, state_);
+  WindowHypothesis out = *this;
+  out.state_ += share * apart;
+  out.state_(kYaw) = wrapAngle(out.state_(kYaw));
+  out.covariance_ = (1.0 - share) * covariance_ + share * other.covariance_ +
+                    share * (1.0 - share) * apart * apart.transpose();
   return out;
 }
 

@@ -7,7 +7,7 @@ struct FilterParams {
   double systematic_sigma_px =
       0.15;  ///< error of a corner that is the same in all images from one place [px]
   double unknown_corner_sigma_px = 1.0;  ///< taken where an observation brings no usable covariance [px]
-  double systematic_renewal_m = 0.1;     ///< the systematic error is a new one this far away [m]
+  double systematic_renewal_m = 0.5;     ///< the systematic error is a new one this far away [m]
   double systematic_renewal_sec = 20.0;  ///< and after this time at one place [s]
 
   double odom_position_sigma_m = 0.01;     ///< noise of each camera position, latency included [m]
@@ -23,7 +23,7 @@ struct FilterParams {
   double max_evidence = 3.0;       ///< of one image for one hypothesis against the other [nats]
   double dead_weight = 0.001;      ///< a hypothesis below this weight is dropped
   double harmless_yaw_rad = 0.1;   ///< hypotheses nearer to each other than this need not be told apart [rad]
-  double trusted_yaw_sigma_rad = 0.1;  ///< largest yaw spread of a trusted hypothesis [rad]
+  double trusted_yaw_sigma_rad = 0.06;  ///< largest yaw spread of a trusted hypothesis [rad]
 
   double max_age_sec = 10.0;   ///< without images for longer there is no state [s]
   double time_jump_sec = 1.0;  ///< an image this much older than the last one is a jump back in time [s]

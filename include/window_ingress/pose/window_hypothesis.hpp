@@ -30,7 +30,9 @@ class WindowHypothesis {
   enum Index { kX, kY, kZ, kYaw, kPitchBias, kRollBias };
 
   /// A wide prior around a pose from a single image; the image itself is still to be applied.
-  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window);
+  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
+                   double yaw_sigma_rad = kWideYawSigmaRad);
+  static constexpr double kWideYawSigmaRad = 0.7;
 
   /// Time passes and the camera moves: odometry drifts, attitude errors fade.
   void predict(const FilterParams& params, double elapsed_sec, const Eigen::Vector3d& camera_from,
@@ -53,6 +55,8 @@ class WindowHypothesis {
   double yawFromSight(const Eigen::Vector3d& camera_position) const;
   /// The other planar solution: yaw mirrored about the line of sight.
   WindowHypothesis mirrored(const Eigen::Vector3d& camera_position) const;
+  /// One belief with mean and spread of both; `share` is the weight of the other one, 0 to 1.
+  WindowHypothesis mergedWith(const WindowHypothesis& other, double share) const;
   /// Squared Mahalanobis distance of position and yaw.
   double distanceTo(const WindowHypothesis& other) const;
 
