@@ -20,13 +20,13 @@ struct ColourParams {
 
 /// The target: an open rectangular window with a coloured frame.
 struct WindowParams {
-  bool present = true;          ///< false: the wall is closed where the window would be
-  double width_m = 1.2;         ///< of the opening, inside its frame [m]
-  double height_m = 1.0;        ///< of the opening, inside its frame [m]
-  double sill_m = 1.0;          ///< lower border of the opening above the ground [m]
-  double frame_width_m = 0.07;  ///< visible width of the frame around the opening [m]
-  double frame_depth_m = 0.02;  ///< how far the frame stands out of the wall [m]
-  ColourParams frame{225, 95, 20};
+  bool present = true;                 ///< false: the wall is closed where the window would be
+  double width_m = 1.2;                ///< of the opening, inside its frame [m]
+  double height_m = 1.0;               ///< of the opening, inside its frame [m]
+  double sill_m = 1.0;                 ///< lower border of the opening above the ground [m]
+  double frame_width_m = 0.07;         ///< visible width of the frame around the opening [m]
+  double frame_depth_m = 0.02;         ///< how far the frame stands out of the wall [m]
+  ColourParams frame{225, 95, 20};     ///< of the frame
   ColourParams reveal{205, 200, 190};  ///< inner faces of the opening
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -43,12 +43,12 @@ struct WindowParams {
 
 /// A window that is no target: other colour, and closed by glass.
 struct DecoyParams {
-  double y_m = 2.6;             ///< centre, to the left of the target's centre [m]
-  double z_m = 0.0;             ///< centre, above the target's centre [m]
-  double width_m = 1.0;         ///< inside its frame [m]
-  double height_m = 1.0;        ///< inside its frame [m]
-  double frame_width_m = 0.06;  ///< [m]
-  ColourParams frame{240, 240, 235};
+  double y_m = 2.6;                   ///< centre, to the left of the target's centre [m]
+  double z_m = 0.0;                   ///< centre, above the target's centre [m]
+  double width_m = 1.0;               ///< inside its frame [m]
+  double height_m = 1.0;              ///< inside its frame [m]
+  double frame_width_m = 0.06;        ///< visible width of its frame [m]
+  ColourParams frame{240, 240, 235};  ///< of its frame
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);
@@ -62,12 +62,12 @@ struct DecoyParams {
 
 /// A printed rectangle on the wall.
 struct PosterParams {
-  double y_m = -1.9;       ///< centre, to the left of the target's centre [m]
-  double z_m = 0.1;        ///< centre, above the target's centre [m]
-  double width_m = 0.7;    ///< [m]
-  double height_m = 0.9;   ///< [m]
-  double border_m = 0.05;  ///< width of its border [m]
-  ColourParams border{30, 60, 150};
+  double y_m = -1.9;                 ///< centre, to the left of the target's centre [m]
+  double z_m = 0.1;                  ///< centre, above the target's centre [m]
+  double width_m = 0.7;              ///< with its border [m]
+  double height_m = 0.9;             ///< with its border [m]
+  double border_m = 0.05;            ///< width of its border [m]
+  ColourParams border{30, 60, 150};  ///< of its border
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);
@@ -81,18 +81,18 @@ struct PosterParams {
 
 /// The house around the window, the room behind it, the light.
 struct HouseParams {
-  std::string wall_texture = "plaster";  ///< "plaster" or "brick"
-  ColourParams wall{226, 214, 190};
-  double wall_thickness_m = 0.24;   ///< [m]
-  double width_m = 11.0;            ///< of the front wall, the target at its middle [m]
-  double eaves_m = 3.1;             ///< height of the front wall [m]
-  double room_depth_m = 5.0;        ///< free depth behind the wall [m]
-  double room_light = 0.38;         ///< brightness of the room beside full daylight
+  std::string wall_texture = "plaster";  ///< plaster or brick
+  ColourParams wall{226, 214, 190};      ///< of the front wall
+  double wall_thickness_m = 0.24;        ///< of the wall behind the frame [m]
+  double width_m = 11.0;                 ///< of the front wall, the target at its middle [m]
+  double eaves_m = 3.1;                  ///< height of the front wall [m]
+  double room_depth_m = 5.0;             ///< free depth behind the wall [m]
+  double room_light = 0.38;              ///< brightness of the room beside full daylight
   double sun_azimuth_rad = 0.6;     ///< where the sun stands, from the outward normal towards the left [rad]
-  double sun_elevation_rad = 0.85;  ///< [rad]
+  double sun_elevation_rad = 0.85;  ///< how high the sun stands [rad]
   double sun = 0.5;                 ///< brightness that the sun adds to a face square to it
   double ambient = 0.55;            ///< brightness of a face in shadow
-  int texture_seed = 1;             ///< of the surfaces
+  int texture_seed = 1;             ///< seed of the patterns on all surfaces
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("wall_texture", self.wall_texture);

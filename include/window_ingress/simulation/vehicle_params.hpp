@@ -9,20 +9,20 @@ namespace window_ingress::simulation {
 
 /// The camera and how it is mounted.
 struct CameraParams {
-  int width_px = 640;                                       ///< [px]
-  int height_px = 480;                                      ///< [px]
+  int width_px = 640;                                       ///< of the picture [px]
+  int height_px = 480;                                      ///< of the picture [px]
   double horizontal_fov_rad = 1.20;                         ///< of the lens without its distortion [rad]
-  double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;  ///< plumb_bob
+  double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;  ///< distortion of the model plumb_bob
   double x_m = 0.10;          ///< of the camera, forward of the vehicle's centre [m]
-  double y_m = 0.0;           ///< to the left [m]
-  double z_m = 0.02;          ///< up [m]
-  double pitch_rad = 0.0;     ///< looking down is positive [rad]
-  double yaw_rad = 0.0;       ///< looking left is positive [rad]
-  double rate_hz = 30.0;      ///< pictures a second
+  double y_m = 0.0;           ///< of the camera, to the left [m]
+  double z_m = 0.02;          ///< of the camera, up [m]
+  double pitch_rad = 0.0;     ///< of the camera: looking down is positive [rad]
+  double yaw_rad = 0.0;       ///< of the camera: looking left is positive [rad]
+  double rate_hz = 30.0;      ///< pictures a second [1/s]
   double latency_sec = 0.03;  ///< from exposure to delivery [s]
   double noise_grey = 2.0;    ///< standard deviation of each channel [grey levels]
   double blur_px = 0.6;       ///< standard deviation of the lens's blur [px]
-  double gain = 1.0;          ///< exposure
+  double gain = 1.0;          ///< exposure: all brightness times this
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("width_px", self.width_px, 64, 1920);
@@ -50,11 +50,11 @@ struct CameraParams {
 
 /// What is wrong with the vehicle's odometry.
 struct OdometryParams {
-  double rate_hz = 50.0;               ///< [1/s]
+  double rate_hz = 50.0;               ///< samples a second [1/s]
   double latency_sec = 0.03;           ///< from measurement to delivery [s]
-  double position_noise_m = 0.004;     ///< white [m]
-  double velocity_noise_mps = 0.02;    ///< white [m/s]
-  double attitude_noise_rad = 0.004;   ///< white, each axis [rad]
+  double position_noise_m = 0.004;     ///< white noise, standard deviation of each axis [m]
+  double velocity_noise_mps = 0.02;    ///< white noise, each axis [m/s]
+  double attitude_noise_rad = 0.004;   ///< white noise, each axis [rad]
   double drift_m_per_sqrt_sec = 0.01;  ///< random walk of the position, each horizontal axis [m/sqrt(s)]
   double height_drift_m_per_sqrt_sec = 0.004;  ///< random walk of the height [m/sqrt(s)]
   double yaw_drift_rad_per_sqrt_sec = 0.0015;  ///< random walk of the heading [rad/sqrt(s)]
@@ -73,11 +73,11 @@ struct OdometryParams {
 
 /// What is wrong with the attitude estimator and the inertial sensors.
 struct ImuParams {
-  double rate_hz = 100.0;                  ///< [1/s]
-  double attitude_noise_rad = 0.006;       ///< roll and pitch, standard deviation [rad]
+  double rate_hz = 100.0;                  ///< samples a second [1/s]
+  double attitude_noise_rad = 0.006;       ///< error of roll and of pitch, standard deviation [rad]
   double attitude_correlation_sec = 0.5;   ///< how long such an error lasts [s]; 0: white
-  double gyro_noise_radps = 0.004;         ///< white [rad/s]
-  double accelerometer_noise_mps2 = 0.08;  ///< white [m/s^2]
+  double gyro_noise_radps = 0.004;         ///< white noise, each axis [rad/s]
+  double accelerometer_noise_mps2 = 0.08;  ///< white noise, each axis [m/s^2]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("rate_hz", self.rate_hz, 5.0, 400.0);
@@ -91,18 +91,18 @@ struct ImuParams {
 /// The quadrotor and its velocity controller.
 struct VehicleParams {
   double half_length_m = 0.20;               ///< half of its box along x, propellers included [m]
-  double half_width_m = 0.20;                ///< along y [m]
-  double half_height_m = 0.07;               ///< along z [m]
+  double half_width_m = 0.20;                ///< half of its box along y [m]
+  double half_height_m = 0.07;               ///< half of its box along z [m]
   double velocity_time_constant_sec = 0.40;  ///< of the answer to a velocity setpoint [s]
   double velocity_integral_per_sec = 0.5;    ///< how fast steady wind is trimmed out [1/s]
-  double max_acceleration_mps2 = 3.0;        ///< horizontal and vertical [m/s^2]
-  double max_tilt_rad = 0.40;                ///< [rad]
-  double attitude_time_constant_sec = 0.10;  ///< [s]
-  double max_tilt_rate_radps = 4.0;          ///< [rad/s]
+  double max_acceleration_mps2 = 3.0;        ///< the most that the velocity controller asks for [m/s^2]
+  double max_tilt_rad = 0.40;                ///< the most that the velocity controller tilts it [rad]
+  double attitude_time_constant_sec = 0.10;  ///< of the attitude loop [s]
+  double max_tilt_rate_radps = 4.0;          ///< limit of roll and pitch rate [rad/s]
   double yaw_time_constant_sec = 0.15;       ///< of the answer to a yaw rate [s]
-  double max_yaw_rate_radps = 2.0;           ///< [rad/s]
+  double max_yaw_rate_radps = 2.0;           ///< yaw rates beyond are shortened [rad/s]
   double max_speed_mps = 5.0;                ///< setpoints beyond are shortened [m/s]
-  double drag_per_sec = 0.25;                ///< deceleration a speed through the air [1/s]
+  double drag_per_sec = 0.25;                ///< deceleration for each m/s through the air [1/s]
   double command_timeout_sec = 0.5;          ///< without a new setpoint for so long, it brakes to hover [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

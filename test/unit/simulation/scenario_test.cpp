@@ -1,0 +1,234 @@
+#include "window_ingress/simulation/scenario.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::simulation {
+namespace {
+
+const std::string kSource = WINDOW_INGRESS_SOURCE_DIR;
+
+class ScenarioFile : public testing::Test {
+ protected:
+  std::string file_ = (std::filesystem::temp_directory_path() /
+                       ("window_ingress_" + std::to_string(::getpid()) + "_scenario_test.yaml"))
+                          .string();
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  Scenario read(const std::string& text, std::uint32_t seed = 1) {
+    std::ofstream(file_) << text;
+    return loadScenario(file_, seed);
+  }
+  std::string error(const std::string& text) {
+    try {
+      read(text);
+    } catch (const ScenarioError& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(ScenarioFile, ReadsNumbersGroupsAndLists) {
+  const Scenario scenario = read(
+      "time_limit_sec: 12\nstart: {off_axis_rad: 0.2, hovering: false}\nwindow: {frame: {r: 9}}\n"
+      "decoys:\n  - {y_m: 3}\n  - {y_m: -3, frame: {g: 7}}\n");
+  EXPECT_DOUBLE_EQ(scenario.time_limit_sec, 12.0);
+  EXPECT_DOUBLE_EQ(scenario.start.off_axis_rad, 0.2);
+  EXPECT_FALSE(scenario.start.hovering);
+  EXPECT_EQ(scenario.window.frame.r, 9);
+  EXPECT_EQ(scenario.window.frame.g, WindowParams().frame.g);
+  ASSERT_EQ(scenario.decoys.size(), 2u);
+  EXPECT_EQ(scenario.decoys[1].frame.g, 7);
+  EXPECT_DOUBLE_EQ(scenario.start.distance_m, StartParams().distance_m);
+}
+
+TEST_F(ScenarioFile, DrawsRangesFromTheSeedEachKeyForItself) {
+  const std::string one = "start: {off_axis_rad: [-0.5, 0.5]}\n";
+  const std::string two =
+      "camera: {noise_grey: [1, 3]}\nstart: {distance_m: [3, 5], off_axis_rad: [-0.5, 0.5]}\n";
+  double least = 1.0, most = -1.0;
+  std::set<double> values;
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    const double drawn = read(one, seed).start.off_axis_rad;
+    EXPECT_DOUBLE_EQ(drawn, read(two, seed).start.off_axis_rad) << "another range must not change it";
+    least = std::min(least, drawn);
+    most = std::max(most, drawn);
+    values.insert(drawn);
+  }
+  EXPECT_GE(least, -0.5);
+  EXPECT_LE(most, 0.5);
+  EXPECT_LT(least, -0.47);
+  EXPECT_GT(most, 0.47);
+  EXPECT_EQ(values.size(), 300u);
+}
+
+TEST_F(ScenarioFile, DrawsWholeNumbersWithBothEnds) {
+  std::set<int> values;
+  for (std::uint32_t seed = 0; seed < 60; ++seed)
+    values.insert(read("window: {frame: {r: [3, 5]}}", seed).window.frame.r);
+  EXPECT_EQ(values, (std::set<int>{3, 4, 5}));
+}
+
+TEST_F(ScenarioFile, NamesFileLineAndKeyOfEveryKindOfFault) {
+  EXPECT_EQ(error("start:\n  distance_m: 500\n"), file_ + ":2: distance_m = 500 is not within 0.8 .. 15");
+  EXPECT_EQ(error("start:\n  distance_m: [1, 500]\n"),
+            file_ + ":2: distance_m = 500 is not within 0.8 .. 15");
+  EXPECT_NE(error("start:\n  distance_m: [5, 3]\n").find(":2: distance_m: the range's first end"),
+            std::string::npos);
+  EXPECT_NE(error("start:\n  distance_m: [5]\n").find(":2: distance_m: a range must have two ends"),
+            std::string::npos);
+  EXPECT_NE(error("start:\n  distance_m: far\n").find(":2: distance_m: must be a number"), std::string::npos);
+  EXPECT_NE(error("start:\n  distance_m: .nan\n").find("not within"), std::string::npos);
+  EXPECT_NE(error("start:\n  distance_m: [.nan, 2]\n").find("not within"), std::string::npos);
+  EXPECT_NE(error("camera: {width_px: 1.5}").find("must be a whole number"), std::string::npos);
+  EXPECT_NE(error("start:\n  distanse_m: 4\n").find(":2: start/distanse_m: unknown key"), std::string::npos);
+  EXPECT_NE(error("decoys:\n  - {y_m: 1}\n  - {colour: 1}\n").find(":3: decoys[1]/colour: unknown key"),
+            std::string::npos);
+  EXPECT_NE(error("decoys: 3\n").find("must be a list"), std::string::npos);
+  EXPECT_NE(error("start: 3\n").find("must be a mapping"), std::string::npos);
+  EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
+  EXPECT_NE(error("").find("must be a mapping"), std::string::npos);
+  EXPECT_NE(error("start: [\n").find("not valid yaml"), std::string::npos);
+  EXPECT_NE(error("house: {wall_texture: straw}").find("house/wall_texture: must be plaster or brick"),
+            std::string::npos);
+  EXPECT_NE(error("window: {sill_m: 2.5}").find("reaches above house/eaves_m"), std::string::npos);
+}
+
+TEST(Scenario, MissingFileSaysSo) {
+  try {
+    loadScenario("/nowhere/world.yaml", 1);
+    FAIL();
+  } catch (const ScenarioError& e) {
+    EXPECT_NE(std::string(e.what()).find("/nowhere/world.yaml: cannot be read"), std::string::npos);
+  }
+}
+
+TEST(Scenario, StartPoseHasTheDistanceBearingAndHeadingAsked) {
+  Scenario scenario;
+  scenario.start.distance_m = 4.0;
+  scenario.start.off_axis_rad = 0.5;
+  scenario.start.height_offset_m = 0.3;
+  scenario.start.odom_yaw_rad = 2.0;
+  const Eigen::Vector3d at = scenario.startPoseInWindow().translation();
+  EXPECT_NEAR(at.head<2>().norm(), 4.0, 1e-12);
+  EXPECT_LT(at.x(), 0.0) << "outside is x < 0";
+  EXPECT_GT(at.y(), 0.0) << "a positive bearing is left of the axis";
+  const Eigen::Vector3d window_in_base = scenario.startPoseInWindow().inverse() * Eigen::Vector3d::Zero();
+  EXPECT_NEAR(window_in_base.y(), 0.0, 1e-12) << "without a heading of its own it faces the window";
+  EXPECT_NEAR(window_in_base.z(), -0.3, 1e-12);
+  scenario.start.heading_rad = 0.4;
+  EXPECT_LT((scenario.startPoseInWindow().inverse() * Eigen::Vector3d::Zero()).y(), 0.0)
+      << "turned left, the window is to the right";
+  EXPECT_NEAR(geometry::yawOf(scenario.startPoseInOdom().linear()), 2.0, 1e-12);
+  EXPECT_NEAR(scenario.T_odom_window().translation().z(), scenario.windowCentreHeight(), 1e-12);
+}
+
+TEST(Scenario, CameraLooksForwardAndDownWhenPitched) {
+  CameraParams camera;
+  EXPECT_TRUE(
+      (camera.T_base_camera().linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+  EXPECT_TRUE((camera.T_base_camera().linear() * Eigen::Vector3d::UnitX())
+                  .isApprox(-Eigen::Vector3d::UnitY(), 1e-12));
+  camera.pitch_rad = 0.3;
+  EXPECT_LT((camera.T_base_camera().linear() * Eigen::Vector3d::UnitZ()).z(), -0.2);
+  camera.yaw_rad = 0.3;
+  EXPECT_GT((camera.T_base_camera().linear() * Eigen::Vector3d::UnitZ()).y(), 0.2);
+}
+
+TEST(Scenario, FaultsOfAnImpossibleWorldAreListed) {
+  EXPECT_TRUE(faultsOf(Scenario()).empty());
+  Scenario scenario;
+  scenario.wind.x_mps = std::numeric_limits<double>::infinity();
+  scenario.posters.emplace_back().width_m = -1.0;
+  const auto faults = faultsOf(scenario);
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_NE(faults[0].find("posters[0]/width_m"), std::string::npos);
+  scenario = Scenario();
+  scenario.start.height_offset_m = -2.9;
+  EXPECT_EQ(faultsOf(scenario).size(), 1u);
+}
+
+TEST(Scenario, ShippedFilesLoadForManySeeds) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kSource + "/config/scenarios")) {
+    ++files;
+    for (std::uint32_t seed = 0; seed < 50; ++seed)
+      EXPECT_NO_THROW(loadScenario(entry.path().string(), seed));
+  }
+  EXPECT_GE(files, 3);
+}
+
+// Collects, for each section of the documentation, the rows that it must have.
+class DocumentedKeys {
+ public:
+  explicit DocumentedKeys(std::string section) : section_(std::move(section)) {}
+  template <typename Number>
+  void operator()(const std::string& name, const Number& value, double minimum, double maximum) {
+    std::ostringstream start, limits, standard;
+    start << "| `" << name << "` |";
+    limits << "| " << minimum << " … " << maximum;
+    standard << "| " << value << " |";
+    expectRow(start.str(), {limits.str(), standard.str()});
+  }
+  template <typename Value>
+  void operator()(const std::string& name, const Value&) {
+    expectRow("| `" + name + "` |", {});
+  }
+  template <typename Params>
+  void group(const std::string& name, const Params& params) {
+    if constexpr (std::is_same_v<Params, ColourParams>) {
+      const auto text = [](int c) { return std::to_string(c); };
+      expectRow("| `" + name + "` |",
+                {"{r: " + text(params.r) + ", g: " + text(params.g) + ", b: " + text(params.b) + "}"});
+    } else {
+      DocumentedKeys inner("## `" + name + "`");
+      Params::visit(params, inner);
+    }
+  }
+  template <typename Params>
+  void list(const std::string& name, const std::vector<Params>&) {
+    const Params item;
+    group(name, item);
+  }
+
+ private:
+  void expectRow(const std::string& start, const std::vector<std::string>& parts) {
+    static const std::string text = [] {
+      std::ifstream file(kSource + "/doc/scenarios.md");
+      return std::string(std::istreambuf_iterator<char>(file), {});
+    }();
+    const auto from = text.find("\n" + section_ + "\n");
+    ASSERT_NE(from, std::string::npos) << "doc/scenarios.md has no section " << section_;
+    const std::string section = text.substr(from, text.find("\n## ", from + 1) - from);
+    const auto at = section.find("\n" + start);
+    ASSERT_NE(at, std::string::npos) << "doc/scenarios.md, " << section_ << ", lacks the row " << start;
+    const std::string row = section.substr(at + 1, section.find('\n', at + 1) - at - 1);
+    for (const auto& part : parts)
+      EXPECT_NE(row.find(part), std::string::npos) << row << " must say " << part;
+    EXPECT_EQ(row.find("|  |", row.size() - 4), std::string::npos) << row << " does not say what it means";
+  }
+
+  std::string section_;
+};
+
+TEST(Scenario, EveryKeyStandsInTheDocumentationWithItsDefaultAndLimits) {
+  DocumentedKeys keys("## Top level");
+  const Scenario scenario;
+  Scenario::visit(scenario, keys);
+  DocumentedKeys colour("## `colour`");
+  const ColourParams grey;
+  ColourParams::visit(grey, colour);
+}
+
+}  // namespace
+}  // namespace window_ingress::simulation

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/simulation/imu_sensor.hpp"
+#include "window_ingress/simulation/odometry_sensor.hpp"
+#include "window_ingress/simulation/random_stream.hpp"
+#include "window_ingress/simulation/schedule.hpp"
+#include "window_ingress/simulation/wind.hpp"
+
+namespace window_ingress::simulation {
+namespace {
+
+constexpr double kStep_sec = 0.0025;
+
+double deviation(const std::vector<double>& values) {
+  double sum = 0.0, squares = 0.0;
+  for (const double v : values) sum += v;
+  const double mean = sum / static_cast<double>(values.size());
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+VehicleTruth standing() {
+  VehicleTruth truth;
+  truth.T_odom_base = geometry::makePose(geometry::yawRotation(0.7), {3.0, -2.0, 1.5});
+  return truth;
+}
+
+OdometryParams withoutNoise() {
+  OdometryParams params;
+  params.position_noise_m = params.velocity_noise_mps = params.attitude_noise_rad = 0.0;
+  return params;
+}
+
+TEST(RandomStream, NamesAndSeedsGiveUnrelatedNumbersAndTheSameGiveTheSame) {
+  RandomStream a(1, "a"), again(1, "a"), b(1, "b"), other(2, "a");
+  for (int i = 0; i < 10; ++i) {
+    const auto value = a.bits();
+    EXPECT_EQ(value, again.bits());
+    EXPECT_NE(value, b.bits());
+    EXPECT_NE(value, other.bits());
+  }
+}
+
+TEST(RandomStream, NormalNumbersHaveTheirMeanAndDeviation) {
+  RandomStream random(3, "normal");
+  std::vector<double> values;
+  double sum = 0.0;
+  for (int i = 0; i < 20000; ++i) sum += values.emplace_back(random.normal(2.0));
+  EXPECT_NEAR(sum / 20000.0, 0.0, 0.06);
+  EXPECT_NEAR(deviation(values), 2.0, 0.05);
+}
+
+TEST(Schedule, PeriodsNeitherDriftNorDoubleUp) {
+  Periodic camera(30.0);
+  int count = 0;
+  for (int i = 1; i <= 4000; ++i) count += camera.due(i * kStep_sec);
+  EXPECT_EQ(count, 301);
+}
+
+TEST(Schedule, DelayedValuesArriveInTimeAndTheLatestWins) {
+  DelayLine<int> line(0.1);
+  line.push(0.0, 1);
+  line.push(0.05, 2);
+  line.push(0.2, 3);
+  EXPECT_FALSE(line.take(0.09));
+  EXPECT_EQ(line.take(0.15), 2);
+  EXPECT_FALSE(line.take(0.2));
+  EXPECT_EQ(line.take(5.0), 3);
+}
+
+TEST(Odometry, WithoutNoiseAndDriftItIsTheTruth) {
+  OdometryParams params = withoutNoise();
+  params.drift_m_per_sqrt_sec = params.height_drift_m_per_sqrt_sec = params.yaw_drift_rad_per_sqrt_sec = 0.0;
+  OdometrySensor sensor(params, 1);
+  VehicleTruth truth = standing();
+  truth.velocity_odom_mps = {0.3, -0.2, 0.1};
+  sensor.update(0.0, truth);
+  const auto sample = sensor.take(1.0);
+  ASSERT_TRUE(sample);
+  EXPECT_TRUE(sample->T_odom_base.isApprox(truth.T_odom_base, 1e-12));
+  EXPECT_TRUE(sample->velocity_odom_mps.isApprox(truth.velocity_odom_mps, 1e-12));
+  EXPECT_DOUBLE_EQ(sample->stamp_sec, 0.0);
+}
+
+TEST(Odometry, DriftGrowsWithTheRootOfTimeAndTurnsVelocityToo) {
+  OdometryParams params = withoutNoise();
+  params.drift_m_per_sqrt_sec = 0.02;
+  std::vector<double> ends, yaws;
+  for (std::uint32_t seed = 0; seed < 120; ++seed) {
+    OdometrySensor sensor(params, seed);
+    for (double t = 0.0; t < 25.0; t += 0.02) sensor.update(t, standing());
+    ends.push_back((sensor.drift() * standing().T_odom_base).translation().x() - 3.0);
+    yaws.push_back(geometry::yawOf(sensor.drift().linear()));
+  }
+  EXPECT_NEAR(deviation(ends), 0.02 * 5.0, 0.025);
+  EXPECT_NEAR(deviation(yaws), params.yaw_drift_rad_per_sqrt_sec * 5.0, 0.002);
+
+  params.yaw_drift_rad_per_sqrt_sec = 0.2;
+  OdometrySensor turning(params, 4);
+  VehicleTruth truth = standing();
+  truth.velocity_odom_mps = {1.0, 0.0, 0.0};
+  for (double t = 0.0; t < 5.0; t += 0.02) turning.update(t, truth);
+  const auto sample = turning.take(10.0);
+  EXPECT_NEAR(std::atan2(sample->velocity_odom_mps.y(), sample->velocity_odom_mps.x()),
+              geometry::yawOf(turning.drift().linear()), 1e-9);
+}
+
+TEST(Odometry, NoiseHasItsSize) {
+  OdometryParams params;
+  params.drift_m_per_sqrt_sec = params.height_drift_m_per_sqrt_sec = params.yaw_drift_rad_per_sqrt_sec = 0.0;
+  OdometrySensor sensor(params, 9);
+  std::vector<double> position, velocity;
+  for (double t = 0.0; t < 40.0; t += 0.02) {
+    sensor.update(t, standing());
+    if (const auto sample = sensor.take(t)) {
+      position.push_back(sample->T_odom_base.translation().y());
+      velocity.push_back(sample->velocity_odom_mps.z());
+      EXPECT_TRUE(geometry::isValidPose(sample->T_odom_base));
+    }
+  }
+  EXPECT_NEAR(deviation(position), params.position_noise_m, 0.0004);
+  EXPECT_NEAR(deviation(velocity), params.velocity_noise_mps, 0.002);
+}
+
+TEST(Imu, AttitudeErrorHasItsSizeAndLastsAndLeavesTheHeading) {
+  ImuParams params;
+  ImuSensor sensor(params, 5);
+  const VehicleTruth truth = standing();
+  std::vector<double> tilts, changes;
+  for (double t = 0.0; t < 200.0; t += 0.01) {
+    sensor.update(t, truth, {0, 0, 9.81}, Eigen::Isometry3d::Identity());
+    const auto sample = sensor.take(t);
+    if (!sample) continue;
+    const Eigen::Matrix3d error =
+        truth.T_odom_base.linear().transpose() * sample->R_odom_base.toRotationMatrix();
+    if (!tilts.empty()) changes.push_back(error(2, 1) - tilts.back());
+    tilts.push_back(error(2, 1));
+    EXPECT_NEAR(geometry::yawOf(error), 0.0, 1e-3);
+    EXPECT_NEAR(sample->specific_force_base_mps2.z(), 9.81, 0.6);
+  }
+  EXPECT_NEAR(deviation(tilts), params.attitude_noise_rad, 0.0012);
+  EXPECT_LT(deviation(changes), 0.3 * params.attitude_noise_rad) << "it must not jump from sample to sample";
+}
+
+TEST(Wind, GustsHaveTheirSizeAndSteadyWindIsSteady) {
+  WindParams params;
+  params.x_mps = 2.0;
+  Wind steady(params, 1);
+  EXPECT_EQ(steady.step(kStep_sec), Eigen::Vector3d(2.0, 0.0, 0.0));
+  params.gust_mps = 0.8;
+  params.gust_time_constant_sec = 0.5;
+  Wind gusty(params, 1);
+  std::vector<double> speeds;
+  for (int i = 0; i < 400 * 400; ++i) speeds.push_back(gusty.step(kStep_sec).x());
+  EXPECT_NEAR(deviation(speeds), 0.8, 0.1);
+}
+
+}  // namespace
+}  // namespace window_ingress::simulation
