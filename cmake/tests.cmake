@@ -15,7 +15,7 @@ foreach(folder ${unit_folders})
   else()
     catkin_add_gtest(${target} ${sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp TIMEOUT 600)
   endif()
-  target_link_libraries(${target} window_ingress_evaluation yaml-cpp opencv_imgcodecs)
+  target_link_libraries(${target} window_ingress_evaluation yaml-cpp nlohmann_json::nlohmann_json opencv_imgcodecs)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/test/support)
   target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                WINDOW_INGRESS_BINARY_DIR="${PROJECT_BINARY_DIR}")

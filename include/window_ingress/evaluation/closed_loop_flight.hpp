@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/evaluation/flight_log.hpp"
+#include "window_ingress/evaluation/flight_metrics.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/pose/filter_params.hpp"
+#include "window_ingress/pose/pose_params.hpp"
+#include "window_ingress/simulation/scenario.hpp"
+
+namespace window_ingress::evaluation {
+
+/// Everything that flies. In a yaml file each group is a section; missing ones keep their defaults.
+struct FlightParams {
+  detection::DetectorParams detector;
+  pose::PoseParams pose;
+  pose::FilterParams filter;
+  navigation::TrackerParams tracker;
+  navigation::NavigatorParams navigator;
+  double step_rate_hz = 30.0;  ///< of the navigator [1/s]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field.group("detector", self.detector);
+    field.group("pose", self.pose);
+    field.group("filter", self.filter);
+    field.group("tracker", self.tracker);
+    field.group("navigator", self.navigator);
+    field("step_rate_hz", self.step_rate_hz, 10.0, 200.0);
+  }
+};
+
+/// One flight in one process, by the objects that the nodes use: the world's pictures through detector, pose
+/// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
+/// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
+/// from the world. \param log filled step by step if given \throws simulation::ScenarioError,
+/// std::invalid_argument (parameters), std::runtime_error (no renderer)
+FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
+                     FlightLog* log = nullptr);
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,52 @@
+/// What a flight comes down to: the row of flights.csv, and many of them summed up.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window_ingress/evaluation/statistics.hpp"
+#include "window_ingress/simulation/referee.hpp"
+
+namespace window_ingress::evaluation {
+
+struct FlightResult {
+  std::uint32_t seed = 0;
+  simulation::Outcome outcome = simulation::Outcome::kRunning;
+  double time_sec = 0.0;  ///< from the start of the mission to the crossing of the plane, else to the end
+  std::optional<double> offset_y_m;       ///< at the crossing, left of the opening's centre
+  std::optional<double> offset_z_m;       ///< at the crossing, above it
+  std::optional<double> min_clearance_m;  ///< between the body and the opening's borders
+  double wrong_side_m = 0.0;              ///< furthest sideways beyond where it started, away from the axis
+  double max_speed_mps = 0.0;
+  double blind_sec = 0.0;                  ///< longest time without sight of the window before the plane
+  std::optional<double> predicted_miss_m;  ///< by the navigator, at its last commit
+  std::string reason;
+};
+
+/// Header of flights.csv, without the end of the line.
+std::string csvHeader();
+
+/// The flight as a row of flights.csv; what was never measured stays empty.
+std::string csvRow(const FlightResult& flight);
+
+struct FlightSummary {
+  int flights = 0;
+  int passed = 0;
+  Interval pass_rate_95;                ///< Wilson
+  std::map<std::string, int> outcomes;  ///< by name
+  std::map<std::string, int> causes;    ///< of all but PASSED: outcome and reason, numbers taken out
+  double median_time_sec = 0.0;         ///< of the flights that passed
+  double p95_time_sec = 0.0;
+  double p95_offset_m = 0.0;      ///< of the larger of |y| and |z|, of the flights that crossed
+  double p95_wrong_side_m = 0.0;  ///< of all flights
+};
+
+FlightSummary summarise(const std::vector<FlightResult>& flights);
+
+/// The summary as json text, keys in a fixed order.
+std::string toJson(const FlightSummary& summary);
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/navigation/navigation_types.hpp"
+#include "window_ingress/pose/pose_buffer.hpp"
+#include "window_ingress/pose/window_filter.hpp"
+#include "window_ingress/pose/window_pose_estimator.hpp"
+
+namespace window_ingress::navigation {
+
+struct TrackerParams {
+  double max_pose_gap_sec = 0.05;   ///< odometry may end this much before the exposure [s]
+  double gravity_sigma_rad = 0.02;  ///< of the attitude, mounting included [rad]
+  double max_jump_m = 0.5;          ///< odometry moving more than this beyond 3 m/s is a jump [m]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("max_pose_gap_sec", self.max_pose_gap_sec, 0.0, 0.5);
+    field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
+    field("max_jump_m", self.max_jump_m, 0.05, 10.0);
+  }
+};
+
+/// What became of the last observation.
+struct TrackerUpdate {
+  pose::PoseResult pose;
+  bool used = false;    ///< it contributed to the target
+  std::string why_not;  ///< empty if it did
+};
+
+/// Observations, odometry and attitude to the target in odom: pose estimation at the attitude of the
+/// exposure, then the filter at the position of the exposure. Everything may arrive late; an observation
+/// waits until odometry has caught up with its exposure, at most until the next one comes. A jump of the
+/// odometry starts anew.
+class TargetTracker {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  TargetTracker(const pose::PoseParams& pose, const pose::FilterParams& filter, const TrackerParams& params);
+
+  void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base);
+  void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
+  void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+           const Eigen::Isometry3d& T_base_camera);
+  void reset();
+
+  std::optional<TargetEstimate> target(double now_sec) const;
+  const TrackerUpdate& lastUpdate() const { return last_; }
+
+ private:
+  struct Pending {
+    detection::WindowObservation window;
+    geometry::PinholeCamera camera;
+    Eigen::Isometry3d T_base_camera;
+  };
+  void process(const Pending& pending);
+  std::optional<pose::GravityPrior> gravity(const Pending& pending) const;
+
+  TrackerParams params_;
+  geometry::OpeningSize opening_;
+  pose::WindowPoseEstimator estimator_;
+  pose::WindowFilter filter_;
+  pose::PoseBuffer odometry_, attitude_;
+  std::optional<double> odometry_stamp_sec_;
+  Eigen::Vector3d odometry_position_m_ = Eigen::Vector3d::Zero();
+  std::optional<Pending> pending_;
+  TrackerUpdate last_;
+};
+
+/// The filter's state in the navigator's words.
+TargetEstimate targetFrom(const pose::FilteredWindow& window, const geometry::OpeningSize& opening);
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,178 @@
+#include "window_ingress/evaluation/closed_loop_flight.hpp"
+
+#include <cmath>
+
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/simulation/world.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using navigation::State;
+using simulation::Claim;
+using simulation::Outcome;
+
+/// What is known of the vehicle and its target before the flight.
+FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
+  const auto camera = world.camera();
+  const Eigen::Vector3d half = world.vehicleHalfExtents();
+  auto& vehicle = params.navigator.vehicle;
+  vehicle.half_length_m = half.x();
+  vehicle.half_width_m = half.y();
+  vehicle.half_height_m = half.z();
+  vehicle.camera_forward_m = world.T_base_camera().translation().x();
+  vehicle.horizontal_fov_rad = 2.0 * std::atan(camera.width / (2.0 * camera.fx));
+  vehicle.vertical_fov_rad = 2.0 * std::atan(camera.height / (2.0 * camera.fy));
+  params.pose.opening_width_m = world.opening().width_m;
+  params.pose.opening_height_m = world.opening().height_m;
+  return params;
+}
+
+Claim claimOf(State state) {
+  if (state == State::kPassed) return Claim::kPassed;
+  return state == State::kAborted ? Claim::kAborted : Claim::kNone;
+}
+
+class Flight {
+ public:
+  Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params)
+      : world_(scenario, seed),
+        params_(withFactsOf(world_, params)),
+        detector_(params_.detector),
+        tracker_(params_.pose, params_.filter, params_.tracker),
+        navigator_(params_.navigator) {
+    geometry::Quadrilateral corners;
+    const cv::Mat picture = world_.referencePicture(&corners);
+    detector_.setReference(detection::ReferenceAppearance(picture, corners));
+  }
+
+  simulation::Verdict fly(FlightLog* log) {
+    double next_step_sec = 0.0;
+    auto verdict = world_.referee().judge(Claim::kNone);
+    while (verdict.outcome == Outcome::kRunning) {
+      world_.advance();
+      sense();
+      if (world_.timeSec() < next_step_sec) continue;
+      next_step_sec += 1.0 / params_.step_rate_hz;
+      step();
+      if (log != nullptr) log->records.push_back(record());
+      verdict = world_.referee().judge(claimOf(output_.state));
+    }
+    return verdict;
+  }
+
+  FlightResult result(std::uint32_t seed, const simulation::Verdict& verdict) const;
+
+ private:
+  void sense();
+  void look(const simulation::CameraFrame& frame);
+  void step();
+  FlightRecord record() const;
+  void recordTarget(FlightRecord& record) const;
+
+  simulation::World world_;
+  FlightParams params_;
+  detection::WindowDetector detector_;
+  navigation::TargetTracker tracker_;
+  navigation::Navigator navigator_;
+  navigation::NavigatorInput input_;
+  navigation::NavigatorOutput output_;
+  std::optional<double> started_sec_;
+  bool detected_ = false;
+};
+
+void Flight::sense() {
+  if (const auto odometry = world_.takeOdometry()) {
+    tracker_.addOdometry(odometry->stamp_sec, odometry->T_odom_base);
+    input_.vehicle =
+        navigation::VehicleState{odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
+  }
+  if (const auto imu = world_.takeImu()) tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
+  if (const auto frame = world_.takeFrame()) look(*frame);
+}
+
+void Flight::look(const simulation::CameraFrame& frame) {
+  const auto window = detector_.detect(frame.image, frame.stamp_sec, &world_.camera());
+  detected_ = window.has_value();
+  input_.image_stamp_sec = frame.stamp_sec;
+  if (window) tracker_.see(*window, world_.camera(), world_.T_base_camera());
+}
+
+void Flight::step() {
+  const double now_sec = world_.timeSec();
+  input_.target = tracker_.target(now_sec);
+  if (!started_sec_ && input_.image_stamp_sec && navigator_.start(input_, now_sec).success)
+    started_sec_ = now_sec;
+  output_ = navigator_.step(input_, now_sec);
+  if (!output_.enabled) return;
+  world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
+}
+
+FlightRecord Flight::record() const {
+  const Eigen::Matrix3d R_window_odom = world_.T_odom_window().linear().transpose();
+  const auto& truth = world_.truth();
+  FlightRecord record;
+  record.time_sec = world_.timeSec() - started_sec_.value_or(world_.timeSec());
+  record.state = output_.state;
+  record.reason = output_.reason;
+  record.position_m = world_.T_odom_window().inverse() * truth.T_odom_base.translation();
+  record.heading_rad = geometry::yawOf(R_window_odom * truth.T_odom_base.linear());
+  record.velocity_mps = R_window_odom * truth.velocity_odom_mps;
+  record.setpoint_mps =
+      R_window_odom * (world_.odometryDrift().linear().transpose() * output_.setpoint.velocity_odom_mps);
+  record.setpoint_yaw_rate_radps = output_.setpoint.yaw_rate_radps;
+  record.detected = detected_;
+  record.sighting = tracker_.lastUpdate().why_not;
+  recordTarget(record);
+  return record;
+}
+
+void Flight::recordTarget(FlightRecord& record) const {
+  if (!input_.target) return;
+  const auto& target = *input_.target;
+  const Eigen::Isometry3d T_window_estimate =
+      world_.T_odom_window().inverse() * world_.odometryDrift().inverse() * target.T_odom_window;
+  const Eigen::Vector3d left = target.T_odom_window.linear().col(1);
+  record.has_target = true;
+  record.sign_trusted = target.sign_trusted;
+  record.target_age_sec = world_.timeSec() - target.stamp_sec;
+  record.target_error_m = T_window_estimate.translation();
+  record.target_yaw_error_rad = geometry::yawOf(T_window_estimate.linear());
+  record.target_sigma_m = std::sqrt(left.dot(target.covariance.topLeftCorner<3, 3>() * left));
+  record.target_yaw_sigma_rad = std::sqrt(target.covariance(5, 5));
+}
+
+FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdict) const {
+  const auto& referee = world_.referee();
+  FlightResult result;
+  result.seed = seed;
+  result.outcome = verdict.outcome;
+  const double end_sec = referee.crossing() ? referee.crossing()->time_sec : world_.timeSec();
+  result.time_sec = end_sec - started_sec_.value_or(0.0);
+  if (referee.crossing()) {
+    result.offset_y_m = referee.crossing()->offset_y_m;
+    result.offset_z_m = referee.crossing()->offset_z_m;
+  }
+  result.min_clearance_m = referee.minClearance();
+  result.wrong_side_m = referee.wrongSide();
+  result.max_speed_mps = referee.maxSpeed();
+  result.blind_sec = output_.report.blind_sec;
+  if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;
+  result.reason = verdict.outcome == Outcome::kPassed
+                      ? verdict.reason
+                      : verdict.reason + " [" + toString(output_.state) + ": " + output_.reason + "]";
+  return result;
+}
+
+}  // namespace
+
+FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
+                     FlightLog* log) {
+  Flight flight(scenario, seed, params);
+  const auto verdict = flight.fly(log);
+  return flight.result(seed, verdict);
+}
+
+}  // namespace window_ingress::evaluation

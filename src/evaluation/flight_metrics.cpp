@@ -1,0 +1,95 @@
+#include "window_ingress/evaluation/flight_metrics.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace window_ingress::evaluation {
+namespace {
+
+std::string number(const std::optional<double>& value, const char* pattern = "%.4f") {
+  if (!value) return "";
+  char text[40];
+  std::snprintf(text, sizeof text, pattern, *value);
+  return text;
+}
+
+/// As one csv field: quoted if it has to be.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
+  return quoted + "\"";
+}
+
+/// The text with every number as #, so that like causes count together.
+std::string withoutNumbers(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_number =
+        std::isdigit(static_cast<unsigned char>(c)) != 0 || (c == '.' && !out.empty() && out.back() == '#');
+    if (!is_number) out += c;
+    if (is_number && (out.empty() || out.back() != '#')) out += '#';
+  }
+  return out;
+}
+
+bool hasPassed(const FlightResult& flight) { return flight.outcome == simulation::Outcome::kPassed; }
+
+}  // namespace
+
+std::string csvHeader() {
+  return "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
+         "predicted_miss_m,reason";
+}
+
+std::string csvRow(const FlightResult& flight) {
+  return std::to_string(flight.seed) + "," + toString(flight.outcome) + "," +
+         number(flight.time_sec, "%.3f") + "," + number(flight.offset_y_m) + "," + number(flight.offset_z_m) +
+         "," + number(flight.min_clearance_m) + "," + number(flight.wrong_side_m) + "," +
+         number(flight.max_speed_mps) + "," + number(flight.blind_sec, "%.3f") + "," +
+         number(flight.predicted_miss_m) + "," + field(flight.reason);
+}
+
+FlightSummary summarise(const std::vector<FlightResult>& flights) {
+  FlightSummary summary;
+  std::vector<double> times, offsets, wrong_sides;
+  for (const auto& flight : flights) {
+    const std::string outcome = toString(flight.outcome);
+    ++summary.outcomes[outcome];
+    wrong_sides.push_back(flight.wrong_side_m);
+    if (hasPassed(flight)) times.push_back(flight.time_sec);
+    if (!hasPassed(flight)) ++summary.causes[outcome + ": " + withoutNumbers(flight.reason)];
+    if (flight.offset_y_m && flight.offset_z_m) {
+      offsets.push_back(std::max(std::abs(*flight.offset_y_m), std::abs(*flight.offset_z_m)));
+    }
+  }
+  summary.flights = static_cast<int>(flights.size());
+  summary.passed = static_cast<int>(times.size());
+  summary.pass_rate_95 = wilson95(summary.passed, summary.flights);
+  summary.median_time_sec = quantile(times, 0.5);
+  summary.p95_time_sec = quantile(times, 0.95);
+  summary.p95_offset_m = quantile(offsets, 0.95);
+  summary.p95_wrong_side_m = quantile(wrong_sides, 0.95);
+  return summary;
+}
+
+std::string toJson(const FlightSummary& summary) {
+  nlohmann::ordered_json json;
+  json["flights"] = summary.flights;
+  json["passed"] = summary.passed;
+  json["pass_rate"] = summary.flights > 0 ? static_cast<double>(summary.passed) / summary.flights : 0.0;
+  json["pass_rate_low_95"] = summary.pass_rate_95.low;
+  json["pass_rate_high_95"] = summary.pass_rate_95.high;
+  json["outcomes"] = summary.outcomes;
+  json["causes"] = summary.causes;
+  json["median_time_s"] = summary.median_time_sec;
+  json["p95_time_s"] = summary.p95_time_sec;
+  json["p95_offset_m"] = summary.p95_offset_m;
+  json["p95_wrong_side_m"] = summary.p95_wrong_side_m;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,107 @@
+#include "window_ingress/navigation/target_tracker.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+TrackerParams checked(const TrackerParams& params) {
+  const auto faults = parameters::outOfRange(params);
+  if (!faults.empty()) throw std::invalid_argument("tracker: " + parameters::joined(faults));
+  return params;
+}
+
+}  // namespace
+
+TargetEstimate targetFrom(const pose::FilteredWindow& window, const geometry::OpeningSize& opening) {
+  TargetEstimate target;
+  target.stamp_sec = window.stamp_sec;
+  target.T_odom_window = window.T_odom_window;
+  target.covariance = window.covariance;
+  target.sign_trusted = window.sign_trusted;
+  target.updates = window.updates;
+  target.opening = opening;
+  return target;
+}
+
+TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterParams& filter,
+                             const TrackerParams& params)
+    : params_(checked(params)),
+      opening_{pose.opening_width_m, pose.opening_height_m},
+      estimator_(pose),
+      filter_(filter) {}
+
+void TargetTracker::reset() {
+  filter_.reset();
+  odometry_.clear();
+  attitude_.clear();
+  odometry_stamp_sec_.reset();
+  pending_.reset();
+  last_ = TrackerUpdate();
+}
+
+void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base) {
+  constexpr double kFastestMps = 3.0;
+  if (!geometry::isValidPose(T_odom_base)) return;
+  if (odometry_stamp_sec_) {
+    const double moved_m = (T_odom_base.translation() - odometry_position_m_).norm();
+    const double dt_sec = stamp_sec - *odometry_stamp_sec_;
+    if (dt_sec < 0.0 || moved_m > params_.max_jump_m + kFastestMps * dt_sec) reset();
+  }
+  if (!odometry_.add(stamp_sec, T_odom_base)) return;
+  odometry_stamp_sec_ = stamp_sec;
+  odometry_position_m_ = T_odom_base.translation();
+  if (!pending_ || pending_->window.stamp_sec > stamp_sec) return;
+  process(*pending_);
+  pending_.reset();
+}
+
+void TargetTracker::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base) {
+  attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
+}
+
+void TargetTracker::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_base_camera) {
+  if (pending_) process(*pending_);
+  pending_ = Pending{window, camera, T_base_camera};
+  if (!odometry_stamp_sec_ || *odometry_stamp_sec_ < window.stamp_sec) return;
+  process(*pending_);
+  pending_.reset();
+}
+
+void TargetTracker::process(const Pending& pending) {
+  last_.used = false;
+  last_.pose = estimator_.estimate(pending.window, pending.camera, gravity(pending));
+  const bool is_whole = std::all_of(pending.window.edges.begin(), pending.window.edges.end(),
+                                    [](const auto& edge) { return edge.visible; });
+  last_.why_not = last_.pose.detail;
+  if (!last_.pose.estimate && is_whole) return;
+  const auto T_odom_base = odometry_.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
+  last_.why_not = "no odometry near the exposure";
+  if (!T_odom_base) return;
+  const Eigen::Isometry3d T_odom_camera = *T_odom_base * pending.T_base_camera;
+  last_.used = last_.pose.estimate
+                   ? filter_.update(*last_.pose.estimate, pending.window, pending.camera, T_odom_camera)
+                   : filter_.update(pending.window, pending.camera, T_odom_camera);
+  last_.why_not = last_.used ? "" : "gated out by the filter";
+}
+
+std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending) const {
+  const auto& source = attitude_.empty() ? odometry_ : attitude_;
+  const auto T_odom_base = source.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
+  if (!T_odom_base) return std::nullopt;
+  const Eigen::Matrix3d R_odom_camera = T_odom_base->linear() * pending.T_base_camera.linear();
+  return pose::GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
+}
+
+std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
+  const auto state = filter_.state(now_sec);
+  if (!state) return std::nullopt;
+  return targetFrom(*state, opening_);
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,76 @@
+#include "window_ingress/evaluation/flight_metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace window_ingress::evaluation {
+namespace {
+
+using simulation::Outcome;
+
+FlightResult passed(std::uint32_t seed, double time_sec, double offset_m) {
+  FlightResult flight;
+  flight.seed = seed;
+  flight.outcome = Outcome::kPassed;
+  flight.time_sec = time_sec;
+  flight.offset_y_m = offset_m;
+  flight.offset_z_m = 0.0;
+  return flight;
+}
+
+FlightResult failed(Outcome outcome, const std::string& reason) {
+  FlightResult flight;
+  flight.outcome = outcome;
+  flight.reason = reason;
+  return flight;
+}
+
+TEST(FlightRow, HasTheColumnsOfTheHeader) {
+  EXPECT_EQ(csvHeader(),
+            "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
+            "predicted_miss_m,reason");
+  auto flight = passed(7, 8.5, -0.0123);
+  flight.min_clearance_m = 0.25;
+  flight.predicted_miss_m = 0.1;
+  flight.reason = "crossed";
+  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed");
+}
+
+TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
+  EXPECT_EQ(csvRow(failed(Outcome::kAborted, "lost, \"really\"\nlost")),
+            "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\"");
+}
+
+TEST(FlightSummary, OfNothingSaysNothing) {
+  const auto summary = summarise({});
+  EXPECT_EQ(summary.flights, 0);
+  EXPECT_EQ(summary.pass_rate_95.low, 0.0);
+  EXPECT_EQ(summary.pass_rate_95.high, 1.0);
+  EXPECT_EQ(nlohmann::json::parse(toJson(summary))["pass_rate"], 0.0);
+}
+
+TEST(FlightSummary, CountsOutcomesAndLikeCausesTogether) {
+  std::vector<FlightResult> flights;
+  for (std::uint32_t seed = 1; seed <= 8; ++seed) flights.push_back(passed(seed, seed, 0.01 * seed));
+  flights.push_back(failed(Outcome::kAborted, "gave up at 12.30 s"));
+  flights.push_back(failed(Outcome::kAborted, "gave up at 9.75 s"));
+  const auto json = nlohmann::json::parse(toJson(summarise(flights)));
+  EXPECT_EQ(json["flights"], 10);
+  EXPECT_EQ(json["passed"], 8);
+  EXPECT_EQ(json["outcomes"]["ABORTED"], 2);
+  EXPECT_EQ(json["causes"]["ABORTED: gave up at # s"], 2);
+  EXPECT_DOUBLE_EQ(json["median_time_s"], 4.5);
+  EXPECT_NEAR(json["pass_rate_low_95"], wilson95(8, 10).low, 1e-12);
+  EXPECT_NEAR(json["p95_offset_m"], 0.0765, 1e-9);
+}
+
+TEST(FlightSummary, SurvivesNumbersThatAreNone) {
+  auto flight = passed(1, std::numeric_limits<double>::infinity(), 0.0);
+  flight.wrong_side_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NO_THROW(toJson(summarise({flight})));
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

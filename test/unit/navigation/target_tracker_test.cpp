@@ -1,0 +1,102 @@
+#include "window_ingress/navigation/target_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
+const Eigen::Isometry3d kMounting =
+    geometry::makePose(geometry::R_optical_flu().transpose(), {0.1, 0.0, 0.02});
+const Eigen::Isometry3d kWindow = geometry::makePose(geometry::yawRotation(0.3), {4.0, 0.5, 1.4});
+
+Eigen::Isometry3d vehicleAt(double y_m) {
+  return geometry::makePose(geometry::yawRotation(0.1), {0.0, y_m, 1.2});
+}
+
+/// The window, seen exactly, from a vehicle at this place.
+detection::WindowObservation sighting(const Eigen::Isometry3d& T_odom_base, double stamp_sec) {
+  detection::WindowObservation window;
+  const Eigen::Isometry3d T_camera_window = (T_odom_base * kMounting).inverse() * kWindow;
+  window.corners = *geometry::projectOpening(kCamera, T_camera_window, {1.2, 1.0});
+  for (auto& covariance : window.corner_covariance) covariance = 0.01 * Eigen::Matrix2d::Identity();
+  for (auto& edge : window.edges) edge = {true, 0.1, 0.001};
+  window.stamp_sec = stamp_sec;
+  window.score = 1.0;
+  return window;
+}
+
+TargetTracker tracker() { return TargetTracker(pose::PoseParams(), pose::FilterParams(), TrackerParams()); }
+
+TEST(TargetTracker, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
+  auto track = tracker();
+  for (int i = 0; i < 30; ++i) {
+    const double now = i / 30.0, exposure = now - 0.05;
+    track.addOdometry(now, vehicleAt(now));  // 1 m/s sideways
+    track.addAttitude(now, Eigen::Quaterniond(geometry::yawRotation(0.1)));
+    if (exposure >= 0.0) track.see(sighting(vehicleAt(exposure), exposure), kCamera, kMounting);
+  }
+  const auto target = track.target(1.0);
+  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  EXPECT_TRUE(track.lastUpdate().used);
+  EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.02);
+  EXPECT_NEAR(geometry::yawOf(target->T_odom_window.linear()), 0.3, 0.02);
+  EXPECT_NEAR(target->stamp_sec, 29 / 30.0 - 0.05, 1e-9);
+  EXPECT_DOUBLE_EQ(target->opening.width_m, 1.2);
+  EXPECT_GT(target->updates, 10);
+}
+
+TEST(TargetTracker, AnImageWaitsForItsOdometry) {
+  auto track = tracker();
+  track.addOdometry(0.0, vehicleAt(0.0));
+  track.see(sighting(vehicleAt(0.03), 0.03), kCamera, kMounting);
+  EXPECT_FALSE(track.target(0.03));
+  track.addOdometry(0.06, vehicleAt(0.06));
+  EXPECT_TRUE(track.target(0.06));
+}
+
+TEST(TargetTracker, WithoutOdometryNearTheExposureThereIsNoTarget) {
+  auto track = tracker();
+  track.see(sighting(vehicleAt(0.0), 1.0), kCamera, kMounting);
+  track.addOdometry(0.0, vehicleAt(0.0));
+  track.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+  EXPECT_FALSE(track.target(1.03));
+  EXPECT_EQ(track.lastUpdate().why_not, "no odometry near the exposure");
+}
+
+TEST(TargetTracker, AJumpOfTheOdometryStartsAnew) {
+  auto track = tracker();
+  for (int i = 0; i < 10; ++i) {
+    track.addOdometry(0.03 * i, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), 0.03 * i), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(0.3));
+  track.addOdometry(0.3, vehicleAt(5.0));
+  EXPECT_FALSE(track.target(0.3));
+}
+
+TEST(TargetTracker, BadInputIsRefusedWithAReason) {
+  auto track = tracker();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  track.addOdometry(0.0, vehicleAt(nan));
+  track.addOdometry(nan, vehicleAt(0.0));
+  track.addOdometry(0.0, vehicleAt(0.0));
+  track.addAttitude(0.0, Eigen::Quaterniond(nan, 0, 0, 1));
+  auto window = sighting(vehicleAt(0.0), 0.0);
+  window.corners[2].x() = nan;
+  track.see(window, kCamera, kMounting);
+  EXPECT_FALSE(track.lastUpdate().used);
+  EXPECT_FALSE(track.lastUpdate().why_not.empty());
+  EXPECT_FALSE(track.target(0.0));
+  TrackerParams params;
+  params.max_jump_m = -1.0;
+  EXPECT_THROW(TargetTracker(pose::PoseParams(), pose::FilterParams(), params), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
