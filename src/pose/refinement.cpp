@@ -18,9 +18,10 @@ Eigen::Matrix<double, 6, 1> dampedStep(const NormalEquations& equations, double 
   return -damped.ldlt().solve(equations.gradient);
 }
 
-// Step and decrease below which nothing is left to gain: 1e-10 of the spread that the information allows.
+// Step and decrease below which nothing is left to gain: a millionth of the spread that the information
+// allows.
 bool hasConverged(const NormalEquations& equations, const Eigen::Matrix<double, 6, 1>& step) {
-  return step.dot(equations.information * step) < 1e-16 * (1.0 + equations.cost);
+  return step.dot(equations.information * step) < 1e-12 * (1.0 + equations.cost);
 }
 
 }  // namespace
@@ -35,11 +36,11 @@ std::optional<NormalEquations> linearise(const RefinementProblem& problem,
   const auto predicted = predictOpening(problem.camera, T_camera_window, problem.opening);
   if (!predicted) return std::nullopt;
   const LinearisedResidual image = problem.image.evaluate(predicted->corners_px);
-  const ResidualJacobian<6> by_pose = image.by_corners * predicted->by_pose;
+  const ResidualJacobian<6> by_pose = image.by_corners.lazyProduct(predicted->by_pose);
   NormalEquations equations;
   equations.image_cost = equations.cost = 0.5 * image.residual.squaredNorm();
-  equations.information.noalias() = by_pose.transpose() * by_pose;
-  equations.gradient.noalias() = by_pose.transpose() * image.residual;
+  equations.information = by_pose.transpose().lazyProduct(by_pose);
+  equations.gradient = by_pose.transpose().lazyProduct(image.residual);
   if (problem.gravity) {
     const GravityResidual gravity = gravityResidual(*problem.gravity, T_camera_window.linear());
     equations.cost += 0.5 * gravity.residual.squaredNorm();

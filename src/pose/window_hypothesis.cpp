@@ -55,7 +55,7 @@ std::optional<Linearised> linearise(const FilterView& view, const State& state) 
   const auto predicted = predictOpening(view.camera, T, view.opening);
   if (!predicted) return std::nullopt;
   const LinearisedResidual image = view.image.evaluate(predicted->corners_px);
-  const ResidualJacobian<6> by_pose = image.by_corners * predicted->by_pose;
+  const ResidualJacobian<6> by_pose = image.by_corners.lazyProduct(predicted->by_pose);
   Matrix6d by_camera = Matrix6d::Zero();
   by_camera.topLeftCorner<3, 3>().setIdentity();
   by_camera.rightCols<3>() = byCameraTurn(T);
@@ -96,7 +96,7 @@ struct HypothesisFit {
     const ResidualJacobian<6> J = noise.matrixL().solve(linear->by_state);
     const State off = difference(at, prior.state_);
     cost = 0.5 * (r.squaredNorm() + off.dot(prior_information * off));
-    information = prior_information + J.transpose() * J;
+    information = prior_information + J.transpose().lazyProduct(J);
     gradient = prior_information * off + J.transpose() * r;
     state = at;
     return std::isfinite(cost) && information.allFinite() && gradient.allFinite();

@@ -11,7 +11,7 @@ struct FilterParams {
   double systematic_renewal_sec = 20.0;  ///< and after this time at one place [s]
 
   double odom_position_sigma_m = 0.01;     ///< noise of each camera position, latency included [m]
-  double odom_attitude_sigma_rad = 0.003;  ///< noise of each camera attitude, latency included [rad]
+  double odom_attitude_sigma_rad = 0.004;  ///< noise of each camera attitude, latency included [rad]
   double attitude_bias_sigma_rad = 0.02;   ///< lasting error of roll and pitch, mounting included [rad]
   double attitude_bias_time_sec = 20.0;    ///< how long that error lasts [s]
   double drift_m_per_sqrt_sec = 0.01;      ///< odometry's random walk in time [m/sqrt(s)]
