@@ -1,0 +1,63 @@
+#include "window_ingress/evaluation/closed_loop_flight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace window_ingress::evaluation {
+namespace {
+
+using navigation::State;
+using simulation::Outcome;
+
+simulation::Scenario shortFlight() {
+  simulation::Scenario scenario;
+  scenario.start.distance_m = 2.5;
+  scenario.start.off_axis_rad = 0.2;
+  scenario.time_limit_sec = 20.0;
+  return scenario;
+}
+
+std::string csvOf(const FlightLog& log) {
+  std::ostringstream text;
+  writeCsv(log, text);
+  return text.str();
+}
+
+TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
+  FlightLog log;
+  const auto flight = flyOnce(shortFlight(), 1, FlightParams(), &log);
+  ASSERT_EQ(flight.outcome, Outcome::kPassed) << flight.reason;
+  EXPECT_LT(flight.time_sec, 10.0);
+  ASSERT_TRUE(flight.offset_y_m && flight.offset_z_m && flight.predicted_miss_m && flight.min_clearance_m);
+  EXPECT_LT(std::max(std::abs(*flight.offset_y_m), std::abs(*flight.offset_z_m)), *flight.predicted_miss_m);
+  EXPECT_GT(*flight.min_clearance_m, 0.1);
+  EXPECT_GT(flight.blind_sec, 0.0);
+  EXPECT_EQ(log.records.back().state, State::kPassed);
+  const auto is_committed = [](const FlightRecord& record) { return record.state == State::kCommit; };
+  EXPECT_TRUE(std::any_of(log.records.begin(), log.records.end(), is_committed));
+}
+
+TEST(ClosedLoopFlight, RepeatsToTheBit) {
+  auto scenario = shortFlight();
+  scenario.time_limit_sec = 0.5;
+  FlightLog first, second, other;
+  const auto a = flyOnce(scenario, 5, FlightParams(), &first);
+  const auto b = flyOnce(scenario, 5, FlightParams(), &second);
+  flyOnce(scenario, 6, FlightParams(), &other);
+  EXPECT_EQ(csvRow(a), csvRow(b));
+  EXPECT_EQ(csvOf(first), csvOf(second));
+  EXPECT_NE(csvOf(first), csvOf(other));
+  EXPECT_EQ(a.outcome, Outcome::kTimeout);
+}
+
+TEST(ClosedLoopFlight, RefusesBadParameters) {
+  FlightParams params;
+  params.navigator.limits.speed_mps = -1.0;
+  EXPECT_THROW(flyOnce(shortFlight(), 1, params), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,176 @@
+/// What each state does by itself: search, height probe, steps, back-off, hold.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "navigation_samples.hpp"
+#include "window_ingress/navigation/align.hpp"
+#include "window_ingress/navigation/back_off.hpp"
+#include "window_ingress/navigation/hold.hpp"
+#include "window_ingress/navigation/search.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool with_target,
+                      double yaw_rad = 0.0) {
+  Situation situation;
+  situation.now_sec = now_sec;
+  situation.dt_sec = 0.03;
+  situation.vehicle = test::vehicleAt(position_m, now_sec, yaw_rad);
+  if (with_target) situation.target = test::targetAtOrigin(now_sec);
+  situation.target_is_new = with_target;
+  return situation;
+}
+
+TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
+  const NavigatorParams params;
+  Search search(params);
+  search.enter(true);
+  double yaw = 0.0, height = 1.5, turned = 0.0;
+  Decision decision;
+  while (!decision.event) {
+    decision = search.step(situationAt({-4, 1, height}, 0.0, false, yaw), MissionMemory());
+    ASSERT_EQ(decision.wish.velocity_odom_mps.head<2>().norm(), 0.0);
+    ASSERT_LE(std::abs(decision.wish.velocity_odom_mps.z()), params.search.climb_speed_mps + 1e-12);
+    yaw = geometry::wrapAngle(yaw + 0.03 * decision.wish.yaw_rate_radps);
+    turned += 0.03 * decision.wish.yaw_rate_radps;
+    height += 0.03 * decision.wish.velocity_odom_mps.z();
+  }
+  EXPECT_EQ(*decision.event, Event::kGiveUp);
+  EXPECT_NEAR(turned, params.search.turns * 2 * M_PI, 0.2);
+  EXPECT_NEAR(height, 1.5 + (params.search.turns - 1) * params.search.height_step_m, 0.1);
+}
+
+TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
+  NavigatorParams params;
+  params.search.height_m = 3.0;
+  Search search(params);
+  search.enter(false);
+  EXPECT_EQ(search.step(situationAt({-4, 1, 1.5}, 0.0, false), MissionMemory()).wish.velocity_odom_mps.z(),
+            0.0);
+  search.enter(true);
+  EXPECT_GT(search.step(situationAt({-4, 1, 1.5}, 0.0, false), MissionMemory()).wish.velocity_odom_mps.z(),
+            0.0);
+  search.enter(true);
+  EXPECT_EQ(search.step(situationAt({-4, 1, 5.0}, 0.0, false), MissionMemory()).wish.velocity_odom_mps.z(),
+            0.0);
+}
+
+TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
+  MissionMemory memory;
+  for (const double yaw : {-1.0, 1.0}) {
+    memory.window_odom_m = Eigen::Vector3d(0, 0, 1.5);
+    Search search{NavigatorParams()};
+    search.enter(false);
+    const auto decision = search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), memory);
+    EXPECT_LT(decision.wish.yaw_rate_radps * yaw, 0.0);
+  }
+}
+
+TEST(SearchBehaviour, OneImageIsNoWindow) {
+  Search search{NavigatorParams()};
+  search.enter(true);
+  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), MissionMemory()).event);
+  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), MissionMemory()).event);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.2, true), MissionMemory()).event);
+  EXPECT_EQ(search.step(situationAt({-4, 0, 1.5}, 0.3, true), MissionMemory()).event, Event::kWindowFound);
+}
+
+TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
+  const NavigatorParams params;
+  HeightProbe probe(params);
+  double height = 1.5, highest = height, lowest = height;
+  int steps = 0;
+  for (; probe.count() < 2 && steps < 1000; ++steps) {
+    height += 0.03 * probe.climb(height);
+    highest = std::max(highest, height);
+    lowest = std::min(lowest, height);
+    if (probe.count() == 0) {
+      EXPECT_GE(height, 1.5 - 1e-9);
+    }
+  }
+  EXPECT_NEAR(highest, 1.5 + params.align.probe_amplitude_m, 0.08);
+  EXPECT_NEAR(lowest, 1.5 - params.align.probe_amplitude_m, 0.08);
+  EXPECT_NEAR(height, 1.5, 0.08);
+  EXPECT_LT(0.03 * steps, 12.0);
+  EXPECT_FALSE(probe.isExhausted());
+  while (probe.count() < params.align.max_probes) height += 0.03 * probe.climb(height);
+  EXPECT_TRUE(probe.isExhausted());
+}
+
+TEST(StepPacer, PausesAfterEachStepOnlyIfAsked) {
+  AlignParams params;
+  const Eigen::Vector3d wish(0.5, 0, 0);
+  EXPECT_EQ(StepPacer(params).pace(wish, situationAt({0, 0, 0}, 0.0, false)), wish);
+  params.stepped = true;
+  StepPacer pacer(params);
+  EXPECT_EQ(pacer.pace(wish, situationAt({0, 0, 0}, 0.0, false)), wish);
+  EXPECT_EQ(pacer.pace(wish, situationAt({0.3, 0, 0}, 0.5, false)).norm(), 0.0);
+  EXPECT_EQ(pacer.pace(wish, situationAt({0.3, 0, 0}, 0.9, false)).norm(), 0.0);
+  EXPECT_EQ(pacer.pace(wish, situationAt({0.3, 0, 0}, 1.1, false)), wish);
+}
+
+TEST(BackOffBehaviour, GoesStraightBackAlongTheNormalAndDoesNotTurnInTheReveal) {
+  MissionMemory memory;
+  memory.trusted = test::targetAtOrigin(0.0);
+  memory.trusted->T_odom_window.linear() = geometry::yawRotation(0.4);
+  BackOff back_off{NavigatorParams()};
+  back_off.enter();
+  const auto inside = back_off.step(situationAt({0.05, 0.05, 1.5}, 0.0, false, 0.8), memory);
+  EXPECT_EQ(inside.wish.yaw_rate_radps, 0.0);
+  const Eigen::Vector3d normal(std::cos(0.4), std::sin(0.4), 0.0);
+  EXPECT_NEAR(inside.wish.velocity_odom_mps.normalized().dot(normal), -1.0, 1e-12);
+  const auto outside = back_off.step(situationAt({-1.2, 0.0, 1.5}, 0.0, false, 1.2), memory);
+  EXPECT_LT(outside.wish.yaw_rate_radps, 0.0);
+  EXPECT_NEAR(outside.wish.velocity_odom_mps.normalized().dot(normal), -1.0, 1e-12);
+}
+
+TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
+  MissionMemory memory;
+  memory.trusted = test::targetAtOrigin(0.0);
+  BackOff back_off{NavigatorParams()};
+  back_off.enter();
+  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false), memory).event, Event::kBackedOff);
+  EXPECT_FALSE(
+      back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false, 1.0), memory).event);  // not facing it yet
+  for (int i = 0; i < 2; ++i)
+    EXPECT_FALSE(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event);
+  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event, Event::kReacquired);
+  memory.back_offs = BackOffParams().max_retries + 1;
+  EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event, Event::kGiveUp);
+}
+
+/// The first event of a hold that began at 0 s with these inputs standing still, or none within 10 s.
+std::optional<Event> wayOutOf(State from, const MissionMemory& memory, bool with_vehicle, bool with_target) {
+  Hold hold{NavigatorParams()};
+  hold.enter(from, 0.0);
+  for (double now = 0.0; now < 10.0; now += 0.03) {
+    auto situation = situationAt({-0.8, 0, 1.5}, now, with_target);
+    if (!with_vehicle) situation.vehicle.reset();
+    const auto decision = hold.step(situation, memory);
+    EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
+    if (decision.event) return decision.event;
+  }
+  return std::nullopt;
+}
+
+TEST(HoldBehaviour, GoesOnFromWhereItCan) {
+  MissionMemory nothing, known, committed;
+  known.trusted = test::targetAtOrigin(0.0);
+  committed.trusted = committed.committed = test::targetAtOrigin(0.0);
+  EXPECT_EQ(wayOutOf(State::kApproach, known, true, true), Event::kReacquired);
+  EXPECT_EQ(wayOutOf(State::kApproach, known, true, false), Event::kWindowLost);
+  EXPECT_EQ(wayOutOf(State::kAlign, nothing, true, false), Event::kInputFresh);
+  EXPECT_EQ(wayOutOf(State::kSearch, known, true, false), Event::kInputFresh);
+  EXPECT_EQ(wayOutOf(State::kBackOff, known, true, false), Event::kWindowLost);
+  EXPECT_EQ(wayOutOf(State::kCommit, committed, true, false), Event::kResumed);
+  EXPECT_EQ(wayOutOf(State::kCommit, known, true, true), Event::kWindowLost);
+  EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kGiveUp);
+  EXPECT_EQ(wayOutOf(State::kCommit, committed, false, true), Event::kGiveUp);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation

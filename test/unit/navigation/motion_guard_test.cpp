@@ -1,0 +1,95 @@
+#include "window_ingress/navigation/motion_guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "navigation_samples.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+const Eigen::Vector3d kWish(0.5, 0.4, 0.2);
+const Eigen::Vector3d kNothing = Eigen::Vector3d::Zero();
+
+/// 3 m in front of the window, on its axis.
+class MotionGuard : public testing::Test {
+ protected:
+  NavigatorParams params_;
+  MissionMemory memory_;
+  Situation situation_;
+
+  void SetUp() override {
+    situation_.vehicle = test::vehicleAt({-3.0, 0.0, 1.5}, 0.0);
+    situation_.target = test::targetAtOrigin(0.0);
+  }
+  Eigen::Vector3d permitted(State state) const {
+    return permittedVelocity(kWish, state, situation_, memory_, params_);
+  }
+};
+
+TEST_F(MotionGuard, StatesThatDoNotMoveGetNothing) {
+  for (const auto state : {State::kIdle, State::kHold, State::kPassed, State::kAborted}) {
+    EXPECT_EQ(permitted(state), kNothing) << toString(state);
+  }
+}
+
+TEST_F(MotionGuard, NoStateMovesWithoutOdometry) {
+  situation_.vehicle.reset();
+  memory_.trusted = memory_.committed = situation_.target;
+  for (std::size_t i = 0; i < kStateCount; ++i) EXPECT_EQ(permitted(static_cast<State>(i)), kNothing);
+}
+
+TEST_F(MotionGuard, SearchAndAnAmbiguousWindowAllowOnlyHeight) {
+  const Eigen::Vector3d climb(0.0, 0.0, 0.2);
+  EXPECT_EQ(permitted(State::kSearch), climb);
+  situation_.target->sign_trusted = false;
+  EXPECT_EQ(permitted(State::kAlign), climb);
+  EXPECT_EQ(permitted(State::kApproach), climb);
+  situation_.target.reset();
+  EXPECT_EQ(permitted(State::kAlign), climb);
+  EXPECT_EQ(permitted(State::kApproach), climb);
+}
+
+TEST_F(MotionGuard, AlignGoesSidewaysAndBackButNeverForward) {
+  EXPECT_TRUE(permitted(State::kAlign).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
+  EXPECT_EQ(permittedVelocity(-kWish, State::kAlign, situation_, memory_, params_), -kWish);
+}
+
+TEST_F(MotionGuard, ApproachGoesForwardOnlyWithinTheFunnel) {
+  EXPECT_EQ(permitted(State::kApproach), kWish);
+  situation_.vehicle = test::vehicleAt({-3.0, 2.5, 1.5}, 0.0);
+  EXPECT_TRUE(permitted(State::kApproach).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
+}
+
+TEST_F(MotionGuard, CommitAndBackOffNeedWhatTheyFlyBy) {
+  EXPECT_EQ(permitted(State::kCommit), kNothing);
+  EXPECT_EQ(permitted(State::kBackOff), kNothing);
+  memory_.committed = memory_.trusted = situation_.target;
+  EXPECT_EQ(permitted(State::kCommit), kWish);
+  EXPECT_TRUE(permitted(State::kBackOff).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
+}
+
+TEST_F(MotionGuard, HeightLimitsLeaveRoomToStop) {
+  situation_.vehicle = test::vehicleAt({-3.0, 0.0, params_.limits.max_height_m - 0.02}, 0.0);
+  EXPECT_LT(permitted(State::kSearch).z(), 0.1);
+  situation_.vehicle = test::vehicleAt({-3.0, 0.0, params_.limits.max_height_m + 1.0}, 0.0);
+  EXPECT_EQ(permitted(State::kSearch).z(), 0.0);
+  situation_.vehicle = test::vehicleAt({-3.0, 0.0, params_.limits.min_height_m - 0.1}, 0.0);
+  EXPECT_EQ(permittedVelocity(-kWish, State::kSearch, situation_, memory_, params_).z(), 0.0);
+  EXPECT_EQ(permitted(State::kSearch).z(), 0.2);
+}
+
+TEST_F(MotionGuard, NeverAddsSpeed) {
+  memory_.committed = memory_.trusted = situation_.target;
+  for (std::size_t i = 0; i < kStateCount; ++i) {
+    for (double angle = 0.0; angle < 6.28; angle += 0.1) {
+      const Eigen::Vector3d wish(std::cos(angle), std::sin(angle), std::cos(3 * angle));
+      const auto velocity = permittedVelocity(wish, static_cast<State>(i), situation_, memory_, params_);
+      EXPECT_LE(velocity.norm(), wish.norm() + 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
