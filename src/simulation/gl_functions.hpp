@@ -12,9 +12,9 @@ namespace window_ingress::simulation {
   F(GetError, GLenum, (void))                                                                       \
   F(Enable, void, (GLenum))                                                                         \
   F(Disable, void, (GLenum))                                                                        \
+  F(FrontFace, void, (GLenum))                                                                      \
   F(DepthFunc, void, (GLenum))                                                                      \
   F(Viewport, void, (GLint, GLint, GLsizei, GLsizei))                                               \
-  F(ClearColor, void, (GLfloat, GLfloat, GLfloat, GLfloat))                                         \
   F(Clear, void, (GLbitfield))                                                                      \
   F(MatrixMode, void, (GLenum))                                                                     \
   F(LoadMatrixd, void, (const GLdouble*))                                                           \

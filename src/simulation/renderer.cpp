@@ -120,10 +120,10 @@ struct Renderer::Impl {
   void setState(const GlFunctions& gl) const {
     for (const GLenum array : {GL_VERTEX_ARRAY, GL_TEXTURE_COORD_ARRAY, GL_COLOR_ARRAY})
       gl.EnableClientState(array);
-    for (const GLenum ability : {GL_DEPTH_TEST, GL_MULTISAMPLE}) gl.Enable(ability);
+    for (const GLenum ability : {GL_DEPTH_TEST, GL_CULL_FACE, GL_MULTISAMPLE}) gl.Enable(ability);
     gl.Disable(GL_DITHER);
+    gl.FrontFace(GL_CW);  // the picture stands on its head
     gl.DepthFunc(GL_LESS);
-    gl.ClearColor(0.75F, 0.85F, 0.98F, 1.0F);
     gl.Viewport(0, 0, camera.width, camera.height);
     gl.MatrixMode(GL_PROJECTION);
     gl.LoadMatrixd(projectionOf(camera).data());
@@ -132,7 +132,7 @@ struct Renderer::Impl {
 
   void draw(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, sampled);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers what nothing else does
     gl.LoadMatrixd(T_camera_window.matrix().data());
     for (const Batch& batch : batches) {
       (batch.textured ? gl.Enable : gl.Disable)(GL_TEXTURE_2D);

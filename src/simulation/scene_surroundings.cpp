@@ -118,9 +118,9 @@ void addSky(Scene& scene) {
   const Surface haze = painted({190, 209, 236}), air = painted({206, 227, 255}, Texture::kClouds);
   for (int i = 0; i < kSides; ++i) {
     const Vector3d a = ring(i, far_m, low_m), b = ring(i + 1, far_m, low_m), up(0, 0, high_m - low_m);
-    scene.mesh.addQuad(a, b - a, up, haze);
+    scene.mesh.addQuad(b, a - b, up, haze);
   }
-  scene.mesh.addQuad({-far_m, -far_m, high_m}, {2 * far_m, 0, 0}, {0, 2 * far_m, 0}, air);
+  scene.mesh.addQuad({-far_m, -far_m, high_m}, {0, 2 * far_m, 0}, {2 * far_m, 0, 0}, air);
   scene.mesh.setLighting(outdoors);
 }
 

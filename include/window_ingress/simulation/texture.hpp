@@ -6,19 +6,19 @@
 
 namespace window_ingress::simulation {
 
+/// In the order in which they are drawn: what hides most comes first.
 enum class Texture {
-  kPlain,
   kPlaster,
   kBrick,
-  kGrass,
-  kPaving,
-  kTiles,
-  kHedge,
-  kWood,
+  kPlain,
   kGlass,
   kPoster,
-  kClouds,
-  kCount
+  kPaving,
+  kGrass,
+  kHedge,
+  kWood,
+  kTiles,
+  kClouds
 };
 
 /// Colour factors, 255 for "as the surface's own colour"; CV_8UC3 in RGB order, square, sides a power of two.
