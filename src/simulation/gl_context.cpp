@@ -19,10 +19,11 @@ std::mutex& contextMutex() {
   return mutex;
 }
 
-// Read by Mesa when the first context of the process is made; what the user has set stands.
+// Read by Mesa when the first context of the process is made; what the user has set stands. No threads of its
+// own: flights run side by side in processes or threads already.
 void chooseDriver() {
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 0);
-  ::setenv("LP_NUM_THREADS", "1", 0);
+  ::setenv("LP_NUM_THREADS", "0", 0);
 }
 
 template <typename Function>

@@ -13,7 +13,8 @@ namespace window_ingress::simulation {
 ///
 /// The projection is built from K itself: the point that `PinholeCamera::project` sends to (u, v) lies at (u,
 /// v) of the picture, pixel centres at integers. Distortion is not drawn here; see `Lens`. One renderer per
-/// thread at a time; several may exist.
+/// thread at a time; several may exist. Drawing runs in the calling thread; a process that flies one
+/// world in real time may set LP_NUM_THREADS in its environment before the first one is made.
 class Renderer {
  public:
   /// \throws std::runtime_error if there is no software renderer, std::invalid_argument for a camera that

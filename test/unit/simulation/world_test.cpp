@@ -95,6 +95,65 @@ TEST(World, AFlightStraightAtTheWindowPasses) {
   EXPECT_GT(*world.referee().minClearance(), 0.2);
 }
 
+TEST(World, ReferencePictureShowsTheTargetSquareWithItsFrameOutsideTheCorners) {
+  Scenario scenario;
+  scenario.camera.k1 = -0.2;
+  const World world(scenario, 1);
+  geometry::Quadrilateral corners;
+  const cv::Mat picture = world.referencePicture(&corners);
+  ASSERT_EQ(picture.size(), cv::Size(640, 480));
+  const double wide_px = corners[1].x() - corners[0].x(), high_px = corners[3].y() - corners[0].y();
+  EXPECT_NEAR(wide_px / high_px, 1.2, 1e-9);
+  const double frame_px = 0.07 * wide_px / 1.2;
+  const auto at = [&](double x, double y) {
+    return picture.at<cv::Vec3b>(static_cast<int>(std::lround(y)), static_cast<int>(std::lround(x)));
+  };
+  const auto isOrange = [](const cv::Vec3b& bgr) {
+    return bgr[2] > 120 && bgr[2] > 2 * bgr[1] && bgr[1] > bgr[0];
+  };
+  const Eigen::Vector2d middle = geometry::centroid(corners);
+  EXPECT_TRUE(isOrange(at(corners[0].x() - 0.5 * frame_px, middle.y())));
+  EXPECT_TRUE(isOrange(at(corners[1].x() + 0.5 * frame_px, middle.y())));
+  EXPECT_TRUE(isOrange(at(middle.x(), corners[0].y() - 0.5 * frame_px)));
+  EXPECT_TRUE(isOrange(at(middle.x(), corners[2].y() + 0.5 * frame_px)));
+  EXPECT_FALSE(isOrange(at(corners[0].x() + 3.0, middle.y())));
+  EXPECT_FALSE(isOrange(at(corners[0].x() - frame_px - 3.0, middle.y())));
+}
+
+TEST(World, CommandsAreUnderstoodInTheDriftedAxes) {
+  Scenario scenario = quietScenario();
+  scenario.odometry.yaw_drift_rad_per_sqrt_sec = 0.1;
+  World world(scenario, 3);
+  double worst_mps = 0.0, drifted_rad = 0.0;
+  while (world.timeSec() < 12.0) {
+    world.command({Eigen::Vector3d(0.5, 0, 0), 0.0});
+    world.advance();
+    const Eigen::Vector3d believed = world.odometryDrift().linear() * world.truth().velocity_odom_mps;
+    if (world.timeSec() > 4.0) worst_mps = std::max(worst_mps, std::abs(believed.y()));
+    drifted_rad = std::max(drifted_rad, std::abs(geometry::yawOf(world.odometryDrift().linear())));
+  }
+  EXPECT_GT(drifted_rad, 0.15);
+  EXPECT_LT(worst_mps, 0.5 * 0.5 * drifted_rad + 0.03) << "in the true axes it would be all of the drift";
+}
+
+TEST(World, NoiseHasTheSizeAskedAndIsNewInEachPicture) {
+  Scenario scenario = quietScenario();
+  scenario.camera.noise_grey = 3.0;
+  scenario.camera.blur_px = 0.0;
+  World world(scenario, 1);
+  std::vector<cv::Mat> pictures;
+  while (pictures.size() < 2) {
+    world.advance();
+    if (const auto frame = world.takeFrame()) pictures.push_back(frame->image.clone());
+  }
+  cv::Mat difference;
+  cv::subtract(pictures[1], pictures[0], difference, cv::noArray(), CV_16S);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(difference, mean, deviation);
+  EXPECT_NEAR(deviation[1], 3.0 * std::sqrt(2.0), 0.4);
+  EXPECT_NEAR(mean[1], 0.0, 0.2);
+}
+
 TEST(World, RefusesAScenarioThatCannotBe) {
   Scenario scenario;
   scenario.start.distance_m = std::nan("");
