@@ -15,7 +15,9 @@ namespace window_ingress::pose {
 namespace {
 
 constexpr double kMergeDistance = 0.5;  // squared Mahalanobis
-constexpr double kSplitSigmas = 1.0;    // from here on a mirror image is a mode of its own
+constexpr double kExpectedSquares = 8.0;
+constexpr double kMeanOver = 30.0;    // images
+constexpr double kSplitSigmas = 1.0;  // from here on a mirror image is a mode of its own
 
 double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)); }
 
@@ -37,17 +39,23 @@ struct WindowFilter::Impl {
   geometry::OpeningSize opening{};
   int updates = 0;
   int outliers = 0;
+  double mean_squares = kExpectedSquares;
 
   void reset() {
     hypotheses.clear();
     viewpoints.clear();
     updates = outliers = 0;
+    mean_squares = kExpectedSquares;
     may_split = false;
   }
 
+  ImageNoise noise() const { return {params.systematic_sigma_px, params.unknown_corner_sigma_px, 1.0, 1.0}; }
+
   ImageNoise noiseAt(const Eigen::Vector3d& position) const {
-    return {params.systematic_sigma_px, params.unknown_corner_sigma_px, viewpoints.looksWith(position),
-            std::max(1.0, params.systematic_renewal_sec / interval_sec)};
+    ImageNoise shared = noise();
+    shared.looks = viewpoints.looksWith(position);
+    shared.max_looks_variance = std::max(1.0, params.systematic_renewal_sec / interval_sec);
+    return shared;
   }
 
   // The alternative of a free fit may be missing where that of an upright window is not: it is sought anew.
@@ -83,19 +91,23 @@ struct WindowFilter::Impl {
   }
 
   // All hypotheses over one image; false if none of them can explain it.
-  bool apply(const FilterView& view, double stamp) {
+  // Whether an image is an outlier must not depend on how many were taken from its place: `alone` has it as
+  // the first.
+  bool apply(const FilterView& view, const FilterView& alone, double stamp) {
     std::vector<Weighted> tried = hypotheses;
     std::vector<double> evidence;
+    double best = -1e300, least_squares = params.gate_squares;
     bool explained = false;
-    double best = -1e300;
     for (std::size_t i = 0; i < tried.size(); ++i) {
       WindowHypothesis& window = tried[i].window;
       window.predict(params, stamp - stamp_sec, camera_position, view.T_odom_camera.translation());
-      WindowHypothesis updated = window;
+      WindowHypothesis updated = window, updated_alone = window;
       const auto outcome = updated.update(params, view);
-      const bool inside = outcome && outcome->squares <= params.gate_squares;
+      const auto outcome_alone = updated_alone.update(params, alone);
+      const bool inside = outcome && outcome_alone && outcome_alone->squares <= params.gate_squares;
       evidence.push_back(inside ? outcome->log_evidence : -1e300);
       if (inside) window = updated;
+      if (inside) least_squares = std::min(least_squares, outcome_alone->squares);
       explained = explained || inside;
       best = std::max(best, evidence.back());
     }
@@ -103,6 +115,7 @@ struct WindowFilter::Impl {
     for (std::size_t i = 0; i < tried.size(); ++i)
       tried[i].log_weight += std::max(evidence[i] - best, -params.max_evidence);
     hypotheses = tried;
+    mean_squares += (least_squares - mean_squares) / kMeanOver;
     return true;
   }
 
@@ -171,15 +184,19 @@ struct WindowFilter::Impl {
     const Eigen::Vector3d up = T_odom_camera.linear().transpose().col(2);
     const auto ordered = upright(window, up);
     const auto image = ImageMeasurement::make(ordered, camera, noiseAt(T_odom_camera.translation()));
-    if (!image) return false;
-    const FilterView view{*image, camera, estimate ? estimate->opening : opening, T_odom_camera};
-    if (hypotheses.empty()) return estimate && start(*estimate, view);
-    if (apply(view, window.stamp_sec)) {
+    const auto image_alone = ImageMeasurement::make(ordered, camera, noise());
+    if (!image || !image_alone) return false;
+    const auto size = estimate ? estimate->opening : opening;
+    const FilterView view{*image, camera, size, T_odom_camera},
+        alone{*image_alone, camera, size, T_odom_camera};
+    if (hypotheses.empty()) return estimate && start(*estimate, alone);
+    if (estimate && mean_squares > params.max_mean_squares) return start(*estimate, alone);
+    if (apply(view, alone, window.stamp_sec)) {
       accept(window.stamp_sec, view);
       return true;
     }
     if (++outliers < params.outliers_until_restart) return false;
-    return estimate && start(*estimate, view);
+    return estimate && start(*estimate, alone);
   }
 };
 

@@ -18,7 +18,9 @@ struct FilterParams {
   double drift_m_per_sqrt_m = 0.03;        ///< and in distance flown [m/sqrt(m)]
   double drift_rad_per_sqrt_sec = 0.002;   ///< and in heading [rad/sqrt(s)]
 
-  double gate_squares = 35.0;      ///< largest normalised innovation squared; 8 degrees of freedom
+  double gate_squares = 35.0;  ///< largest normalised innovation squared; 8 degrees of freedom
+  double max_mean_squares =
+      20.0;  ///< the same, as a mean over some 30 images; beyond it the filter starts anew
   int outliers_until_restart = 5;  ///< consecutive images beyond the gate, after which the filter starts anew
   double max_evidence = 3.0;       ///< of one image for one hypothesis against the other [nats]
   double dead_weight = 0.001;      ///< a hypothesis below this weight is dropped
@@ -42,6 +44,7 @@ struct FilterParams {
     field("drift_m_per_sqrt_m", self.drift_m_per_sqrt_m, 0.0, 1.0);
     field("drift_rad_per_sqrt_sec", self.drift_rad_per_sqrt_sec, 0.0, 0.5);
     field("gate_squares", self.gate_squares, 10.0, 1000.0);
+    field("max_mean_squares", self.max_mean_squares, 9.0, 1000.0);
     field("outliers_until_restart", self.outliers_until_restart, 1, 1000);
     field("max_evidence", self.max_evidence, 0.1, 50.0);
     field("dead_weight", self.dead_weight, 1e-9, 0.2);

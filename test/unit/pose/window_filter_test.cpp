@@ -198,6 +198,19 @@ TEST(WindowFilter, OutliersAreGatedAndALastingJumpRestarts) {
   EXPECT_LE(flight.filter.state(3.6)->updates, 6);
 }
 
+// Whatever made the filter certain of the wrong side: hovering must not make it deaf to what it sees.
+TEST(WindowFilter, ACertainBeliefInTheWrongSideIsGivenUp) {
+  for (const double distance : {3.0, 4.0, 6.0}) {
+    Flight flight(10);
+    flight.T_world_window.linear() = geometry::yawRotation(-0.3);
+    for (int i = 0; i < 60; ++i) flight.step({-distance, 0, 1.5}, 1.0 + i / 30.0);
+    ASSERT_TRUE(flight.filter.state(3.0)->sign_trusted);
+    flight.T_world_window.linear() = geometry::yawRotation(0.3);
+    for (int i = 60; i < 120; ++i) flight.step({-distance, 0, 1.5}, 1.0 + i / 30.0);
+    EXPECT_NEAR(flight.yawError(5.0), 0.0, 0.1) << distance;
+  }
+}
+
 TEST(WindowFilter, UsesABorderCutWindow) {
   Flight flight(4);
   for (int i = 0; i < 60; ++i) flight.step({-3.0 + 0.02 * i, 0.2, 1.5}, 1.0 + i / 30.0);
