@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Starts the navigator's mission as soon as it accepts, waits for the referee, says how the flight ended.
+
+Last line: [INGRESS] outcome=PASSED time_s=... offset_y_m=... offset_z_m=...; exit code 0 if PASSED, else 1.
+"""
+import sys
+import threading
+import time
+
+import rospy
+from std_srvs.srv import Trigger
+from window_ingress.msg import FlightVerdict
+
+READY_WITHIN_S = 120.0   # wall time until the navigator must have accepted
+FLIGHT_WITHIN_S = 900.0  # wall time until the referee must have decided
+RETRY_S = 0.5
+
+
+def start(deadline):
+    rospy.wait_for_service("ingress_navigator/start", timeout=deadline - time.monotonic())
+    service = rospy.ServiceProxy("ingress_navigator/start", Trigger)
+    said = None
+    while time.monotonic() < deadline and not rospy.is_shutdown():
+        reply = service()
+        if reply.success:
+            return reply.message
+        if reply.message != said:
+            print(f"not ready: {reply.message}", file=sys.stderr)
+        said = reply.message
+        time.sleep(RETRY_S)  # wall time: /clock may not run yet
+    raise RuntimeError(f"the navigator did not start within {READY_WITHIN_S:.0f} s: {said}")
+
+
+def main():
+    rospy.init_node("start_mission", disable_signals=True)
+    over, verdicts = threading.Event(), []
+
+    def receive(verdict):
+        if verdict.outcome != FlightVerdict.RUNNING:
+            verdicts.append(verdict)
+            over.set()
+
+    rospy.Subscriber("referee", FlightVerdict, receive)
+    print(start(time.monotonic() + READY_WITHIN_S), file=sys.stderr)
+    if not over.wait(FLIGHT_WITHIN_S):
+        raise RuntimeError(f"no verdict within {FLIGHT_WITHIN_S:.0f} s")
+    verdict = verdicts[0]
+    print(verdict.reason, file=sys.stderr)
+    print(f"[INGRESS] outcome={verdict.outcome_name} time_s={verdict.time:.2f} "
+          f"offset_y_m={verdict.offset_y:.3f} offset_z_m={verdict.offset_z:.3f}", flush=True)
+    return 0 if verdict.outcome == FlightVerdict.PASSED else 1
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (KeyboardInterrupt, rospy.ROSException, rospy.ServiceException, RuntimeError) as error:
+        print(f"start_mission: {error}", file=sys.stderr)
+        sys.exit(1)

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""Writes config/*.yaml and config/WindowDetector.cfg from the parameter structs of the headers.
+
+Every struct lists its fields once, in `visit`, with range; default and meaning stand at the member. This copies them
+into the files that users edit and that ROS reads. Run it after a change of a parameter; a unit test fails if files and
+structs differ. Usage: write_parameter_files.py [--check]
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+WIDTH = 116
+
+MEMBER = re.compile(r"^  ([\w:]+(?:<\w+>)?) (\w+)(?: = ([^;]+)|\{[^;]*\})?;\s*(?:///<\s*(.*))?$")
+FIELD = re.compile(r'field\("(\w+)",\s*self\.(\w+)(?:,\s*([^,()]+),\s*([^,()]+))?\)')
+GROUP = re.compile(r'field\.group\("(\w+)",\s*self\.(\w+)\)')
+INLINE = re.compile(r"(\w+)::visit\(self\.(\w+),\s*field\)")
+
+
+class Struct:
+    def __init__(self, space, about):
+        self.space, self.about = space, about
+        self.members = {}  # name -> (type, default, comment)
+        self.visits = []   # ("field", name, member, minimum, maximum) | ("group"|"inline", name, member)
+
+
+def read_structs():
+    structs = {}
+    headers = [*ROOT.glob("include/window_ingress/*/*.hpp"), *ROOT.glob("src/adapters/*.hpp")]
+    for header in sorted(headers):
+        for name, struct in structs_of(header.read_text(), header.parent.name):
+            structs[struct.space, name] = struct
+    return structs
+
+
+def structs_of(text, space):
+    for match in re.finditer(r"((?:^/// [^\n]*\n)*)^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S):
+        if "visit(Self" not in match[3]:
+            continue
+        about = " ".join(line[4:] for line in match[1].splitlines())
+        struct = Struct(space, about)
+        body = re.sub(r"=\n\s+", "= ", match[3])
+        read_members(struct, body)
+        body = body[body.index("visit(Self"):]
+        for statement in re.split(r";\s", body):
+            read_visit(struct, " ".join(statement.split()))
+        yield match[2], struct
+
+
+def read_members(struct, body):
+    name = None
+    for line in body.splitlines():
+        further = re.match(r"^\s+///<\s*(.*)$", line)
+        member = MEMBER.match(line)
+        if further and name:
+            kind, default, comment = struct.members[name]
+            struct.members[name] = (kind, default, f"{comment} {further[1]}".strip())
+        elif member:
+            name = member[2]
+            struct.members[name] = (member[1], member[3], member[4] or "")
+        elif not line.strip().startswith("///"):
+            name = None
+
+
+def read_visit(struct, statement):
+    for pattern, kind in ((FIELD, "field"), (GROUP, "group")):
+        match = pattern.search(statement)
+        if match:
+            struct.visits.append((kind, *match.groups()))
+            return
+    match = INLINE.search(statement)
+    if match:
+        struct.visits.append(("inline", match[1], match[2]))
+
+
+def find(structs, space, kind):
+    *outer, name = kind.split("::")
+    return structs[outer[-1] if outer else space, name]
+
+
+def default_of(kind, default):
+    if kind == "std::string":
+        return default or '""'
+    if kind.startswith("std::vector"):
+        return "[]"
+    return default
+
+
+def yaml_number(text):
+    """YAML 1.1 takes 1e-3 for a text."""
+    return re.sub(r"^(-?\d+)(e)", r"\1.0\2", text)
+
+
+def yaml_lines(structs, struct, indent):
+    for visit in struct.visits:
+        if visit[0] == "field":
+            _, name, member, minimum, maximum = visit
+            kind, default, comment = struct.members[member]
+            limits = f" ({minimum} .. {maximum})" if minimum else ""
+            yield commented(f"{indent}{name}: {yaml_number(default_of(kind, default))}", comment + limits)
+        else:
+            _, name, member = visit
+            kind = struct.members[member][0] if visit[0] == "group" else name
+            child = find(structs, struct.space, kind)
+            if visit[0] == "inline":
+                yield from yaml_lines(structs, child, indent)
+                continue
+            yield commented(f"{indent}{name}:", child.about)
+            yield from yaml_lines(structs, child, indent + "  ")
+
+
+def commented(line, comment):
+    if not comment:
+        return line
+    wrapped = f"{line}{' ' * max(2, 34 - len(line))}# {comment}"
+    if len(wrapped) <= WIDTH:
+        return wrapped
+    indent = " " * (len(line) - len(line.lstrip()))
+    rows, row = [], f"{indent}#"
+    for word in comment.split():
+        if len(row) + 1 + len(word) > WIDTH:
+            rows.append(row)
+            row = f"{indent}#"
+        row += f" {word}"
+    return "\n".join([*rows, row, line])
+
+
+def yaml_file(structs, kind, title):
+    lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by scripts/write_parameter_files.py.",
+             *yaml_lines(structs, find(structs, "adapters", kind), "")]
+    return "\n".join(lines) + "\n"
+
+
+CFG_TYPES = {"double": "double_t", "int": "int_t", "bool": "bool_t"}
+
+
+def cfg_lines(structs, struct, prefix):
+    for visit in struct.visits:
+        if visit[0] == "group":
+            child = find(structs, struct.space, struct.members[visit[2]][0])
+            yield from cfg_lines(structs, child, f"{prefix}{visit[1]}_")
+            continue
+        _, name, member, minimum, maximum = visit
+        kind, default, comment = struct.members[member]
+        value = default.capitalize() if kind == "bool" else default
+        limits = f", {minimum}, {maximum}" if minimum else ""
+        text = comment.replace('"', "'").replace(";", ",")
+        yield f'gen.add("{prefix}{name}", {CFG_TYPES[kind]}, 0,\n        "{text}",\n        {value}{limits})'
+
+
+def cfg_file(structs):
+    head = ["#!/usr/bin/env python3", "# Live tuning of the detector. Written by scripts/write_parameter_files.py.",
+            "from dynamic_reconfigure.parameter_generator_catkin import ParameterGenerator, bool_t, double_t, int_t", "",
+            "gen = ParameterGenerator()", ""]
+    tail = ["", 'exit(gen.generate("window_ingress", "window_ingress", "WindowDetector"))']
+    return "\n".join([*head, *cfg_lines(structs, find(structs, "detection", "DetectorParams"), ""), *tail]) + "\n"
+
+
+def main():
+    structs = read_structs()
+    files = {
+        "detector.yaml": yaml_file(structs, "DetectorNodeParams", "Parameters of the node window_detector."),
+        "pose.yaml": yaml_file(structs, "PoseNodeParams", "Parameters of the node homography_pose."),
+        "navigator.yaml": yaml_file(structs, "NavigatorNodeParams", "Parameters of the node ingress_navigator."),
+        "guard.yaml": yaml_file(structs, "GuardParams", "Parameters of the node setpoint_guard."),
+        "world.yaml": yaml_file(structs, "WorldNodeParams", "Parameters of the node world."),
+        "WindowDetector.cfg": cfg_file(structs),
+    }
+    stale = [name for name, text in files.items()
+             if not (ROOT / "config" / name).exists() or (ROOT / "config" / name).read_text() != text]
+    if "--check" in sys.argv[1:]:
+        if stale:
+            sys.exit(f"config/: {', '.join(stale)} differ from the structs; run scripts/write_parameter_files.py")
+        return
+    for name in stale:
+        (ROOT / "config" / name).write_text(files[name])
+        print(f"config/{name} written")
+    (ROOT / "config" / "WindowDetector.cfg").chmod(0o755)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace window_ingress::adapters {
+
+/// A bag that cannot be used: `what()` is one line that says what, where, and what to do.
+class BagError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Topics of a bag; empty: found by type.
+struct BagTopics {
+  std::string image, camera_info, odom, imu, truth;
+};
+
+/// Opens a bag for reading. \throws BagError for a missing, empty, truncated or otherwise broken file
+void openBag(rosbag::Bag& bag, const std::string& file);
+
+/// Fills in what is empty: the one topic of the right type, ground truth and debug pictures left aside. A
+/// picture topic may be named without its "/compressed". `odom`, `imu` and `truth` may stay empty. \throws
+/// BagError if there are no pictures, no calibration, or several topics to choose from
+BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted);
+
+}  // namespace window_ingress::adapters

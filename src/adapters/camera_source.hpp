@@ -1,0 +1,38 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <sensor_msgs/CameraInfo.h>
+
+#include <string>
+
+#include "adapters/diagnostics.hpp"
+#include "adapters/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+
+/// The calibration as last heard: camera_info and images are not paired by stamp, they only have to fit in
+/// size and frame. A new calibration counts from the next image on; one that cannot be used withdraws the one
+/// before.
+class CameraSource {
+ public:
+  /// Subscribes to `camera_info`.
+  /// \param rectified pictures are rectified, see `cameraFromMsg`
+  CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified);
+
+  /// The camera of a picture of this size and frame, or why there is none. An empty `frame_id` fits every
+  /// frame.
+  Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std::string& frame_id) const;
+
+  void receive(const sensor_msgs::CameraInfo& message);
+
+ private:
+  std::string fault(int width_px, int height_px, const std::string& frame_id) const;
+
+  bool rectified_;
+  Converted<geometry::PinholeCamera> camera_;
+  std::string frame_id_;
+  TopicHealth health_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace window_ingress::adapters

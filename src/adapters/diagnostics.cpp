@@ -1,0 +1,145 @@
+#include "adapters/diagnostics.hpp"
+
+#include <ros/console.h>
+
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kPeriodSec = 1.0;
+constexpr int kFailuresForError = 5;
+constexpr double kFrozenClockSec = 1.0;
+constexpr double kQuietSec = 5.0;  // between two warnings about one topic
+
+std::string withTwoDecimals(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+}  // namespace
+
+double steadyNowSec() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
+    : updater_(nh, pnh, pnh.getNamespace()), started_sec_(steadyNowSec()), clock_moved_sec_(started_sec_) {
+  updater_.setHardwareID("none");
+  add("callbacks", [this] { return callbackHealth(); });
+  add("clock", [this] { return clockHealth(); });
+  timer_ = ros::NodeHandle(nh).createSteadyTimer(ros::WallDuration(kPeriodSec),
+                                                 [this](const ros::SteadyTimerEvent&) {
+                                                   try {
+                                                     updater_.force_update();
+                                                   } catch (const std::exception& error) {
+                                                     ROS_ERROR("diagnostics: %s", error.what());
+                                                   }
+                                                 });
+}
+
+void Diagnostics::add(const std::string& name, std::function<Health()> check) {
+  updater_.add(name, [this, name, check = std::move(check)](
+                         diagnostic_updater::DiagnosticStatusWrapper& status) { run(name, check, status); });
+}
+
+void Diagnostics::run(const std::string& name, const std::function<Health()>& check,
+                      diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const Health health = check();
+  status.summary(static_cast<unsigned char>(health.level), health.text);
+  Health& before = said_[name];
+  if (before.level != health.level) {
+    if (health.level == Health::kError) ROS_ERROR("%s: %s", name.c_str(), health.text.c_str());
+    if (health.level == Health::kWarn) ROS_WARN("%s: %s", name.c_str(), health.text.c_str());
+    if (health.level == Health::kOk) ROS_INFO("%s: %s", name.c_str(), health.text.c_str());
+  }
+  before = health;
+}
+
+void Diagnostics::caught(const std::string& callback, const std::string& what) {
+  ++failures_;
+  ++failures_in_a_row_;
+  last_failure_ = callback + ": " + what;
+  if (failures_in_a_row_ > kFailuresForError) return;
+  ROS_ERROR("a callback failed, %d so far: %s", failures_, last_failure_.c_str());
+}
+
+Health Diagnostics::callbackHealth() const {
+  if (failures_ == 0) return {};
+  const auto level = failures_in_a_row_ >= kFailuresForError ? Health::kError : Health::kWarn;
+  return {level, std::to_string(failures_) + " callbacks failed; the last one was " + last_failure_};
+}
+
+Health Diagnostics::clockHealth() {
+  const double now_sec = ros::Time::now().toSec(), steady_sec = steadyNowSec();
+  if (now_sec != clock_sec_) {
+    clock_sec_ = now_sec;
+    clock_moved_sec_ = steady_sec;
+  }
+  if (!ros::Time::isSimTime()) return {};
+  if (now_sec == 0.0)
+    return {Health::kError,
+            "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the "
+            "world, or set use_sim_time to false"};
+  if (steady_sec - clock_moved_sec_ > kFrozenClockSec)
+    return {Health::kWarn,
+            "/clock stands still since " + withTwoDecimals(steady_sec - clock_moved_sec_) + " s"};
+  return {};
+}
+
+TopicHealth::TopicHealth(Diagnostics& diagnostics, const std::string& name, double silence_sec)
+    : name_(name), silence_sec_(silence_sec), started_sec_(steadyNowSec()) {
+  diagnostics.add(name, [this] { return health(); });
+}
+
+void TopicHealth::watch(std::function<std::string()> topic, std::function<int()> publishers) {
+  topic_ = std::move(topic);
+  publishers_ = std::move(publishers);
+}
+
+void TopicHealth::watch(const ros::Subscriber& subscriber) {
+  watch([subscriber] { return subscriber.getTopic(); },
+        [subscriber] { return static_cast<int>(subscriber.getNumPublishers()); });
+}
+
+void TopicHealth::accepted(const std::string& warning) {
+  accepted_sec_ = steadyNowSec();
+  warning_ = warning;
+}
+
+void TopicHealth::refused(const std::string& why) {
+  ++refusals_;
+  refusal_ = why;
+  const double now_sec = steadyNowSec();
+  if (said_sec_ > 0.0 && now_sec - said_sec_ < kQuietSec) return;
+  said_sec_ = now_sec;
+  ROS_WARN("%s refused: %s", name_.c_str(), why.c_str());
+}
+
+double TopicHealth::silentSec() const {
+  return accepted_sec_ < 0.0 ? std::numeric_limits<double>::infinity() : steadyNowSec() - accepted_sec_;
+}
+
+Health TopicHealth::health() const {
+  const double now_sec = steadyNowSec();
+  const std::string topic = topic_ ? topic_() : name_;
+  const int publishers = publishers_ ? publishers_() : 0;
+  const std::string from =
+      topic + " (" + std::to_string(publishers) + (publishers == 1 ? " publisher)" : " publishers)");
+  if (now_sec - (arrived_sec_ < 0.0 ? started_sec_ : arrived_sec_) > silence_sec_) {
+    const std::string hint = publishers == 0 ? "; check the remapping and the message type" : "";
+    return {Health::kError, (arrived_sec_ < 0.0 ? "no " : "no more ") + name_ + " on " + from + hint};
+  }
+  if (arrived_sec_ >= 0.0 && now_sec - (accepted_sec_ < 0.0 ? started_sec_ : accepted_sec_) > silence_sec_)
+    return {Health::kError, from + " refused, " + std::to_string(refusals_) + " so far: " + refusal_};
+  if (!warning_.empty()) return {Health::kWarn, from + ": " + warning_};
+  if (publishers > 1) return {Health::kWarn, "more than one source on " + from};
+  if (refusals_ > 0) return {Health::kOk, "ok; " + std::to_string(refusals_) + " refused, last: " + refusal_};
+  return {Health::kOk, std::to_string(messages_) + " messages on " + from};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,42 @@
+/// Pictures from messages, checked before any library touches them: cv_bridge computes sizes in 32 bits and
+/// lets a crafted message crash the process.
+#pragma once
+
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace window_ingress::adapters {
+
+struct ImageLimits {
+  int max_pixels = 8000000;  ///< larger pictures are refused [px]
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("max_pixels", self.max_pixels, 1, 100000000);
+  }
+};
+
+/// A picture as the detector takes it, or why there is none.
+struct GuardedImage {
+  cv::Mat image;  ///< CV_8UC1 or CV_8UC3 (BGR); empty if refused. Shares the message's bytes if it can.
+  std::shared_ptr<const void> owner;  ///< keeps shared bytes alive
+  std::string reason;                 ///< why it was refused; empty if it was not
+  std::string warning;                ///< it was read, but look at this
+};
+
+/// Why this message must not be decoded: empty, sizes that do not fit, unknown encoding, too large; empty if
+/// it may. Encodings: mono8 8UC1 bgr8 8UC3 rgb8 bgra8 8UC4 rgba8, mono16 16UC1 bgr16 rgb16 bgra16 rgba16
+/// (little endian; the upper eight bits are used), bayer_{rggb,bggr,gbrg,grbg}{8,16}, yuv422 (UYVY). Others
+/// are refused by name.
+std::string whyRefused(const sensor_msgs::Image& message, const ImageLimits& limits);
+
+/// Checked and converted; never throws.
+GuardedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits);
+
+/// JPEG or PNG: the size in the file's header is checked before anything is decoded. Never throws.
+GuardedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits);
+
+}  // namespace window_ingress::adapters

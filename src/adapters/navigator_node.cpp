@@ -1,0 +1,192 @@
+#include "adapters/navigator_node.hpp"
+
+#include <geometry_msgs/TwistStamped.h>
+
+#include <stdexcept>
+
+#include "adapters/guarded.hpp"
+#include "adapters/markers.hpp"
+#include "adapters/parameters.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kFrozenClockSec = 0.3;
+constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
+constexpr int kFailuresForAbort = 5;
+
+NavigatorNodeParams checked(NavigatorNodeParams params) {
+  if (params.setpoint_frame == params.frames.odom || params.setpoint_frame == params.frames.base)
+    return params;
+  throw ParameterError("setpoint_frame is '" + params.setpoint_frame + "', must be '" + params.frames.odom +
+                       "' or '" + params.frames.base + "'");
+}
+
+}  // namespace
+
+NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(checked(readParameters<NavigatorNodeParams>(pnh))),
+      diagnostics_(nh, pnh),
+      odom_health_(diagnostics_, "odom", 2.0),
+      pose_health_(diagnostics_, "window_pose", 2.0),
+      odom_gate_(params_.stamps),
+      pose_gate_(params_.stamps),
+      navigator_(params_.navigator) {
+  setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
+  state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
+  marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+      nh, "odom", 1, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+  pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
+      nh, "window_pose", 1, diagnostics_, [this](const auto& message) { receivePose(message); });
+  odom_health_.watch(odom_subscriber_);
+  pose_health_.watch(pose_subscriber_);
+  diagnostics_.add("mission", [this] { return missionHealth(); });
+  start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "start", &NavigatorNode::start, this);
+  abort_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "abort", &NavigatorNode::abort, this);
+  reset_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "reset", &NavigatorNode::reset, this);
+  timer_ = createGuardedTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
+}
+
+void NavigatorNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  odom_health_.arrived();
+  const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return odom_health_.refused(*late);
+  const auto vehicle = fromMsg(*message, params_.frames);
+  if (!vehicle) return odom_health_.refused(vehicle.reason);
+  odom_health_.accepted();
+  input_.vehicle = vehicle.value;
+}
+
+void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  pose_health_.arrived();
+  const auto late = pose_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return pose_health_.refused(*late);
+  input_.image_stamp_sec = stampSec(message->header.stamp);
+  if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
+  const auto target = targetFromMsg(*message, params_.frames.odom);
+  if (!target) return pose_health_.refused(target.reason);
+  pose_health_.accepted();
+  input_.target = target.value;
+}
+
+void NavigatorNode::step() {
+  const ros::Time now = ros::Time::now();
+  restartIfClockJumpedBack(now.toSec());
+  forgetSilentInputs();
+  const bool works = guarded(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
+  if (!works) last_.setpoint = navigation::Setpoint();
+  if (diagnostics_.failuresInARow() == kFailuresForAbort) navigator_.abort();
+  publish(last_, now);
+}
+
+navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
+  if (!clockStandsStill(now_sec)) return navigator_.step(input_, now_sec);
+  navigation::NavigatorOutput output = last_;
+  output.setpoint = navigation::Setpoint();
+  output.reason = now_sec == 0.0 ? "waiting for /clock" : "/clock stands still";
+  return output;
+}
+
+// Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
+void NavigatorNode::forgetSilentInputs() {
+  if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
+  if (pose_health_.silentSec() > params_.max_pose_silence_sec) input_.target.reset();
+}
+
+void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
+  if (!clock_.jumpedBack(now_sec)) return;
+  ROS_WARN("the clock jumped back: inputs forgotten%s", last_.enabled ? ", mission aborted" : "");
+  input_ = {};
+  if (last_.enabled) navigator_.abort();
+}
+
+bool NavigatorNode::clockStandsStill(double now_sec) {
+  const double steady_sec = steadyNowSec();
+  if (now_sec != last_now_sec_) clock_moved_sec_ = steady_sec;
+  last_now_sec_ = now_sec;
+  return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
+}
+
+bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
+  const double now_sec = ros::Time::now().toSec();
+  forgetSilentInputs();
+  if (clockStandsStill(now_sec))
+    return answer("start", {false, "the clock stands still: nothing on /clock"}, response);
+  navigation::Reply reply = navigator_.start(input_, now_sec);
+  for (const TopicHealth* topic : {&odom_health_, &pose_health_}) {
+    const Health health = topic->health();
+    if (!reply.success && health.level == Health::kError) reply.message += "; " + health.text;
+  }
+  return answer("start", reply, response);
+}
+
+bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
+  return answer("abort", navigator_.abort(), response);
+}
+
+bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
+  return answer("reset", navigator_.reset(), response);
+}
+
+bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Trigger::Response& response) {
+  ROS_INFO("%s: %s: %s", service, reply.success ? "done" : "refused", reply.message.c_str());
+  response.success = reply.success;
+  response.message = reply.message;
+  return true;
+}
+
+void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  if (output.enabled || was_enabled_)
+    publishSetpoint(output.enabled ? output.setpoint : navigation::Setpoint(), now);
+  was_enabled_ = output.enabled;
+  publishState(output, now);
+  if (marker_publisher_.getNumSubscribers() > 0 && input_.vehicle)
+    marker_publisher_.publish(flightMarkers(output, *input_.vehicle, now, params_.frames.odom));
+}
+
+void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {
+  std::optional<Eigen::Matrix3d> R_odom_base;
+  const bool known = input_.vehicle.has_value();
+  if (params_.setpoint_frame == params_.frames.base)
+    R_odom_base = known ? Eigen::Matrix3d(input_.vehicle->T_odom_base.linear()) : Eigen::Matrix3d::Identity();
+  const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
+  geometry_msgs::TwistStamped message =
+      toTwistMsg(directionless ? navigation::Setpoint() : setpoint, params_.frames, R_odom_base);
+  message.header.stamp = now;
+  setpoint_publisher_.publish(message);
+}
+
+void NavigatorNode::publishState(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  window_ingress::IngressState message = toMsg(output);
+  const bool news =
+      message.state != said_.state || message.reason != said_.reason || message.enabled != said_.enabled;
+  const double period_sec = output.enabled ? kStatePeriodEnabledSec : kStatePeriodIdleSec;
+  if (!news && steadyNowSec() - said_sec_ < period_sec) return;
+  if (message.state != said_.state) ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
+  message.header.stamp = now;
+  message.header.frame_id = params_.frames.odom;
+  state_publisher_.publish(message);
+  said_ = message;
+  said_sec_ = steadyNowSec();
+}
+
+Health NavigatorNode::missionHealth() const {
+  const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
+  const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
+  return {bad ? Health::kWarn : Health::kOk, text};
+}
+
+void NavigatorNode::stop() {
+  timer_.stop();
+  navigator_.abort();
+  for (int i = 0; i < 5; ++i) {
+    publishSetpoint(navigation::Setpoint(), ros::Time::now());
+    ros::WallDuration(0.05).sleep();
+  }
+}
+
+}  // namespace window_ingress::adapters

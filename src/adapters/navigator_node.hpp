@@ -1,0 +1,84 @@
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+#include <window_ingress/IngressState.h>
+#include <window_ingress/WindowPose.h>
+
+#include <memory>
+#include <string>
+
+#include "adapters/diagnostics.hpp"
+#include "adapters/msg_conversion.hpp"
+#include "adapters/run_node.hpp"
+#include "adapters/stamps.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+
+namespace window_ingress::adapters {
+
+struct NavigatorNodeParams {
+  double rate_hz = 30.0;  ///< of the setpoints [Hz]
+  double max_silence_sec =
+      0.3;  ///< odometry that has not arrived for this long, on the steady clock, is gone [s]
+  double max_pose_silence_sec = 1.5;    ///< likewise the messages on window_pose [s]
+  std::string setpoint_frame = "odom";  ///< axes of the setpoints: odom or base_link
+  FrameNames frames;
+  StampLimits stamps;
+  navigation::NavigatorParams navigator;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("rate_hz", self.rate_hz, 20.0, 200.0);
+    field("max_silence_sec", self.max_silence_sec, 0.05, 5.0);
+    field("max_pose_silence_sec", self.max_pose_silence_sec, 0.05, 5.0);
+    field("setpoint_frame", self.setpoint_frame);
+    FrameNames::visit(self.frames, field);
+    field.group("stamps", self.stamps);
+    field.group("navigator", self.navigator);
+  }
+};
+
+/// `navigation::Navigator` between topics and services: pose and odometry in, velocity out.
+class NavigatorNode : public Node {
+ public:
+  NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+  void stop() override;
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
+  void receivePose(const window_ingress::WindowPoseConstPtr& message);
+  void step();
+  void forgetSilentInputs();
+  void restartIfClockJumpedBack(double now_sec);
+  bool clockStandsStill(double now_sec);
+  navigation::NavigatorOutput decide(double now_sec);
+  bool start(Trigger::Request& request, Trigger::Response& response);
+  bool abort(Trigger::Request& request, Trigger::Response& response);
+  bool reset(Trigger::Request& request, Trigger::Response& response);
+  static bool answer(const char* service, const navigation::Reply& reply, Trigger::Response& response);
+  void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
+  void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
+  Health missionHealth() const;
+
+  NavigatorNodeParams params_;
+  Diagnostics diagnostics_;
+  TopicHealth odom_health_, pose_health_;
+  StampGate odom_gate_, pose_gate_;
+  ClockWatch clock_;
+  navigation::Navigator navigator_;
+  navigation::NavigatorInput input_;
+  navigation::NavigatorOutput last_;
+  window_ingress::IngressState said_;
+  double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
+  bool was_enabled_ = false;
+
+  ros::Subscriber odom_subscriber_, pose_subscriber_;
+  ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
+  ros::ServiceServer start_, abort_, reset_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,42 @@
+// The nodes as nodelets, for a nodelet manager that shares images without copying. The setpoint_guard and the
+// world are processes of their own on purpose.
+#include <nodelet/nodelet.h>
+
+#include <exception>
+#include <memory>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "adapters/detector_node.hpp"
+#include "adapters/navigator_node.hpp"
+#include "adapters/pose_node.hpp"
+
+namespace window_ingress::adapters {
+
+template <typename Class>
+class NodeletOf : public nodelet::Nodelet {
+ public:
+  ~NodeletOf() override {
+    if (node_) node_->stop();
+  }
+
+ private:
+  // An exception out of onInit would end the manager and every nodelet in it.
+  void onInit() override {
+    try {
+      node_ = std::make_unique<Class>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const std::exception& error) {
+      NODELET_FATAL("%s: not started: %s", getName().c_str(), error.what());
+    }
+  }
+  std::unique_ptr<Class> node_;
+};
+
+class WindowDetectorNodelet : public NodeletOf<DetectorNode> {};
+class HomographyPoseNodelet : public NodeletOf<PoseNode> {};
+class IngressNavigatorNodelet : public NodeletOf<NavigatorNode> {};
+
+}  // namespace window_ingress::adapters
+
+PLUGINLIB_EXPORT_CLASS(window_ingress::adapters::WindowDetectorNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(window_ingress::adapters::HomographyPoseNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(window_ingress::adapters::IngressNavigatorNodelet, nodelet::Nodelet)

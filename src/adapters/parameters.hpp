@@ -1,0 +1,76 @@
+/// Parameter structs from the ROS parameter server, by the same `visit` as yaml files
+/// (parameters/fields.hpp).
+#pragma once
+
+#include <XmlRpcValue.h>
+#include <ros/node_handle.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::adapters {
+
+/// Parameters that a node must not start with: `what()` is one line that names each of them.
+class ParameterError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Visitor over the tree below one namespace. Missing parameters keep their defaults; a double may be given
+/// as an int; wrong types, numbers out of range and names that nobody asked for are collected.
+class ParameterReader {
+ public:
+  ParameterReader(const std::string& name_space, const XmlRpc::XmlRpcValue& tree);
+
+  void operator()(const std::string& name, double& value, double minimum, double maximum);
+  void operator()(const std::string& name, int& value, double minimum, double maximum);
+  void operator()(const std::string& name, bool& value);
+  void operator()(const std::string& name, std::string& value);
+  void operator()(const std::string& name, std::vector<double>& value);  ///< a list of finite numbers
+  template <typename Params>
+  void group(const std::string& name, Params& params) {
+    ParameterReader child = descend(name);
+    Params::visit(params, child);
+    adopt(child);
+  }
+
+  /// Names that are read by others: below the namespace, and no error.
+  void ignore(const std::set<std::string>& names) { asked_.insert(names.begin(), names.end()); }
+
+  /// Everything wrong so far, unknown names included; empty if nothing is.
+  std::vector<std::string> faults() const;
+  void throwIfFaulty() const;  ///< \throws ParameterError
+
+ private:
+  const XmlRpc::XmlRpcValue* find(const std::string& name);
+  ParameterReader descend(const std::string& name);
+  void adopt(const ParameterReader& child);
+  void wrongType(const std::string& name, const char* expected, const XmlRpc::XmlRpcValue& found);
+  void checkRange(const std::string& name, double number, double minimum, double maximum);
+
+  std::string name_space_;
+  XmlRpc::XmlRpcValue tree_;
+  std::set<std::string> asked_;
+  std::vector<std::string> faults_;
+};
+
+/// All parameters below the namespace of `nh`, an empty struct if there are none.
+XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& nh);
+
+/// Reads the parameters of one node; `Params::visit` lists all that may stand in its private namespace.
+/// \throws ParameterError
+template <typename Params>
+Params readParameters(const ros::NodeHandle& pnh, const std::set<std::string>& others = {}) {
+  Params params;
+  ParameterReader reader(pnh.getNamespace(), parameterTree(pnh));
+  reader.ignore(others);
+  Params::visit(params, reader);
+  reader.throwIfFaulty();
+  return params;
+}
+
+}  // namespace window_ingress::adapters

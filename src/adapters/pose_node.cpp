@@ -1,0 +1,239 @@
+#include "adapters/pose_node.hpp"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+
+#include "adapters/guarded.hpp"
+#include "adapters/markers.hpp"
+#include "adapters/parameters.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kSilenceSec = 2.0;
+constexpr double kPendingPeriodSec = 0.01;
+constexpr double kOdometryGoneSec = 0.3;
+
+PoseNodeParams checked(PoseNodeParams params) {
+  for (const char* known : {"imu", "odom", "tf", "none"})
+    if (params.gravity_source == known) return params;
+  throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom, tf or none");
+}
+
+}  // namespace
+
+PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(checked(readParameters<PoseNodeParams>(pnh))),
+      diagnostics_(nh, pnh),
+      window_health_(diagnostics_, "window", kSilenceSec),
+      odom_health_(diagnostics_, "odom", kSilenceSec),
+      window_gate_(params_.stamps),
+      odom_gate_(params_.stamps),
+      camera_(nh, diagnostics_, params_.image_is_rectified),
+      estimator_(params_.pose),
+      filter_(params_.filter),
+      T_base_camera_{std::nullopt, "no image so far"},
+      tf_listener_(tf_) {
+  pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1);
+  covariance_publisher_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
+  polygon_publisher_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
+  marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  window_subscriber_ = subscribeGuarded<window_ingress::WindowDetection>(
+      nh, "window", 1, diagnostics_, [this](const auto& message) { receiveWindow(message); });
+  odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+      nh, "odom", 10, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+  window_health_.watch(window_subscriber_);
+  odom_health_.watch(odom_subscriber_);
+  if (params_.gravity_source == "imu") {
+    imu_health_.emplace(diagnostics_, "imu", kSilenceSec);
+    imu_subscriber_ = subscribeGuarded<sensor_msgs::Imu>(
+        nh, "imu", 10, diagnostics_, [this](const auto& message) { receiveImu(message); });
+    imu_health_->watch(imu_subscriber_);
+  }
+  diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
+  timer_ = createGuardedTimer(nh, kPendingPeriodSec, "pending image", diagnostics_,
+                              [this] { processPending(false); });
+}
+
+void PoseNode::receiveWindow(const window_ingress::WindowDetectionConstPtr& message) {
+  restartIfClockJumpedBack();
+  window_health_.arrived();
+  const auto late = window_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return window_health_.refused(*late);
+  window_health_.accepted();
+  processPending(true);
+  pending_ = message;
+  pending_since_sec_ = steadyNowSec();
+  processPending(false);
+}
+
+void PoseNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  restartIfClockJumpedBack();
+  odom_health_.arrived();
+  const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return odom_health_.refused(*late);
+  const auto vehicle = fromMsg(*message, params_.frames);
+  if (!vehicle) return odom_health_.refused(vehicle.reason);
+  odom_health_.accepted();
+  odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
+  odometry_stamp_sec_ = vehicle.value->stamp_sec;
+  processPending(false);
+}
+
+void PoseNode::receiveImu(const sensor_msgs::ImuConstPtr& message) {
+  imu_health_->arrived();
+  const auto stamp_sec = stampSec(message->header.stamp);
+  if (!stamp_sec) return imu_health_->refused("header.stamp is zero or not normalised");
+  if (message->header.frame_id != params_.frames.base)
+    return imu_health_->refused("header.frame_id is '" + message->header.frame_id + "', expected '" +
+                                params_.frames.base + "'");
+  const auto rotation = attitudeFromMsg(*message);
+  if (!rotation) return imu_health_->refused(rotation.reason);
+  imu_health_->accepted();
+  imu_.add(*stamp_sec, geometry::makePose(rotation.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+}
+
+// An image waits until odometry has caught up with its exposure: poses are interpolated, not guessed.
+void PoseNode::processPending(bool however_old) {
+  if (!pending_) return;
+  const bool caught_up = odometry_stamp_sec_ >= pending_->header.stamp.toSec();
+  const bool waited = steadyNowSec() - pending_since_sec_ >= params_.odom_wait_sec;
+  const bool hopeless = odom_health_.silentSec() > kOdometryGoneSec;
+  if (!(caught_up || waited || hopeless || however_old)) return;
+  const window_ingress::WindowDetectionConstPtr message = pending_;
+  pending_.reset();
+  process(*message);
+}
+
+void PoseNode::process(const window_ingress::WindowDetection& message) {
+  window_ingress::WindowPose out;
+  out.header = message.header;
+  out.filtered_frame_id = params_.frames.odom;
+  out.window_width = params_.pose.opening_width_m;
+  out.window_height = params_.pose.opening_height_m;
+  estimate(message, out);
+  if (const auto state = filter_.state(message.header.stamp.toSec()))
+    fill(out, *state);
+  else if (out.filtered_reason.empty())
+    out.filtered_reason = "no image has contributed lately";
+  publish(out);
+}
+
+void PoseNode::estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out) {
+  T_base_camera_ = mounting(message.header.frame_id);
+  const auto window = fromMsg(message);
+  if (!window) {
+    out.reject = window_ingress::WindowPose::NO_WINDOW;
+    out.reject_reason = out.filtered_reason = window.reason;
+    return;
+  }
+  const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
+                                       static_cast<int>(message.image_height), message.header.frame_id);
+  if (!camera) {
+    out.reject = window_ingress::WindowPose::NO_CALIBRATION;
+    out.reject_reason = out.filtered_reason = camera.reason;
+    return;
+  }
+  const pose::PoseResult result =
+      estimator_.estimate(*window.value, *camera.value, gravity(window.value->stamp_sec));
+  fill(out, result);
+  out.filtered_reason =
+      result.estimate ? filter(*result.estimate, *window.value, *camera.value) : out.reject_reason;
+}
+
+// Why this image did not contribute; empty if it did.
+std::string PoseNode::filter(const pose::WindowPoseEstimate& estimate,
+                             const detection::WindowObservation& window,
+                             const geometry::PinholeCamera& camera) {
+  if (!T_base_camera_) return T_base_camera_.reason;
+  const auto T_odom_base = odometry_.at(window.stamp_sec, params_.odom_gap_sec);
+  if (!T_odom_base) return "no odometry near the exposure: " + odom_health_.health().text;
+  const bool used = filter_.update(estimate, window, camera, *T_odom_base * *T_base_camera_.value);
+  return used ? "" : "gated out by the filter";
+}
+
+Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
+  const std::string which = "camera mounting " + params_.frames.base + " <- '" + camera_frame + "': ";
+  if (camera_frame.empty()) return {std::nullopt, which + "the image has no frame_id"};
+  try {
+    const auto found = tf_.lookupTransform(params_.frames.base, camera_frame, ros::Time(0));
+    const auto pose = fromMsg(found.transform);
+    return pose ? pose : Converted<Eigen::Isometry3d>{std::nullopt, which + pose.reason};
+  } catch (const tf2::TransformException& error) {
+    return {std::nullopt, which + "not in tf: " + error.what()};
+  }
+}
+
+std::optional<Eigen::Matrix3d> PoseNode::attitude(double stamp_sec) const {
+  if (params_.gravity_source == "tf") {
+    try {
+      const auto found = fromMsg(
+          tf_.lookupTransform(params_.frames.odom, params_.frames.base, toStamp(stamp_sec)).transform);
+      if (found) return found.value->linear();
+    } catch (const tf2::TransformException&) {  // not there yet: this image goes without
+    }
+    return std::nullopt;
+  }
+  const auto found = (params_.gravity_source == "imu" ? imu_ : odometry_).at(stamp_sec, params_.odom_gap_sec);
+  if (!found) return std::nullopt;
+  return found->linear();
+}
+
+std::optional<pose::GravityPrior> PoseNode::gravity(double stamp_sec) const {
+  if (params_.gravity_source == "none" || !T_base_camera_) return std::nullopt;
+  const auto R_odom_base = attitude(stamp_sec);
+  if (!R_odom_base) return std::nullopt;
+  const Eigen::Matrix3d R_odom_camera = *R_odom_base * T_base_camera_.value->linear();
+  return pose::GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
+}
+
+void PoseNode::publish(const window_ingress::WindowPose& message) {
+  pose_publisher_.publish(message);
+  if (message.reject == window_ingress::WindowPose::OK) {
+    geometry_msgs::PoseWithCovarianceStamped stamped;
+    stamped.header = message.header;
+    stamped.pose = message.pose;
+    covariance_publisher_.publish(stamped);
+    const auto T_camera_window = fromMsg(message.pose.pose);
+    if (T_camera_window)
+      polygon_publisher_.publish(openingPolygon(*T_camera_window.value,
+                                                {message.window_width, message.window_height},
+                                                message.header.stamp, message.header.frame_id));
+  }
+  if (message.filtered_valid) publishFiltered(message);
+}
+
+void PoseNode::publishFiltered(const window_ingress::WindowPose& message) {
+  const auto T_odom_window = fromMsg(message.filtered.pose);
+  if (!T_odom_window) return;
+  if (marker_publisher_.getNumSubscribers() > 0)
+    marker_publisher_.publish(
+        windowMarkers(*T_odom_window.value, {message.window_width, message.window_height},
+                      message.filtered_sign_trusted, message.header.stamp, params_.frames.odom));
+  if (!params_.publish_tf) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = message.header.stamp;
+  transform.header.frame_id = params_.frames.odom;
+  transform.child_frame_id = params_.window_frame;
+  transform.transform = toTransformMsg(*T_odom_window.value);
+  tf_broadcaster_.sendTransform(transform);
+}
+
+void PoseNode::restartIfClockJumpedBack() {
+  if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
+  ROS_WARN("the clock jumped back: odometry, transforms and filter forgotten");
+  odometry_.clear();
+  imu_.clear();
+  odometry_stamp_sec_ = -1.0;
+  pending_.reset();
+  filter_.reset();
+  tf_.clear();
+}
+
+Health PoseNode::mountingHealth() const {
+  if (T_base_camera_) return {};
+  const bool no_image_yet = window_health_.silentSec() > kSilenceSec;
+  return {no_image_yet ? Health::kOk : Health::kError, T_base_camera_.reason};
+}
+
+}  // namespace window_ingress::adapters

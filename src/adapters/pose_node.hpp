@@ -1,0 +1,100 @@
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+#include <window_ingress/WindowDetection.h>
+#include <window_ingress/WindowPose.h>
+
+#include <optional>
+#include <string>
+
+#include "adapters/camera_source.hpp"
+#include "adapters/diagnostics.hpp"
+#include "adapters/msg_conversion.hpp"
+#include "adapters/run_node.hpp"
+#include "adapters/stamps.hpp"
+#include "window_ingress/pose/pose_buffer.hpp"
+#include "window_ingress/pose/window_filter.hpp"
+#include "window_ingress/pose/window_pose_estimator.hpp"
+
+namespace window_ingress::adapters {
+
+struct PoseNodeParams {
+  bool image_is_rectified = false;      ///< the detector works on rectified pictures: use P of camera_info
+  std::string gravity_source = "imu";   ///< where "up" comes from: imu, odom, tf or none
+  double gravity_sigma_rad = 0.02;      ///< of that attitude, mounting included [rad]
+  double odom_wait_sec = 0.05;          ///< an image waits this long for odometry as new as itself [s]
+  double odom_gap_sec = 0.1;            ///< odometry further from the exposure than this is not used [s]
+  bool publish_tf = false;              ///< broadcast the filtered window as a frame
+  std::string window_frame = "window";  ///< its name
+  FrameNames frames;
+  StampLimits stamps;
+  pose::PoseParams pose;
+  pose::FilterParams filter;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("image_is_rectified", self.image_is_rectified);
+    field("gravity_source", self.gravity_source);
+    field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
+    field("odom_wait_sec", self.odom_wait_sec, 0.0, 0.5);
+    field("odom_gap_sec", self.odom_gap_sec, 0.005, 1.0);
+    field("publish_tf", self.publish_tf);
+    field("window_frame", self.window_frame);
+    FrameNames::visit(self.frames, field);
+    field.group("stamps", self.stamps);
+    field.group("pose", self.pose);
+    field.group("filter", self.filter);
+  }
+};
+
+/// Pose estimator and filter between topics: corners and calibration in, the window's pose out.
+class PoseNode : public Node {
+ public:
+  PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+
+ private:
+  void receiveWindow(const window_ingress::WindowDetectionConstPtr& message);
+  void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
+  void receiveImu(const sensor_msgs::ImuConstPtr& message);
+  void processPending(bool however_old);
+  void process(const window_ingress::WindowDetection& message);
+  void estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
+  std::string filter(const pose::WindowPoseEstimate& estimate, const detection::WindowObservation& window,
+                     const geometry::PinholeCamera& camera);
+  void publish(const window_ingress::WindowPose& message);
+  void publishFiltered(const window_ingress::WindowPose& message);
+
+  Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
+  std::optional<Eigen::Matrix3d> attitude(double stamp_sec) const;
+  std::optional<pose::GravityPrior> gravity(double stamp_sec) const;
+  void restartIfClockJumpedBack();
+  Health mountingHealth() const;
+
+  PoseNodeParams params_;
+  Diagnostics diagnostics_;
+  TopicHealth window_health_, odom_health_;
+  std::optional<TopicHealth> imu_health_;
+  StampGate window_gate_, odom_gate_;
+  ClockWatch clock_;
+  CameraSource camera_;
+  pose::WindowPoseEstimator estimator_;
+  pose::WindowFilter filter_;
+  pose::PoseBuffer odometry_, imu_;
+  double odometry_stamp_sec_ = -1.0;
+  window_ingress::WindowDetectionConstPtr pending_;
+  double pending_since_sec_ = 0.0;  // on the steady clock
+  Converted<Eigen::Isometry3d> T_base_camera_;
+
+  tf2_ros::Buffer tf_;
+  tf2_ros::TransformListener tf_listener_;
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  ros::Subscriber window_subscriber_, odom_subscriber_, imu_subscriber_;
+  ros::Publisher pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace window_ingress::adapters

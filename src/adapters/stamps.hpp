@@ -1,0 +1,53 @@
+/// Time stamps of messages, judged as doubles: the difference of two `ros::Time` throws beyond 2^31 s.
+#pragma once
+
+#include <ros/time.h>
+
+#include <optional>
+#include <string>
+
+namespace window_ingress::adapters {
+
+/// Seconds of a stamp; nothing if it is zero (unstamped) or its nanoseconds are not below 1e9.
+std::optional<double> stampSec(const ros::Time& stamp);
+
+/// The nearest stamp of a time in seconds; zero for what a stamp cannot hold.
+ros::Time toStamp(double sec);
+
+/// How old and how far ahead of the clock a message may be.
+struct StampLimits {
+  double max_age_sec = 0.5;     ///< older messages are refused [s]
+  double max_future_sec = 0.1;  ///< messages further ahead of the clock are refused [s]
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("max_age_sec", self.max_age_sec, 0.01, 60.0);
+    field("max_future_sec", self.max_future_sec, 0.0, 10.0);
+  }
+};
+
+/// Notices that the clock went back, as it does when a bag is looped or a simulation reset.
+class ClockWatch {
+ public:
+  /// \return true once for each jump back by more than 0.1 s
+  bool jumpedBack(double now_sec);
+
+ private:
+  double last_sec_ = 0.0;
+};
+
+/// Admits messages of one topic by their stamp: stamped, recent, and newer than the one before. Starts anew
+/// when the clock jumps back.
+class StampGate {
+ public:
+  explicit StampGate(const StampLimits& limits) : limits_(limits) {}
+
+  /// \return nothing if the message is admitted, else why it is not, with numbers
+  std::optional<std::string> whyRefused(const ros::Time& stamp, double now_sec);
+
+ private:
+  StampLimits limits_;
+  ClockWatch clock_;
+  std::optional<double> last_sec_;
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/msg_conversion.hpp"
+#include "adapters/stamps.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+using DetectionMsg = window_ingress::WindowDetection;
+using PoseMsg = window_ingress::WindowPose;
+using StateMsg = window_ingress::IngressState;
+
+// Constants of the messages are the enums of the core.
+template <typename Enum>
+constexpr bool same(int constant, Enum value) {
+  return constant == static_cast<int>(value);
+}
+static_assert(same(DetectionMsg::TOP_LEFT, geometry::kTopLeft) &&
+              same(DetectionMsg::TOP_RIGHT, geometry::kTopRight) &&
+              same(DetectionMsg::BOTTOM_RIGHT, geometry::kBottomRight) &&
+              same(DetectionMsg::BOTTOM_LEFT, geometry::kBottomLeft));
+static_assert(same(DetectionMsg::TOP, geometry::kTop) && same(DetectionMsg::RIGHT, geometry::kRight) &&
+              same(DetectionMsg::BOTTOM, geometry::kBottom) && same(DetectionMsg::LEFT, geometry::kLeft));
+static_assert(same(PoseMsg::OK, pose::PoseReject::kNone) &&
+              same(PoseMsg::BAD_CAMERA, pose::PoseReject::kBadCamera) &&
+              same(PoseMsg::BAD_CORNERS, pose::PoseReject::kBadCorners) &&
+              same(PoseMsg::NOT_IN_FRONT, pose::PoseReject::kNotInFront) &&
+              same(PoseMsg::REPROJECTION, pose::PoseReject::kReprojection) &&
+              same(PoseMsg::RANGE, pose::PoseReject::kRange) &&
+              same(PoseMsg::TILT, pose::PoseReject::kTilt) &&
+              same(PoseMsg::NOT_FINITE, pose::PoseReject::kNotFinite));
+static_assert(same(StateMsg::IDLE, navigation::State::kIdle) &&
+              same(StateMsg::SEARCH, navigation::State::kSearch) &&
+              same(StateMsg::ALIGN, navigation::State::kAlign) &&
+              same(StateMsg::APPROACH, navigation::State::kApproach) &&
+              same(StateMsg::COMMIT, navigation::State::kCommit) &&
+              same(StateMsg::PASSED, navigation::State::kPassed) &&
+              same(StateMsg::BACK_OFF, navigation::State::kBackOff) &&
+              same(StateMsg::HOLD, navigation::State::kHold) &&
+              same(StateMsg::ABORTED, navigation::State::kAborted));
+
+// All numbers of a detection that must be finite.
+bool isFinite(const DetectionMsg& m) {
+  const auto finite = [](double number) { return std::isfinite(number); };
+  const auto all = [&](const auto& numbers) { return std::all_of(numbers.begin(), numbers.end(), finite); };
+  return all(m.corner_x) && all(m.corner_y) && all(m.corner_covariance) && all(m.edge_sigma_px) &&
+         all(m.edge_sigma_rad) && finite(m.score) && finite(m.bhattacharyya);
+}
+
+bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
+  return std::all_of(m.covariance.begin(), m.covariance.end(),
+                     [](double number) { return std::isfinite(number); });
+}
+
+pose::Matrix6d covarianceFromMsg(const geometry_msgs::PoseWithCovariance& message) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data());
+}
+
+}  // namespace
+
+DetectionMsg toMsg(const detection::WindowObservation& window) {
+  DetectionMsg message;
+  message.detected = true;
+  for (int i = 0; i < 4; ++i) {
+    message.corner_x[i] = window.corners[i].x();
+    message.corner_y[i] = window.corners[i].y();
+    const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> covariance = window.corner_covariance[i];
+    std::copy(covariance.data(), covariance.data() + 4, message.corner_covariance.begin() + 4 * i);
+    message.edge_visible[i] = window.edges[i].visible;
+    message.edge_sigma_px[i] = window.edges[i].visible ? window.edges[i].sigma_px : 0.0;
+    message.edge_sigma_rad[i] = window.edges[i].visible ? window.edges[i].sigma_rad : 0.0;
+  }
+  message.score = window.score;
+  message.has_appearance = window.has_appearance;
+  message.bhattacharyya = window.has_appearance ? window.bhattacharyya : 0.0;
+  return message;
+}
+
+Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
+  const auto stamp_sec = stampSec(message.header.stamp);
+  if (!stamp_sec) return {std::nullopt, "header.stamp is zero or not normalised"};
+  if (!message.detected) return {std::nullopt, "no window: " + message.reject_reason};
+  if (!isFinite(message)) return {std::nullopt, "a number of the detection is not finite"};
+  detection::WindowObservation window;
+  window.stamp_sec = *stamp_sec;
+  for (int i = 0; i < 4; ++i) {
+    window.corners[i] = {message.corner_x[i], message.corner_y[i]};
+    window.corner_covariance[i] = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
+        message.corner_covariance.data() + 4 * i);
+    window.edges[i].visible = message.edge_visible[i] != 0;
+    window.edges[i].sigma_px = message.edge_sigma_px[i];
+    window.edges[i].sigma_rad = message.edge_sigma_rad[i];
+  }
+  window.score = message.score;
+  window.has_appearance = message.has_appearance != 0;
+  window.bhattacharyya = message.bhattacharyya;
+  return {window, ""};
+}
+
+void fill(PoseMsg& message, const pose::PoseResult& result) {
+  message.reject = static_cast<std::uint8_t>(result.reject);
+  if (!result.estimate) {
+    message.reject_reason = result.detail.empty() ? pose::toString(result.reject) : result.detail;
+    return;
+  }
+  const pose::WindowPoseEstimate& estimate = *result.estimate;
+  message.pose = toMsg(estimate.best.T_camera_window, estimate.best.covariance);
+  message.reprojection_rms_px = estimate.best.reprojection_rms_px;
+  message.has_alternative = estimate.alternative.has_value();
+  if (estimate.alternative) {
+    message.alternative = toMsg(estimate.alternative->T_camera_window, estimate.alternative->covariance);
+    message.alternative_reprojection_rms_px = estimate.alternative->reprojection_rms_px;
+  }
+  message.log_likelihood_ratio = estimate.log_likelihood_ratio;
+  message.yaw = estimate.yaw_rad;
+  message.yaw_sigma = estimate.yaw_sigma_rad;
+  message.sigma_u = estimate.sigma_u_rad;
+  message.sign_trusted = estimate.sign_trusted;
+  message.theta = estimate.euler.theta_rad;
+  message.phi = estimate.euler.phi_rad;
+  message.psi = estimate.euler.psi_rad;
+  message.opening_width = estimate.opening_width_m;
+  message.left_side = estimate.left_side_px;
+  message.right_side = estimate.right_side_px;
+}
+
+void fill(PoseMsg& message, const pose::FilteredWindow& filtered) {
+  message.filtered_valid = true;
+  message.filtered_stamp = toStamp(filtered.stamp_sec);
+  message.filtered = toMsg(filtered.T_odom_window, filtered.covariance);
+  message.filtered_sign_trusted = filtered.sign_trusted;
+  message.filtered_weight = filtered.hypothesis_weight;
+  message.filtered_updates = static_cast<std::uint32_t>(std::max(0, filtered.updates));
+}
+
+Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, const std::string& odom_frame) {
+  if (!message.filtered_valid) return {std::nullopt, "no filtered window: " + message.filtered_reason};
+  if (message.filtered_frame_id != odom_frame)
+    return {std::nullopt, "filtered_frame_id is '" + message.filtered_frame_id.substr(0, 60) +
+                              "', expected '" + odom_frame + "'"};
+  const auto stamp_sec = stampSec(message.filtered_stamp);
+  if (!stamp_sec) return {std::nullopt, "filtered_stamp is zero or not normalised"};
+  const auto pose = fromMsg(message.filtered.pose);
+  if (!pose) return {std::nullopt, pose.reason};
+  if (!isFinite(message.filtered)) return {std::nullopt, "covariance is not finite"};
+  if (!(message.window_width > 0.0 && message.window_height > 0.0) || !std::isfinite(message.window_width) ||
+      !std::isfinite(message.window_height))
+    return {std::nullopt, "size of the window is not positive"};
+  navigation::TargetEstimate target;
+  target.stamp_sec = *stamp_sec;
+  target.T_odom_window = *pose.value;
+  target.covariance = covarianceFromMsg(message.filtered);
+  target.sign_trusted = message.filtered_sign_trusted != 0;
+  target.updates = static_cast<int>(std::min<std::uint32_t>(message.filtered_updates, 1u << 30));
+  target.opening = {message.window_width, message.window_height};
+  return {target, ""};
+}
+
+StateMsg toMsg(const navigation::NavigatorOutput& output) {
+  StateMsg message;
+  message.state = static_cast<std::uint8_t>(output.state);
+  message.state_name = navigation::toString(output.state);
+  message.reason = output.reason;
+  message.enabled = output.enabled;
+  message.velocity = toVectorMsg(output.setpoint.velocity_odom_mps);
+  message.yaw_rate = output.setpoint.yaw_rate_radps;
+  const navigation::NavigatorReport& report = output.report;
+  message.target_valid = report.has_relative;
+  message.distance = report.distance_m;
+  message.lateral = report.lateral_m;
+  message.vertical = report.vertical_m;
+  message.predicted_miss = report.predicted_miss_m;
+  message.commit_distance = report.commit_distance_m;
+  message.retries = static_cast<std::uint32_t>(std::max(0, report.retries));
+  message.blind = report.blind_sec;
+  return message;
+}
+
+}  // namespace window_ingress::adapters

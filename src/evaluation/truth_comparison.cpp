@@ -1,0 +1,67 @@
+#include "window_ingress/evaluation/truth_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+constexpr double kDegreesPerRad = 57.29577951308232;
+
+bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCamera& camera) {
+  const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
+  return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& window,
+                             const std::optional<Eigen::Isometry3d>& estimate,
+                             const Eigen::Isometry3d& T_camera_window, const geometry::PinholeCamera& camera,
+                             const geometry::OpeningSize& opening) {
+  TruthErrors errors;
+  const Eigen::Matrix3d R_flu_window = geometry::R_optical_flu().transpose() * T_camera_window.linear();
+  errors.true_distance_m = T_camera_window.translation().norm();
+  errors.true_yaw_rad = geometry::yawOf(R_flu_window);
+  const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
+  errors.whole = quad && showsWhole(*quad, camera);
+  if (window && errors.whole) errors.iou = geometry::intersectionOverUnion(window->corners, *quad);
+  if (!estimate) return errors;
+  errors.yaw_rad = geometry::yawOf(T_camera_window.linear().transpose() * estimate->linear());
+  errors.distance_m = estimate->translation().norm() - errors.true_distance_m;
+  return errors;
+}
+
+void TruthSummary::add(const TruthErrors& errors, bool detected) {
+  ++images;
+  whole += errors.whole;
+  const bool right = detected && errors.whole && errors.iou >= kSameWindowIou;
+  found += right;
+  others += detected && errors.whole && errors.iou < kOtherWindowIou;
+  if (!right || !errors.yaw_rad) return;
+  yaw_errors_rad.push_back(std::abs(*errors.yaw_rad));
+  distance_errors_m.push_back(std::abs(*errors.distance_m));
+}
+
+std::string TruthSummary::text() const {
+  char line[400];
+  std::snprintf(line, sizeof line,
+                "%d images with truth, %d show the window whole\n"
+                "found in %d of them (%.1f %%), something else taken for it in %d\n"
+                "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
+                images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, others,
+                median(yaw_errors_rad) * kDegreesPerRad, median(distance_errors_m), yaw_errors_rad.size());
+  return line;
+}
+
+}  // namespace window_ingress::evaluation

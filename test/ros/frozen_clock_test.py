@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Simulated time that does not come, stands still, or jumps back: zeros go on, and it is said why."""
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Trigger
+from window_ingress.msg import IngressState, WindowPose
+
+import support
+from ingress_navigator_test import no_window, speed
+
+
+class SimulatedClock:
+    """/clock at 100 Hz, from `start`, until it is frozen."""
+
+    def __init__(self, start):
+        self._publisher = rospy.Publisher("/clock", Clock, queue_size=1)
+        self.now = start
+        self.running = True
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def _run(self):
+        while not rospy.is_shutdown():
+            if self.running:
+                self.now += 0.01
+                self._publisher.publish(Clock(rospy.Time.from_sec(self.now)))
+            time.sleep(0.01)
+
+
+class FrozenClockTest(unittest.TestCase):
+    def test_absent_then_frozen_then_jumping_back(self):
+        setpoints = support.Listener("cmd_vel", TwistStamped)
+        states = support.Listener("state", IngressState)
+        diagnostics = support.Diagnostics()
+        rospy.wait_for_service("ingress_navigator/start")
+        start = rospy.ServiceProxy("ingress_navigator/start", Trigger)
+
+        reply = start()
+        self.assertFalse(reply.success)
+        self.assertIn("/clock", reply.message)
+        diagnostics.wait("ingress_navigator: clock", "nothing has come on /clock")
+
+        clock = SimulatedClock(1000.0)
+        support.Stream("odom", Odometry, support.odometry, 50.0)
+        support.Stream("window_pose", WindowPose, no_window, 30.0)
+        support.wait_for(lambda: start().success, "a mission that starts")
+        setpoints.wait(lambda s: speed(s) > 0.0, "motion")
+
+        clock.running = False
+        frozen = time.monotonic() + 0.6
+        diagnostics.wait("ingress_navigator: clock", "stands still")
+        support.wait_for(lambda: len(setpoints.since(frozen)) > 40, "the stream goes on")
+        self.assertTrue(all(speed(s) == 0.0 for s in setpoints.since(frozen)))
+
+        clock.now -= 51.0
+        clock.running = True
+        states.wait(lambda s: s.state_name == "ABORTED", "the mission aborted when the clock jumped back")
+
+
+if __name__ == "__main__":
+    rospy.init_node("frozen_clock_test")
+    rostest.rosrun("window_ingress", "frozen_clock", FrozenClockTest, sys.argv)

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""Corners in, pose out; what is missing is named, and nothing is made up for it."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import CameraInfo, Imu
+from window_ingress.msg import WindowDetection, WindowPose
+
+import support
+
+DISTANCE = 4.0
+WINDOW_W, WINDOW_H = 1.2, 1.0  # defaults of config/pose.yaml
+VEHICLE_X, CAMERA_X = 0.0, 0.1
+
+
+def detection(stamp, frame_id="camera_optical_frame"):
+    """A window square in front of the camera, `DISTANCE` away."""
+    message = WindowDetection(image_width=support.WIDTH, image_height=support.HEIGHT, detected=True, score=0.9)
+    message.header.stamp = stamp
+    message.header.frame_id = frame_id
+    cx, cy = (support.WIDTH - 1) / 2, (support.HEIGHT - 1) / 2
+    half_w, half_h = support.FOCAL * WINDOW_W / 2 / DISTANCE, support.FOCAL * WINDOW_H / 2 / DISTANCE
+    message.corner_x = [cx - half_w, cx + half_w, cx + half_w, cx - half_w]
+    message.corner_y = [cy - half_h, cy - half_h, cy + half_h, cy + half_h]
+    message.corner_covariance = [0.04, 0.0, 0.0, 0.04] * 4
+    message.edge_visible = [True] * 4
+    message.edge_sigma_px = [0.1] * 4
+    message.edge_sigma_rad = [0.001] * 4
+    return message
+
+
+def imu(stamp):
+    message = Imu()
+    message.header.stamp = stamp
+    message.header.frame_id = "base_link"
+    message.orientation.w = 1.0
+    return message
+
+
+class HomographyPoseTest(unittest.TestCase):
+    def setUp(self):
+        self.poses = support.Listener("window_pose", WindowPose)
+        self.streams = []
+
+    def tearDown(self):
+        for stream in self.streams:
+            stream.stop()
+        self.poses.stop()
+
+    def stream(self, topic, kind, make, rate_hz=30.0):
+        self.streams.append(support.Stream(topic, kind, make, rate_hz))
+        return self.streams[-1]
+
+    def start_vehicle(self):
+        self.stream("odom", Odometry, support.odometry, 50.0)
+        self.stream("imu", Imu, imu, 50.0)
+
+    def test_pose_in_camera_and_in_odom(self):
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, support.camera_info)
+        self.stream("window", WindowDetection, detection)
+        pose = self.poses.wait(lambda p: p.reject == WindowPose.OK and p.filtered_valid, "a pose, filtered")
+        self.assertAlmostEqual(pose.pose.pose.position.x, 0.0, delta=0.02)
+        self.assertAlmostEqual(pose.pose.pose.position.y, 0.0, delta=0.02)
+        self.assertAlmostEqual(pose.pose.pose.position.z, DISTANCE, delta=0.05)
+        self.assertEqual(pose.filtered_frame_id, "odom")
+        self.assertAlmostEqual(pose.filtered.pose.position.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.05)
+        self.assertAlmostEqual(pose.filtered.pose.position.y, 0.0, delta=0.05)
+        self.assertAlmostEqual(pose.filtered.pose.position.z, 1.5, delta=0.05)
+        self.assertGreater(pose.filtered.covariance[0], 0.0)
+        self.assertEqual((pose.window_width, pose.window_height), (WINDOW_W, WINDOW_H))
+
+    def test_polygon_and_covariance_stand_in_the_camera_frame(self):
+        polygons = support.Listener("window_polygon", PolygonStamped)
+        poses = support.Listener("window_pose_cov", PoseWithCovarianceStamped)
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, support.camera_info)
+        self.stream("window", WindowDetection, detection)
+        polygon = polygons.wait(what="a polygon")
+        self.assertEqual(polygon.header.frame_id, "camera_optical_frame")
+        self.assertAlmostEqual(polygon.polygon.points[0].x, -WINDOW_W / 2, delta=0.05)  # top left, x right, y down
+        self.assertAlmostEqual(polygon.polygon.points[0].y, -WINDOW_H / 2, delta=0.05)
+        self.assertAlmostEqual(polygon.polygon.points[0].z, DISTANCE, delta=0.1)
+        self.assertAlmostEqual(poses.wait(what="a pose").pose.pose.position.z, DISTANCE, delta=0.05)
+
+    def test_uncalibrated_camera_is_named(self):
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, lambda stamp: support.camera_info(stamp, focal=0.0))
+        self.stream("window", WindowDetection, detection)
+        self.poses.wait(lambda p: p.reject == WindowPose.NO_CALIBRATION and "uncalibrated" in p.reject_reason,
+                        "a refusal that names the calibration")
+        support.Diagnostics().wait("homography_pose: camera_info", "uncalibrated")
+
+    def test_calibration_of_another_size_is_named(self):
+        def other(stamp):
+            info = support.camera_info(stamp)
+            info.width, info.height = 320, 240
+            return info
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, other)
+        self.stream("window", WindowDetection, detection)
+        self.poses.wait(lambda p: "sizes differ" in p.reject_reason, "a refusal that names both sizes")
+
+    def test_unknown_mounting_withholds_the_filtered_pose_only(self):
+        frame = "camera_that_nobody_mounted"
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, lambda stamp: support.camera_info(stamp, frame))
+        self.stream("window", WindowDetection, lambda stamp: detection(stamp, frame))
+        pose = self.poses.wait(lambda p: p.header.frame_id == frame and p.reject == WindowPose.OK, "a pose in the camera")
+        self.assertIn(frame, pose.filtered_reason)
+        self.assertAlmostEqual(pose.pose.pose.position.z, DISTANCE, delta=0.05)
+
+    def test_missing_odometry_is_named(self):
+        self.stream("camera_info", CameraInfo, support.camera_info)
+        self.stream("window", WindowDetection, detection)
+        pose = self.poses.wait(lambda p: p.reject == WindowPose.OK and "odom" in p.filtered_reason, "a pose without odometry")
+        self.assertAlmostEqual(pose.pose.pose.position.z, DISTANCE, delta=0.05)
+        support.Diagnostics().wait("homography_pose: odom", "/odom (0 publishers)")
+
+    def test_no_window_passes_its_reason_on(self):
+        def nothing(stamp):
+            message = WindowDetection(reject_reason="nothing with four sides")
+            message.header.stamp = stamp
+            return message
+        self.stream("window", WindowDetection, nothing)
+        pose = self.poses.wait(lambda p: p.reject == WindowPose.NO_WINDOW, "a message without pose")
+        self.assertIn("four sides", pose.reject_reason)
+
+
+if __name__ == "__main__":
+    rospy.init_node("homography_pose_test")
+    rostest.rosrun("window_ingress", "homography_pose", HomographyPoseTest, sys.argv)

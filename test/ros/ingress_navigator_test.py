@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""Services that always answer, a stream that never stops while enabled, and zero when the data stops."""
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from std_srvs.srv import Trigger
+from window_ingress.msg import IngressState, WindowPose
+
+import support
+
+STREAM_HZ, STREAM_FOR_S = 20.0, 2.0
+STALE_WITHIN_S = 0.6  # limit of the age, plus a loaded machine
+
+
+def no_window(stamp):
+    message = WindowPose(reject=WindowPose.NO_WINDOW, reject_reason="nothing in view", filtered_reason="nothing in view")
+    message.header.stamp = stamp
+    message.header.frame_id = "camera_optical_frame"
+    return message
+
+
+def speed(message):
+    linear, angular = message.twist.linear, message.twist.angular
+    return max(abs(v) for v in (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
+
+
+class IngressNavigatorTest(unittest.TestCase):
+    def setUp(self):
+        self.states = support.Listener("state", IngressState)
+        self.setpoints = support.Listener("cmd_vel", TwistStamped)
+        self.streams = {}
+        self.call("abort")
+        support.wait_for(lambda: self.call("reset").success, "a navigator that can be reset")
+        self.wait_for_state("IDLE")
+
+    def tearDown(self):
+        for stream in self.streams.values():
+            stream.stop()
+        self.states.stop()
+        self.setpoints.stop()
+
+    @staticmethod
+    def call(service):
+        name = f"ingress_navigator/{service}"
+        rospy.wait_for_service(name, support.DEADLINE_S)
+        return rospy.ServiceProxy(name, Trigger)()
+
+    def wait_for_state(self, *names):
+        begin = time.monotonic() - 0.5
+        return self.states.wait(lambda s: s.state_name in names, f"state {names}", begin=begin)
+
+    def feed(self):
+        self.streams["odom"] = support.Stream("odom", Odometry, support.odometry, 50.0)
+        self.streams["window_pose"] = support.Stream("window_pose", WindowPose, no_window, 30.0)
+
+    def start(self):
+        self.feed()
+        support.wait_for(lambda: self.call("start").success, "a mission that starts")
+        self.wait_for_state("SEARCH")
+
+    def test_start_without_data_lists_what_is_missing(self):
+        reply = self.call("start")
+        self.assertFalse(reply.success)
+        self.assertIn("odom", reply.message)
+
+    def test_start_twice_is_answered_twice(self):
+        self.start()
+        again = self.call("start")
+        self.assertNotEqual(again.message, "")
+        self.assertEqual(self.states.wait(what="a state").state_name, "SEARCH")
+
+    def test_abort_is_idempotent_and_stops_at_once(self):
+        self.start()
+        self.setpoints.wait(lambda s: speed(s) > 0.0, "motion")
+        for _ in range(2):
+            self.assertTrue(self.call("abort").success)
+        begin = time.monotonic() + 0.1
+        self.wait_for_state("ABORTED")
+        self.setpoints.wait(lambda s: speed(s) == 0.0, "zero after the abort")
+        self.assertTrue(all(speed(s) == 0.0 for s in self.setpoints.since(begin)))
+
+    def test_reset_is_refused_in_flight_with_a_reason(self):
+        self.start()
+        reply = self.call("reset")
+        self.assertFalse(reply.success)
+        self.assertNotEqual(reply.message, "")
+
+    def test_stream_is_fast_and_truthful_about_its_frame(self):
+        self.start()
+        begin = time.monotonic()
+        support.wait_for(lambda: time.monotonic() - begin > STREAM_FOR_S, "the time of the measurement")
+        setpoints = self.setpoints.since(begin)
+        self.assertGreater(len(setpoints) / STREAM_FOR_S, STREAM_HZ)
+        self.assertEqual({s.header.frame_id for s in setpoints}, {"odom"})
+
+    def test_lost_odometry_means_zero_and_the_stream_goes_on(self):
+        self.start()
+        self.setpoints.wait(lambda s: speed(s) > 0.0, "motion")
+        self.streams.pop("odom").stop()
+        begin = time.monotonic() + STALE_WITHIN_S
+        self.wait_for_state("HOLD", "ABORTED")
+        support.wait_for(lambda: len(self.setpoints.since(begin)) > 20, "the stream after the loss")
+        self.assertTrue(all(speed(s) == 0.0 for s in self.setpoints.since(begin)))
+
+    def test_odometry_that_is_not_finite_is_no_odometry(self):
+        self.start()
+        self.setpoints.wait(lambda s: speed(s) > 0.0, "motion")
+
+        def poisoned(stamp):
+            message = support.odometry(stamp)
+            message.twist.twist.linear.y = float("nan")
+            return message
+        self.streams["odom"].make = poisoned
+        self.wait_for_state("HOLD", "ABORTED")
+        support.Diagnostics().wait("ingress_navigator: odom", "not finite")
+
+    def test_odometry_of_another_frame_is_refused_by_name(self):
+        self.feed()
+
+        def mapped(stamp):
+            message = support.odometry(stamp)
+            message.header.frame_id = "map"
+            return message
+        self.streams["odom"].make = mapped
+        support.Diagnostics().wait("ingress_navigator: odom", "'map'", "'odom'")
+        self.assertFalse(self.call("start").success)
+
+
+if __name__ == "__main__":
+    rospy.init_node("ingress_navigator_test")
+    rostest.rosrun("window_ingress", "ingress_navigator", IngressNavigatorTest, sys.argv)

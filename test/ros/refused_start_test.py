@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Nodes that must not start say why in one line and exit with 2; nodes that are told to stop leave zero and exit with 0."""
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import TwistStamped
+
+import support
+
+NODES = ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard", "world")
+EXIT_WITHIN_S = 2.0
+
+
+def launch(node):
+    return subprocess.Popen(["rosrun", "window_ingress", node], stderr=subprocess.PIPE, text=True)
+
+
+class RefusedStartTest(unittest.TestCase):
+    def assert_refused(self, node, name, value, *words):
+        rospy.set_param(f"/{node}/{name}", value)
+        try:
+            process = launch(node)
+            _, errors = process.communicate(timeout=support.DEADLINE_S)
+        finally:
+            rospy.delete_param(f"/{node}/{name}")
+        self.assertEqual(process.returncode, 2, errors)
+        lines = [line for line in errors.splitlines() if line.strip()]
+        self.assertEqual(len(lines), 1, errors)
+        for word in (f"{node}: ", f"/{node}/{name}", *words):
+            self.assertIn(word, lines[0])
+
+    def test_unknown_names_are_refused_by_every_node(self):
+        for node in NODES:
+            self.assert_refused(node, "thershold", 1.0, "unknown parameter")
+
+    def test_wrong_types_are_refused(self):
+        self.assert_refused("setpoint_guard", "late_sec", "0.2", "must be a number, not a text")
+        self.assert_refused("homography_pose", "publish_tf", 1, "must be true or false")
+        self.assert_refused("window_detector", "detector/min_score", "high", "must be a number")
+
+    def test_numbers_out_of_range_are_refused(self):
+        for value in (float("nan"), float("inf"), -1.0, 1e300):
+            self.assert_refused("ingress_navigator", "navigator/limits/speed_mps", value, "is not within")
+
+    def test_unknown_transport_lists_the_known_ones(self):
+        rospy.set_param("/window_detector/image_transport", "theora_or_so")
+        process = launch("window_detector")
+        _, errors = process.communicate(timeout=support.DEADLINE_S)
+        rospy.delete_param("/window_detector/image_transport")
+        self.assertEqual(process.returncode, 2, errors)
+        self.assertIn("raw", errors)
+        self.assertIn("compressed", errors)
+
+    def test_missing_reference_picture_is_named(self):
+        rospy.set_param("/window_detector/reference/picture", "/nowhere/window.jpg")
+        process = launch("window_detector")
+        _, errors = process.communicate(timeout=support.DEADLINE_S)
+        rospy.delete_param("/window_detector/reference/picture")
+        self.assertEqual(process.returncode, 2, errors)
+        self.assertIn("/nowhere/window.jpg", errors)
+
+    def assert_stops(self, node, number):
+        setpoints = support.Listener("cmd_vel", TwistStamped)
+        process = launch(node)
+        support.wait_for(lambda: setpoints._subscriber.get_num_connections() > 0, f"{node} publishes cmd_vel")
+        sent = time.monotonic()
+        process.send_signal(number)
+        process.wait(timeout=support.DEADLINE_S)
+        self.assertLess(time.monotonic() - sent, EXIT_WITHIN_S)
+        self.assertEqual(process.returncode, 0)
+        last = setpoints.since(sent)[-1]
+        self.assertEqual((last.twist.linear.x, last.twist.linear.y, last.twist.linear.z, last.twist.angular.z), (0, 0, 0, 0))
+        setpoints.stop()
+
+    def test_signals_leave_zero_velocity_behind(self):
+        for node in ("ingress_navigator", "setpoint_guard"):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                self.assert_stops(node, number)
+
+
+if __name__ == "__main__":
+    rospy.init_node("refused_start_test")
+    rostest.rosrun("window_ingress", "refused_start", RefusedStartTest, sys.argv)

@@ -1,0 +1,143 @@
+"""What the ROS tests share. Everything waits for a condition with a deadline in wall time; nothing sleeps for luck."""
+import threading
+import time
+
+import numpy
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import CameraInfo, Image
+
+DEADLINE_S = 20.0
+POLL_S = 0.02
+
+
+def wait_for(condition, what, deadline_s=DEADLINE_S):
+    """The first true value of `condition`; fails by name when the deadline passes."""
+    end = time.monotonic() + deadline_s
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(POLL_S)
+    raise AssertionError(f"not within {deadline_s} s: {what}")
+
+
+class Listener:
+    """Messages of a topic with the wall time at which they came."""
+
+    def __init__(self, topic, kind):
+        self._lock = threading.Lock()
+        self._messages = []
+        self._subscriber = rospy.Subscriber(topic, kind, self._receive)
+
+    def _receive(self, message):
+        with self._lock:
+            self._messages.append((time.monotonic(), message))
+
+    def since(self, begin):
+        with self._lock:
+            return [message for at, message in self._messages if at >= begin]
+
+    def times_since(self, begin):
+        with self._lock:
+            return [at for at, _ in self._messages if at >= begin]
+
+    def wait(self, accept=lambda message: True, what="a message", deadline_s=DEADLINE_S, begin=None):
+        begin = time.monotonic() if begin is None else begin
+        return wait_for(lambda: next((m for m in self.since(begin) if accept(m)), None), what, deadline_s)
+
+    def stop(self):
+        self._subscriber.unregister()
+
+
+class Stream:
+    """Publishes what `make(stamp)` gives at a rate of wall time until it is stopped."""
+
+    def __init__(self, topic, kind, make, rate_hz=30.0):
+        self._publisher = rospy.Publisher(topic, kind, queue_size=1)
+        self.make = make
+        self._period_s = 1.0 / rate_hz
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        while not self._stop.wait(self._period_s):
+            if not rospy.is_shutdown():
+                self._publisher.publish(self.make(rospy.Time.now()))
+
+    def stop(self):
+        self._stop.set()
+        self._thread.join()
+        self._publisher.unregister()
+
+
+class Diagnostics:
+    """The latest status of each thing that nodes report."""
+
+    def __init__(self):
+        self._status = {}
+        self._subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, self._receive)
+
+    def _receive(self, message):
+        for status in message.status:
+            self._status[status.name] = status
+
+    def wait(self, name, *words, deadline_s=DEADLINE_S):
+        """Waits until the status `name` says all the words."""
+        def found():
+            status = self._status.get(name)
+            return status if status and all(word in status.message for word in words) else None
+        try:
+            return wait_for(found, f"{name} says {words}", deadline_s)
+        except AssertionError:
+            status = self._status.get(name)
+            raise AssertionError(f"{name} does not say {words} but: {status.message if status else 'nothing'}")
+
+
+WIDTH, HEIGHT, FOCAL = 640, 480, 500.0
+FRAME_PX = 16
+CORNERS = ((220, 150), (420, 150), (420, 310), (220, 310))  # inner border: pixels 220..420 x 150..310
+
+
+def picture():
+    """A plaster wall with an orange frame round a dark opening."""
+    image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
+    (left, top), _, (right, bottom), _ = CORNERS
+    image[top - FRAME_PX:bottom + FRAME_PX + 1, left - FRAME_PX:right + FRAME_PX + 1] = (20, 95, 225)
+    image[top:bottom + 1, left:right + 1] = (60, 50, 45)
+    noise = numpy.random.default_rng(1).normal(0.0, 2.0, image.shape)
+    return numpy.clip(image + noise, 0, 255).astype(numpy.uint8)
+
+
+def image_message(pixels, stamp, frame_id="camera_optical_frame"):
+    message = Image(height=pixels.shape[0], width=pixels.shape[1], encoding="bgr8", step=3 * pixels.shape[1])
+    message.header.stamp = stamp
+    message.header.frame_id = frame_id
+    message.data = pixels.tobytes()
+    return message
+
+
+def camera_info(stamp, frame_id="camera_optical_frame", focal=FOCAL):
+    message = CameraInfo(width=WIDTH, height=HEIGHT, distortion_model="plumb_bob", D=[0.0] * 5)
+    message.header.stamp = stamp
+    message.header.frame_id = frame_id
+    cx, cy = (WIDTH - 1) / 2, (HEIGHT - 1) / 2
+    message.K = [focal, 0, cx, 0, focal, cy, 0, 0, 1 if focal else 0]
+    if not focal:
+        message.K = [0.0] * 9
+    message.R = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+    message.P = [focal, 0, cx, 0, 0, focal, cy, 0, 0, 0, 1, 0]
+    return message
+
+
+def odometry(stamp, x=0.0, speed=0.0):
+    message = Odometry(child_frame_id="base_link")
+    message.header.stamp = stamp
+    message.header.frame_id = "odom"
+    message.pose.pose.position.x = x
+    message.pose.pose.position.z = 1.5
+    message.pose.pose.orientation.w = 1.0
+    message.twist.twist.linear.x = speed
+    return message

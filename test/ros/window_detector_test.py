@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Image in, corners out: with and without calibration, and whatever else comes on the topic."""
+import sys
+import time
+import unittest
+
+import numpy
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from sensor_msgs.msg import CameraInfo, Image
+from std_srvs.srv import Trigger
+from window_ingress.msg import WindowDetection
+
+import support
+
+
+class WindowDetectorTest(unittest.TestCase):
+    def setUp(self):
+        self.windows = support.Listener("window", WindowDetection)
+        self.streams = []
+
+    def tearDown(self):
+        for stream in self.streams:
+            stream.stop()
+        self.windows.stop()
+
+    def stream(self, make, topic="image_raw", kind=Image, rate_hz=15.0):
+        self.streams.append(support.Stream(topic, kind, make, rate_hz))
+        return self.streams[-1]
+
+    def test_corners_come_without_calibration(self):
+        pixels = support.picture()
+        self.stream(lambda stamp: support.image_message(pixels, stamp))
+        window = self.windows.wait(lambda w: w.detected, "a window without camera_info")
+        for x, y, wanted in zip(window.corner_x, window.corner_y, support.CORNERS):
+            self.assertAlmostEqual(x, wanted[0], delta=1.5)
+            self.assertAlmostEqual(y, wanted[1], delta=1.5)
+        self.assertEqual(window.header.frame_id, "camera_optical_frame")
+        self.assertEqual((window.image_width, window.image_height), (support.WIDTH, support.HEIGHT))
+        self.assertEqual(window.reject_reason, "")
+        support.Diagnostics().wait("window_detector: camera_info", "no camera_info on /camera_info (0 publishers)")
+
+    def test_stamp_is_that_of_the_image(self):
+        pixels = support.picture()
+        sent = []
+        self.stream(lambda stamp: sent.append(stamp) or support.image_message(pixels, stamp))
+        self.stream(support.camera_info, "camera_info", CameraInfo)
+        window = self.windows.wait(lambda w: w.detected, "a window")
+        self.assertIn(window.header.stamp, sent)
+
+    def test_no_window_is_news_with_a_reason(self):
+        wall = numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8)
+        self.stream(lambda stamp: support.image_message(wall, stamp))
+        window = self.windows.wait(lambda w: not w.detected, "a message without window")
+        self.assertNotEqual(window.reject_reason, "")
+        self.assertEqual(list(window.corner_x), [0.0] * 4)
+
+    def test_bad_images_are_refused_by_name_and_good_ones_go_on(self):
+        pixels = support.picture()
+
+        def overflow(stamp):  # height * step wraps in 32 bits: kills cv_bridge
+            message = support.image_message(pixels, stamp)
+            message.encoding, message.width, message.height, message.step = "mono8", 65536, 65537, 65536
+            message.data = bytes(65536)
+            return message
+        bad = self.stream(overflow)
+        support.Diagnostics().wait("window_detector: image", "refused", "max_pixels")
+        bad.make = lambda stamp: support.image_message(pixels, stamp)
+        self.windows.wait(lambda w: w.detected, "a window after bad images")
+
+    def test_stamps_of_zero_and_far_future_are_refused(self):
+        pixels = support.picture()
+        diagnostics = support.Diagnostics()
+        stream = self.stream(lambda stamp: support.image_message(pixels, rospy.Time()))
+        diagnostics.wait("window_detector: image", "header.stamp is zero")
+        stream.make = lambda stamp: support.image_message(pixels, rospy.Time(4294967295, 0))
+        diagnostics.wait("window_detector: image", "ahead of the clock")
+        stream.make = lambda stamp: support.image_message(pixels, stamp)
+        self.windows.wait(lambda w: w.detected, "a window after bad stamps")
+
+    def test_debug_image_comes_while_somebody_looks(self):
+        pixels = support.picture()
+        self.stream(lambda stamp: support.image_message(pixels, stamp))
+        debug = support.Listener("debug_image", Image)
+        image = debug.wait(what="a debug image")
+        debug.stop()
+        self.assertEqual((image.width, image.height, image.encoding), (support.WIDTH, support.HEIGHT, "bgr8"))
+
+    def test_reference_is_captured_from_the_window_in_view(self):
+        rospy.wait_for_service("window_detector/capture_reference", support.DEADLINE_S)
+        capture = rospy.ServiceProxy("window_detector/capture_reference", Trigger)
+        pixels = support.picture()
+        self.stream(lambda stamp: support.image_message(pixels, stamp))
+        self.windows.wait(lambda w: w.detected, "a window")
+        support.wait_for(lambda: capture().success, "the reference captured")
+        window = self.windows.wait(lambda w: w.detected and w.has_appearance, "a window compared with the reference")
+        self.assertLess(window.bhattacharyya, 0.2)
+
+    def test_tuning_is_taken_or_clamped_and_reaches_the_detector(self):
+        client = Client("window_detector/tuning", timeout=support.DEADLINE_S)
+        before = client.get_configuration(timeout=support.DEADLINE_S)
+        pixels = support.picture()
+        self.stream(lambda stamp: support.image_message(pixels, stamp))
+        self.windows.wait(lambda w: w.detected, "a window")
+        self.assertEqual(client.update_configuration({"min_score": 7.0})["min_score"], 1.0)
+        begin = time.monotonic()
+        self.windows.wait(lambda w: not w.detected, "a window that is no longer good enough", begin=begin)
+        self.assertEqual(client.update_configuration({"min_score": before["min_score"]})["min_score"], before["min_score"])
+        self.windows.wait(lambda w: w.detected, "a window again")
+
+
+if __name__ == "__main__":
+    rospy.init_node("window_detector_test")
+    rostest.rosrun("window_ingress", "window_detector", WindowDetectorTest, sys.argv)
