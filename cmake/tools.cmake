@@ -7,10 +7,10 @@ foreach(source ${tool_sources})
     continue()
   endif()
   add_executable(${tool} ${source})
-  target_link_libraries(${tool} PRIVATE window_ingress_evaluation Boost::program_options nlohmann_json::nlohmann_json
+  target_link_libraries(${tool} PRIVATE ${PROJECT_NAME}_evaluation Boost::program_options nlohmann_json::nlohmann_json
                         yaml-cpp opencv_highgui opencv_imgcodecs)
   if(tool IN_LIST ros_tools)
-    target_link_libraries(${tool} PRIVATE window_ingress_adapters)
+    target_link_libraries(${tool} PRIVATE ${PROJECT_NAME}_adapters)
     target_compile_definitions(${tool} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   endif()
   if(NOT WINDOW_INGRESS_CORE_ONLY)
