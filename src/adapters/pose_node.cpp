@@ -5,7 +5,6 @@
 #include "adapters/guarded.hpp"
 #include "adapters/markers.hpp"
 #include "adapters/parameters.hpp"
-#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -15,9 +14,9 @@ constexpr double kPendingPeriodSec = 0.01;
 constexpr double kOdometryGoneSec = 0.3;
 
 PoseNodeParams checked(PoseNodeParams params) {
-  for (const char* known : {"imu", "odom", "tf", "none"})
+  for (const char* known : {"imu", "odom", "tf"})
     if (params.gravity_source == known) return params;
-  throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom, tf or none");
+  throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom or tf");
 }
 
 }  // namespace
@@ -30,8 +29,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       window_gate_(params_.stamps),
       odom_gate_(params_.stamps),
       camera_(nh, diagnostics_, params_.image_is_rectified),
-      estimator_(params_.pose),
-      filter_(params_.filter),
+      tracker_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_) {
   pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1);
@@ -75,7 +73,7 @@ void PoseNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
   const auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
-  odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
   processPending(false);
 }
@@ -90,7 +88,7 @@ void PoseNode::receiveImu(const sensor_msgs::ImuConstPtr& message) {
   const auto rotation = attitudeFromMsg(*message);
   if (!rotation) return imu_health_->refused(rotation.reason);
   imu_health_->accepted();
-  imu_.add(*stamp_sec, geometry::makePose(rotation.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+  tracker_.addAttitude(*stamp_sec, *rotation.value);
 }
 
 // An image waits until odometry has caught up with its exposure: poses are interpolated, not guessed.
@@ -112,7 +110,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.window_width = params_.pose.opening_width_m;
   out.window_height = params_.pose.opening_height_m;
   estimate(message, out);
-  if (const auto state = filter_.state(message.header.stamp.toSec()))
+  if (const auto state = tracker_.filtered(message.header.stamp.toSec()))
     fill(out, *state);
   else if (out.filtered_reason.empty())
     out.filtered_reason = "no image has contributed lately";
@@ -134,22 +132,11 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
     out.reject_reason = out.filtered_reason = camera.reason;
     return;
   }
-  const pose::PoseResult result =
-      estimator_.estimate(*window.value, *camera.value, gravity(window.value->stamp_sec));
-  fill(out, result);
-  out.filtered_reason =
-      result.estimate ? filter(*result.estimate, *window.value, *camera.value) : out.reject_reason;
-}
-
-// Why this image did not contribute; empty if it did.
-std::string PoseNode::filter(const pose::WindowPoseEstimate& estimate,
-                             const detection::WindowObservation& window,
-                             const geometry::PinholeCamera& camera) {
-  if (!T_base_camera_) return T_base_camera_.reason;
-  const auto T_odom_base = odometry_.at(window.stamp_sec, params_.odom_gap_sec);
-  if (!T_odom_base) return "no odometry near the exposure: " + odom_health_.health().text;
-  const bool used = filter_.update(estimate, window, camera, *T_odom_base * *T_base_camera_.value);
-  return used ? "" : "gated out by the filter";
+  if (params_.gravity_source == "tf") takeAttitudeFromTf(window.value->stamp_sec);
+  tracker_.see(*window.value, *camera.value, T_base_camera_.value);
+  tracker_.flush();
+  fill(out, tracker_.lastUpdate().pose);
+  out.filtered_reason = T_base_camera_ ? tracker_.lastUpdate().why_not : T_base_camera_.reason;
 }
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
@@ -164,27 +151,13 @@ Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame)
   }
 }
 
-std::optional<Eigen::Matrix3d> PoseNode::attitude(double stamp_sec) const {
-  if (params_.gravity_source == "tf") {
-    try {
-      const auto found = fromMsg(
-          tf_.lookupTransform(params_.frames.odom, params_.frames.base, toStamp(stamp_sec)).transform);
-      if (found) return found.value->linear();
-    } catch (const tf2::TransformException&) {  // not there yet: this image goes without
-    }
-    return std::nullopt;
+void PoseNode::takeAttitudeFromTf(double stamp_sec) {
+  try {
+    const auto found = tf_.lookupTransform(params_.frames.odom, params_.frames.base, toStamp(stamp_sec));
+    const auto rotation = fromMsg(found.transform.rotation);
+    if (rotation) tracker_.addAttitude(stamp_sec, *rotation.value);
+  } catch (const tf2::TransformException&) {  // not there yet: this image goes without
   }
-  const auto found = (params_.gravity_source == "imu" ? imu_ : odometry_).at(stamp_sec, params_.odom_gap_sec);
-  if (!found) return std::nullopt;
-  return found->linear();
-}
-
-std::optional<pose::GravityPrior> PoseNode::gravity(double stamp_sec) const {
-  if (params_.gravity_source == "none" || !T_base_camera_) return std::nullopt;
-  const auto R_odom_base = attitude(stamp_sec);
-  if (!R_odom_base) return std::nullopt;
-  const Eigen::Matrix3d R_odom_camera = *R_odom_base * T_base_camera_.value->linear();
-  return pose::GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
 }
 
 void PoseNode::publish(const window_ingress::WindowPose& message) {
@@ -222,11 +195,9 @@ void PoseNode::publishFiltered(const window_ingress::WindowPose& message) {
 void PoseNode::restartIfClockJumpedBack() {
   if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
   ROS_WARN("the clock jumped back: odometry, transforms and filter forgotten");
-  odometry_.clear();
-  imu_.clear();
   odometry_stamp_sec_ = -1.0;
   pending_.reset();
-  filter_.reset();
+  tracker_.reset();
   tf_.clear();
 }
 

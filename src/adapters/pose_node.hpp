@@ -17,37 +17,33 @@
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/stamps.hpp"
-#include "window_ingress/pose/pose_buffer.hpp"
-#include "window_ingress/pose/window_filter.hpp"
-#include "window_ingress/pose/window_pose_estimator.hpp"
+#include "window_ingress/navigation/target_tracker.hpp"
 
 namespace window_ingress::adapters {
 
 struct PoseNodeParams {
   bool image_is_rectified = false;      ///< the detector works on rectified pictures: use P of camera_info
-  std::string gravity_source = "imu";   ///< where "up" comes from: imu, odom, tf or none
-  double gravity_sigma_rad = 0.02;      ///< of that attitude, mounting included [rad]
+  std::string gravity_source = "imu";   ///< where "up" comes from: imu, odom or tf
   double odom_wait_sec = 0.05;          ///< an image waits this long for odometry as new as itself [s]
-  double odom_gap_sec = 0.1;            ///< odometry further from the exposure than this is not used [s]
   bool publish_tf = false;              ///< broadcast the filtered window as a frame
   std::string window_frame = "window";  ///< its name
   FrameNames frames;
   StampLimits stamps;
   pose::PoseParams pose;
   pose::FilterParams filter;
+  navigation::TrackerParams tracker;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("image_is_rectified", self.image_is_rectified);
     field("gravity_source", self.gravity_source);
-    field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
     field("odom_wait_sec", self.odom_wait_sec, 0.0, 0.5);
-    field("odom_gap_sec", self.odom_gap_sec, 0.005, 1.0);
     field("publish_tf", self.publish_tf);
     field("window_frame", self.window_frame);
     FrameNames::visit(self.frames, field);
     field.group("stamps", self.stamps);
     field.group("pose", self.pose);
     field.group("filter", self.filter);
+    field.group("tracker", self.tracker);
   }
 };
 
@@ -63,14 +59,11 @@ class PoseNode : public Node {
   void processPending(bool however_old);
   void process(const window_ingress::WindowDetection& message);
   void estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
-  std::string filter(const pose::WindowPoseEstimate& estimate, const detection::WindowObservation& window,
-                     const geometry::PinholeCamera& camera);
   void publish(const window_ingress::WindowPose& message);
   void publishFiltered(const window_ingress::WindowPose& message);
 
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
-  std::optional<Eigen::Matrix3d> attitude(double stamp_sec) const;
-  std::optional<pose::GravityPrior> gravity(double stamp_sec) const;
+  void takeAttitudeFromTf(double stamp_sec);
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
 
@@ -81,9 +74,7 @@ class PoseNode : public Node {
   StampGate window_gate_, odom_gate_;
   ClockWatch clock_;
   CameraSource camera_;
-  pose::WindowPoseEstimator estimator_;
-  pose::WindowFilter filter_;
-  pose::PoseBuffer odometry_, imu_;
+  navigation::TargetTracker tracker_;
   double odometry_stamp_sec_ = -1.0;
   window_ingress::WindowDetectionConstPtr pending_;
   double pending_since_sec_ = 0.0;  // on the steady clock

@@ -55,9 +55,7 @@ void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odo
   if (!odometry_.add(stamp_sec, T_odom_base)) return;
   odometry_stamp_sec_ = stamp_sec;
   odometry_position_m_ = T_odom_base.translation();
-  if (!pending_ || pending_->window.stamp_sec > stamp_sec) return;
-  process(*pending_);
-  pending_.reset();
+  if (pending_ && pending_->window.stamp_sec <= stamp_sec) flush();
 }
 
 void TargetTracker::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base) {
@@ -65,11 +63,14 @@ void TargetTracker::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_od
 }
 
 void TargetTracker::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_base_camera) {
-  if (pending_) process(*pending_);
+                        const std::optional<Eigen::Isometry3d>& T_base_camera) {
+  flush();
   pending_ = Pending{window, camera, T_base_camera};
-  if (!odometry_stamp_sec_ || *odometry_stamp_sec_ < window.stamp_sec) return;
-  process(*pending_);
+  if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= window.stamp_sec) flush();
+}
+
+void TargetTracker::flush() {
+  if (pending_) process(*pending_);
   pending_.reset();
 }
 
@@ -80,10 +81,12 @@ void TargetTracker::process(const Pending& pending) {
                                     [](const auto& edge) { return edge.visible; });
   last_.why_not = last_.pose.detail;
   if (!last_.pose.estimate && is_whole) return;
+  last_.why_not = "mounting of the camera unknown";
+  if (!pending.T_base_camera) return;
   const auto T_odom_base = odometry_.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
   last_.why_not = "no odometry near the exposure";
   if (!T_odom_base) return;
-  const Eigen::Isometry3d T_odom_camera = *T_odom_base * pending.T_base_camera;
+  const Eigen::Isometry3d T_odom_camera = *T_odom_base * *pending.T_base_camera;
   last_.used = last_.pose.estimate
                    ? filter_.update(*last_.pose.estimate, pending.window, pending.camera, T_odom_camera)
                    : filter_.update(pending.window, pending.camera, T_odom_camera);
@@ -91,10 +94,11 @@ void TargetTracker::process(const Pending& pending) {
 }
 
 std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending) const {
+  if (!pending.T_base_camera) return std::nullopt;
   const auto& source = attitude_.empty() ? odometry_ : attitude_;
   const auto T_odom_base = source.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
   if (!T_odom_base) return std::nullopt;
-  const Eigen::Matrix3d R_odom_camera = T_odom_base->linear() * pending.T_base_camera.linear();
+  const Eigen::Matrix3d R_odom_camera = T_odom_base->linear() * pending.T_base_camera->linear();
   return pose::GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
 }
 

@@ -44,18 +44,22 @@ class TargetTracker {
 
   void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base);
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
+  /// \param T_base_camera mounting of the camera; without it there is a pose, but nothing for the filter
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-           const Eigen::Isometry3d& T_base_camera);
+           const std::optional<Eigen::Isometry3d>& T_base_camera);
+  /// An observation that still waits for odometry is processed with what there is.
+  void flush();
   void reset();
 
   std::optional<TargetEstimate> target(double now_sec) const;
+  std::optional<pose::FilteredWindow> filtered(double now_sec) const { return filter_.state(now_sec); }
   const TrackerUpdate& lastUpdate() const { return last_; }
 
  private:
   struct Pending {
     detection::WindowObservation window;
     geometry::PinholeCamera camera;
-    Eigen::Isometry3d T_base_camera;
+    std::optional<Eigen::Isometry3d> T_base_camera;
   };
   void process(const Pending& pending);
   std::optional<pose::GravityPrior> gravity(const Pending& pending) const;
