@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "window_ingress/pose/filter_params.hpp"
+#include "window_ingress/pose/window_hypothesis.hpp"
+
+namespace window_ingress::pose {
+
+/// The window and its mirror image: one or two hypotheses with weights that sum to 1, the heavier first.
+class WindowBeliefs {
+ public:
+  explicit WindowBeliefs(const FilterParams& params) : params_(params) {}
+
+  struct Weighted {
+    WindowHypothesis window;
+    double log_weight;
+  };
+
+  bool empty() const { return hypotheses_.empty(); }
+  void clear() { hypotheses_.clear(); }
+  const std::vector<Weighted>& hypotheses() const { return hypotheses_; }
+
+  /// Begins anew with a pose from one image, and with its mirror image.
+  /// \return false, and nothing changed, if no upright window next to that pose, or to its mirror image,
+  /// explains the image
+  bool start(const Eigen::Isometry3d& T_odom_window, const FilterView& view);
+
+  /// Time passes, the camera moves, and an image is applied to all hypotheses.
+  /// \param alone the same image, as if it were the first from its place: it decides whether it is an outlier
+  /// \return the least normalised innovation squared of `alone`; nothing, and nothing changed, if the image
+  /// is an
+  ///         outlier to all
+  std::optional<double> apply(const FilterView& view, const FilterView& alone, double elapsed_sec,
+                              const Eigen::Vector3d& camera_from);
+
+  /// True if the mirror image is dead, or too near to matter.
+  bool areUnambiguous() const;
+
+ private:
+  void addMirrorImage(const FilterView& view, double squares);
+  void settle(const Eigen::Vector3d& camera_position);
+  void normalise();
+  void mergeOrDrop();
+  void split(const Eigen::Vector3d& camera_position);
+
+  FilterParams params_;
+  std::vector<Weighted> hypotheses_;
+  bool may_split_ = false;  ///< no evidence has killed the mirror image yet
+};
+
+}  // namespace window_ingress::pose
