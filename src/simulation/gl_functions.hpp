@@ -12,6 +12,7 @@ namespace window_ingress::simulation {
   F(GetError, GLenum, (void))                                                                       \
   F(Enable, void, (GLenum))                                                                         \
   F(Disable, void, (GLenum))                                                                        \
+  F(Scissor, void, (GLint, GLint, GLsizei, GLsizei))                                                \
   F(FrontFace, void, (GLenum))                                                                      \
   F(DepthFunc, void, (GLenum))                                                                      \
   F(Viewport, void, (GLint, GLint, GLsizei, GLsizei))                                               \

@@ -16,7 +16,7 @@ void Mesh::add(const std::array<Eigen::Vector3d, 4>& corners, const std::array<E
   Vertex vertex;
   for (int c = 0; c < 3; ++c) vertex.colour[c] = static_cast<unsigned char>(std::clamp(lit[c], 0.0, 255.0));
   vertex.colour[3] = 255;
-  auto& batch = batches_[surface.texture];
+  auto& batch = batches_[{indoors_, surface.texture}];
   for (int i = 0; i < 4; ++i) {
     for (int axis = 0; axis < 3; ++axis) vertex.position[axis] = static_cast<float>(corners[i][axis]);
     vertex.uv = {static_cast<float>(uv[i].x()), static_cast<float>(uv[i].y())};

@@ -1,11 +1,14 @@
 #include "window_ingress/simulation/renderer.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "gl_context.hpp"
+#include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
@@ -46,13 +49,13 @@ void requireUsable(const geometry::PinholeCamera& camera) {
 
 struct Renderer::Impl {
   struct Batch {
-    bool textured;
+    bool indoors, textured;
     GLuint texture;
     GLint first;
     GLsizei count;
   };
 
-  Impl(const Scene& scene, const geometry::PinholeCamera& ideal) : camera(ideal) {
+  Impl(const Scene& scene, const geometry::PinholeCamera& ideal) : camera(ideal), opening(scene.opening) {
     const GlFunctions& gl = context.makeCurrent();
     makeFramebuffers(gl);
     upload(gl, scene);
@@ -101,8 +104,9 @@ struct Renderer::Impl {
 
   void upload(const GlFunctions& gl, const Scene& scene) {
     std::vector<Vertex> vertices;
-    for (const auto& [texture, quads] : scene.mesh.batches()) {
-      batches.push_back({texture != Texture::kPlain, uploadTexture(gl, texture, scene.texture_seed),
+    for (const auto& [batch, quads] : scene.mesh.batches()) {
+      batches.push_back({batch.indoors, batch.texture != Texture::kPlain,
+                         uploadTexture(gl, batch.texture, scene.texture_seed),
                          static_cast<GLint>(vertices.size()), static_cast<GLsizei>(quads.size())});
       vertices.insert(vertices.end(), quads.begin(), quads.end());
     }
@@ -130,11 +134,35 @@ struct Renderer::Impl {
     gl.MatrixMode(GL_MODELVIEW);
   }
 
+  // Part of the picture in which the room can be seen: seen from outside, what the opening spans.
+  cv::Rect roomIn(const Eigen::Isometry3d& T_camera_window) const {
+    const cv::Rect picture(0, 0, camera.width, camera.height);
+    const bool outside = T_camera_window.inverse().translation().x() < -kNear_m;
+    if (!outside) return picture;
+    if (!opening) return {};
+    const auto corners = geometry::projectOpening(camera, T_camera_window, *opening);
+    if (!corners) return picture;
+    Eigen::AlignedBox2d span;
+    for (const auto& corner : *corners) span.extend(corner);
+    const Eigen::Vector2d end(camera.width, camera.height);
+    const Eigen::Vector2d low = span.min().cwiseMax(0.0).cwiseMin(end),
+                          high = span.max().cwiseMax(-1.0).cwiseMin(end);
+    const cv::Point first(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
+    const cv::Point last(static_cast<int>(std::ceil(high.x())), static_cast<int>(std::ceil(high.y())));
+    if (last.x < first.x || last.y < first.y) return {};
+    return cv::Rect(first, last + cv::Point(1, 1)) & picture;
+  }
+
   void draw(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, sampled);
+    gl.Disable(GL_SCISSOR_TEST);
     gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers what nothing else does
     gl.LoadMatrixd(T_camera_window.matrix().data());
+    const cv::Rect inside = roomIn(T_camera_window);
+    gl.Scissor(inside.x, inside.y, inside.width, inside.height);
     for (const Batch& batch : batches) {
+      if (batch.indoors && inside.empty()) continue;
+      (batch.indoors ? gl.Enable : gl.Disable)(GL_SCISSOR_TEST);
       (batch.textured ? gl.Enable : gl.Disable)(GL_TEXTURE_2D);
       gl.BindTexture(GL_TEXTURE_2D, batch.texture);
       gl.DrawArrays(GL_QUADS, batch.first, batch.count);
@@ -143,6 +171,7 @@ struct Renderer::Impl {
 
   void read(const GlFunctions& gl, cv::Mat& image) {
     const int w = camera.width, h = camera.height;
+    gl.Disable(GL_SCISSOR_TEST);
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled);
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
     gl.BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -152,6 +181,7 @@ struct Renderer::Impl {
   }
 
   geometry::PinholeCamera camera;
+  std::optional<geometry::OpeningSize> opening;
   GlContext context;
   GLuint sampled = 0, resolved = 0;
   std::vector<Batch> batches;

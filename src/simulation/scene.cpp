@@ -18,11 +18,11 @@ Lighting daylight(const HouseParams& house) {
 
 Scene buildScene(const Scenario& scenario) {
   const HouseParams& house = scenario.house;
-  Scene scene{Mesh(daylight(house)),
-              {},
-              scenario.window.frame_depth_m + house.wall_thickness_m,
-              -scenario.windowCentreHeight(),
-              static_cast<std::uint32_t>(house.texture_seed)};
+  Scene scene{Mesh(daylight(house)), {}, 0.0, 0.0, std::nullopt, 0};
+  scene.opening_depth_m = scenario.window.frame_depth_m + house.wall_thickness_m;
+  scene.ground_z_m = -scenario.windowCentreHeight();
+  if (scenario.window.present) scene.opening = scenario.opening();
+  scene.texture_seed = static_cast<std::uint32_t>(house.texture_seed);
   addFront(scenario, scene);
   addTarget(scenario, scene);
   for (const auto& decoy : scenario.decoys) addDecoy(scenario, decoy, scene);

@@ -134,8 +134,10 @@ void addRoom(const Scenario& scenario, Scene& scene) {
   scene.mesh.addQuad({front_m, wall.right_m, wall.bottom_m}, deep, up, plaster);
   scene.mesh.addQuad({front_m, wall.left_m, wall.bottom_m}, up, deep, plaster);
   scene.mesh.setLighting(indoors(scenario.house));
+  scene.mesh.setIndoors(true);
   addRoomShell(scenario, scene);
   addFurniture(scenario, scene);
+  scene.mesh.setIndoors(false);
   scene.mesh.setLighting(outdoors);
   addRoomSolids(scenario, scene);
 }

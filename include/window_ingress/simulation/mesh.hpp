@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "window_ingress/simulation/texture.hpp"
@@ -36,6 +37,9 @@ class Mesh {
   explicit Mesh(const Lighting& lighting) : lighting_(lighting) {}
   void setLighting(const Lighting& lighting) { lighting_ = lighting; }
   const Lighting& lighting() const { return lighting_; }
+  /// Where what is added from now on stands: inside the house it can be seen from outside through the opening
+  /// only.
+  void setIndoors(bool indoors) { indoors_ = indoors; }
 
   /// A parallelogram with a corner at `origin` and the sides `u` and `v`; its face is towards u x v. The
   /// texture is laid along u and v in its tile size, starting from `uv0_m`.
@@ -47,14 +51,22 @@ class Mesh {
   void addBox(const Eigen::AlignedBox3d& box, const Surface& surface);
 
   /// Four vertices a quadrilateral.
-  const std::map<Texture, std::vector<Vertex>>& batches() const { return batches_; }
+  struct Batch {
+    bool indoors;
+    Texture texture;
+    bool operator<(const Batch& other) const {
+      return std::make_pair(indoors, texture) < std::make_pair(other.indoors, other.texture);
+    }
+  };
+  const std::map<Batch, std::vector<Vertex>>& batches() const { return batches_; }
 
  private:
   void add(const std::array<Eigen::Vector3d, 4>& corners, const std::array<Eigen::Vector2d, 4>& uv,
            const Surface& surface);
 
   Lighting lighting_;
-  std::map<Texture, std::vector<Vertex>> batches_;
+  bool indoors_ = false;
+  std::map<Batch, std::vector<Vertex>> batches_;
 };
 
 }  // namespace window_ingress::simulation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "window_ingress/simulation/mesh.hpp"
@@ -20,6 +21,7 @@ struct Scene {
   std::vector<Obstacle> obstacles;
   double opening_depth_m = 0.0;  ///< where the opening ends in the room
   double ground_z_m = 0.0;
+  std::optional<geometry::OpeningSize> opening;  ///< nothing if the wall is closed
   std::uint32_t texture_seed = 0;
 };
 

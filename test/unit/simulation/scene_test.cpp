@@ -49,7 +49,7 @@ TEST(Mesh, FacesOfABoxLookOutwards) {
   Mesh mesh({Eigen::Vector3d::UnitZ(), 0.0, 1.0});
   const Eigen::AlignedBox3d box(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(2, 4, 6));
   mesh.addBox(box, {});
-  const auto& vertices = mesh.batches().at(Texture::kPlain);
+  const auto& vertices = mesh.batches().at({false, Texture::kPlain});
   ASSERT_EQ(vertices.size(), 24u);
   const auto at = [&](std::size_t i) {
     const auto& p = vertices[i].position;
