@@ -77,8 +77,9 @@ Decision Align::moveOntoAxis(const Situation& situation, const RelativeState& re
   }
   const double retreat_mps =
       -climbFor(params_.align.min_distance_m - relative.distance(), params_.align.lateral_speed_mps, params_);
-  decision.wish.velocity_odom_mps =
-      pacer_.pace(velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), params_), situation);
+  decision.wish.velocity_odom_mps = pacer_.pace(
+      velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), Eigen::Vector3d::Zero(), params_),
+      situation);
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
   decision.reason = "moving onto the window's normal";
   if (contract.openness < 0.15) {

@@ -33,8 +33,9 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
     return decision;
   }
   const Contract contract = evaluateContract(relative, target.opening, pitchOf(*situation.vehicle), params_);
-  decision.wish.velocity_odom_mps =
-      pacer_.pace(velocityAlongAxis(relative, target, forwardSpeed(contract, relative), params_), situation);
+  decision.wish.velocity_odom_mps = pacer_.pace(
+      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_),
+      situation);
   decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
   decision.event = judge(contract, relative, situation, decision.reason);
   if (decision.event == Event::kCommitReached) {

@@ -30,12 +30,15 @@ double climbFor(double error_m, double limit_mps, const NavigatorParams& params)
 }
 
 Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
-                                  double forward_mps, const NavigatorParams& params) {
+                                  double forward_mps, const Eigen::Vector3d& wind_odom_mps,
+                                  const NavigatorParams& params) {
   const Eigen::Vector3d coasted =
       relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
   const auto& align = params.align;
   Eigen::Vector3d velocity_window(0.0, climbFor(-coasted.y(), align.lateral_speed_mps, params),
                                   climbFor(-coasted.z(), align.vertical_speed_mps, params));
+  const Eigen::Vector3d wind_window = uprightRotation(target).transpose() * wind_odom_mps;
+  velocity_window.tail<2>() -= wind_window.tail<2>();
   const double across = velocity_window.norm();
   if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
   const double left =

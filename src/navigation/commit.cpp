@@ -40,7 +40,7 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
 
   Decision decision;
   decision.wish.velocity_odom_mps =
-      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), params_);
+      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_);
   decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, params_);
   decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {

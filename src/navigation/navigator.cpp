@@ -9,6 +9,7 @@
 #include "window_ingress/navigation/approach.hpp"
 #include "window_ingress/navigation/back_off.hpp"
 #include "window_ingress/navigation/commit.hpp"
+#include "window_ingress/navigation/disturbance_observer.hpp"
 #include "window_ingress/navigation/hold.hpp"
 #include "window_ingress/navigation/motion_guard.hpp"
 #include "window_ingress/navigation/search.hpp"
@@ -59,6 +60,7 @@ struct Navigator::Impl {
       : params(checked(given)),
         monitor(params.input, params.limits),
         limiter(params.limits),
+        observer(params.vehicle, params.approach),
         search(params),
         align(params),
         approach(params),
@@ -69,6 +71,7 @@ struct Navigator::Impl {
   NavigatorParams params;
   InputMonitor monitor;
   SetpointLimiter limiter;
+  DisturbanceObserver observer;
   Search search;
   Align align;
   Approach approach;
@@ -78,6 +81,7 @@ struct Navigator::Impl {
   State state = State::kIdle;
   std::string reason = "waiting for start";
   MissionMemory memory;
+  Setpoint last_setpoint;
   bool was_near = false;
   double now_sec = 0.0;
   double started_sec = 0.0;
@@ -96,7 +100,14 @@ struct Navigator::Impl {
 };
 
 void Navigator::Impl::remember(const Situation& situation) {
-  if (situation.vehicle_jumped) memory.forgetPlaces();
+  if (situation.vehicle_jumped) {
+    memory.forgetPlaces();
+    observer.reset();
+  }
+  if (situation.vehicle) {
+    observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
+    memory.wind_odom_mps = observer.disturbance();
+  }
   if (state == State::kCommit) {
     memory.trusted = memory.committed;
   } else if (situation.target) {
@@ -233,6 +244,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
   const auto faults = self.unmet(input, now_sec);
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.memory = MissionMemory();
+  self.observer.reset();
   self.was_near = false;
   self.limiter.stop();
   self.now_sec = self.started_sec = now_sec;
@@ -272,7 +284,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
     decision = isMoving(*to) ? self.behave(situation) : Decision();
   }
   NavigatorOutput output;
-  output.setpoint = self.output(decision, situation);
+  output.setpoint = self.last_setpoint = self.output(decision, situation);
   output.state = self.state;
   output.reason = self.reason;
   output.report = self.report(situation);

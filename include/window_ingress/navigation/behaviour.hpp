@@ -22,6 +22,7 @@ struct MissionMemory {
   std::optional<TargetEstimate> trusted;         ///< last estimate whose normal was trusted
   std::optional<TargetEstimate> committed;       ///< what COMMIT flies by, in odom
   std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
+  Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   int back_offs = 0;
   double predicted_miss_m = 0.0;  ///< at the moment of the commit
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
@@ -43,9 +44,10 @@ double yawRateFor(double error_rad, const NavigatorParams& params);
 /// Upward velocity that takes the height error (goal less present) away.
 double climbFor(double error_m, double limit_mps, const NavigatorParams& params);
 
-/// Velocity in odom axes: forward as given, sideways and upward onto the window's axis, within the speed
-/// limit. What is sideways has priority: forward gets what is left.
+/// Velocity in odom axes: forward as given, sideways and upward onto the window's axis and against the wind,
+/// within the speed limit. What is sideways has priority: forward gets what is left.
 Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
-                                  double forward_mps, const NavigatorParams& params);
+                                  double forward_mps, const Eigen::Vector3d& wind_odom_mps,
+                                  const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation

@@ -140,8 +140,13 @@ struct ApproachParams {
   double leave_sec = 0.5;     ///< for this long [s]
   double patience_sec = 2.0;  ///< at the commit line without a contract: back off [s]
 
+  double wind_sec = 1.0;      ///< smoothing of the velocity that wind adds [s]
+  double max_wind_mps = 0.3;  ///< most that is taken off the command for it; 0: nothing [m/s]
+
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
+    field("wind_sec", self.wind_sec, 0.1, 20.0);
+    field("max_wind_mps", self.max_wind_mps, 0.0, 2.0);
     field("speed_mps", self.speed_mps, 0.05, 5.0);
     field("funnel_slope", self.funnel_slope, 0.05, 2.0);
     field("sigma_factor", self.sigma_factor, 1.0, 10.0);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "window_ingress/navigation/navigator_params.hpp"
+
+namespace window_ingress::navigation {
+
+/// How far the vehicle's velocity stays away from what was commanded, in wind: the measured velocity less
+/// that of a first-order model of the vehicle under the same commands, smoothed over `wind_sec`. To be taken
+/// off the next command (P24). Stable for vehicles that answer slower than the model, too: the model's error
+/// at high frequencies is smoothed away.
+class DisturbanceObserver {
+ public:
+  DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
+      : vehicle_(vehicle), approach_(approach) {}
+
+  void reset();
+  /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
+  void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
+  /// At most `max_wind_mps` long.
+  Eigen::Vector3d disturbance() const;
+
+ private:
+  VehicleParams vehicle_;
+  ApproachParams approach_;
+  Eigen::Vector3d model_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace window_ingress::navigation

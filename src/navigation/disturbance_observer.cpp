@@ -1,0 +1,33 @@
+#include "window_ingress/navigation/disturbance_observer.hpp"
+
+#include <cmath>
+
+namespace window_ingress::navigation {
+namespace {
+
+/// Share of a first-order step that is made in this time.
+double share(double dt_sec, double time_constant_sec) {
+  return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
+}
+
+}  // namespace
+
+void DisturbanceObserver::reset() {
+  model_mps_.setZero();
+  disturbance_mps_.setZero();
+}
+
+void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,
+                                 double dt_sec) {
+  if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
+  model_mps_ += share(dt_sec, vehicle_.response_sec) * (commanded_mps - model_mps_);
+  disturbance_mps_ += share(dt_sec, approach_.wind_sec) * (measured_mps - model_mps_ - disturbance_mps_);
+}
+
+Eigen::Vector3d DisturbanceObserver::disturbance() const {
+  const double norm = disturbance_mps_.norm();
+  return norm > approach_.max_wind_mps ? Eigen::Vector3d(disturbance_mps_ * (approach_.max_wind_mps / norm))
+                                       : disturbance_mps_;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,62 @@
+#include "window_ingress/navigation/disturbance_observer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace window_ingress::navigation {
+namespace {
+
+DisturbanceObserver observer() { return {VehicleParams(), ApproachParams()}; }
+
+/// A first-order vehicle in wind that wants to go straight ahead, the observer's answer taken off its
+/// command.
+struct Windy {
+  double lag_sec;
+  Eigen::Vector3d wind{0.0, 0.2, -0.1};
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  double worst_mps = 0.0;
+
+  void fly(DisturbanceObserver& observer, double seconds) {
+    constexpr double kStep = 1.0 / 30.0;
+    for (double t = 0.0; t < seconds; t += kStep) {
+      const Eigen::Vector3d command = Eigen::Vector3d(0.8, 0.0, 0.0) - observer.disturbance();
+      velocity += kStep / lag_sec * (command + wind - velocity);
+      observer.update(velocity, command, kStep);
+      worst_mps = std::max(worst_mps, velocity.norm());
+    }
+  }
+};
+
+TEST(DisturbanceObserver, TakesSteadyWindAwayFromFastAndSlowVehicles) {
+  for (const double lag_sec : {0.05, 0.2, 0.4, 0.9, 1.5}) {
+    auto observe = observer();
+    Windy vehicle{lag_sec};
+    vehicle.fly(observe, 15.0);
+    EXPECT_LT((vehicle.velocity - Eigen::Vector3d(0.8, 0, 0)).norm(), 0.01) << lag_sec;
+    EXPECT_LT((observe.disturbance() - vehicle.wind).norm(), 0.01) << lag_sec;
+    EXPECT_LT(vehicle.worst_mps, 1.2) << lag_sec;
+  }
+}
+
+TEST(DisturbanceObserver, IsBounded) {
+  auto observe = observer();
+  for (int i = 0; i < 1000; ++i) observe.update({9, 9, 9}, {0, 0, 0}, 0.03);
+  EXPECT_NEAR(observe.disturbance().norm(), ApproachParams().max_wind_mps, 1e-12);
+  observe.reset();
+  EXPECT_EQ(observe.disturbance().norm(), 0.0);
+}
+
+TEST(DisturbanceObserver, IgnoresWhatIsNoNumber) {
+  auto observe = observer();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  observe.update({nan, 0, 0}, {0, 0, 0}, 0.03);
+  observe.update({1, 0, 0}, {nan, 0, 0}, 0.03);
+  observe.update({1, 0, 0}, {0, 0, 0}, nan);
+  observe.update({1, 0, 0}, {0, 0, 0}, -1.0);
+  EXPECT_EQ(observe.disturbance().norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
