@@ -1,8 +1,6 @@
 #include "window_ingress/navigation/navigator.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "window_ingress/navigation/align.hpp"
@@ -11,50 +9,13 @@
 #include "window_ingress/navigation/commit.hpp"
 #include "window_ingress/navigation/disturbance_observer.hpp"
 #include "window_ingress/navigation/hold.hpp"
+#include "window_ingress/navigation/mission_rules.hpp"
 #include "window_ingress/navigation/motion_guard.hpp"
 #include "window_ingress/navigation/search.hpp"
 #include "window_ingress/navigation/setpoint_limiter.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
-namespace {
-
-NavigatorParams checked(const NavigatorParams& params) {
-  auto faults = parameters::outOfRange(params);
-  if (!(params.limits.min_height_m < params.limits.max_height_m)) {
-    faults.push_back("limits/min_height_m must be below limits/max_height_m");
-  }
-  if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
-  return params;
-}
-
-double timeoutOf(State state, const TimeoutParams& timeouts) {
-  switch (state) {
-    case State::kSearch:
-      return timeouts.search_sec;
-    case State::kAlign:
-      return timeouts.align_sec;
-    case State::kApproach:
-      return timeouts.approach_sec;
-    case State::kCommit:
-      return timeouts.commit_sec;
-    case State::kBackOff:
-      return timeouts.back_off_sec;
-    default:
-      return timeouts.total_sec;
-  }
-}
-
-/// What this state needs and does not have; empty if it has all.
-std::string missingInput(State state, const Situation& situation) {
-  if (!situation.vehicle) return situation.vehicle_fault;
-  if (state == State::kSearch) return situation.image_fault;
-  const bool needs_target = state == State::kAlign || state == State::kApproach;
-  return needs_target && !situation.target ? situation.target_fault : "";
-}
-
-}  // namespace
-
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
       : params(checked(given)),
@@ -220,17 +181,7 @@ NavigatorReport Navigator::Impl::report(const Situation& situation) const {
 
 std::vector<std::string> Navigator::Impl::unmet(const NavigatorInput& input, double at_sec) const {
   InputMonitor judge = monitor;
-  const Situation situation = judge.judge(input, at_sec);
-  std::vector<std::string> faults;
-  if (!std::isfinite(at_sec)) faults.push_back("no valid time");
-  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
-  if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
-  if (!input.engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
-  if (!situation.vehicle) return faults;
-  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
-    faults.push_back("above limits/max_height_m");
-  }
-  return faults;
+  return unmetToStart(judge.judge(input, at_sec), input.engaged, params);
 }
 
 Navigator::Navigator(const NavigatorParams& params) : impl_(new Impl(params)) {}

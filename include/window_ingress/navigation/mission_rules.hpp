@@ -1,0 +1,26 @@
+/// What the mission as a whole demands, apart from what any single state does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "window_ingress/navigation/input_monitor.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/navigation/transition_table.hpp"
+
+namespace window_ingress::navigation {
+
+/// The parameters as given. \throws std::invalid_argument that lists every fault
+NavigatorParams checked(const NavigatorParams& params);
+
+/// How long the mission may stay in this state [s].
+double timeoutOf(State state, const TimeoutParams& timeouts);
+
+/// What this state needs and does not have; empty if it has all.
+std::string missingInput(State state, const Situation& situation);
+
+/// What speaks against a start, all of it; empty if nothing does.
+std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
+                                      const NavigatorParams& params);
+
+}  // namespace window_ingress::navigation

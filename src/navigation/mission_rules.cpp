@@ -1,0 +1,57 @@
+#include "window_ingress/navigation/mission_rules.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::navigation {
+
+NavigatorParams checked(const NavigatorParams& params) {
+  auto faults = parameters::outOfRange(params);
+  if (!(params.limits.min_height_m < params.limits.max_height_m)) {
+    faults.push_back("limits/min_height_m must be below limits/max_height_m");
+  }
+  if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
+  return params;
+}
+
+double timeoutOf(State state, const TimeoutParams& timeouts) {
+  switch (state) {
+    case State::kSearch:
+      return timeouts.search_sec;
+    case State::kAlign:
+      return timeouts.align_sec;
+    case State::kApproach:
+      return timeouts.approach_sec;
+    case State::kCommit:
+      return timeouts.commit_sec;
+    case State::kBackOff:
+      return timeouts.back_off_sec;
+    default:
+      return timeouts.total_sec;
+  }
+}
+
+std::string missingInput(State state, const Situation& situation) {
+  if (!situation.vehicle) return situation.vehicle_fault;
+  if (state == State::kSearch) return situation.image_fault;
+  const bool needs_target = state == State::kAlign || state == State::kApproach;
+  return needs_target && !situation.target ? situation.target_fault : "";
+}
+
+std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
+                                      const NavigatorParams& params) {
+  std::vector<std::string> faults;
+  if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
+  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
+  if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
+  if (!engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
+  if (!situation.vehicle) return faults;
+  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
+    faults.push_back("above limits/max_height_m");
+  }
+  return faults;
+}
+
+}  // namespace window_ingress::navigation
