@@ -281,4 +281,13 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
 
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
 
+ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorParams& params) {
+  DetectorParams wide = params;
+  wide.gates.min_area = std::max(0.2, params.gates.min_area);
+  wide.gates.max_area = 1.0;
+  WindowDetector detector(wide);
+  const auto window = detector.detect(picture, 0.0);
+  return window ? ReferenceAppearance(picture, window->corners) : ReferenceAppearance(picture);
+}
+
 }  // namespace window_ingress::detection

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::evaluation {
+
+/// Reads a calibration as camera_info_manager writes it (yaml: image_width, image_height, camera_matrix,
+/// distortion_model, distortion_coefficients).
+/// \throws std::runtime_error, one line "file: what is wrong; what to do": missing, not yaml, incomplete,
+/// uncalibrated
+///         (K all zero), or of a lens model other than plumb_bob
+geometry::PinholeCamera readCalibrationFile(const std::string& file);
+
+}  // namespace window_ingress::evaluation

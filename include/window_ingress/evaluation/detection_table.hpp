@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/pose/window_pose_estimator.hpp"
+
+namespace window_ingress::evaluation {
+
+/// What the detector, and the pose if there is one, said of one image.
+struct DetectionRow {
+  std::optional<detection::WindowObservation> window;
+  std::string reject_reason;  ///< without a window: the outcome in one word, or with pose trouble that
+  std::optional<pose::WindowPoseEstimate> pose;
+  double milliseconds = 0.0;
+};
+
+/// Names of the columns after the first, comma between them:
+/// detected,score,bhattacharyya,x1,y1,...,y4,reject_reason,qx,qy,qz,qw,tx,ty,tz,yaw_sigma_rad,ambiguity,milliseconds.
+/// `ambiguity` is the odds of the other planar solution against the reported one, 0 (none) to 1 (a toss-up).
+std::string detectionColumns();
+
+/// The values of those columns; empty where there is nothing to say. No line end.
+std::string detectionValues(const DetectionRow& row);
+
+/// A text as one csv field: in quotes if it holds a comma, a quote or a line end.
+std::string csvField(const std::string& text);
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Recall and precision of a csv of detect_images against annotated quadrilaterals.
+
+A picture counts as found if its detection overlaps any annotated quadrilateral by IoU >= 0.7. Rates are averaged over
+scenes, not over pictures. Precision: detections on pictures without a target, and on pictures whose every target is
+annotated. Labels that start with pose_only_ are no targets.
+"""
+import argparse
+import collections
+import csv
+import os
+import sys
+
+
+def cross(o, a, b):
+    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+
+
+def area(polygon):
+    return 0.5 * sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(polygon, polygon[1:] + polygon[:1]))
+
+
+def clockwise(polygon):
+    return polygon if area(polygon) >= 0 else polygon[::-1]
+
+
+def intersection_area(p, q):
+    """Area shared by two convex polygons: p clipped by each side of q."""
+    clipper = clockwise(q)
+    for a, b in zip(clipper, clipper[1:] + clipper[:1]):
+        kept = []
+        for s, e in zip(p, p[1:] + p[:1]):
+            ds, de = cross(a, b, s), cross(a, b, e)
+            if ds >= 0:
+                kept.append(s)
+            if (ds < 0) != (de < 0):
+                t = ds / (ds - de)
+                kept.append((s[0] + t * (e[0] - s[0]), s[1] + t * (e[1] - s[1])))
+        p = kept
+        if not p:
+            return 0.0
+    return abs(area(p))
+
+
+def iou(p, q):
+    shared = intersection_area(p, q)
+    united = abs(area(p)) + abs(area(q)) - shared
+    return shared / united if united > 0 else 0.0
+
+
+def corners(row):
+    if not row["x1"]:
+        return None
+    return [(float(row[f"x{i}"]), float(row[f"y{i}"])) for i in range(1, 5)]
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def evaluate(detections, annotations, meta, leave_out, min_iou):
+    """One record a picture: scene, tier, whether it holds a target, detected, overlap with the best target."""
+    quads = collections.defaultdict(list)
+    for row in annotations:
+        if row["x1"] and not row["label"].startswith("pose_only_"):
+            quads[row["file"]].append(corners(row))
+    hard = {row["file"] for row in annotations if row["label"] == "negative_hard"}
+    records = []
+    for row in detections:
+        name = os.path.basename(row["file"])
+        if name not in meta or name in leave_out:
+            continue
+        info, found = meta[name], corners(row) if row["detected"] == "1" else None
+        best = max((iou(found, q) for q in quads[name]), default=0.0) if found else 0.0
+        if not quads[name] and info["tier"] != "neg":
+            continue
+        records.append({"file": name, "scene": info["scene"], "tier": info["tier"], "hard": name in hard,
+                        "target": bool(quads[name]), "exhaustive": info["exhaustive"] == "yes",
+                        "detected": found is not None, "iou": best, "hit": best >= min_iou,
+                        "score": float(row["score"] or 0), "ms": float(row["milliseconds"] or 0)})
+    return records
+
+
+def rate(hits):
+    hits = list(hits)
+    return sum(hits) / len(hits) if hits else float("nan")
+
+
+def macro(records, key):
+    scenes = collections.defaultdict(list)
+    for r in records:
+        scenes[r["scene"]].append(key(r))
+    return rate(rate(v) for v in scenes.values())
+
+
+def report(records, title, per_scene):
+    print(f"== {title}: {len(records)} pictures")
+    targets = [r for r in records if r["target"]]
+    for tier in sorted({r["tier"] for r in targets}):
+        some = [r for r in targets if r["tier"] == tier]
+        print(f"tier {tier}: recall {macro(some, lambda r: r['hit']):6.1%} over {len({r['scene'] for r in some})} scenes"
+              f" ({rate(r['hit'] for r in some):.1%} of {len(some)} pictures), detected {rate(r['detected'] for r in some):.1%}")
+    if per_scene:
+        for scene in sorted({r["scene"] for r in targets}):
+            some = [r for r in targets if r["scene"] == scene]
+            print(f"  {scene:62s} {sum(r['hit'] for r in some):3d} of {len(some):3d}")
+    for name, some in (("negatives", [r for r in records if not r["target"] and not r["hard"]]),
+                       ("hard negatives (for use with a reference)",
+                        [r for r in records if not r["target"] and r["hard"]])):
+        if some:
+            print(f"{name}: false alarms on {sum(r['detected'] for r in some)} of {len(some)} pictures")
+    detected = [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
+    if detected:
+        print(f"exhaustively annotated: precision {rate(r['hit'] for r in detected):.1%} of {len(detected)} detections")
+    if records:
+        times = sorted(r["ms"] for r in records)
+        print(f"time: median {times[len(times) // 2]:.2f} ms, largest {times[-1]:.2f} ms")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("detections", help="csv of detect_images")
+    parser.add_argument("--annotations", required=True)
+    parser.add_argument("--meta", required=True)
+    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="picture the reference is from")
+    parser.add_argument("--iou", type=float, default=0.7)
+    parser.add_argument("--halves", action="store_true", help="also for every second picture of each scene")
+    parser.add_argument("--per-scene", action="store_true")
+    parser.add_argument("--misses", action="store_true", help="list the pictures whose target was not found")
+    options = parser.parse_args()
+    try:
+        detections, annotations, meta = map(read, (options.detections, options.annotations, options.meta))
+    except OSError as error:
+        print(f"evaluate_detections: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    meta = {row["file"]: row for row in meta}
+    records = evaluate(detections, annotations, meta, set(options.leave_out), options.iou)
+    if not records:
+        print(f"evaluate_detections: {options.detections}: no picture of {options.meta} in it", file=sys.stderr)
+        return 1
+    report(records, "all", options.per_scene)
+    if options.halves:
+        places, halves = collections.Counter(), ([], [])
+        for r in sorted(records, key=lambda r: r["file"]):
+            halves[places[r["scene"]] % 2].append(r)
+            places[r["scene"]] += 1
+        report(halves[0], "even half", False)
+        report(halves[1], "odd half", False)
+    if options.misses:
+        for r in records:
+            if r["target"] != r["hit"] or (not r["target"] and r["detected"]):
+                print(f"{r['tier']} {r['scene'][:30]:30s} {r['file']:50s} iou {r['iou']:.2f} score {r['score']:.2f}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,79 @@
+#include "window_ingress/evaluation/calibration_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, const std::string& text) {
+  throw std::runtime_error(file + ": " + text);
+}
+
+YAML::Node load(const std::string& file) {
+  try {
+    const YAML::Node root = YAML::LoadFile(file);
+    if (!root.IsMap()) refuse(file, "is no camera calibration: not a yaml mapping");
+    return root;
+  } catch (const YAML::BadFile&) {
+    refuse(file, "cannot be read; does it exist?");
+  } catch (const YAML::Exception& error) {
+    refuse(file, "line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+}
+
+std::vector<double> numbers(const YAML::Node& root, const std::string& key, const std::string& file) {
+  try {
+    return root[key]["data"].as<std::vector<double>>();
+  } catch (const YAML::Exception&) {
+    refuse(file, key + ": no list of numbers called data in it");
+  }
+}
+
+int integer(const YAML::Node& root, const std::string& key, const std::string& file) {
+  try {
+    return root[key].as<int>();
+  } catch (const YAML::Exception&) {
+    refuse(file, key + ": missing or no integer");
+  }
+}
+
+void readLens(const YAML::Node& root, const std::string& file, geometry::PinholeCamera& camera) {
+  if (!root["distortion_coefficients"]) return;
+  const auto distortion = numbers(root, "distortion_coefficients", file);
+  const bool straight = std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; });
+  const std::string model =
+      root["distortion_model"] ? root["distortion_model"].as<std::string>("") : "plumb_bob";
+  if (!straight && model != "plumb_bob")
+    refuse(file, "distortion_model: '" + model +
+                     "' is not supported; calibrate with plumb_bob or rectify the images");
+  if (!straight && distortion.size() != 4 && distortion.size() != 5)
+    refuse(file,
+           "distortion_coefficients: " + std::to_string(distortion.size()) + " numbers; plumb_bob has 5");
+  if (!straight) std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+}
+
+}  // namespace
+
+geometry::PinholeCamera readCalibrationFile(const std::string& file) {
+  const YAML::Node root = load(file);
+  geometry::PinholeCamera camera;
+  camera.width = integer(root, "image_width", file);
+  camera.height = integer(root, "image_height", file);
+  const auto k = numbers(root, "camera_matrix", file);
+  if (k.size() != 9) refuse(file, "camera_matrix: " + std::to_string(k.size()) + " numbers instead of 9");
+  if (std::all_of(k.begin(), k.end(), [](double v) { return v == 0.0; }))
+    refuse(file, "the camera is uncalibrated (camera_matrix is zero); calibrate it first");
+  camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
+  readLens(root, file, camera);
+  const auto faults = camera.validate();
+  if (!faults.empty()) refuse(file, parameters::joined(faults));
+  return camera;
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,55 @@
+#include "window_ingress/evaluation/detection_table.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace window_ingress::evaluation {
+namespace {
+
+std::string number(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string windowValues(const std::optional<detection::WindowObservation>& window) {
+  if (!window) return "0,,,,,,,,,,";
+  std::string text = "1," + number("%.4f", window->score) + ",";
+  if (window->has_appearance) text += number("%.4f", window->bhattacharyya);
+  for (const Eigen::Vector2d& corner : window->corners)
+    text += "," + number("%.3f", corner.x()) + "," + number("%.3f", corner.y());
+  return text;
+}
+
+std::string poseValues(const std::optional<pose::WindowPoseEstimate>& pose) {
+  if (!pose) return ",,,,,,,,";
+  const Eigen::Quaterniond q(pose->best.T_camera_window.linear());
+  const Eigen::Vector3d t = pose->best.T_camera_window.translation();
+  std::string text;
+  for (double value : {q.x(), q.y(), q.z(), q.w()}) text += number("%.9f", value) + ",";
+  for (double value : {t.x(), t.y(), t.z()}) text += number("%.6f", value) + ",";
+  const double odds = pose->alternative ? std::exp(-pose->log_likelihood_ratio) : 0.0;
+  return text + number("%.6f", pose->yaw_sigma_rad) + "," + number("%.4g", odds);
+}
+
+}  // namespace
+
+std::string detectionColumns() {
+  return "detected,score,bhattacharyya,x1,y1,x2,y2,x3,y3,x4,y4,reject_reason,qx,qy,qz,qw,tx,ty,tz,yaw_sigma_"
+         "rad,"
+         "ambiguity,milliseconds";
+}
+
+std::string detectionValues(const DetectionRow& row) {
+  return windowValues(row.window) + "," + csvField(row.reject_reason) + "," + poseValues(row.pose) + "," +
+         number("%.3f", row.milliseconds);
+}
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace window_ingress::evaluation
