@@ -13,6 +13,12 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double kFaintestChange =
+    3.0;                             ///< of the mean colour over two pixels that may be an edge [grey levels]
+constexpr double kNarrowPx = 0.8;    ///< prior of an edge beside stronger ones
+constexpr double kWidePx = 1e3;      ///< no prior
+constexpr double kFaintPart = 0.05;  ///< or this part of the largest one near it
+
 /// Pixels by bilinear interpolation; three channels always, grey repeated.
 class Sampler {
  public:
@@ -54,19 +60,39 @@ class Side {
     const Vector2d along = (b - a) / length_;
     line_.point = 0.5 * (a + b);
     line_.normal = Vector2d(along.y(), -along.x());
+    start_ = line_;
   }
 
-  bool run(double radius_px) {
-    chooseColour(radius_px);
-    measure(radius_px, 0.6 * radius_px);
-    if (!fit(std::max(params_.outlier_px, 0.35 * radius_px))) return false;
-    measure(params_.final_radius_px, 1e3);
-    return fit(params_.outlier_px);
+  bool run(const BorderStart& start) {
+    chooseEdge(start.radius_px, start.choice);
+    const bool nearest = start.choice == EdgeChoice::kNearest;
+    const double reach_px = nearest ? start.radius_px : params_.final_radius_px;
+    measure(reach_px, nearest ? 0.6 * reach_px : kNarrowPx);
+    if (!fit(std::max(params_.outlier_px, 0.35 * reach_px))) return false;
+    measure(params_.final_radius_px, nearest ? kWidePx : kNarrowPx);
+    fitted_ = fit(params_.outlier_px) && strays(shifted_) <= reach_px && strays(start_) <= start.max_stray_px;
+    return fitted_;
+  }
+  bool fitted() const { return fitted_; }
+  Line start(double sigma_px) const {
+    Line line = start_;
+    line.sigma_px = sigma_px;
+    line.sigma_rad = sigma_px * std::sqrt(12.0) / length_;
+    return line;
   }
   const Line& line() const { return line_; }
   double inliers() const { return inliers_; }
 
  private:
+  // How far an end of the fitted line is from another line.
+  double strays(const Line& from) const {
+    double worst = 0.0;
+    for (double t : {-0.5, 0.5}) {
+      const Vector2d end = from.point + t * length_ * Vector2d(-from.normal.y(), from.normal.x());
+      worst = std::max(worst, std::abs(line_.normal.dot(end - line_.point)));
+    }
+    return worst;
+  }
   int profiles() const {
     return std::clamp(static_cast<int>(length_ * (1.0 - 2.0 * params_.skip)), 4, params_.samples);
   }
@@ -88,20 +114,48 @@ class Side {
     return true;
   }
 
-  // The direction in colour space in which the side as a whole changes most, near its start.
-  void chooseColour(double radius_px) {
+  // Where the side as a whole changes, and the direction in colour space in which it does.
+  void chooseEdge(double radius_px, EdgeChoice choice) {
     const int reach = static_cast<int>(std::ceil(radius_px));
-    std::vector<Vector3d> mean(2 * reach + 3, Vector3d::Zero()), values;
+    std::vector<Vector3d> mean(2 * reach + 3, Vector3d::Zero()), values, changes;
+    int count = 0;
     for (int i = 0; i < profiles(); ++i) {
       if (!profile(foot(i), reach, values)) continue;
       for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += values[k];
+      ++count;
     }
+    for (int o = -reach; o <= reach; ++o)
+      changes.push_back((mean[o + reach + 2] - mean[o + reach]) / std::max(1, count));
+    const int at = choice == EdgeChoice::kNearest ? strongest(changes, radius_px)
+                                                  : first(changes, choice == EdgeChoice::kFirstInward);
+    colour_ = changes[at].norm() > 0.0 ? changes[at].normalized() : colour_;
+    if (choice != EdgeChoice::kNearest) line_.point += (at - reach) * line_.normal;
+    shifted_ = line_;
+  }
+
+  static int strongest(const std::vector<Vector3d>& changes, double radius_px) {
+    const int reach = static_cast<int>(changes.size()) / 2;
+    int at = reach;
     double best = 0.0;
-    for (int o = -reach; o <= reach; ++o) {
-      const Vector3d change = mean[o + reach + 2] - mean[o + reach];
-      const double weight = change.norm() * std::exp(-0.5 * o * o / (0.36 * radius_px * radius_px));
-      if (weight > best) best = weight, colour_ = change.normalized();
+    for (int k = 0; k < static_cast<int>(changes.size()); ++k) {
+      const double weight = changes[k].norm() * std::exp(-0.5 * std::pow((k - reach) / (0.6 * radius_px), 2));
+      if (weight > best) best = weight, at = k;
     }
+    return at;
+  }
+
+  // The first change that stands out, from the last element on if `inward`, else from the first on.
+  static int first(const std::vector<Vector3d>& changes, bool inward) {
+    const int count = static_cast<int>(changes.size());
+    double largest = 0.0;
+    for (const Vector3d& change : changes) largest = std::max(largest, change.norm());
+    const double limit = std::max(kFaintestChange, kFaintPart * largest);
+    for (int n = 0; n < count; ++n) {
+      const int k = inward ? count - 1 - n : n, next = inward ? k - 1 : k + 1;
+      const bool falls = next < 0 || next >= count || changes[next].norm() <= changes[k].norm();
+      if (changes[k].norm() > limit && falls) return k;
+    }
+    return count / 2;
   }
 
   void measure(double radius_px, double prior_px) {
@@ -195,7 +249,8 @@ class Side {
   const geometry::PinholeCamera* camera_;
   const BorderRefinementParams& params_;
   double length_;
-  Line line_;
+  Line line_, start_, shifted_;
+  bool fitted_ = false;
   Vector3d colour_ = Vector3d(1, 1, 1) / std::sqrt(3.0);
   std::vector<Vector2d> points_;
   double inliers_ = 0.0;
@@ -249,9 +304,10 @@ bool finish(const std::array<Line, 4>& lines, const geometry::PinholeCamera* cam
 
 }  // namespace
 
-std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const geometry::Quadrilateral& quad,
-                                                    double radius_px, const geometry::PinholeCamera* camera,
+std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const BorderStart& start,
+                                                    const geometry::PinholeCamera* camera,
                                                     double* worst_inliers) const {
+  const geometry::Quadrilateral& quad = start.quad;
   const Sampler sampler(image);
   const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
   std::array<Line, 4> lines;
@@ -264,8 +320,8 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     good = (b - a).norm() > 4.0;
     if (!good) break;
     Side side(sampler, lens, params_, a, b);
-    good = side.run(radius_px);
-    lines[i] = side.line();
+    good = side.run(start) || start.fallback_sigma_px > 0.0;
+    lines[i] = side.fitted() ? side.line() : side.start(start.fallback_sigma_px);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
   }
   if (worst_inliers) *worst_inliers = borders.worst_inliers;

@@ -96,6 +96,7 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
                                static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0});
     return;
   }
+  candidate.closure = params_.closure;
   candidate.quad = grown(*quad, grow_px);
   result.candidates.push_back(candidate);
 }

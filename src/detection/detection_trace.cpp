@@ -62,7 +62,15 @@ Wording wording(RejectReason reason) {
 const char* toString(RejectReason reason) { return wording(reason).name; }
 
 const char* toString(CandidateSource source) {
-  return source == CandidateSource::kContour ? "contour" : "segments";
+  switch (source) {
+    case CandidateSource::kContour:
+      return "contour";
+    case CandidateSource::kSegments:
+      return "segments";
+    case CandidateSource::kFrame:
+      return "frame";
+  }
+  return "unknown";
 }
 
 std::string describe(const CandidateTrace& candidate) {

@@ -12,10 +12,29 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kTwoPi = 6.283185307179586;
+constexpr double kSameDirection = 0.996;  ///< cosine between pieces of one line
+constexpr double kSameLinePx = 1.0;       ///< distance of their ends from the joint line
 
 Vector2d perpendicular(const Vector2d& v) { return {-v.y(), v.x()}; }
 
 }  // namespace
+
+void joinCollinear(std::vector<Segment>& segments, double max_gap) {
+  const std::size_t pieces = segments.size();
+  for (std::size_t i = 0; i < pieces; ++i)
+    for (std::size_t j = 0; j < pieces; ++j) {
+      const Segment &p = segments[i], &q = segments[j];
+      if (p.normal.dot(q.normal) < kSameDirection) continue;
+      const Vector2d along = (p.b - p.a).normalized();
+      const double gap = along.dot(q.a - p.b), lengths = p.length() + q.length();
+      if (gap < 0.0 || gap > max_gap * lengths) continue;
+      const Vector2d normal = perpendicular((q.b - p.a).normalized());
+      if (std::abs(normal.dot(p.b - p.a)) > kSameLinePx || std::abs(normal.dot(q.a - p.a)) > kSameLinePx)
+        continue;
+      segments.push_back(
+          {p.a, q.b, normal.dot(p.normal) < 0.0 ? Vector2d(-normal) : normal, p.pixels + q.pixels});
+    }
+}
 
 void LineSupport::collect(const EdgeMap& map) {
   pixels_.clear();
@@ -119,7 +138,8 @@ bool LineSupport::grow(const EdgeMap& map, const Pixel& seed, int cell, Segment&
   }
   segment = {line.point + high * along, line.point + low * along, line.normal,
              static_cast<int>(found_.size())};
-  return high - low >= min_length_px_;
+  const double length = high - low, steps = length * along.cwiseAbs().maxCoeff();
+  return length >= min_length_px_ && static_cast<double>(found_.size()) >= params_.min_density * steps;
 }
 
 std::vector<Segment> LineSupport::run(const EdgeMap& map) {
@@ -155,6 +175,7 @@ std::vector<Segment> LineSupport::run(const EdgeMap& map) {
     }
     segments.push_back(segment);
   }
+  joinCollinear(segments, params_.join_gap);
   std::stable_sort(segments.begin(), segments.end(),
                    [](const Segment& a, const Segment& b) { return a.length() > b.length(); });
   if (static_cast<int>(segments.size()) > params_.max_segments) segments.resize(params_.max_segments);

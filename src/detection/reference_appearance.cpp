@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "window_ingress/detection/unit_square.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -11,30 +13,12 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr int kBins = 16;
-constexpr int kAlong = 48;                   ///< samples along each side of the ring
-constexpr int kAcross = 4;                   ///< samples across each band
-constexpr int kDarkest = 45;                 ///< sum of the channels below which chroma is noise
-constexpr int kBrightest = 750;              ///< and above which it is clipped
+constexpr int kAlong = 48;        ///< samples along each side of the ring
+constexpr int kAcross = 4;        ///< samples across each band
+constexpr double kClearPx = 1.5;  ///< pixels nearer to the border are mixed with what is seen through it
+constexpr int kDarkest = 45;      ///< sum of the channels below which chroma is noise
+constexpr int kBrightest = 750;   ///< and above which it is clipped
 constexpr double kLow = 0.05, kHigh = 0.70;  ///< chromaticities covered by the bins
-
-// Projective map of the unit square to a quadrilateral.
-class UnitSquare {
- public:
-  explicit UnitSquare(const Quadrilateral& q) {
-    const Vector2d s = q[0] - q[1] + q[2] - q[3], d1 = q[1] - q[2], d2 = q[3] - q[2];
-    const double det = d1.x() * d2.y() - d2.x() * d1.y();
-    const double g = (s.x() * d2.y() - d2.x() * s.y()) / det, h = (d1.x() * s.y() - s.x() * d1.y()) / det;
-    map_ << q[1].x() - q[0].x() + g * q[1].x(), q[3].x() - q[0].x() + h * q[3].x(), q[0].x(),
-        q[1].y() - q[0].y() + g * q[1].y(), q[3].y() - q[0].y() + h * q[3].y(), q[0].y(), g, h, 1.0;
-  }
-  Vector2d operator()(double u, double v) const {
-    const Eigen::Vector3d p = map_ * Eigen::Vector3d(u, v, 1.0);
-    return p.z() > 1e-6 ? Vector2d(p.x() / p.z(), p.y() / p.z()) : Vector2d(-1e6, -1e6);
-  }
-
- private:
-  Eigen::Matrix3d map_;
-};
 
 bool hasColour(const cv::Mat& image) { return image.type() == CV_8UC3; }
 
@@ -83,7 +67,7 @@ int fillBand(const cv::Mat& image, const Quadrilateral& opening, double from, do
     const double out = (from + (to - from) * (a + 0.5) / kAcross) * mean;
     for (int k = 0; k < 4 * kAlong; ++k) {
       const Vector2d ring = ringPoint((k + 0.5) / kAlong, out / width, out / height);
-      const Vector2d p = map(ring.x(), ring.y());
+      const Vector2d p = map.toImage(ring);
       if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < image.cols - 0.5 && p.y() < image.rows - 0.5)) continue;
       count += addPixel(
           image.at<cv::Vec3b>(static_cast<int>(std::lround(p.y())), static_cast<int>(std::lround(p.x()))),
@@ -123,7 +107,9 @@ std::optional<cv::Mat> ringHistogram(const cv::Mat& image, const Quadrilateral& 
                                      const AppearanceParams& params) {
   if (!hasColour(image) || image.empty() || !geometry::isConvex(opening)) return std::nullopt;
   cv::Mat histogram = cv::Mat::zeros(2, kBins * kBins, CV_32FC1);
-  const double limits[3] = {0.004, params.near_width, std::max(params.near_width, params.far_width)};
+  const double clear = kClearPx / std::sqrt(std::abs(geometry::signedArea(opening)) + 1.0);
+  const double limits[3] = {std::min(clear, 0.5 * params.near_width), params.near_width,
+                            std::max(params.near_width, params.far_width)};
   for (int b = 0; b < 2; ++b) {
     if (bandPixels(opening, limits[b], limits[b + 1]) < params.min_pixels) return std::nullopt;
     const int count = fillBand(image, opening, limits[b], limits[b + 1], histogram.ptr<float>(b));

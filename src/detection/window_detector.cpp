@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "window_ingress/detection/frame_model.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::detection {
@@ -11,6 +12,12 @@ namespace {
 
 constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
 constexpr int kRefinementTries = 6;
+constexpr double kRingReach =
+    0.2;  ///< how far a frame's border may lie from where it is foretold, in ring widths
+constexpr double kUnframedScore = 0.75;  ///< of a candidate round which the reference's frame is not seen
+constexpr double kForetoldStrayPx =
+    1.0;  ///< a border further from where its frame foretells it is another one [px]
+constexpr double kForetoldSigmaPx = 0.3;  ///< how well the frame foretells it [px]
 constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
 
 void check(const DetectorParams& params) {
@@ -26,6 +33,11 @@ std::string imageFault(const cv::Mat& image) {
     return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " is smaller than " +
            std::to_string(kSmallestSide) + " px";
   return {};
+}
+
+double ringWidth(const geometry::Quadrilateral& outer, const geometry::Quadrilateral& inner) {
+  return 0.5 * (std::sqrt(std::abs(geometry::signedArea(outer))) -
+                std::sqrt(std::abs(geometry::signedArea(inner))));
 }
 
 geometry::Quadrilateral scaled(const geometry::Quadrilateral& quad, double factor) {
@@ -47,9 +59,13 @@ struct WindowDetector::Impl {
   struct Rival {
     Candidate candidate;
     geometry::Quadrilateral quad;  ///< pixels of the image as it came
-    double score = 0.0;
+    double score = 0.0;            ///< confidence, whatever its size
+    double size = 1.0;             ///< preference for its size
     LoopVerdict verdict;
     std::optional<double> distance;
+    std::optional<geometry::Quadrilateral> outer;  ///< border of the frame that foretells this one
+
+    double rank() const { return score * size; }
   };
 
   explicit Impl(const DetectorParams& p)
@@ -68,6 +84,10 @@ struct WindowDetector::Impl {
   void admit(std::vector<Candidate>& found, const EdgeMap& map);
   void keepBest();
   void judgeLoops(const cv::Mat& image);
+  void foretell();
+  void learnFrame();
+  std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
+                                       const geometry::PinholeCamera* camera, double& inliers) const;
   void judgeAppearance(const cv::Mat& image);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
@@ -87,6 +107,7 @@ struct WindowDetector::Impl {
   NestedLoops nested;
   BorderRefinement refinement;
   std::optional<ReferenceAppearance> reference;
+  std::optional<FrameModel> frame;
   DetectionTrace trace;
   std::vector<Rival> rivals;
   int factor = 1;
@@ -136,16 +157,18 @@ void WindowDetector::Impl::admit(std::vector<Candidate>& found, const EdgeMap& m
     else
       rivals.push_back({candidate,
                         scaled(candidate.quad, factor),
-                        windowScore(candidate, level_size, params.score),
+                        windowScore(candidate, params.score),
+                        sizeRank(candidate.quad, level_size, params.score),
                         {},
-                        std::nullopt});
+                        {},
+                        {}});
   }
 }
 
 // Best first, each loop once, no more than the budget.
 void WindowDetector::Impl::keepBest() {
   std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.score > b.score; });
+                   [](const Rival& a, const Rival& b) { return a.rank() > b.rank(); });
   std::vector<Rival> kept;
   for (const Rival& rival : rivals) {
     const auto twin = std::find_if(kept.begin(), kept.end(), [&](const Rival& better) {
@@ -164,9 +187,23 @@ void WindowDetector::Impl::keepBest() {
 void WindowDetector::Impl::judgeLoops(const cv::Mat& image) {
   std::vector<geometry::Quadrilateral> quads;
   std::vector<double> scores;
-  for (const Rival& rival : rivals) quads.push_back(rival.quad), scores.push_back(rival.score);
+  for (const Rival& rival : rivals) quads.push_back(rival.quad), scores.push_back(rival.rank());
   const auto verdicts = nested.run(image, quads, scores, kLoopTolerancePx * factor);
   for (std::size_t i = 0; i < rivals.size(); ++i) rivals[i].verdict = verdicts[i];
+}
+
+// The borders that the frames' outer borders foretell, where the reference shows a frame.
+void WindowDetector::Impl::foretell() {
+  if (!frame) return;
+  const std::size_t seen = rivals.size();
+  for (std::size_t i = 0; i < seen; ++i) {
+    Rival inner = rivals[i];
+    inner.outer = rivals[i].quad;
+    inner.quad = frame->inner(rivals[i].quad);
+    inner.candidate.source = CandidateSource::kFrame;
+    inner.verdict = {RejectReason::kNone, -1, true};
+    if (geometry::isFinite(inner.quad) && geometry::isConvex(inner.quad)) rivals.push_back(inner);
+  }
 }
 
 void WindowDetector::Impl::judgeAppearance(const cv::Mat& image) {
@@ -174,6 +211,7 @@ void WindowDetector::Impl::judgeAppearance(const cv::Mat& image) {
   for (Rival& rival : rivals) {
     rival.distance = reference->distance(image, rival.quad, params.appearance);
     if (rival.distance) rival.score *= 1.0 - *rival.distance;
+    if (frame && !rival.outer) rival.score *= kUnframedScore;
   }
 }
 
@@ -193,7 +231,7 @@ WindowObservation WindowDetector::Impl::observe(const Rival& rival, const Refine
 std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& image, double stamp_sec,
                                                               const geometry::PinholeCamera* camera) {
   std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.score > b.score; });
+                   [](const Rival& a, const Rival& b) { return a.rank() > b.rank(); });
   std::optional<WindowObservation> window;
   int tries = 0;
   for (const Rival& rival : rivals) {
@@ -211,7 +249,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
     } else {
       ++tries;
       double inliers = 0.0;
-      const auto borders = refinement.run(image, rival.quad, 1.5 * factor + 1.0, camera, &inliers);
+      const auto borders = refine(rival, image, camera, inliers);
       if (!borders) {
         record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
         continue;
@@ -222,6 +260,45 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
     }
   }
   return window;
+}
+
+std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, const cv::Mat& image,
+                                                           const geometry::PinholeCamera* camera,
+                                                           double& inliers) const {
+  const double radius_px = 1.5 * factor + 1.0;
+  if (!rival.outer) return refinement.run(image, {rival.quad, radius_px}, camera, &inliers);
+  const auto rough = refinement.run(image, {*rival.outer, radius_px}, camera, &inliers);
+  if (!rough) return std::nullopt;
+  const double reach_px = std::max(2.0, kRingReach * ringWidth(rough->corners, frame->inner(rough->corners)));
+  const auto outer = refinement.run(
+      image, {rough->corners, reach_px, EdgeChoice::kFirstOutward, kForetoldSigmaPx, 3.0}, camera, &inliers);
+  if (!outer) return std::nullopt;
+  const double stray_px = std::max(kForetoldStrayPx, 0.5 * reach_px);
+  return refinement.run(
+      image, {frame->inner(outer->corners), reach_px, EdgeChoice::kFirstInward, kForetoldSigmaPx, stray_px},
+      camera, &inliers);
+}
+
+// The frame in the reference picture, found as windows are found.
+void WindowDetector::Impl::learnFrame() {
+  frame.reset();
+  if (!reference || !imageFault(reference->picture()).empty()) return;
+  Impl own(params);
+  own.search(reference->picture());
+  own.keepBest();
+  std::vector<geometry::Quadrilateral> loops;
+  for (const Rival& rival : own.rivals) {
+    double inliers = 0.0;
+    const auto fine = own.refine(rival, reference->picture(), nullptr, inliers);
+    if (fine) loops.push_back(fine->corners);
+  }
+  frame = findFrame(reference->picture(), reference->opening(), loops, params.nested);
+  if (!frame) return;
+  const geometry::Quadrilateral& outer = frame->outer;
+  const double reach_px = std::max(2.0, kRingReach * ringWidth(outer, reference->opening()));
+  const auto fine = refinement.run(
+      reference->picture(), {outer, reach_px, EdgeChoice::kFirstOutward, kForetoldSigmaPx, 3.0}, nullptr);
+  if (fine) frame = FrameModel(fine->corners, reference->opening());
 }
 
 // Without a target: the reason of the candidate that came furthest.
@@ -254,12 +331,19 @@ void WindowDetector::setParams(const DetectorParams& params) {
   check(params);
   auto next = std::make_unique<Impl>(params);
   next->reference = impl_->reference;
+  next->learnFrame();
   impl_ = std::move(next);
 }
 
-void WindowDetector::setReference(const ReferenceAppearance& reference) { impl_->reference = reference; }
+void WindowDetector::setReference(const ReferenceAppearance& reference) {
+  impl_->reference = reference;
+  impl_->learnFrame();
+}
 
-void WindowDetector::clearReference() { impl_->reference.reset(); }
+void WindowDetector::clearReference() {
+  impl_->reference.reset();
+  impl_->frame.reset();
+}
 
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
                                                         const geometry::PinholeCamera* camera) {
@@ -273,6 +357,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   impl_->search(image);
   impl_->keepBest();
   impl_->judgeLoops(image);
+  impl_->foretell();
   impl_->judgeAppearance(image);
   const auto window = impl_->choose(image, stamp_sec, camera);
   impl_->explain();

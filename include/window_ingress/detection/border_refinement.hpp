@@ -36,6 +36,25 @@ struct RefinedBorders {
   double worst_inliers = 0.0;  ///< part of the profiles on the line, of the worst side
 };
 
+/// Which of several edges near a side's start is its border.
+enum class EdgeChoice {
+  kNearest,      ///< the strongest, those near the start counting more
+  kFirstInward,  ///< coming from outside, the first: where the paint of a frame ends towards its opening
+  kFirstOutward  ///< coming from inside, the first: where the paint of a frame ends towards the wall
+};
+
+/// Where a fit starts and what it may take.
+struct BorderStart {
+  geometry::Quadrilateral quad;  ///< canonical order, pixels of the image
+  double radius_px = 2.5;        ///< how far a border may lie from its start [px]
+  EdgeChoice choice = EdgeChoice::kNearest;
+  /// Standard deviation of the start: a side whose border cannot be fitted stays where it started; 0: no
+  /// result then.
+  double fallback_sigma_px = 0.0;
+  /// Furthest that an end of a fitted border may lie from the start and be believed [px].
+  double max_stray_px = 1e3;
+};
+
 /// Sub-pixel fit of the four borders on the gradient of the full image, undilated, corners by intersection.
 /// With a camera the borders are straight lines of the undistorted image: points are undistorted, not the
 /// image.
@@ -44,11 +63,9 @@ class BorderRefinement {
   explicit BorderRefinement(const BorderRefinementParams& params) : params_(params) {}
 
   /// \param image CV_8UC1 or CV_8UC3
-  /// \param quad start, canonical order, pixels of `image`
-  /// \param radius_px how far a border may lie from its start [px]
   /// \param worst_inliers where not null: part of the profiles on the line of the worst side, also on failure
-  std::optional<RefinedBorders> run(const cv::Mat& image, const geometry::Quadrilateral& quad,
-                                    double radius_px, const geometry::PinholeCamera* camera,
+  std::optional<RefinedBorders> run(const cv::Mat& image, const BorderStart& start,
+                                    const geometry::PinholeCamera* camera,
                                     double* worst_inliers = nullptr) const;
 
  private:

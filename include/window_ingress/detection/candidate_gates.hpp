@@ -10,11 +10,11 @@ namespace window_ingress::detection {
 struct CandidateGatesParams {
   double min_area = 0.003;      ///< of the quadrilateral, in areas of the image (the farthest window)
   double max_area = 0.90;       ///< of the quadrilateral, in areas of the image (the nearest window)
-  double min_aspect = 0.3;      ///< width over height, as seen
+  double min_aspect = 0.2;      ///< width over height, as seen
   double max_aspect = 3.5;      ///< width over height, as seen
   double min_solidity = 0.8;    ///< area of the outline over area of its hull
-  double max_angle_rad = 0.75;  ///< of a corner away from 90 degrees (the largest yaw) [rad]
-  double border = 0.004;  ///< a corner this close to the image's border is cut, in longer sides of the image
+  double max_angle_rad = 0.85;  ///< of a corner away from 90 degrees (the largest yaw) [rad]
+  double border = 0.003;  ///< a corner this close to the image's border is cut, in longer sides of the image
   double min_side_support = 0.45;  ///< of the weakest side: part that runs along straight edges
   double mean_side_support = 0.7;  ///< of the four sides together
   double min_contrast = 2.0;       ///< gradient of the weakest side [grey levels a pixel]

@@ -12,6 +12,7 @@ struct ContourPolygonsParams {
   double epsilon = 0.025;       ///< tolerance of the polygon, in perimeters of its outline
   double hull_excess = 0.12;    ///< the four lines round a hull may add this part of its area
   double min_perimeter = 0.08;  ///< shorter outlines are not looked at, in longer sides of the level
+  double closure = 0.7;         ///< given to them: closed, but their corners are no better than the outline
   int max_contours = 3000;      ///< budget for one image; the rest is not looked at
 
   template <typename Self, typename Visitor>
@@ -19,6 +20,7 @@ struct ContourPolygonsParams {
     field("epsilon", self.epsilon, 0.001, 0.2);
     field("hull_excess", self.hull_excess, 0.0, 1.0);
     field("min_perimeter", self.min_perimeter, 0.0, 4.0);
+    field("closure", self.closure, 0.01, 1.0);
     field("max_contours", self.max_contours, 1, 1000000);
   }
 };

@@ -35,7 +35,11 @@ constexpr int kRejectReasons = static_cast<int>(RejectReason::kBudget) + 1;
 const char* toString(RejectReason reason);
 
 /// Where a candidate came from.
-enum class CandidateSource { kContour, kSegments };
+enum class CandidateSource {
+  kContour,   ///< a closed contour
+  kSegments,  ///< four straight segments that meet
+  kFrame      ///< foretold by the outer border of the frame and the reference
+};
 
 const char* toString(CandidateSource source);
 

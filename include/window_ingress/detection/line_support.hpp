@@ -12,11 +12,14 @@ namespace window_ingress::detection {
 
 struct LineSupportParams {
   double min_length = 0.03;    ///< of a segment, in longer sides of the level
-  double max_gap = 0.012;      ///< within a segment, in longer sides of the level
+  double max_gap = 0.02;       ///< within a segment, in longer sides of the level
   double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
   double spread_rad = 0.10;    ///< a pixel votes for lines this far from its gradient direction [rad]
   double direction_rad =
-      0.45;                ///< a pixel belongs to a line if its gradient is this close to the normal [rad]
+      0.45;                   ///< a pixel belongs to a line if its gradient is this close to the normal [rad]
+  double min_density = 0.55;  ///< edge pixels on a segment over its length
+  double join_gap =
+      0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
   int max_segments = 600;  ///< the longest are kept
 
   template <typename Self, typename Visitor>
@@ -26,6 +29,8 @@ struct LineSupportParams {
     field("vote_fraction", self.vote_fraction, 0.1, 1.0);
     field("spread_rad", self.spread_rad, 0.0, 0.5);
     field("direction_rad", self.direction_rad, 0.05, 1.5);
+    field("min_density", self.min_density, 0.0, 1.0);
+    field("join_gap", self.join_gap, 0.0, 5.0);
     field("max_segments", self.max_segments, 4, 100000);
   }
 };
@@ -38,6 +43,9 @@ struct Segment {
 
   double length() const { return (b - a).norm(); }
 };
+
+/// Adds the segments that two pieces of one line make together; the pieces stay.
+void joinCollinear(std::vector<Segment>& segments, double max_gap);
 
 /// Probabilistic Hough transform (P4) that selects straight segments. Each edge pixel votes only for lines
 /// near its own gradient direction, with its polarity, so that the two edges of a thin bar stay apart and the

@@ -7,7 +7,7 @@ namespace window_ingress::detection {
 struct PreprocessParams {
   int search_side_px =
       480;  ///< the search runs on the first pyramid level whose longer side is no longer [px]
-  double blur_sigma_px = 0.8;  ///< Gaussian against noise, on the search level; 0: none [px]
+  double blur_sigma_px = 0.4;  ///< Gaussian against noise, on the search level; 0: none [px]
   bool equalise = false;       ///< contrast-limited histogram equalisation of the search level
   double clip_limit = 2.0;     ///< of the equalisation, in mean bin counts
   int tiles = 6;               ///< of the equalisation, each way

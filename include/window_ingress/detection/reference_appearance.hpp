@@ -46,6 +46,9 @@ class ReferenceAppearance {
   std::optional<double> distance(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                  const AppearanceParams& params) const;
 
+  const cv::Mat& picture() const { return picture_; }
+  const geometry::Quadrilateral& opening() const { return opening_; }
+
  private:
   cv::Mat picture_;
   geometry::Quadrilateral opening_;

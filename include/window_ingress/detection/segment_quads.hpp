@@ -8,7 +8,7 @@
 namespace window_ingress::detection {
 
 struct SegmentQuadsParams {
-  double extension = 0.25;      ///< a segment may end this far before or behind a corner, in its own lengths
+  double extension = 0.4;       ///< a segment may end this far before or behind a corner, in its own lengths
   double min_coverage = 0.4;    ///< part of each side that its segment covers
   double mean_coverage = 0.65;  ///< mean of the four sides
   double min_angle_rad = 0.6;   ///< between neighbouring sides [rad]

@@ -12,10 +12,13 @@ struct SideSupportParams {
   double direction_rad = 0.35;  ///< angle between its gradient and the side's normal [rad]
   double skip = 0.06;           ///< left out at both ends: corners are rounded, in lengths of the side
 
+  double beyond = 0.2;  ///< stretch beyond each corner that is looked at, in lengths of the side
+
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("tolerance_px", self.tolerance_px, 0.0, 10.0);
     field("direction_rad", self.direction_rad, 0.01, 1.5);
+    field("beyond", self.beyond, 0.0, 2.0);
     field("skip", self.skip, 0.0, 0.4);
   }
 };

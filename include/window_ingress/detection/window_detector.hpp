@@ -41,8 +41,9 @@ class WindowDetector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reference from a picture that is the target with its frame, without corners given: the detector looks for the inner
-/// border in the picture; where it finds none, the frame is taken to be a twentieth of the picture wide.
+/// Reference from a picture that is the target with its frame, without corners given: the detector looks for
+/// the inner border in the picture; where it finds none, the frame is taken to be a twentieth of the picture
+/// wide.
 ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorParams& params);
 
 }  // namespace window_ingress::detection

@@ -9,8 +9,9 @@ namespace window_ingress::detection {
 struct WindowScoreParams {
   double support_low = 0.4;       ///< support of a side that counts nothing
   double contrast_full = 12.0;    ///< gradient of a side that counts fully [grey levels a pixel]
-  double area_full = 0.06;        ///< area that counts fully, in areas of the image
-  double area_weight = 0.45;      ///< exponent of the area's part
+  double overshoot_weight = 1.0;  ///< exponent of the part that sides end at their corners
+  double area_full = 0.06;    ///< area from which size makes no difference to the rank, in areas of the image
+  double area_weight = 0.45;  ///< exponent of the area's part in the rank
   double contrast_weight = 0.25;  ///< exponent of the contrast's part
 
   double closure_weight = 0.5;  ///< exponent of the closure's part
@@ -19,6 +20,7 @@ struct WindowScoreParams {
   static void visit(Self& self, Visitor&& field) {
     field("support_low", self.support_low, 0.0, 0.99);
     field("contrast_full", self.contrast_full, 0.1, 255.0);
+    field("overshoot_weight", self.overshoot_weight, 0.0, 4.0);
     field("area_full", self.area_full, 1e-4, 1.0);
     field("area_weight", self.area_weight, 0.0, 4.0);
     field("closure_weight", self.closure_weight, 0.0, 4.0);
@@ -27,7 +29,11 @@ struct WindowScoreParams {
 };
 
 /// How much a candidate is like a window, by geometry alone: 0 (barely a quadrilateral) to 1. Product of the
-/// support of its sides, the weakest counting most, the contrast under them and its size.
-double windowScore(const Candidate& candidate, const cv::Size& level, const WindowScoreParams& params);
+/// support of its sides, the weakest counting most, the contrast under them, and how well they end at their
+/// corners. It does not depend on its size.
+double windowScore(const Candidate& candidate, const WindowScoreParams& params);
+
+/// Factor by which a larger candidate is preferred to a smaller one, up to 1.
+double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params);
 
 }  // namespace window_ingress::detection

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "drawn_window.hpp"
+#include "window_ingress/parameters/yaml.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -86,6 +90,40 @@ TEST(WindowDetector, RefusesBadParameters) {
     EXPECT_NE(std::string(error.what()).find("min_score"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("gates/min_aspect"), std::string::npos);
   }
+}
+
+/// Lists names and values of all fields.
+struct Listing {
+  std::ostringstream text;
+  std::string prefix;
+  template <typename Value, typename... Range>
+  void operator()(const std::string& name, const Value& value, Range...) {
+    text << prefix << name << " " << value << "\n";
+  }
+  template <typename Params>
+  void group(const std::string& name, const Params& params) {
+    prefix = name + "/";
+    Params::visit(params, *this);
+    prefix.clear();
+  }
+};
+
+std::string listed(const DetectorParams& params) {
+  Listing listing;
+  DetectorParams::visit(params, listing);
+  return listing.text.str();
+}
+
+TEST(DetectorParams, TheShippedFileHoldsEveryFieldAtItsDefault) {
+  const std::string file = std::string(WINDOW_INGRESS_SOURCE_DIR) + "/config/detector.yaml";
+  DetectorParams params;
+  ASSERT_TRUE(parameters::readYamlFile(file, "detector", params));
+  EXPECT_EQ(listed(params), listed(DetectorParams()));
+  std::ifstream stream(file);
+  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::istringstream names(listed(params));
+  for (std::string name, value; names >> name >> value;)
+    EXPECT_NE(text.find(" " + name.substr(name.find('/') + 1) + ":"), std::string::npos) << name;
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+#include "window_ingress/evaluation/calibration_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "window_ingress/evaluation/detection_table.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+const char* const kGood =
+    "image_width: 640\nimage_height: 480\ncamera_name: front\n"
+    "camera_matrix: {rows: 3, cols: 3, data: [554, 0, 319.5, 0, 553, 239.5, 0, 0, 1]}\n"
+    "distortion_model: plumb_bob\n"
+    "distortion_coefficients: {rows: 1, cols: 5, data: [-0.2, 0.05, 0.001, 0, 0]}\n";
+
+std::string written(const std::string& text) {
+  const std::string file = testing::TempDir() + "calibration_file_test.yaml";
+  std::ofstream(file) << text;
+  return file;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+void expectRefused(const std::string& file, const std::string& word) {
+  try {
+    readCalibrationFile(file);
+    FAIL() << word;
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(file), std::string::npos) << text;
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  }
+}
+
+TEST(CalibrationFile, ReadsWhatCameraInfoManagerWrites) {
+  const auto camera = readCalibrationFile(written(kGood));
+  EXPECT_EQ(camera.width, 640);
+  EXPECT_EQ(camera.fy, 553.0);
+  EXPECT_EQ(camera.cx, 319.5);
+  EXPECT_EQ(camera.distortion[0], -0.2);
+}
+
+TEST(CalibrationFile, RefusesWithFileAndReason) {
+  expectRefused("/nowhere/camera.yaml", "cannot be read");
+  expectRefused(written(""), "not a yaml mapping");
+  expectRefused(written("image_width: [1"), "line");
+  expectRefused(written(replaced(kGood, "image_width: 640", "image_width: wide")), "image_width");
+  expectRefused(
+      written(replaced(kGood, "[554, 0, 319.5, 0, 553, 239.5, 0, 0, 1]", "[0, 0, 0, 0, 0, 0, 0, 0, 0]")),
+      "uncalibrated");
+  expectRefused(written(replaced(kGood, "554, ", "")), "camera_matrix");
+  expectRefused(written(replaced(kGood, "554", ".nan")), "finite");
+  expectRefused(written(replaced(kGood, "plumb_bob", "equidistant")), "equidistant");
+  expectRefused(written(replaced(kGood, ", 0.001, 0, 0", "")), "distortion_coefficients");
+}
+
+TEST(DetectionTable, RowsHaveAsManyFieldsAsTheHeader) {
+  const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
+  DetectionRow row;
+  row.reject_reason = "border";
+  EXPECT_EQ(commas(detectionValues(row)), commas(detectionColumns()));
+  row.window.emplace();
+  for (auto& corner : row.window->corners) corner.setZero();
+  row.window->has_appearance = true;
+  row.pose.emplace();
+  EXPECT_EQ(commas(detectionValues(row)), commas(detectionColumns()));
+}
+
+TEST(DetectionTable, FieldsWithCommasAreQuoted) {
+  EXPECT_EQ(csvField("plain.png"), "plain.png");
+  EXPECT_EQ(csvField("a,\"b\""), "\"a,\"\"b\"\"\"");
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation
