@@ -9,11 +9,15 @@
 namespace window_ingress::adapters {
 
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params) {
-  const double speed = std::hypot(twist.linear.x, twist.linear.y, twist.linear.z);
-  const double turning = std::hypot(twist.angular.x, twist.angular.y, twist.angular.z);
-  if (!std::isfinite(speed) || !std::isfinite(turning)) return "velocity is not finite";
-  if (speed > params.max_speed_mps) return "speed of " + std::to_string(speed) + " m/s is above the limit";
-  if (turning > params.max_yaw_rate_radps)
+  const auto &v = twist.linear, &w = twist.angular;
+  // One by one: std::hypot of three numbers swallows a NaN beside zeros.
+  for (const double number : {v.x, v.y, v.z, w.x, w.y, w.z})
+    if (!std::isfinite(number)) return "velocity is not finite";
+  const double speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+  const double turning = std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z);
+  if (!(speed <= params.max_speed_mps))
+    return "speed of " + std::to_string(speed) + " m/s is above the limit";
+  if (!(turning <= params.max_yaw_rate_radps))
     return "turning at " + std::to_string(turning) + " rad/s is above the limit";
   return "";
 }

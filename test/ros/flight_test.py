@@ -30,4 +30,4 @@ class FlightTest(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("flight_test")
-    rostest.rosrun("window_ingress", "flight", FlightTest, sys.argv)
+    rostest.rosrun("window_ingress", "flight_test", FlightTest, sys.argv)

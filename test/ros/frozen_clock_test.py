@@ -17,6 +17,9 @@ import support
 from ingress_navigator_test import no_window, speed
 
 
+TICK_S = 0.01
+
+
 class SimulatedClock:
     """/clock at 100 Hz, from `start`, until it is frozen."""
 
@@ -24,14 +27,17 @@ class SimulatedClock:
         self._publisher = rospy.Publisher("/clock", Clock, queue_size=1)
         self.now = start
         self.running = True
+        self._over = threading.Event()
         threading.Thread(target=self._run, daemon=True).start()
 
     def _run(self):
-        while not rospy.is_shutdown():
+        while not self._over.wait(TICK_S):
             if self.running:
-                self.now += 0.01
+                self.now += TICK_S
                 self._publisher.publish(Clock(rospy.Time.from_sec(self.now)))
-            time.sleep(0.01)
+
+    def stop(self):
+        self._over.set()
 
 
 class FrozenClockTest(unittest.TestCase):
@@ -62,8 +68,9 @@ class FrozenClockTest(unittest.TestCase):
         clock.now -= 51.0
         clock.running = True
         states.wait(lambda s: s.state_name == "ABORTED", "the mission aborted when the clock jumped back")
+        clock.stop()
 
 
 if __name__ == "__main__":
     rospy.init_node("frozen_clock_test")
-    rostest.rosrun("window_ingress", "frozen_clock", FrozenClockTest, sys.argv)
+    rostest.rosrun("window_ingress", "frozen_clock_test", FrozenClockTest, sys.argv)

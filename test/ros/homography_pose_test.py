@@ -5,7 +5,8 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped
+from genpy.dynamic import generate_dynamic
+from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Imu
 from window_ingress.msg import WindowDetection, WindowPose
@@ -41,7 +42,31 @@ def imu(stamp):
     return message
 
 
+def transforms_type():
+    """tf2_msgs/TFMessage, whose Python package need not be installed."""
+    text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
+            + TransformStamped._full_text)
+    return generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
+
+
+def mounting():
+    """The camera looks forward, a little ahead of the vehicle's centre."""
+    message = TransformStamped(child_frame_id="camera_optical_frame")
+    message.header.stamp = rospy.Time.now()
+    message.header.frame_id = "base_link"
+    message.transform.translation.x = CAMERA_X
+    rotation = message.transform.rotation
+    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+    return message
+
+
 class HomographyPoseTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        kind = transforms_type()
+        cls.mounting = rospy.Publisher("/tf_static", kind, queue_size=1, latch=True)
+        cls.mounting.publish(kind([mounting()]))
+
     def setUp(self):
         self.poses = support.Listener("window_pose", WindowPose)
         self.streams = []
@@ -133,4 +158,4 @@ class HomographyPoseTest(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("homography_pose_test")
-    rostest.rosrun("window_ingress", "homography_pose", HomographyPoseTest, sys.argv)
+    rostest.rosrun("window_ingress", "homography_pose_test", HomographyPoseTest, sys.argv)

@@ -133,4 +133,4 @@ class IngressNavigatorTest(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("ingress_navigator_test")
-    rostest.rosrun("window_ingress", "ingress_navigator", IngressNavigatorTest, sys.argv)
+    rostest.rosrun("window_ingress", "ingress_navigator_test", IngressNavigatorTest, sys.argv)

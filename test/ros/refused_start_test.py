@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
+from roslib.packages import find_node
 
 import support
 
@@ -17,7 +18,8 @@ EXIT_WITHIN_S = 2.0
 
 
 def launch(node):
-    return subprocess.Popen(["rosrun", "window_ingress", node], stderr=subprocess.PIPE, text=True)
+    program = find_node("window_ingress", node)[0]
+    return subprocess.Popen([program], stderr=subprocess.PIPE, text=True)
 
 
 class RefusedStartTest(unittest.TestCase):
@@ -85,4 +87,4 @@ class RefusedStartTest(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("refused_start_test")
-    rostest.rosrun("window_ingress", "refused_start", RefusedStartTest, sys.argv)
+    rostest.rosrun("window_ingress", "refused_start_test", RefusedStartTest, sys.argv)

@@ -112,4 +112,4 @@ class WindowDetectorTest(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("window_detector_test")
-    rostest.rosrun("window_ingress", "window_detector", WindowDetectorTest, sys.argv)
+    rostest.rosrun("window_ingress", "window_detector_test", WindowDetectorTest, sys.argv)

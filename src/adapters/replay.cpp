@@ -1,0 +1,205 @@
+#include "adapters/replay.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <rosbag/exceptions.h>
+#include <rosbag/view.h>
+#include <tf2/buffer_core.h>
+#include <tf2/exceptions.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <chrono>
+#include <deque>
+#include <map>
+
+#include "adapters/stamps.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr std::size_t kMostWaiting = 30;  // images that wait for odometry as new as themselves
+
+double nowMs() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+class Replay {
+ public:
+  Replay(const ReplayParams& params, const std::function<void(const ReplayedFrame&)>& each)
+      : params_(params),
+        each_(each),
+        detector_(params.detector),
+        tracker_(params.pose, params.filter, params.tracker) {
+    if (params.reference) detector_.setReference(*params.reference);
+  }
+
+  void prepare(const rosbag::Bag& bag);
+  void take(const rosbag::MessageInstance& message);
+  ReplaySummary finish() {
+    while (!waiting_.empty()) processFirst();
+    return summary_;
+  }
+
+ private:
+  struct Waiting {
+    std_msgs::Header header;
+    std::function<GuardedImage()> decode;
+  };
+
+  void takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode);
+  void takeOdometry(const nav_msgs::Odometry& message);
+  void takeImu(const sensor_msgs::Imu& message);
+  void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
+  void takeTruth(const geometry_msgs::PoseStamped& message);
+  void takeTransforms(const tf2_msgs::TFMessage& message);
+  void processFirst();
+  void locate(ReplayedFrame& frame, const std::string& camera_frame);
+  Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image) const;
+  std::optional<Eigen::Isometry3d> mounting(const std::string& camera_frame);
+  void refuse(const std::string& what, const std::string& why) {
+    ++summary_.refused;
+    summary_.refusal = what + ": " + why;
+  }
+
+  const ReplayParams& params_;
+  const std::function<void(const ReplayedFrame&)>& each_;
+  detection::WindowDetector detector_;
+  navigation::TargetTracker tracker_;
+  Converted<geometry::PinholeCamera> camera_;
+  tf2::BufferCore transforms_;
+  std::map<ros::Time, Eigen::Isometry3d> truth_;
+  std::deque<Waiting> waiting_;
+  double odometry_sec_ = -1.0;
+  ReplaySummary summary_;
+};
+
+// What does not change in a flight is known before it: calibration and mounting. Truth is looked up by stamp.
+void Replay::prepare(const rosbag::Bag& bag) {
+  rosbag::View infos(bag, rosbag::TopicQuery(params_.topics.camera_info));
+  if (infos.begin() != infos.end())
+    if (const auto info = infos.begin()->instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/tf_static")))
+    if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) takeTransforms(*transforms);
+  if (params_.topics.truth.empty()) return;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(params_.topics.truth)))
+    if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>()) takeTruth(*truth);
+}
+
+void Replay::take(const rosbag::MessageInstance& message) {
+  const std::string& topic = message.getTopic();
+  if (topic == params_.topics.image) {
+    if (const auto image = message.instantiate<sensor_msgs::Image>())
+      takeImage(image->header, [this, image] { return decode(image, params_.image); });
+    else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>())
+      takeImage(compressed->header, [this, compressed] { return decode(*compressed, params_.image); });
+  } else if (topic == params_.topics.camera_info) {
+    if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
+  } else if (topic == params_.topics.odom) {
+    if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) takeOdometry(*odometry);
+  } else if (topic == params_.topics.imu) {
+    if (const auto imu = message.instantiate<sensor_msgs::Imu>()) takeImu(*imu);
+  }
+}
+
+void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode) {
+  if (!stampSec(header.stamp)) return refuse("image", "header.stamp is zero or not normalised");
+  waiting_.push_back({header, std::move(decode)});
+  const bool no_odometry = params_.topics.odom.empty() || !params_.with_pose;
+  if (no_odometry || waiting_.size() > kMostWaiting) processFirst();
+}
+
+void Replay::takeOdometry(const nav_msgs::Odometry& message) {
+  const auto vehicle = fromMsg(message, params_.frames);
+  if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
+  odometry_sec_ = vehicle.value->stamp_sec;
+  while (!waiting_.empty() && waiting_.front().header.stamp.toSec() <= odometry_sec_) processFirst();
+}
+
+void Replay::takeImu(const sensor_msgs::Imu& message) {
+  const auto stamp_sec = stampSec(message.header.stamp);
+  const auto attitude = attitudeFromMsg(message);
+  if (!stamp_sec) return refuse(params_.topics.imu, "header.stamp is zero or not normalised");
+  if (!attitude) return refuse(params_.topics.imu, attitude.reason);
+  if (message.header.frame_id != params_.frames.base)
+    return refuse(params_.topics.imu,
+                  "frame_id is '" + message.header.frame_id + "', expected '" + params_.frames.base + "'");
+  tracker_.addAttitude(*stamp_sec, *attitude.value);
+}
+
+void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {
+  const auto pose = fromMsg(message.pose);
+  if (pose) truth_[message.header.stamp] = *pose.value;
+}
+
+void Replay::takeTransforms(const tf2_msgs::TFMessage& message) {
+  for (const geometry_msgs::TransformStamped& transform : message.transforms)
+    if (fromMsg(transform.transform)) transforms_.setTransform(transform, "bag", true);
+}
+
+Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
+  if (!camera_ || (camera_.value->width == image.cols && camera_.value->height == image.rows)) return camera_;
+  return {std::nullopt, "camera_info is for pictures of another size"};
+}
+
+std::optional<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) {
+  try {
+    const auto found = transforms_.lookupTransform(params_.frames.base, camera_frame, ros::Time(0));
+    return fromMsg(found.transform).value;
+  } catch (const tf2::TransformException& error) {
+    refuse("mounting of the camera", error.what());
+    return std::nullopt;
+  }
+}
+
+void Replay::processFirst() {
+  const Waiting waiting = std::move(waiting_.front());
+  waiting_.pop_front();
+  const GuardedImage picture = waiting.decode();
+  if (!picture.reason.empty()) return refuse("image", picture.reason);
+  ReplayedFrame frame;
+  frame.stamp = waiting.header.stamp;
+  const auto camera = cameraOf(picture.image);
+  if (!camera) refuse("camera_info", camera.reason);
+  frame.camera = camera.value;
+  const double begun_ms = nowMs();
+  frame.row.window = detector_.detect(picture.image, frame.stamp.toSec(), camera ? &*camera.value : nullptr);
+  if (!frame.row.window) frame.row.reject_reason = detection::toString(detector_.trace().outcome);
+  if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
+  summary_.milliseconds += nowMs() - begun_ms;
+  ++summary_.images;
+  summary_.calibrated += camera.value.has_value();
+  const auto truth = truth_.find(waiting.header.stamp);
+  if (truth != truth_.end()) frame.truth = truth->second;
+  each_(frame);
+}
+
+void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
+  if (frame.row.window) {
+    tracker_.see(*frame.row.window, *frame.camera, mounting(camera_frame));
+    tracker_.flush();
+    const pose::PoseResult& result = tracker_.lastUpdate().pose;
+    frame.row.pose = result.estimate;
+    if (!result.estimate) frame.row.reject_reason = std::string("pose_") + pose::toString(result.reject);
+  }
+  frame.filtered = tracker_.filtered(frame.stamp.toSec());
+}
+
+}  // namespace
+
+ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
+                     const std::function<void(const ReplayedFrame&)>& each) {
+  Replay run(params, each);
+  try {
+    run.prepare(bag);
+    const BagTopics& t = params.topics;
+    rosbag::View view(bag,
+                      rosbag::TopicQuery(std::vector<std::string>{t.image, t.camera_info, t.odom, t.imu}));
+    for (const rosbag::MessageInstance& message : view) run.take(message);
+  } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
+    throw BagError(bag.getFileName() + ": damaged: " + error.what());
+  }
+  return run.finish();
+}
+
+}  // namespace window_ingress::adapters

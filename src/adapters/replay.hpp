@@ -1,0 +1,56 @@
+/// Detector, pose and filter over a bag, in this process, by the time of the bag: the same bag gives the same
+/// bytes.
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "adapters/bag_topics.hpp"
+#include "adapters/image_guard.hpp"
+#include "adapters/msg_conversion.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/evaluation/detection_table.hpp"
+#include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/pose/window_filter.hpp"
+
+namespace window_ingress::adapters {
+
+struct ReplayParams {
+  BagTopics topics;  ///< as chosen by `chooseTopics`
+  FrameNames frames;
+  ImageLimits image;
+  detection::DetectorParams detector;
+  std::optional<detection::ReferenceAppearance> reference;
+  bool with_pose = false;  ///< the window's size is known
+  pose::PoseParams pose;
+  pose::FilterParams filter;
+  navigation::TrackerParams tracker;
+};
+
+/// What became of one image.
+struct ReplayedFrame {
+  ros::Time stamp;
+  evaluation::DetectionRow row;
+  std::optional<pose::FilteredWindow> filtered;
+  std::optional<geometry::PinholeCamera> camera;
+  std::optional<Eigen::Isometry3d> truth;  ///< T_camera_window, if the bag holds it for this image
+};
+
+struct ReplaySummary {
+  int images = 0;             ///< that could be read
+  int calibrated = 0;         ///< of those: with a calibration that fits
+  int refused = 0;            ///< messages that could not be used
+  std::string refusal;        ///< the last of them
+  double milliseconds = 0.0;  ///< spent in the detector and the pose
+};
+
+/// \param each called for each image in the order of the bag
+/// \throws BagError if the bag is damaged half way
+ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
+                     const std::function<void(const ReplayedFrame&)>& each);
+
+}  // namespace window_ingress::adapters

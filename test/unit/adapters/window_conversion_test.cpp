@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "adapters/msg_conversion.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+detection::WindowObservation makeWindow() {
+  detection::WindowObservation window;
+  window.stamp_sec = 12.5;
+  window.corners = {{{100, 90}, {300, 95}, {310, 250}, {98, 240}}};
+  for (int i = 0; i < 4; ++i) {
+    window.corner_covariance[i] << 0.01 * (i + 1), 0.002, 0.002, 0.03;
+    window.edges[i] = {i != 2, 0.1 * (i + 1), 0.001 * (i + 1)};
+  }
+  window.score = 0.8;
+  window.has_appearance = true;
+  window.bhattacharyya = 0.3;
+  return window;
+}
+
+window_ingress::WindowDetection makeDetection() {
+  window_ingress::WindowDetection message = toMsg(makeWindow());
+  message.header.stamp = ros::Time(12.5);
+  return message;
+}
+
+TEST(WindowDetection, GoesThereAndBack) {
+  const auto back = fromMsg(makeDetection());
+  ASSERT_TRUE(back) << back.reason;
+  const detection::WindowObservation wanted = makeWindow();
+  EXPECT_EQ(back.value->stamp_sec, wanted.stamp_sec);
+  EXPECT_EQ(back.value->score, wanted.score);
+  EXPECT_EQ(back.value->bhattacharyya, wanted.bhattacharyya);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(back.value->corners[i], wanted.corners[i]);
+    EXPECT_EQ(back.value->corner_covariance[i], wanted.corner_covariance[i]);
+    EXPECT_EQ(back.value->edges[i].visible, wanted.edges[i].visible);
+    if (wanted.edges[i].visible) {
+      EXPECT_EQ(back.value->edges[i].sigma_px, wanted.edges[i].sigma_px);
+    }
+  }
+}
+
+TEST(WindowDetection, WhatIsNotVisibleHasNoFigures) {
+  EXPECT_EQ(makeDetection().edge_sigma_px[2], 0.0);
+  EXPECT_FALSE(makeDetection().edge_visible[2]);
+}
+
+TEST(WindowDetection, RefusesNoWindowWithTheDetectorsReason) {
+  window_ingress::WindowDetection message;
+  message.header.stamp = ros::Time(1.0);
+  message.reject_reason = "nothing with four sides";
+  const auto window = fromMsg(message);
+  EXPECT_FALSE(window);
+  EXPECT_NE(window.reason.find("four sides"), std::string::npos);
+}
+
+TEST(WindowDetection, RefusesAnyNumberThatIsNotFinite) {
+  const auto refused = [](auto change) {
+    window_ingress::WindowDetection message = makeDetection();
+    change(message);
+    return !fromMsg(message);
+  };
+  EXPECT_TRUE(refused([](auto& m) { m.corner_x[3] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.corner_y[0] = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(refused([](auto& m) { m.corner_covariance[7] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.edge_sigma_rad[1] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.score = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.header.stamp = ros::Time(); }));
+}
+
+pose::PoseResult makePoseResult() {
+  pose::WindowPoseEstimate estimate;
+  estimate.best.T_camera_window = geometry::makePose(geometry::R_optical_flu(), {0.1, 0.2, 4.0});
+  estimate.best.covariance = pose::Matrix6d::Identity() * 0.01;
+  estimate.yaw_rad = 0.1;
+  estimate.sigma_u_rad = 0.02;
+  estimate.sign_trusted = true;
+  pose::PoseResult result;
+  result.estimate = estimate;
+  return result;
+}
+
+TEST(WindowPose, CarriesTheEstimate) {
+  window_ingress::WindowPose message;
+  fill(message, makePoseResult());
+  EXPECT_EQ(message.reject, window_ingress::WindowPose::OK);
+  EXPECT_EQ(message.pose.pose.position.z, 4.0);
+  EXPECT_EQ(message.yaw, 0.1);
+  EXPECT_EQ(message.sigma_u, 0.02);
+  EXPECT_TRUE(message.sign_trusted);
+  EXPECT_FALSE(message.has_alternative);
+}
+
+TEST(WindowPose, CarriesTheReasonWhereThereIsNoPose) {
+  pose::PoseResult result;
+  result.reject = pose::PoseReject::kTilt;
+  window_ingress::WindowPose message;
+  fill(message, result);
+  EXPECT_EQ(message.reject, window_ingress::WindowPose::TILT);
+  EXPECT_FALSE(message.reject_reason.empty());
+  EXPECT_EQ(message.pose.pose.orientation.w, 0.0);
+}
+
+window_ingress::WindowPose makeFiltered() {
+  pose::FilteredWindow filtered;
+  filtered.stamp_sec = 12.5;
+  filtered.T_odom_window = geometry::makePose(geometry::yawRotation(0.5), {1.0, 2.0, 1.5});
+  filtered.covariance(1, 2) = 0.25;
+  filtered.sign_trusted = true;
+  filtered.updates = 9;
+  window_ingress::WindowPose message;
+  fill(message, filtered);
+  message.filtered_frame_id = "odom";
+  message.window_width = 1.2;
+  message.window_height = 1.0;
+  return message;
+}
+
+TEST(WindowPose, FilteredWindowBecomesTheTarget) {
+  const auto target = targetFromMsg(makeFiltered(), "odom");
+  ASSERT_TRUE(target) << target.reason;
+  EXPECT_EQ(target.value->stamp_sec, 12.5);
+  EXPECT_NEAR(geometry::yawOf(target.value->T_odom_window.linear()), 0.5, 1e-12);
+  EXPECT_EQ(target.value->covariance(1, 2), 0.25);
+  EXPECT_EQ(target.value->covariance(2, 1), 0.0) << "row-major";
+  EXPECT_TRUE(target.value->sign_trusted);
+  EXPECT_EQ(target.value->updates, 9);
+  EXPECT_EQ(target.value->opening.width_m, 1.2);
+}
+
+TEST(WindowPose, TargetsThatCannotBeUsedAreRefused) {
+  const auto refused = [](auto change) {
+    window_ingress::WindowPose message = makeFiltered();
+    change(message);
+    return !targetFromMsg(message, "odom");
+  };
+  EXPECT_TRUE(refused([](auto& m) { m.filtered_valid = false; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered_frame_id = "map"; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered_stamp = ros::Time(); }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.pose.position.x = kNan; }));
+  EXPECT_TRUE(
+      refused([](auto& m) { m.filtered.pose.orientation.w = 0.0, m.filtered.pose.orientation.z = 0.0; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.covariance[35] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.window_width = 0.0; }));
+  EXPECT_TRUE(refused([](auto& m) { m.window_height = kNan; }));
+}
+
+TEST(IngressState, SaysWhatTheNavigatorSays) {
+  navigation::NavigatorOutput output;
+  output.state = navigation::State::kHold;
+  output.reason = "odometry 0.41 s old";
+  output.enabled = true;
+  output.setpoint.velocity_odom_mps = {0.1, 0.2, 0.3};
+  output.report.retries = 2;
+  const auto message = toMsg(output);
+  EXPECT_EQ(message.state, window_ingress::IngressState::HOLD);
+  EXPECT_EQ(message.state_name, "HOLD");
+  EXPECT_EQ(message.reason, output.reason);
+  EXPECT_EQ(message.velocity.z, 0.3);
+  EXPECT_EQ(message.retries, 2u);
+}
+
+}  // namespace
+}  // namespace window_ingress::adapters
