@@ -12,8 +12,9 @@
 
 namespace window_ingress::adapters {
 
-detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners) {
-  if (corners.empty()) return detection::ReferenceAppearance(picture);
+detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+                                             const detection::DetectorParams& params) {
+  if (corners.empty()) return detection::referenceFromPicture(picture, params);
   if (corners.size() != 8)
     throw ParameterError("reference/corners holds " + std::to_string(corners.size()) +
                          " numbers instead of 8");
@@ -24,11 +25,12 @@ detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::
   return {picture, *canonical};
 }
 
-detection::ReferenceAppearance loadReference(const ReferenceParams& params) {
-  const cv::Mat picture = cv::imread(params.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
+                                             const detection::DetectorParams& params) {
+  const cv::Mat picture = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (picture.empty())
-    throw ParameterError("reference/picture: cannot read '" + params.picture + "' as an image");
-  return makeReference(picture, params.corners);
+    throw ParameterError("reference/picture: cannot read '" + reference.picture + "' as an image");
+  return makeReference(picture, reference.corners, params);
 }
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
@@ -39,7 +41,8 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       images_(nh, diagnostics_, params_.image_transport, params_.image, params_.stamps,
               [this](const auto& header, const auto& picture) { receive(header, picture); }),
       tuning_(pnh, params_.detector, [this](const auto& params) { detector_.setParams(params); }) {
-  if (!params_.reference.picture.empty()) detector_.setReference(loadReference(params_.reference));
+  if (!params_.reference.picture.empty())
+    detector_.setReference(loadReference(params_.reference, params_.detector));
   window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1);
   debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
   reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
@@ -80,7 +83,8 @@ void DetectorNode::receiveReference(const window_ingress::ReferencePicture& mess
   for (std::size_t i = 0; i < 4; ++i)
     corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
   const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
-  detector_.setReference(makeReference(picture.image.clone(), whole ? std::vector<double>() : corners));
+  detector_.setReference(
+      makeReference(picture.image.clone(), whole ? std::vector<double>() : corners, params_.detector));
   ROS_INFO("reference taken from %s", reference_subscriber_.getTopic().c_str());
 }
 

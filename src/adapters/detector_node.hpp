@@ -52,10 +52,12 @@ struct DetectorNodeParams {
 };
 
 /// A reference from a picture and eight numbers, or none for the whole picture. \throws ParameterError
-detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners);
+detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+                                             const detection::DetectorParams& params);
 
 /// Reads the operator's picture. \throws ParameterError that says what is wrong with it
-detection::ReferenceAppearance loadReference(const ReferenceParams& params);
+detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
+                                             const detection::DetectorParams& params);
 
 /// The detector between topics: images in, corners out, with or without calibration.
 class DetectorNode : public Node {

@@ -94,7 +94,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
     parameters::readYamlFile(o.params, "pose", params.pose);
     parameters::readYamlFile(o.params, "filter", params.filter);
   }
-  if (!o.reference.picture.empty()) params.reference = adapters::loadReference(o.reference);
+  if (!o.reference.picture.empty()) params.reference = adapters::loadReference(o.reference, params.detector);
   params.with_pose = !o.size.empty();
   if (!params.with_pose) return params;
   const std::vector<double> size = numbers("--window-size", o.size, 2);
