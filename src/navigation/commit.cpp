@@ -7,6 +7,8 @@
 namespace window_ingress::navigation {
 namespace {
 
+constexpr int kDisagreementsToTurnBack = 3;
+
 std::string text(const char* pattern, double value) {
   char buffer[80];
   std::snprintf(buffer, sizeof buffer, pattern, value);
@@ -24,6 +26,15 @@ bool canStop(const RelativeState& relative, const NavigatorParams& params) {
   const double stop_m = stoppingDistance(std::max(0.0, relative.velocity_window_mps.x()),
                                          params.vehicle.braking_mps2, params.vehicle.response_sec);
   return relative.distance() - params.vehicle.half_length_m > stop_m;
+}
+
+/// The window is seen, and where it was committed. Odometry that was gone may have come back elsewhere.
+bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
+                   const NavigatorParams& params) {
+  if (!situation.target || !situation.target->sign_trusted) return false;
+  const Eigen::Vector3d moved =
+      situation.target->T_odom_window.translation() - committed.T_odom_window.translation();
+  return moved.norm() < params.commit.max_update_jump_m;
 }
 
 }  // namespace
@@ -58,6 +69,9 @@ void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decisi
   if (isBroken(contract, params_.commit.drift_mps * blind_sec)) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + contract.unmet;
+  } else if (disagreements_ >= kDisagreementsToTurnBack) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = text("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
   } else if (blind_sec > params_.commit.max_blind_sec) {
     decision.event = Event::kContractUnmet;
     decision.reason = text("turning back: window not seen for %.2f s", blind_sec);
@@ -68,7 +82,13 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
   if (!entry_odom_m_) entry_odom_m_ = memory.committed->T_odom_window.translation();
   if (!situation.target || !situation.target->sign_trusted) return;
   const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
-  if (moved.norm() < params_.commit.max_update_jump_m) memory.committed = situation.target;
+  disagreement_m_ = moved.norm();
+  if (disagreement_m_ < params_.commit.max_update_jump_m) {
+    memory.committed = situation.target;
+    disagreements_ = 0;
+  } else if (situation.target_is_new) {
+    ++disagreements_;
+  }
 }
 
 double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {
@@ -77,7 +97,7 @@ double Commit::forwardSpeed(const Contract& contract, const RelativeState& relat
   const double stop_mps = stoppingSpeed(room_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec);
   const double off_axis = std::abs(relative.lateral()) / std::max(0.01, contract.clearance_lateral_m);
   const double slowed = relative.distance() > 0.0 ? std::clamp(2.0 - 1.5 * off_axis, 0.2, 1.0) : 1.0;
-  return std::clamp(stop_mps, 0.1, params_.commit.speed_mps * slowed);
+  return std::min(std::max(stop_mps, 0.1), params_.commit.speed_mps * slowed);
 }
 
 bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
@@ -85,7 +105,8 @@ bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
   if (!memory.committed || !situation.vehicle) return false;
   const double blind_sec = std::max(0.0, situation.now_sec - memory.committed->stamp_sec);
   const RelativeState relative = relate(*situation.vehicle, *memory.committed);
-  if (canStop(relative, params) && blind_sec > params.commit.max_blind_sec) return false;
+  if (relative.distance() < -params.vehicle.half_length_m) return true;
+  if (canStop(relative, params) && !seesCommitted(situation, *memory.committed, params)) return false;
   return !isBroken(contractWith(*memory.committed, *situation.vehicle, params),
                    params.commit.drift_mps * blind_sec);
 }

@@ -10,6 +10,11 @@ double share(double dt_sec, double time_constant_sec) {
   return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
 }
 
+Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
+  const double norm = velocity_mps.norm();
+  return norm > limit_mps ? Eigen::Vector3d(velocity_mps * (limit_mps / norm)) : velocity_mps;
+}
+
 }  // namespace
 
 void DisturbanceObserver::reset() {
@@ -21,13 +26,9 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
                                  double dt_sec) {
   if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
   model_mps_ += share(dt_sec, vehicle_.response_sec) * (commanded_mps - model_mps_);
-  disturbance_mps_ += share(dt_sec, approach_.wind_sec) * (measured_mps - model_mps_ - disturbance_mps_);
-}
-
-Eigen::Vector3d DisturbanceObserver::disturbance() const {
-  const double norm = disturbance_mps_.norm();
-  return norm > approach_.max_wind_mps ? Eigen::Vector3d(disturbance_mps_ * (approach_.max_wind_mps / norm))
-                                       : disturbance_mps_;
+  const Eigen::Vector3d surprise_mps = measured_mps - model_mps_ - disturbance_mps_;
+  disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
+  disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);
 }
 
 }  // namespace window_ingress::navigation

@@ -1,6 +1,8 @@
 #include "window_ingress/navigation/input_monitor.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -31,11 +33,18 @@ double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }
 
 constexpr double kFarAwayM = 1e5;
+constexpr double kFasterThanAnyMps = 20.0;
+constexpr double kLongestGapSec = 0.2;  // motion during a longer gap is no excuse for a jump
 constexpr double kTrustedYawJumpRad = 0.35;
 
 bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
-  return covariance.allFinite() && covariance(0, 0) > 0.0 && covariance(1, 1) > 0.0 &&
-         covariance(2, 2) > 0.0 && covariance(5, 5) > 0.0;
+  constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
+  if (!covariance.allFinite()) return false;
+  Eigen::Matrix4d block;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      block(row, column) = covariance(kUpright[row], kUpright[column]);
+  return block.llt().info() == Eigen::Success;
 }
 
 }  // namespace
@@ -47,7 +56,8 @@ std::string faultOf(const VehicleState& vehicle) {
   const double position_m = vehicle.T_odom_base.translation().stableNorm();
   if (position_m > kFarAwayM) return format("odometry: position %.3g m is out of this world", position_m);
   const double speed_mps = vehicle.velocity_odom_mps.stableNorm();
-  if (speed_mps > 100.0) return format("odometry: speed %.3g m/s is out of this world", speed_mps);
+  if (speed_mps > kFasterThanAnyMps)
+    return format("odometry: speed %.3g m/s is out of this world", speed_mps);
   return "";
 }
 
@@ -118,7 +128,7 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
 
 bool InputMonitor::hasJumped(const VehicleState& vehicle, Situation& situation) const {
   if (!vehicle_) return false;
-  const double dt_sec = vehicle.stamp_sec - vehicle_->stamp_sec;
+  const double dt_sec = std::min(vehicle.stamp_sec - vehicle_->stamp_sec, kLongestGapSec);
   const double moved_m = (vehicle.T_odom_base.translation() - vehicle_->T_odom_base.translation()).norm();
   const double speed_mps =
       std::max({limits_.speed_mps, vehicle.velocity_odom_mps.norm(), vehicle_->velocity_odom_mps.norm()});
@@ -154,15 +164,22 @@ void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation
   }
 }
 
+bool InputMonitor::staysAtNewPlace(const TargetEstimate& target) const {
+  if (!moved_target_ || target.stamp_sec - moved_target_->stamp_sec > params_.max_target_age_sec)
+    return false;
+  const Eigen::Vector3d moved =
+      target.T_odom_window.translation() - moved_target_->T_odom_window.translation();
+  return moved.norm() < params_.max_target_jump_m;
+}
+
 bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
   if (target_ && target.stamp_sec <= target_->stamp_sec) return false;
-  const bool is_known = target_ && target.stamp_sec - target_->stamp_sec < 2.0;
-  if (is_known) {
+  if (target_) {
     const double moved_m = (target.T_odom_window.translation() - target_->T_odom_window.translation()).norm();
     const bool turned = target.sign_trusted && target_->sign_trusted &&
                         yawBetween(target.T_odom_window, target_->T_odom_window) > kTrustedYawJumpRad;
     if (moved_m > params_.max_target_jump_m || turned) {
-      if (!moved_target_) moved_since_sec_ = now_sec;
+      if (!staysAtNewPlace(target)) moved_since_sec_ = now_sec;
       moved_target_ = target;
       if (now_sec - moved_since_sec_ < params_.target_jump_persist_sec) return false;
     }

@@ -12,6 +12,10 @@ NavigatorParams checked(const NavigatorParams& params) {
   if (!(params.limits.min_height_m < params.limits.max_height_m)) {
     faults.push_back("limits/min_height_m must be below limits/max_height_m");
   }
+  if (params.limits.acceleration_mps2 < params.vehicle.braking_mps2) {
+    faults.push_back(
+        "limits/acceleration_mps2 must not be below vehicle/braking_mps2: setpoints could not brake so hard");
+  }
   if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
   return params;
 }

@@ -26,7 +26,9 @@ Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, c
     case State::kApproach: {
       if (!is_trusted) return onlyVertical(velocity);
       const Contract contract = contractWith(*target, *situation.vehicle, params);
-      return contract.in_funnel || contract.holds ? velocity : withoutForward(velocity, *target);
+      const bool before_line = relate(*situation.vehicle, *target).distance() > contract.commit_distance_m;
+      const bool may_advance = contract.holds || (before_line && contract.in_funnel);
+      return may_advance ? velocity : withoutForward(velocity, *target);
     }
     case State::kCommit:
       return memory.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());

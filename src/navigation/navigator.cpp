@@ -49,6 +49,7 @@ struct Navigator::Impl {
   double since_sec = 0.0;  ///< in this state
 
   bool isLive() const { return isMoving(state) || state == State::kHold; }
+  void passTime(double to_sec);
   void remember(const Situation& situation);
   Decision decide(const NavigatorInput& input, const Situation& situation);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
@@ -59,6 +60,16 @@ struct Navigator::Impl {
   NavigatorReport report(const Situation& situation) const;
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
 };
+
+/// A clock that jumps ahead makes the inputs stale, but uses up no time of the mission.
+void Navigator::Impl::passTime(double to_sec) {
+  constexpr double kLongestStepSec = 1.0;
+  if (!std::isfinite(to_sec)) return;
+  const double jump_sec = std::max(0.0, to_sec - now_sec - kLongestStepSec);
+  started_sec += jump_sec;
+  since_sec += jump_sec;
+  now_sec = to_sec;
+}
 
 void Navigator::Impl::remember(const Situation& situation) {
   if (situation.vehicle_jumped) {
@@ -148,6 +159,7 @@ void Navigator::Impl::enter(State from) {
       break;
     case State::kHold:
       hold.enter(from, now_sec);
+      observer.reset();  // what moves the vehicle now is not known to be wind
       break;
     case State::kIdle:
     case State::kPassed:
@@ -225,7 +237,7 @@ Reply Navigator::reset() {
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
   const Situation situation = self.monitor.judge(input, now_sec);
-  if (std::isfinite(now_sec)) self.now_sec = now_sec;
+  self.passTime(now_sec);
   self.remember(situation);
   Decision decision = self.decide(input, situation);
   self.reason = decision.reason;

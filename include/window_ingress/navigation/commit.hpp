@@ -5,8 +5,9 @@
 namespace window_ingress::navigation {
 
 /// COMMIT: through the opening on `MissionMemory::committed`, which is frozen in odom; sightings on the way
-/// that agree with it refine it, others are ignored. Heading along the normal. Ends standing still behind the
-/// window; turns back only while the nose can still be stopped in front of the plane.
+/// that agree with it refine it, a few in a row that do not turn it back. Heading along the normal. Ends
+/// standing still behind the window; turns back only while the nose can still be stopped in front of the
+/// plane.
 class Commit {
  public:
   explicit Commit(const NavigatorParams& params) : params_(params) {}
@@ -14,8 +15,8 @@ class Commit {
   void enter();
   Decision step(const Situation& situation, MissionMemory& memory);
 
-  /// True if the contract with the committed window still holds for the rest of the way, grown by the drift
-  /// since.
+  /// True, after odometry was gone, if the vehicle is through already, or if the contract with the committed
+  /// window still holds, grown by the drift since; in front of the plane only while the window is seen there.
   static bool canResume(const Situation& situation, const MissionMemory& memory,
                         const NavigatorParams& params);
 
@@ -26,8 +27,10 @@ class Commit {
 
   NavigatorParams params_;
   std::optional<Eigen::Vector3d>
-      entry_odom_m_;         ///< the window at the commit: no series of updates leads far from it
-  bool is_through_ = false;  ///< has reached the exit distance once
+      entry_odom_m_;             ///< the window at the commit: no series of updates leads far from it
+  int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere
+  double disagreement_m_ = 0.0;  ///< of the last sighting
+  bool is_through_ = false;      ///< has reached the exit distance once
 };
 
 }  // namespace window_ingress::navigation

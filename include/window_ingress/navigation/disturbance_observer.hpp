@@ -9,7 +9,7 @@ namespace window_ingress::navigation {
 /// How far the vehicle's velocity stays away from what was commanded, in wind: the measured velocity less
 /// that of a first-order model of the vehicle under the same commands, smoothed over `wind_sec`. To be taken
 /// off the next command (P24). Stable for vehicles that answer slower than the model, too: the model's error
-/// at high frequencies is smoothed away.
+/// at high frequencies is smoothed away. One wild sample moves it no more than the strongest wind would.
 class DisturbanceObserver {
  public:
   DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
@@ -19,7 +19,7 @@ class DisturbanceObserver {
   /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
   /// At most `max_wind_mps` long.
-  Eigen::Vector3d disturbance() const;
+  const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
 
  private:
   VehicleParams vehicle_;

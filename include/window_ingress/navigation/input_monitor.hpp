@@ -51,6 +51,7 @@ class InputMonitor {
   void judgeTarget(const NavigatorInput& input, Situation& situation);
   void judgeImage(const NavigatorInput& input, Situation& situation) const;
   bool hasJumped(const VehicleState& vehicle, Situation& situation) const;
+  bool staysAtNewPlace(const TargetEstimate& target) const;
   bool acceptTarget(const TargetEstimate& target, double now_sec);
 
   InputParams params_;

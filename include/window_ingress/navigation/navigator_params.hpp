@@ -11,7 +11,7 @@ struct InputParams {
   double max_image_age_sec = 1.0;     ///< no image processed for longer than this: stop searching [s]
   double max_future_sec = 0.2;  ///< stamps this far ahead of now are believed (clock synchronisation) [s]
   double max_vehicle_jump_m =
-      0.5;  ///< odometry moving this much more than its velocity explains is a jump [m]
+      0.2;  ///< odometry moving this much more than its velocity explains is a jump [m]
   double max_vehicle_jump_rad = 0.5;  ///< likewise its heading, between two samples [rad]
   double max_target_jump_m = 0.4;     ///< window moving this far in odom between two estimates is a jump [m]
   double target_jump_persist_sec = 0.5;  ///< a window that stays at its new place this long is believed [s]
@@ -187,14 +187,12 @@ struct CommitParams {
 struct BackOffParams {
   double speed_mps = 0.5;   ///< [m/s]
   double distance_m = 2.5;  ///< to the window's plane, from where it can be seen again [m]
-  double reveal_m = 0.3;    ///< the wall may be this thick: within it no turning, no sideways [m]
   int max_retries = 5;      ///< back-offs before giving up
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("speed_mps", self.speed_mps, 0.05, 5.0);
     field("distance_m", self.distance_m, 0.5, 20.0);
-    field("reveal_m", self.reveal_m, 0.0, 2.0);
     field("max_retries", self.max_retries, 0, 100);
   }
 };

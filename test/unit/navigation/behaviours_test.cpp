@@ -166,7 +166,9 @@ TEST(HoldBehaviour, GoesOnFromWhereItCan) {
   EXPECT_EQ(wayOutOf(State::kAlign, nothing, true, false), Event::kInputFresh);
   EXPECT_EQ(wayOutOf(State::kSearch, known, true, false), Event::kInputFresh);
   EXPECT_EQ(wayOutOf(State::kBackOff, known, true, false), Event::kWindowLost);
-  EXPECT_EQ(wayOutOf(State::kCommit, committed, true, false), Event::kResumed);
+  EXPECT_EQ(wayOutOf(State::kCommit, committed, true, true), Event::kResumed);
+  EXPECT_EQ(wayOutOf(State::kCommit, committed, true, false),
+            Event::kWindowLost);  // odometry may be elsewhere
   EXPECT_EQ(wayOutOf(State::kCommit, known, true, true), Event::kWindowLost);
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kGiveUp);
   EXPECT_EQ(wayOutOf(State::kCommit, committed, false, true), Event::kGiveUp);

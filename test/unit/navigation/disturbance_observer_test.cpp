@@ -48,6 +48,12 @@ TEST(DisturbanceObserver, IsBounded) {
   EXPECT_EQ(observe.disturbance().norm(), 0.0);
 }
 
+TEST(DisturbanceObserver, OneWildSampleIsForgottenAtOnce) {
+  auto observe = observer();
+  observe.update({0, 50, 0}, {0, 0, 0}, 0.033);
+  EXPECT_LT(observe.disturbance().norm(), 0.03);
+}
+
 TEST(DisturbanceObserver, IgnoresWhatIsNoNumber) {
   auto observe = observer();
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -123,6 +123,8 @@ TEST(InputMonitor, ABadTargetIsNeverUsedAndNamed) {
   }
   EXPECT_EQ(spoilt([](TargetEstimate& t) { t.covariance.setZero(); }), "window: covariance unknown");
   EXPECT_EQ(spoilt([](TargetEstimate& t) { t.covariance(0, 0) = -1; }), "window: covariance unknown");
+  EXPECT_EQ(spoilt([](TargetEstimate& t) { t.covariance(1, 5) = t.covariance(5, 1) = 100.0; }),  // indefinite
+            "window: covariance unknown");
   EXPECT_EQ(spoilt([](TargetEstimate& t) { t.opening.height_m = 0; }), "window: size of the opening unknown");
   EXPECT_NE(spoilt([](TargetEstimate& t) {
               t.T_odom_window.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -146,6 +148,29 @@ TEST(InputMonitor, ATargetThatJumpsIsBelievedOnlyIfItStays) {
   for (int i = 0; i < 20; ++i) was_withheld = !see(1.0).target || was_withheld;
   EXPECT_TRUE(was_withheld);
   EXPECT_DOUBLE_EQ(see(1.0).target->T_odom_window.translation().y(), 1.0);
+}
+
+TEST(InputMonitor, TargetsThatJumpEachTimeAreNeverBelieved) {
+  auto judge = monitor();
+  judge.judge(inputAt(kThere, 10.0), 10.0);
+  for (int i = 1; i < 40; ++i) {
+    auto input = inputAt(kThere, 10.0 + 0.1 * i);
+    input.target->T_odom_window.translation().y() = i % 2 ? 2.0 : -2.0;
+    EXPECT_FALSE(judge.judge(input, 10.0 + 0.1 * i).target_is_new);
+  }
+  for (int i = 0; i < 5; ++i) {  // rarely seen, each time elsewhere
+    auto input = inputAt(kThere, 20.0 + i);
+    input.target->T_odom_window.translation().y() = 3.0 * (i + 1);
+    EXPECT_FALSE(judge.judge(input, 20.0 + i).target);
+  }
+}
+
+TEST(InputMonitor, MotionWhileOdometryWasGoneIsAJump) {
+  auto judge = monitor();
+  judge.judge(inputAt(kThere, 10.0), 10.0);
+  const auto situation = judge.judge(inputAt(kThere + Eigen::Vector3d(1.0, 0, 0), 12.0), 12.0);
+  EXPECT_TRUE(situation.vehicle_jumped);
+  EXPECT_FALSE(situation.vehicle);
 }
 
 TEST(InputMonitor, AClockThatRunsBackVoidsEverything) {

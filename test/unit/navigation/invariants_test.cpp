@@ -96,15 +96,14 @@ struct FreshVehicle {
 
 /// Good targets given so far; the navigator may fly by any that is still fresh.
 struct FreshTargets {
-  double trusted_sec = -1e9, any_sec = -1e9;
+  double trusted_sec = -1e9;
   void see(const NavigatorInput& input, double now, const InputParams& params) {
     if (!input.target || !std::isfinite(now)) return;
     const auto& target = *input.target;
     const double age = now - target.stamp_sec;
     if (!faultOf(target, params.max_target_tilt_rad).empty() || !(age <= params.max_target_age_sec)) return;
     if (age < -params.max_future_sec) return;
-    any_sec = target.stamp_sec;
-    if (target.sign_trusted) trusted_sec = target.stamp_sec;
+    if (target.sign_trusted) trusted_sec = std::max(trusted_sec, target.stamp_sec);
   }
 };
 

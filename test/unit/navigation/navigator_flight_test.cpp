@@ -177,13 +177,13 @@ TEST(NavigatorFlight, TurnsBackWhenPushedAsideBeforeThePlane) {
   PlantParams params;
   KinematicPlant plant(params);
   Navigator navigator{NavigatorParams()};
-  bool pushed = false;
+  int pushes = 0;
   const auto mission = test::fly(plant, navigator, 120.0, [&](double, const NavigatorOutput& output) {
-    if (pushed || output.state != State::kCommit) return;
-    plant.push(plant.window().linear() * Eigen::Vector3d(0.0, 0.45, 0.0));
-    pushed = true;
+    if (pushes == 3 || output.state != State::kCommit) return;
+    plant.push(plant.window().linear() * Eigen::Vector3d(0.0, 0.15, 0.0));
+    ++pushes;
   });
-  EXPECT_TRUE(pushed);
+  EXPECT_EQ(pushes, 3);
   EXPECT_EQ(count(mission, State::kBackOff), 1);
   expectPassed(mission);
 }

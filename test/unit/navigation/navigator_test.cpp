@@ -36,9 +36,10 @@ class NavigatorSteps : public testing::Test {
     return output;
   }
   /// Walks the vehicle there in small steps, so that nothing jumps.
-  NavigatorOutput walk(Navigator& navigator, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  NavigatorOutput walk(Navigator& navigator, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                       bool with_target = true) {
     NavigatorOutput output;
-    for (int i = 0; i <= 60; ++i) output = steps(navigator, from + (to - from) * i / 60.0, 1);
+    for (int i = 0; i <= 60; ++i) output = steps(navigator, from + (to - from) * i / 60.0, 1, with_target);
     return output;
   }
   void start(Navigator& navigator, const Eigen::Vector3d& at) {
@@ -112,6 +113,36 @@ TEST_F(NavigatorSteps, GoesThroughTheStatesAsTheInputSays) {
   EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
 }
 
+TEST_F(NavigatorSteps, TurnsBackFromACommitWhenTheWindowIsSeenElsewhere) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  walk(navigator, kFar, kFar);
+  NavigatorOutput output = walk(navigator, kFar, kLine);
+  ASSERT_EQ(output.state, State::kCommit);
+  for (int i = 0; i < 3; ++i) {
+    now_ += kStep;
+    auto input = inputAt(kLine, now_);
+    input.target = targetAtOrigin(now_);
+    input.target->T_odom_window.translation().y() += 0.3;  // as odometry would make it that drifts by 0.3 m
+    EXPECT_EQ(output.state, State::kCommit);
+    output = navigator.step(input, now_);
+  }
+  EXPECT_EQ(output.state, State::kBackOff) << output.reason;
+  EXPECT_LE(output.setpoint.velocity_odom_mps.x(), 0.0);
+}
+
+TEST_F(NavigatorSteps, AClockThatJumpsAheadHoldsAndGoesOn) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_EQ(steps(navigator, kFar, 20).state, State::kApproach);
+  const auto stale = inputAt(kFar, now_);
+  now_ += 950.0;
+  const auto output = navigator.step(stale, now_);
+  EXPECT_EQ(output.state, State::kHold) << output.reason;
+  EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
+  EXPECT_NE(steps(navigator, kFar, 20).state, State::kAborted);
+}
+
 TEST_F(NavigatorSteps, BacksOffFromTheLineWithoutAContractAndComesBack) {
   Navigator navigator(params_);
   start(navigator, kFar);
@@ -135,7 +166,7 @@ TEST_F(NavigatorSteps, BacksOffAndSearchesWhenTheWindowIsLost) {
   EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
   output = steps(navigator, {-2.0, 0, 1.5}, 35, false);
   EXPECT_EQ(output.state, State::kBackOff);
-  output = steps(navigator, {-2.55, 0, 1.5}, 2, false);
+  output = walk(navigator, {-2.0, 0, 1.5}, {-2.55, 0, 1.5}, false);
   EXPECT_EQ(output.state, State::kSearch) << output.reason;
   EXPECT_EQ(output.setpoint.velocity_odom_mps.head<2>().norm(), 0.0);
 }
@@ -200,6 +231,12 @@ TEST_F(NavigatorSteps, HoldsWhenTheCameraFallsSilentDuringTheSearch) {
   const auto output = navigator.step(input, now_);
   EXPECT_EQ(output.state, State::kHold);
   EXPECT_EQ(output.reason, "last image 2.00 s old");
+}
+
+TEST(NavigatorParamsCheck, RefusesLimitsThatCannotBrakeAsPlanned) {
+  NavigatorParams params;
+  params.limits.acceleration_mps2 = 0.5 * params.vehicle.braking_mps2;
+  EXPECT_THROW(Navigator{params}, std::invalid_argument);
 }
 
 TEST(NavigatorParamsCheck, ListsEveryFault) {
