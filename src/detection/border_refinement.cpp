@@ -13,6 +13,8 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double kNominalSide =
+    640.0;  ///< longer side of a picture up to which pixel parameters hold as they are
 constexpr double kFaintestChange =
     3.0;                             ///< of the mean colour over two pixels that may be an edge [grey levels]
 constexpr double kNarrowPx = 0.8;    ///< prior of an edge beside stronger ones
@@ -309,6 +311,10 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
                                                     double* worst_inliers) const {
   const geometry::Quadrilateral& quad = start.quad;
   const Sampler sampler(image);
+  BorderRefinementParams params = params_;
+  const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
+  params.final_radius_px *= scale;
+  params.outlier_px *= scale;
   const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
   std::array<Line, 4> lines;
   RefinedBorders borders;
@@ -319,7 +325,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     const Vector2d b = lens ? lens->undistort(quad[(i + 1) % 4]) : quad[(i + 1) % 4];
     good = (b - a).norm() > 4.0;
     if (!good) break;
-    Side side(sampler, lens, params_, a, b);
+    Side side(sampler, lens, params, a, b);
     good = side.run(start) || start.fallback_sigma_px > 0.0;
     lines[i] = side.fitted() ? side.line() : side.start(start.fallback_sigma_px);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());

@@ -58,8 +58,8 @@ int LineSupport::vote(Pixel& pixel, int step) {
   int best = -1;
   for (int k = -spread_; k <= spread_; ++k) {
     const int angle = (pixel.angle + k + kAngles) % kAngles;
-    const double rho = pixel.x * directions_[angle].x() + pixel.y * directions_[angle].y();
-    const int cell = angle * rho_count_ + static_cast<int>(std::lround(rho)) + rho_offset_;
+    const double rho = pixel.x * directions_[angle].x() + pixel.y * directions_[angle].y() + rho_offset_;
+    const int cell = angle * rho_count_ + static_cast<int>(rho + 0.5);
     votes_[cell] = static_cast<std::uint16_t>(votes_[cell] + step);
     if (best < 0 || votes_[cell] > votes_[best]) best = cell;
   }
@@ -76,8 +76,8 @@ int LineSupport::pixelNear(const EdgeMap& map, const Line& line, const Vector2d&
   const double limit = std::cos(params_.direction_rad);
   for (double side : {0.0, 1.0, -1.0}) {
     const Vector2d p = at + side * line.normal;
-    const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
-    if (x < 0 || y < 0 || x >= map.edges.cols || y >= map.edges.rows) continue;
+    const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
+    if (p.x() < 0.0 || p.y() < 0.0 || x < 0 || y < 0 || x >= map.edges.cols || y >= map.edges.rows) continue;
     const int i = index_.at<int>(y, x) - 1;
     if (i >= 0 && pixels_[i].state != 2 && directions_[pixels_[i].angle].dot(line.normal) > limit) return i;
   }
@@ -148,7 +148,7 @@ std::vector<Segment> LineSupport::run(const EdgeMap& map) {
   min_length_px_ = std::max(5.0, params_.min_length * side);
   max_gap_px_ = params_.max_gap * side;
   spread_ = static_cast<int>(std::ceil(params_.spread_rad * kAngles / kTwoPi));
-  rho_offset_ = map.edges.cols + map.edges.rows;
+  rho_offset_ = static_cast<int>(std::hypot(map.edges.cols, map.edges.rows)) + 1;
   rho_count_ = 2 * rho_offset_ + 1;
   votes_.assign(static_cast<std::size_t>(kAngles) * rho_count_, 0);
   for (int a = 0; a < kAngles; ++a)

@@ -13,8 +13,8 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr int kBins = 16;
-constexpr int kAlong = 48;        ///< samples along each side of the ring
-constexpr int kAcross = 4;        ///< samples across each band
+constexpr int kAlong = 28;        ///< samples along each side of the ring
+constexpr int kAcross = 3;        ///< samples across each band
 constexpr double kClearPx = 1.5;  ///< pixels nearer to the border are mixed with what is seen through it
 constexpr int kDarkest = 45;      ///< sum of the channels below which chroma is noise
 constexpr int kBrightest = 750;   ///< and above which it is clipped

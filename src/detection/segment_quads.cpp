@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace window_ingress::detection {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kMaxCombinations = 300000;
+constexpr int kMaxCombinations = 100000;
 constexpr double kSlackPx = 3.0;
 constexpr double kRoundedPx = 1.5;  ///< edges end this far before a corner
 
@@ -22,8 +23,8 @@ struct Junction {
 };
 
 struct Covered {
-  double value = 0.0;
-  Candidate candidate;
+  double value = 0.0, closure = 0.0;
+  geometry::Quadrilateral quad;
 };
 
 // Part of [t1, t2] that lies within [0, 1].
@@ -56,11 +57,11 @@ class Search {
       for (int j = i + 1; j < count_; ++j) meet(i, j);
     for (int i = 0; i < count_; ++i) combineFrom(i, found);
   }
-  bool budgetExceeded() const {
-    return combinations_ > kMaxCombinations || count_ < static_cast<int>(segments_.size());
-  }
+  bool budgetExceeded() const { return exhausted() || count_ < static_cast<int>(segments_.size()); }
 
  private:
+  bool exhausted() const { return combinations_ > kMaxCombinations || steps_ > 10 * kMaxCombinations; }
+
   bool within(double t, double length) const {
     const double slack = params_.extension + kSlackPx / length;
     return t > -slack && t < 1.0 + slack;
@@ -83,7 +84,7 @@ class Search {
   void combineFrom(int i, std::vector<Covered>& found) {
     const auto& own = junctions_[i];
     for (std::size_t a = 0; a < own.size(); ++a)
-      for (std::size_t b = a + 1; b < own.size() && combinations_ <= kMaxCombinations; ++b) {
+      for (std::size_t b = a + 1; b < own.size() && !exhausted(); ++b) {
         if (own[a].other < i || own[b].other < i) continue;
         if (coverage(own[a].t_own, own[b].t_own) >= params_.min_coverage) close(i, own[a], own[b], found);
       }
@@ -96,6 +97,7 @@ class Search {
       if (jk.other <= i) continue;
       while (b < from_l.size() && from_l[b].other < jk.other) ++b;
       if (b == from_l.size()) return;
+      ++steps_;
       if (from_l[b].other == jk.other) consider(segments_[i], ij, il, jk, from_l[b], found);
     }
   }
@@ -120,12 +122,8 @@ class Search {
                                endGap(segments_[ij.other], ij.t_other, jk.t_own),
                                endGap(segments_[jk.other], jk.t_other, lk.t_other),
                                endGap(segments_[il.other], lk.t_own, il.t_other)};
-    Covered covered;
-    covered.candidate.closure = closure(gaps_px, area);
-    covered.value = mean * covered.candidate.closure * std::pow(area, 0.25);
-    covered.candidate.quad = *quad;
-    covered.candidate.source = CandidateSource::kSegments;
-    found.push_back(covered);
+    const double closed = closure(gaps_px, area);
+    found.push_back({mean * closed * std::pow(area, 0.25), closed, *quad});
   }
 
   const std::vector<Segment>& segments_;
@@ -134,6 +132,7 @@ class Search {
   double min_area_px_;
   std::vector<std::vector<Junction>> junctions_;
   int combinations_ = 0;
+  int steps_ = 0;
 };
 
 }  // namespace
@@ -142,12 +141,22 @@ SegmentQuads::Result SegmentQuads::run(const std::vector<Segment>& segments, dou
   std::vector<Covered> found;
   Search search(segments, params_, min_area_px);
   search.run(found);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Covered& a, const Covered& b) { return a.value > b.value; });
+  std::vector<int> order(found.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto better = [&](int a, int b) {
+    return found[a].value > found[b].value || (found[a].value == found[b].value && a < b);
+  };
+  const auto kept = order.begin() + std::min<std::size_t>(order.size(), params_.max_quads);
+  std::partial_sort(order.begin(), kept, order.end(), better);
   Result result;
   result.budget_exceeded = search.budgetExceeded() || static_cast<int>(found.size()) > params_.max_quads;
-  if (static_cast<int>(found.size()) > params_.max_quads) found.resize(params_.max_quads);
-  for (const Covered& covered : found) result.candidates.push_back(covered.candidate);
+  for (auto i = order.begin(); i != kept; ++i) {
+    Candidate candidate;
+    candidate.quad = found[*i].quad;
+    candidate.source = CandidateSource::kSegments;
+    candidate.closure = found[*i].closure;
+    result.candidates.push_back(candidate);
+  }
   return result;
 }
 

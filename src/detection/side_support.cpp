@@ -20,8 +20,10 @@ Hit hitNear(const EdgeMap& map, const Vector2d& at, const Vector2d& outward, int
   for (int k = 0; k <= 2 * reach; ++k) {
     const int offset = (k + 1) / 2 * (k % 2 ? 1 : -1);
     const Vector2d p = at + offset * outward;
-    const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
-    if (x < 0 || y < 0 || x >= map.edges.cols || y >= map.edges.rows || !map.edges.at<uchar>(y, x)) continue;
+    const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
+    if (p.x() < 0.0 || p.y() < 0.0 || x < 0 || y < 0 || x >= map.edges.cols || y >= map.edges.rows ||
+        !map.edges.at<uchar>(y, x))
+      continue;
     const Vector2d gradient(map.dx.at<short>(y, x), map.dy.at<short>(y, x));
     const double along = gradient.dot(outward);
     if (std::abs(along) >= min_cosine * gradient.norm())
@@ -34,7 +36,7 @@ Hit hitNear(const EdgeMap& map, const Vector2d& at, const Vector2d& outward, int
 double overshoot(const EdgeMap& map, const Vector2d& corner, const Vector2d& way, double stretch_px,
                  double min_cosine) {
   const Vector2d across(way.y(), -way.x());
-  const int samples = std::clamp(static_cast<int>(stretch_px), 4, 40);
+  const int samples = std::clamp(static_cast<int>(stretch_px), 4, 10);
   int hits = 0;
   for (int i = 0; i < samples; ++i) {
     const double distance = kCornerPx + stretch_px * (i + 0.5) / samples;
@@ -50,7 +52,7 @@ SideSupport measureSide(const EdgeMap& map, const Vector2d& a, const Vector2d& b
   const double length = along.norm();
   if (length < 1.0) return support;
   const Vector2d outward = Vector2d(along.y(), -along.x()) / length;
-  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 120);
+  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 40);
   const int reach = static_cast<int>(std::lround(params.tolerance_px));
   const double min_cosine = std::cos(params.direction_rad);
   int hits = 0, darker_outside = 0;

@@ -11,9 +11,9 @@ namespace window_ingress::detection {
 struct BorderRefinementParams {
   int samples = 80;              ///< profiles across each side, at most one a pixel
   double skip = 0.06;            ///< left out at both ends of a side, in its lengths
-  double final_radius_px = 2.0;  ///< reach of the second pass [px]
-  double outlier_px = 0.6;       ///< scale of the robust fit [px]
-  double min_inliers = 0.45;     ///< part of a side's profiles that must lie on its line
+  double final_radius_px = 2.0;  ///< reach of the second pass, at a longer side of 640; grows with it [px]
+  double outlier_px = 0.6;       ///< scale of the robust fit, at a longer side of 640; grows with it [px]
+  double min_inliers = 0.4;      ///< part of a side's profiles that must lie on its line
   double sigma_floor_px = 0.03;  ///< no edge is claimed to be known better than this [px]
 
   template <typename Self, typename Visitor>

@@ -29,7 +29,7 @@ struct DetectorParams {
   NestedLoopsParams nested;
   AppearanceParams appearance;
   BorderRefinementParams refinement;
-  int max_candidates = 24;  ///< best candidates that are compared with each other and with the reference
+  int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
   double min_score = 0.35;  ///< below this there is no detection
 
   template <typename Self, typename Visitor>

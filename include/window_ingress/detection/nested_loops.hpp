@@ -13,7 +13,7 @@ struct NestedLoopsParams {
   double uniform = 22.0;    ///< colours of a frame's four sides differ less than this [grey levels]
   double continued = 22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
   double container_score = 1.0;  ///< a loop round panes wins if its score is at least this part of theirs
-  double max_panes = 40.0;        ///< area of a window over the area of its smallest pane
+  double max_panes = 40.0;       ///< area of a window over the area of its smallest pane
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

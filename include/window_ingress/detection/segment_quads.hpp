@@ -16,7 +16,7 @@ struct SegmentQuadsParams {
       1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
   double closure_side = 0.02;  ///< added to that, in mean sides of the quadrilateral
   int max_segments = 250;      ///< the longest segments that are combined
-  int max_quads = 400;         ///< the best covered are kept
+  int max_quads = 300;         ///< the best covered are kept
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

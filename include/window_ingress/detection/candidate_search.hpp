@@ -1,0 +1,60 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "window_ingress/detection/candidate.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/nested_loops.hpp"
+
+namespace window_ingress::detection {
+
+/// A candidate that passed the gates on single candidates, and what is found out about it.
+struct Rival {
+  Candidate candidate;
+  geometry::Quadrilateral quad;  ///< pixels of the image as it came
+  double score = 0.0;            ///< confidence, whatever its size
+  double size = 1.0;             ///< preference for its size
+  LoopVerdict verdict;
+  std::optional<double> distance;                ///< from the reference, where it can be compared
+  std::optional<geometry::Quadrilateral> outer;  ///< border of the frame that foretells this one
+
+  double rank() const { return score * size; }
+};
+
+/// Higher rank first; deterministic.
+void sortByRank(std::vector<Rival>& rivals);
+
+/// The first half of the detector, on the search level: image to candidates that passed the gates (P2 to P8).
+class CandidateSearch {
+ public:
+  explicit CandidateSearch(const DetectorParams& params);
+
+  /// Best first, each loop once, at most `max_candidates`. Everything else goes into the trace.
+  /// \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way
+  std::vector<Rival> run(const cv::Mat& image, DetectionTrace& trace);
+
+  int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
+
+ private:
+  void admit(std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
+             DetectionTrace& trace);
+  std::vector<Rival> best(std::vector<Rival>& rivals, DetectionTrace& trace) const;
+
+  DetectorParams params_;
+  Preprocess preprocess_;
+  EdgeDetector edges_;
+  LineSupport lines_;
+  Closing closing_;
+  ContourPolygons contours_;
+  SegmentQuads segment_quads_;
+  CandidateGates gates_;
+  int factor_ = 1;
+  cv::Size level_size_;
+};
+
+/// One line of the trace for a rival.
+CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, double limit);
+
+}  // namespace window_ingress::detection

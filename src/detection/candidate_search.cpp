@@ -1,0 +1,116 @@
+#include "window_ingress/detection/candidate_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "window_ingress/detection/window_score.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kSameLoopPx =
+    1.0;  ///< corners of the same loop differ less than this on the search level [px]
+constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
+
+Quadrilateral scaled(const Quadrilateral& quad, double factor) {
+  return {factor * quad[0], factor * quad[1], factor * quad[2], factor * quad[3]};
+}
+
+double cornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
+  double worst = 0.0;
+  for (int i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).squaredNorm());
+  return std::sqrt(worst);
+}
+
+}  // namespace
+
+CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, double limit) {
+  return {rival.quad,
+          rival.candidate.source,
+          reason,
+          value,
+          limit,
+          rival.score,
+          rival.distance.has_value(),
+          rival.distance.value_or(0.0)};
+}
+
+void sortByRank(std::vector<Rival>& rivals) {
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.rank() > b.rank(); });
+}
+
+CandidateSearch::CandidateSearch(const DetectorParams& params)
+    : params_(params),
+      preprocess_(params.preprocess),
+      edges_(params.edges),
+      lines_(params.lines),
+      closing_(params.closing),
+      contours_(params.contours),
+      segment_quads_(params.segment_quads),
+      gates_(params.gates) {}
+
+std::vector<Rival> CandidateSearch::run(const cv::Mat& image, DetectionTrace& trace) {
+  const SearchLevel level = preprocess_.run(image);
+  factor_ = level.factor;
+  level_size_ = level.image.size();
+  const EdgeMap& map = edges_.run(level.image);
+  const std::vector<Segment> segments = lines_.run(map);
+  ContourPolygons::Result outlines = contours_.run(closing_.run(map.edges), closing_.radiusPx(level_size_));
+  SegmentQuads::Result quads = segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
+  trace.segments = static_cast<int>(segments.size());
+  trace.contours = outlines.contours;
+  trace.budget_exceeded = outlines.budget_exceeded || quads.budget_exceeded;
+  for (CandidateTrace& rejected : outlines.rejected) {
+    rejected.quad = scaled(rejected.quad, factor_);
+    trace.candidates.push_back(rejected);
+  }
+  std::vector<Rival> rivals;
+  admit(quads.candidates, map, rivals, trace);
+  admit(outlines.candidates, map, rivals, trace);
+  return best(rivals, trace);
+}
+
+void CandidateSearch::admit(std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
+                            DetectionTrace& trace) {
+  for (Candidate& candidate : found) {
+    auto rejection = gates_.shape(candidate, level_size_);
+    if (!rejection) {
+      candidate.sides = measureSides(map, candidate.quad, params_.side_support);
+      rejection = gates_.support(candidate);
+    }
+    Rival rival;
+    rival.candidate = candidate;
+    rival.quad = scaled(candidate.quad, factor_);
+    if (rejection) {
+      trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
+      continue;
+    }
+    rival.score = windowScore(candidate, params_.score);
+    rival.size = sizeRank(candidate.quad, level_size_, params_.score);
+    rivals.push_back(rival);
+  }
+}
+
+std::vector<Rival> CandidateSearch::best(std::vector<Rival>& rivals, DetectionTrace& trace) const {
+  sortByRank(rivals);
+  std::vector<Rival> kept;
+  for (const Rival& rival : rivals) {
+    const double near_px =
+        kSameLoopPx + kSameLoopPart * std::sqrt(std::abs(geometry::signedArea(rival.candidate.quad)));
+    const auto twin = std::find_if(kept.begin(), kept.end(), [&](const Rival& better) {
+      return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
+    });
+    if (twin != kept.end())
+      trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
+    else if (static_cast<int>(kept.size()) >= params_.max_candidates)
+      trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept.back().rank()));
+    else
+      kept.push_back(rival);
+  }
+  return kept;
+}
+
+}  // namespace window_ingress::detection
