@@ -42,7 +42,7 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
 
 TEST(ClosedLoopFlight, RepeatsToTheBit) {
   auto scenario = shortFlight();
-  scenario.time_limit_sec = 0.5;
+  scenario.time_limit_sec = 1.0;
   FlightLog first, second, other;
   const auto a = flyOnce(scenario, 5, FlightParams(), &first);
   const auto b = flyOnce(scenario, 5, FlightParams(), &second);
