@@ -65,7 +65,7 @@ def main():
     if not flights:
         sys.exit(f"{arguments.log_dir}: no flight_*.csv with rows; make them with fly --log")
     width, height = map(float, arguments.opening.split(","))
-    figure, (top, side) = plt.subplots(2, 1, figsize=(11, 11), height_ratios=[2.2, 1])
+    figure, (top, side) = plt.subplots(2, 1, figsize=(11, 11), gridspec_kw={"height_ratios": [2.2, 1]})
     draw(top, flights, "y_m", "y [m], left")
     draw(side, flights, "z_m", "z [m], up")
     draw_wall(top, width / 2, arguments.wall_thickness, 3.5)

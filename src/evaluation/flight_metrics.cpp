@@ -77,7 +77,7 @@ FlightSummary summarise(const std::vector<FlightResult>& flights) {
 }
 
 std::string toJson(const FlightSummary& summary) {
-  nlohmann::ordered_json json;
+  nlohmann::json json;
   json["flights"] = summary.flights;
   json["passed"] = summary.passed;
   json["pass_rate"] = summary.flights > 0 ? static_cast<double>(summary.passed) / summary.flights : 0.0;

@@ -15,6 +15,10 @@
 
 #include <Eigen/Geometry>
 
+#ifdef __FAST_MATH__
+#error "window_ingress must not be built with -ffast-math: its safety checks rest on isfinite()"
+#endif
+
 namespace window_ingress::geometry {
 
 /// Rotation of a forward-left-up body frame in the optical frame of a camera looking along its x axis.
