@@ -1,7 +1,10 @@
 /// Finds the window in single pictures; one csv row each. See --help.
 #include <algorithm>
 #include <boost/program_options.hpp>
+#include <cctype>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,6 +30,12 @@ using Clock = std::chrono::steady_clock;
 
 /// Wrong usage or input that cannot be used: one line, exit code 2.
 class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The input is fine, the work failed: one line, exit code 1.
+class JobError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -187,7 +196,7 @@ void writeOverlay(const std::string& file, const cv::Mat& picture, const detecti
   detection::drawDetection(picture, detector.trace(), row.window ? &*row.window : nullptr, canvas);
   const fs::path target = fs::path(folder) / (fs::path(file).filename().string() + ".png");
   if (!cv::imwrite(target.string(), canvas))
-    throw std::runtime_error(target.string() + ": cannot be written");
+    throw JobError(target.string() + ": cannot be written; is the disk full?");
 }
 
 int run(const Options& options) {
@@ -195,6 +204,8 @@ int run(const Options& options) {
   const Job job = prepare(options);
   detection::WindowDetector detector(job.params);
   if (job.reference) detector.setReference(*job.reference);
+  const fs::path folder = fs::path(options.output).parent_path();
+  if (!folder.empty()) fs::create_directories(folder);
   std::ofstream output(options.output);
   if (!output) throw UsageError(options.output + ": cannot be written");
   output << "file," << evaluation::detectionColumns() << "\n";
@@ -217,17 +228,22 @@ int run(const Options& options) {
     std::cerr << "detect_images: " << i + 1 << " of " << pictures.size() << " pictures" << std::endl;
   }
   output.flush();
-  if (!output) throw std::runtime_error(options.output + ": writing failed; is the disk full?");
+  if (!output) throw JobError(options.output + ": writing failed; is the disk full?");
   return unreadable ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto fail = [](const std::exception& error, int code) {
+    std::cerr << "detect_images: " << error.what() << std::endl;
+    return code;
+  };
   try {
     return run(parse(argc, argv));
+  } catch (const JobError& error) {
+    return fail(error, 1);
   } catch (const std::exception& error) {
-    std::cerr << "detect_images: " << error.what() << std::endl;
-    return 2;
+    return fail(error, 2);
   }
 }

@@ -63,6 +63,18 @@ def test_unreadable_picture_is_named_and_the_others_are_done(tmp_path, picture):
     assert rows[2].startswith(str(picture)) or rows[2].startswith(picture.name)
 
 
+def test_output_that_cannot_be_written_to_is_a_failed_job(picture):
+    if not pathlib.Path("/dev/full").exists():
+        pytest.skip("no /dev/full here")
+    assert_refused(run("detect_images", "--output", "/dev/full", picture), 1, "/dev/full")
+
+
+def test_folder_of_the_output_is_made(tmp_path, picture):
+    output = tmp_path / "new" / "out.csv"
+    assert run("detect_images", "--output", output, picture).returncode == 0
+    assert len(output.read_text().splitlines()) == 2
+
+
 def test_camera_without_calibration_is_refused(tmp_path, picture):
     camera = tmp_path / "camera.yaml"
     zeros = "[" + ", ".join(["0"] * 9) + "]"
