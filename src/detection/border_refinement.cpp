@@ -72,12 +72,16 @@ class Side {
     measure(reach_px, nearest ? 0.6 * reach_px : kNarrowPx);
     if (!fit(std::max(params_.outlier_px, 0.35 * reach_px))) return false;
     measure(params_.final_radius_px, nearest ? kWidePx : kNarrowPx);
-    fitted_ = fit(params_.outlier_px) && strays(shifted_) <= reach_px && strays(start_) <= start.max_stray_px;
+    if (!fit(params_.outlier_px) || strays(shifted_) > reach_px) return false;
+    stray_px_ = strays(start_);
+    fitted_ = stray_px_ <= start.max_stray_px;
     return fitted_;
   }
   bool fitted() const { return fitted_; }
+  // The start as an answer; the less certain the further off the edge that was found and not believed.
   Line start(double sigma_px) const {
     Line line = start_;
+    sigma_px = std::hypot(sigma_px, 0.5 * stray_px_);
     line.sigma_px = sigma_px;
     line.sigma_rad = sigma_px * std::sqrt(12.0) / length_;
     return line;
@@ -253,6 +257,7 @@ class Side {
   double length_;
   Line line_, start_, shifted_;
   bool fitted_ = false;
+  double stray_px_ = 0.0;
   Vector3d colour_ = Vector3d(1, 1, 1) / std::sqrt(3.0);
   std::vector<Vector2d> points_;
   double inliers_ = 0.0;
