@@ -43,6 +43,8 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
 TEST(ClosedLoopFlight, RepeatsToTheBit) {
   auto scenario = shortFlight();
   scenario.time_limit_sec = 1.0;
+  scenario.camera.width_px = 320;
+  scenario.camera.height_px = 240;
   FlightLog first, second, other;
   const auto a = flyOnce(scenario, 5, FlightParams(), &first);
   const auto b = flyOnce(scenario, 5, FlightParams(), &second);
