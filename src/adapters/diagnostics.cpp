@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <limits>
@@ -11,7 +12,6 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kPeriodSec = 1.0;
-constexpr int kFailuresForError = 5;
 constexpr double kFrozenClockSec = 1.0;
 constexpr double kQuietSec = 5.0;  // between two warnings about one topic
 
@@ -30,7 +30,7 @@ double steadyNowSec() {
 Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
     : updater_(nh, pnh, pnh.getNamespace()), started_sec_(steadyNowSec()), clock_moved_sec_(started_sec_) {
   updater_.setHardwareID("none");
-  add("callbacks", [this] { return callbackHealth(); });
+  add("callbacks", [this] { return failures_.health(); });
   add("clock", [this] { return clockHealth(); });
   timer_ = ros::NodeHandle(nh).createSteadyTimer(ros::WallDuration(kPeriodSec),
                                                  [this](const ros::SteadyTimerEvent&) {
@@ -60,18 +60,27 @@ void Diagnostics::run(const std::string& name, const std::function<Health()>& ch
   before = health;
 }
 
-void Diagnostics::caught(const std::string& callback, const std::string& what) {
-  ++failures_;
-  ++failures_in_a_row_;
-  last_failure_ = callback + ": " + what;
-  if (failures_in_a_row_ > kFailuresForError) return;
-  ROS_ERROR("a callback failed, %d so far: %s", failures_, last_failure_.c_str());
+bool FailureCount::failed(const std::string& callback, const std::string& what) {
+  ++all_;
+  last_ = callback + ": " + what;
+  return ++in_a_row_[callback] <= kMany;
 }
 
-Health Diagnostics::callbackHealth() const {
-  if (failures_ == 0) return {};
-  const auto level = failures_in_a_row_ >= kFailuresForError ? Health::kError : Health::kWarn;
-  return {level, std::to_string(failures_) + " callbacks failed; the last one was " + last_failure_};
+int FailureCount::inARow(const std::string& callback) const {
+  const auto found = in_a_row_.find(callback);
+  return found == in_a_row_.end() ? 0 : found->second;
+}
+
+Health FailureCount::health() const {
+  if (all_ == 0) return {};
+  const bool many =
+      std::any_of(in_a_row_.begin(), in_a_row_.end(), [](const auto& e) { return e.second >= kMany; });
+  return {many ? Health::kError : Health::kWarn,
+          std::to_string(all_) + " callbacks failed; the last one was " + last_};
+}
+
+void Diagnostics::caught(const std::string& callback, const std::string& what) {
+  if (failures_.failed(callback, what)) ROS_ERROR("callback failed: %s: %s", callback.c_str(), what.c_str());
 }
 
 Health Diagnostics::clockHealth() {

@@ -20,6 +20,23 @@ struct Health {
 /// Seconds on the steady clock, which neither /clock nor NTP moves.
 double steadyNowSec();
 
+/// Counts callbacks that failed, in all and in a row for each of them.
+class FailureCount {
+ public:
+  static constexpr int kMany = 5;  ///< in a row: no longer a mishap
+
+  void succeeded(const std::string& callback) { in_a_row_.erase(callback); }
+  /// \return false if this callback has failed so often that saying it once more helps nobody
+  bool failed(const std::string& callback, const std::string& what);
+  int inARow(const std::string& callback) const;
+  Health health() const;
+
+ private:
+  std::map<std::string, int> in_a_row_;
+  int all_ = 0;
+  std::string last_;
+};
+
 /// Collects what is wrong, publishes it once a second, and says on the console what has changed.
 class Diagnostics {
  public:
@@ -28,23 +45,19 @@ class Diagnostics {
   /// Asks `check` for its state each second.
   void add(const std::string& name, std::function<Health()> check);
 
-  void succeeded() { failures_in_a_row_ = 0; }
-  void caught(const std::string& callback, const std::string& what);
-  int failures() const { return failures_; }
-  int failuresInARow() const { return failures_in_a_row_; }
+  void succeeded(const std::string& callback) { failures_.succeeded(callback); }
+  void caught(const std::string& callback, const std::string& what);  ///< counted, and said on the console
+  const FailureCount& failures() const { return failures_; }
 
  private:
   void run(const std::string& name, const std::function<Health()>& check,
            diagnostic_updater::DiagnosticStatusWrapper& status);
-  Health callbackHealth() const;
   Health clockHealth();
 
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
   std::map<std::string, Health> said_;
-  int failures_ = 0;
-  int failures_in_a_row_ = 0;
-  std::string last_failure_;
+  FailureCount failures_;
   double started_sec_ = 0.0;
   double clock_sec_ = -1.0, clock_moved_sec_ = 0.0;
 };

@@ -18,7 +18,7 @@ template <typename Work>
 bool guarded(Diagnostics& diagnostics, const std::string& name, Work&& work) {
   try {
     std::forward<Work>(work)();
-    diagnostics.succeeded();
+    diagnostics.succeeded(name);
     return true;
   } catch (const std::exception& error) {
     diagnostics.caught(name, error.what());

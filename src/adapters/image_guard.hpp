@@ -5,6 +5,7 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -25,6 +26,17 @@ struct GuardedImage {
   std::shared_ptr<const void> owner;  ///< keeps shared bytes alive
   std::string reason;                 ///< why it was refused; empty if it was not
   std::string warning;                ///< it was read, but look at this
+};
+
+/// Notices pictures that stay the same to the last bit, as those of a stuck camera do under new stamps.
+class StuckWatch {
+ public:
+  /// \return how long the picture has been the same [s]
+  double sameForSec(const cv::Mat& image, double now_sec);
+
+ private:
+  std::uint64_t checksum_ = 0;
+  double since_sec_ = -1.0;
 };
 
 /// Why this message must not be decoded: empty, sizes that do not fit, unknown encoding, too large; empty if

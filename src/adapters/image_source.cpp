@@ -12,6 +12,7 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kSilenceSec = 2.0;
+constexpr double kStuckSec = 1.0;
 
 std::string available(const image_transport::ImageTransport& transport) {
   std::string names = "compressed";
@@ -65,8 +66,10 @@ void ImageSource::receive(const std_msgs::Header& header, const std::function<Gu
   health_.arrived();
   const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
   if (late) return health_.refused(*late);
-  const GuardedImage picture = decode();
+  GuardedImage picture = decode();
   if (!picture.reason.empty()) return health_.refused(picture.reason);
+  if (stuck_.sameForSec(picture.image, steadyNowSec()) > kStuckSec)
+    picture.warning = "the picture does not change any more: is the camera stuck?";
   health_.accepted(picture.warning);
   callback_(header, picture);
 }

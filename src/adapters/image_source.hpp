@@ -29,6 +29,7 @@ class ImageSource {
 
   ImageLimits limits_;
   StampGate gate_;
+  StuckWatch stuck_;
   Callback callback_;
   Diagnostics& diagnostics_;
   TopicHealth health_;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kFrozenClockSec = 0.3;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
-constexpr int kFailuresForAbort = 5;
 
 NavigatorNodeParams checked(NavigatorNodeParams params) {
   if (params.setpoint_frame == params.frames.odom || params.setpoint_frame == params.frames.base)
@@ -79,7 +78,7 @@ void NavigatorNode::step() {
   forgetSilentInputs();
   const bool works = guarded(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
   if (!works) last_.setpoint = navigation::Setpoint();
-  if (diagnostics_.failuresInARow() == kFailuresForAbort) navigator_.abort();
+  if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany) navigator_.abort();
   publish(last_, now);
 }
 

@@ -170,6 +170,17 @@ TEST(ImageGuard, NothingRandomGetsThroughOrThrows) {
   }
 }
 
+TEST(StuckWatch, TimesPicturesThatStayTheSame) {
+  StuckWatch watch;
+  cv::Mat picture = ramp();
+  EXPECT_EQ(watch.sameForSec(picture, 10.0), 0.0);
+  EXPECT_EQ(watch.sameForSec(picture.clone(), 11.5), 1.5);
+  picture += cv::Scalar::all(1);
+  EXPECT_EQ(watch.sameForSec(picture, 12.0), 0.0);
+  EXPECT_EQ(watch.sameForSec(picture.colRange(0, 40), 12.5), 0.0) << "another size is another picture";
+  EXPECT_EQ(watch.sameForSec(cv::Mat(1, 1, CV_8UC1, cv::Scalar(0)), 13.0), 0.0);
+}
+
 sensor_msgs::CompressedImage compressed(const std::string& extension) {
   sensor_msgs::CompressedImage message;
   cv::imencode(extension, ramp(), message.data);
