@@ -29,6 +29,7 @@ inline navigation::NavigatorInput inputAt(const Eigen::Vector3d& position_m, dou
                                           bool with_target = true) {
   navigation::NavigatorInput input;
   input.vehicle = vehicleAt(position_m, now_sec);
+  input.image_stamp_sec = now_sec;
   if (with_target) input.target = targetAtOrigin(now_sec);
   return input;
 }

@@ -14,8 +14,8 @@ inline std::filesystem::path sharedData(const std::string& relative) {
 }  // namespace window_ingress::test
 
 /// Skips the test, saying so, where the shared data is absent.
-#define WINDOW_INGRESS_NEEDS_DATA(relative)                                                 \
-  do {                                                                                      \
-    if (!std::filesystem::exists(window_ingress::test::sharedData(relative)))               \
-      GTEST_SKIP() << "no " << window_ingress::test::sharedData(relative) << ": skipped";   \
+#define WINDOW_INGRESS_NEEDS_DATA(relative)                                               \
+  do {                                                                                    \
+    if (!std::filesystem::exists(window_ingress::test::sharedData(relative)))             \
+      GTEST_SKIP() << "no " << window_ingress::test::sharedData(relative) << ": skipped"; \
   } while (false)

@@ -13,8 +13,7 @@ namespace window_ingress::navigation {
 struct NavigatorInput {
   std::optional<VehicleState> vehicle;
   std::optional<TargetEstimate> target;
-  /// Stamp of the last image that was searched, with or without a window in it; nothing where that is not
-  /// known.
+  /// Stamp of the last image that was searched, with or without a window in it.
   std::optional<double> image_stamp_sec;
   /// Armed and in a mode that follows setpoints; true where that is not known.
   bool engaged = true;

@@ -35,7 +35,7 @@ TEST(InputMonitor, SaysWhatIsMissing) {
   const auto situation = judge.judge({}, 10.0);
   EXPECT_EQ(situation.vehicle_fault, "no odometry");
   EXPECT_EQ(situation.target_fault, "no window seen");
-  EXPECT_TRUE(situation.image_fault.empty());
+  EXPECT_EQ(situation.image_fault, "no image searched so far");
 }
 
 TEST(InputMonitor, AgeCountsInBothDirections) {

@@ -25,7 +25,7 @@ class HostileWorld {
     NavigatorInput input;
     if (!chance(0.01)) input.vehicle = vehicle();
     if (!chance(0.02)) input.target = target();
-    if (chance(0.3)) input.image_stamp_sec = now_ - (chance(0.01) ? 5.0 : 0.1);
+    if (!chance(0.02)) input.image_stamp_sec = now_ - (chance(0.01) ? 5.0 : 0.1);
     input.engaged = !chance(0.0005);
     return input;
   }

@@ -67,6 +67,9 @@ TEST_F(NavigatorSteps, StartListsEveryUnmetCondition) {
   EXPECT_EQ(reply.message,
             "not started: no odometry; last image 9.00 s old; "
             "the vehicle is not armed or not in a mode that follows setpoints");
+  NavigatorInput blind = inputAt(kFar, now_);
+  blind.image_stamp_sec.reset();
+  EXPECT_EQ(navigator.start(blind, now_).message, "not started: no image searched so far");
   EXPECT_FALSE(navigator.start(inputAt(kFar, now_), std::numeric_limits<double>::quiet_NaN()).success);
   EXPECT_EQ(steps(navigator, kFar, 1).state, State::kIdle);
 }
