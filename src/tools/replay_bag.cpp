@@ -5,6 +5,7 @@
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -207,7 +208,16 @@ void plot(const fs::path& csv, const fs::path& picture) {
                              "; is python3-matplotlib installed?");
 }
 
+/// rosbag reads past its buffers where an index is damaged; nothing can be caught, but it can be said.
+void sayThatTheReaderCrashed(int) {
+  constexpr char kText[] =
+      "replay_bag: reading the bag crashed: it is damaged; see 'rosbag check' and 'rosbag reindex'\n";
+  const auto written = write(STDERR_FILENO, kText, sizeof kText - 1);
+  _exit(written > 0 ? 2 : 1);
+}
+
 int run(const Options& options) {
+  std::signal(SIGSEGV, sayThatTheReaderCrashed);
   rosbag::Bag bag;
   adapters::openBag(bag, options.bag);
   const adapters::ReplayParams params = prepare(options, bag);
