@@ -11,14 +11,14 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kFrozenClockSec = 0.3;
+// Which axes, not which name: frame_id is filled from odom_frame and base_frame.
+constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
+constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 
 NavigatorNodeParams checked(NavigatorNodeParams params) {
-  if (params.setpoint_frame == params.frames.odom || params.setpoint_frame == params.frames.base)
-    return params;
-  throw ParameterError("setpoint_frame is '" + params.setpoint_frame + "', must be '" + params.frames.odom +
-                       "' or '" + params.frames.base + "'");
+  if (params.setpoint_frame == kOdomAxes || params.setpoint_frame == kBaseAxes) return params;
+  throw ParameterError("setpoint_frame is '" + params.setpoint_frame + "', must be 'odom' or 'base_link'");
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros
 void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {
   std::optional<Eigen::Matrix3d> R_odom_base;
   const bool known = input_.vehicle.has_value();
-  if (params_.setpoint_frame == params_.frames.base)
+  if (params_.setpoint_frame == kBaseAxes)
     R_odom_base = known ? Eigen::Matrix3d(input_.vehicle->T_odom_base.linear()) : Eigen::Matrix3d::Identity();
   const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
   geometry_msgs::TwistStamped message =

@@ -20,9 +20,10 @@ namespace window_ingress::adapters {
 struct NavigatorNodeParams {
   double rate_hz = 30.0;  ///< of the setpoints [Hz]
   double max_silence_sec =
-      0.3;  ///< odometry that has not arrived for this long, on the steady clock, is gone [s]
-  double max_pose_silence_sec = 1.5;    ///< likewise the messages on window_pose [s]
-  std::string setpoint_frame = "odom";  ///< axes of the setpoints: odom or base_link
+      0.25;  ///< odometry that has not arrived for this long, on the steady clock, is gone [s]
+  double max_pose_silence_sec = 1.5;  ///< likewise the messages on window_pose [s]
+  std::string setpoint_frame =
+      "odom";  ///< axes of the setpoints: odom or base_link, whatever these frames are called
   FrameNames frames;
   StampLimits stamps;
   navigation::NavigatorParams navigator;

@@ -66,7 +66,7 @@ class RefusedStartTest(unittest.TestCase):
         self.assertEqual(process.returncode, 2, errors)
         self.assertIn("/nowhere/window.jpg", errors)
 
-    def assert_stops(self, node, number):
+    def assert_stops(self, node, number, frame="odom"):
         setpoints = support.Listener("cmd_vel", TwistStamped)
         process = launch(node)
         support.wait_for(lambda: setpoints._subscriber.get_num_connections() > 0, f"{node} publishes cmd_vel")
@@ -76,8 +76,16 @@ class RefusedStartTest(unittest.TestCase):
         self.assertLess(time.monotonic() - sent, EXIT_WITHIN_S)
         self.assertEqual(process.returncode, 0)
         last = setpoints.since(sent)[-1]
+        self.assertEqual(last.header.frame_id, frame)
         self.assertEqual((last.twist.linear.x, last.twist.linear.y, last.twist.linear.z, last.twist.angular.z), (0, 0, 0, 0))
         setpoints.stop()
+
+    def test_mavros_frame_names_are_accepted_and_said_in_the_setpoints(self):
+        rospy.set_param("/ingress_navigator/odom_frame", "map")
+        try:
+            self.assert_stops("ingress_navigator", signal.SIGINT, frame="map")
+        finally:
+            rospy.delete_param("/ingress_navigator/odom_frame")
 
     def test_signals_leave_zero_velocity_behind(self):
         for node in ("ingress_navigator", "setpoint_guard"):
