@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kPeriodSec = 1.0;
 constexpr double kFrozenClockSec = 1.0;
-constexpr double kQuietSec = 5.0;  // between two warnings about one topic
+constexpr double kStartUpSec = 2.0;  // a clock that comes within this time is not missed
+constexpr double kQuietSec = 5.0;    // between two warnings about one topic
 
 std::string withTwoDecimals(double value) {
   char text[32];
@@ -90,6 +91,7 @@ Health Diagnostics::clockHealth() {
     clock_moved_sec_ = steady_sec;
   }
   if (!ros::Time::isSimTime()) return {};
+  if (now_sec == 0.0 && steady_sec - started_sec_ < kStartUpSec) return {Health::kOk, "waiting for /clock"};
   if (now_sec == 0.0)
     return {Health::kError,
             "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the "
