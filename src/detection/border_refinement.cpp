@@ -1,10 +1,11 @@
 #include "window_ingress/detection/border_refinement.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "window_ingress/detection/robust_line.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -45,12 +46,6 @@ class Sampler {
  private:
   const cv::Mat& image_;
   int channels_;
-};
-
-/// A straight line of the undistorted image: {p : normal . (p - point) = 0}.
-struct Line {
-  Vector2d point, normal;
-  double sigma_px = 0.0, sigma_rad = 0.0;
 };
 
 /// One side while it is being fitted.
@@ -95,7 +90,7 @@ class Side {
     double worst = 0.0;
     for (double t : {-0.5, 0.5}) {
       const Vector2d end = from.point + t * length_ * Vector2d(-from.normal.y(), from.normal.x());
-      worst = std::max(worst, std::abs(line_.normal.dot(end - line_.point)));
+      worst = std::max(worst, std::abs(line_.distance(end)));
     }
     return worst;
   }
@@ -193,60 +188,18 @@ class Side {
     return curvature < -1e-9 ? std::clamp(0.5 * (l - r) / curvature, -1.0, 1.0) : 0.0;
   }
 
-  // Line through the points: reweighted least squares, then its spread.
+  // Line through the points, and its spread.
   bool fit(double scale_px) {
     inliers_ = 0.0;
     if (points_.size() < 4) return false;
-    std::vector<double> weights(points_.size(), 1.0);
-    startFromMedian(scale_px, weights);
-    for (int pass = 0; pass < 6; ++pass) {
-      solve(weights);
-      for (std::size_t i = 0; i < points_.size(); ++i) weights[i] = bisquare(residual(i) / (3.0 * scale_px));
-    }
-    return judge(scale_px);
-  }
-
-  void startFromMedian(double scale_px, std::vector<double>& weights) const {
-    std::vector<double> residuals(points_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) residuals[i] = residual(i);
-    std::vector<double> sorted = residuals;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double middle = sorted[sorted.size() / 2];
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      weights[i] = 1e-3 + bisquare((residuals[i] - middle) / (6.0 * scale_px));
-  }
-
-  static double bisquare(double x) { return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0; }
-  double residual(std::size_t i) const { return line_.normal.dot(points_[i] - line_.point); }
-
-  void solve(const std::vector<double>& weights) {
-    double sum = 0.0;
-    Vector2d mean = Vector2d::Zero();
-    for (std::size_t i = 0; i < points_.size(); ++i) sum += weights[i], mean += weights[i] * points_[i];
-    if (sum <= 0.0) return;
-    mean /= sum;
-    Matrix2d scatter = Matrix2d::Zero();
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      scatter += weights[i] * (points_[i] - mean) * (points_[i] - mean).transpose();
-    Vector2d normal = Eigen::SelfAdjointEigenSolver<Matrix2d>(scatter).eigenvectors().col(0);
-    if (normal.dot(line_.normal) < 0.0) normal = -normal;
-    line_.point += normal * normal.dot(mean - line_.point);
-    line_.normal = normal;
-  }
-
-  bool judge(double scale_px) {
-    int count = 0;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (std::abs(residual(i)) > 2.0 * scale_px) continue;
-      ++count;
-      squares += residual(i) * residual(i);
-    }
-    inliers_ = static_cast<double>(count) / profiles();
-    if (count < 4 || inliers_ < params_.min_inliers) return false;
+    fitRobustLine(points_, scale_px, line_);
+    const LineSpread spread = spreadAbout(line_, points_, scale_px);
+    inliers_ = static_cast<double>(spread.inliers) / profiles();
+    if (spread.inliers < 4 || inliers_ < params_.min_inliers) return false;
     const double spacing_px = length_ / profiles();
-    const double independent = std::max(2.0, count * std::min(1.0, spacing_px / 1.5) - 2.0);
-    line_.sigma_px = std::hypot(params_.sigma_floor_px, std::sqrt(squares / count / independent));
+    const double independent = std::max(2.0, spread.inliers * std::min(1.0, spacing_px / 1.5) - 2.0);
+    line_.sigma_px =
+        std::hypot(params_.sigma_floor_px, std::sqrt(spread.sum_of_squares / spread.inliers / independent));
     line_.sigma_rad = line_.sigma_px * std::sqrt(12.0) / length_;
     return true;
   }
