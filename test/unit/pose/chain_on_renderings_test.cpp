@@ -43,6 +43,9 @@ Errors measure(double distance_m, int pictures) {
     scenario.start.heading_rad = heading(random);
     scenario.house.texture_seed = 1 + errors.pictures;
     simulation::World world(scenario, 1 + errors.pictures);
+    geometry::Quadrilateral opening;
+    const cv::Mat reference = world.referencePicture(&opening);
+    detector.setReference(detection::ReferenceAppearance(reference, opening));
     const auto frame = pictureOf(world);
     const Eigen::Isometry3d& truth = frame.T_camera_window;
     const auto window = detector.detect(frame.image, frame.stamp_sec, &world.camera());
