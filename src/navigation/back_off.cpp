@@ -33,8 +33,9 @@ std::optional<Event> BackOff::judge(const Situation& situation, const MissionMem
   }
   if (situation.target) {
     if (situation.target_is_new) ++frames_;
-    if (frames_ >= params_.search.found_frames) return Event::kReacquired;
-    return std::nullopt;
+    if (frames_ < params_.search.found_frames) return std::nullopt;
+    reason = "window seen again";
+    return Event::kReacquired;
   }
   constexpr double kFacingRad = 0.1;
   if (std::abs(relative.bearing_rad) > kFacingRad) return std::nullopt;

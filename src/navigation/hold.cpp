@@ -36,7 +36,10 @@ std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory
     reason = "the commit cannot be resumed";
     return memory.trusted ? Event::kWindowLost : Event::kGiveUp;
   }
-  if (situation.target) return Event::kReacquired;
+  if (situation.target) {
+    reason = "window seen again";
+    return Event::kReacquired;
+  }
   if (from_ == State::kSearch || from_ == State::kBackOff) {
     return memory.trusted && from_ == State::kBackOff ? Event::kWindowLost : Event::kInputFresh;
   }
