@@ -52,10 +52,18 @@ class Listener:
 
 
 class Stream:
-    """Publishes what `make(stamp)` gives at a rate of wall time until it is stopped."""
+    """Publishes what `make(stamp)` gives at a rate of wall time until it is stopped.
+
+    The topic stays advertised: a publisher that goes and comes back at once may be missed by its subscribers, because the
+    master tells them from several threads, in any order.
+    """
+
+    _publishers = {}
 
     def __init__(self, topic, kind, make, rate_hz=30.0):
-        self._publisher = rospy.Publisher(topic, kind, queue_size=1)
+        if topic not in self._publishers:
+            self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=1)
+        self._publisher = self._publishers[topic]
         self.make = make
         self._period_s = 1.0 / rate_hz
         self._stop = threading.Event()
@@ -70,7 +78,6 @@ class Stream:
     def stop(self):
         self._stop.set()
         self._thread.join()
-        self._publisher.unregister()
 
 
 class Diagnostics:
