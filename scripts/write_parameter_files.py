@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes config/*.yaml and config/WindowDetector.cfg from the parameter structs of the headers.
+"""Writes config/*.yaml, config/WindowDetector.cfg and the tables of doc/scenarios.md from the parameter structs of the
+headers.
 
 Every struct lists its fields once, in `visit`, with range; default and meaning stand at the member. This copies them
 into the files that users edit and that ROS reads. Run it after a change of a parameter; a unit test fails if files and
@@ -12,9 +13,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 WIDTH = 116
 
-MEMBER = re.compile(r"^  ([\w:]+(?:<\w+>)?) (\w+)(?: = ([^;]+)|\{[^;]*\})?;\s*(?:///<\s*(.*))?$")
+MEMBER = re.compile(r"^  ([\w:]+(?:<\w+>)?) (\w+)(?: = ([^;]+)|\{([^;]*)\})?;\s*(?:///<\s*(.*))?$")
 FIELD = re.compile(r'field\("(\w+)",\s*self\.(\w+)(?:,\s*([^,()]+),\s*([^,()]+))?\)')
 GROUP = re.compile(r'field\.group\("(\w+)",\s*self\.(\w+)\)')
+CHOICE = re.compile(r'field\.choice\("(\w+)",\s*self\.(\w+),\s*\{([^}]*)\}\)')
+LIST = re.compile(r'field\.list\("(\w+)",\s*self\.(\w+)\)')
 INLINE = re.compile(r"(\w+)::visit\(self\.(\w+),\s*field\)")
 
 
@@ -22,7 +25,8 @@ class Struct:
     def __init__(self, space, about):
         self.space, self.about = space, about
         self.members = {}  # name -> (type, default, comment)
-        self.visits = []   # ("field", name, member, minimum, maximum) | ("group"|"inline", name, member)
+        # ("field", name, member, minimum, maximum) | ("choice", name, member, words) | ("group"|"list"|"inline", name, member)
+        self.visits = []
 
 
 def read_structs():
@@ -58,13 +62,13 @@ def read_members(struct, body):
             struct.members[name] = (kind, default, f"{comment} {further[1]}".strip())
         elif member:
             name = member[2]
-            struct.members[name] = (member[1], member[3], member[4] or "")
+            struct.members[name] = (member[1], member[3] or member[4], member[5] or "")
         elif not line.strip().startswith("///"):
             name = None
 
 
 def read_visit(struct, statement):
-    for pattern, kind in ((FIELD, "field"), (GROUP, "group")):
+    for pattern, kind in ((FIELD, "field"), (CHOICE, "choice"), (GROUP, "group"), (LIST, "list")):
         match = pattern.search(statement)
         if match:
             struct.visits.append((kind, *match.groups()))
@@ -157,9 +161,50 @@ def cfg_file(structs):
     return "\n".join([*head, *cfg_lines(structs, find(structs, "detection", "DetectorParams"), ""), *tail]) + "\n"
 
 
+def doc_row(struct, visit):
+    kind, default, comment = struct.members[visit[2]]
+    unit = re.search(r" ?\[([^\]]*)\]", comment)
+    meaning = comment.replace(unit[0], "", 1) if unit else comment
+    if visit[0] == "choice":
+        allowed = visit[3].replace('"', "")
+    elif visit[0] == "group":
+        default, allowed = "{" + ", ".join(f"{c}: {v.strip()}" for c, v in zip("rgb", default.split(","))) + "}", "colour"
+    elif visit[3]:
+        allowed = " … ".join(f"{float(limit):g}" for limit in visit[3:5]) + (" (whole)" if kind == "int" else "")
+    else:
+        allowed = {"bool": "true, false", "std::string": "text"}.get(kind, "")
+    default = f"{float(default):g}" if kind in ("double", "int") else default.strip('"')
+    return f"| `{visit[1]}` | {unit[1] if unit else ''} | {default} | {allowed} | {meaning[:1].upper() + meaning[1:]} |"
+
+
+def doc_tables(structs, kind):
+    """Section name -> rows, of every struct that a scenario file may hold."""
+    struct = find(structs, "simulation", kind)
+    for visit in struct.visits:
+        if visit[0] not in ("group", "list"):
+            continue
+        inner = re.sub(r"std::vector<(\w+)>", r"\1", struct.members[visit[2]][0])
+        if inner != "ColourParams":
+            rows = find(structs, "simulation", inner)
+            yield visit[1], [doc_row(rows, row) for row in rows.visits if row[0] != "list"]
+            yield from doc_tables(structs, inner)
+
+
+def scenarios_page(structs):
+    text = (ROOT / "doc" / "scenarios.md").read_text()
+    head = "| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n"
+    for section, rows in doc_tables(structs, "Scenario"):
+        pattern = re.compile(rf"(\n## `{section}`\n(?:(?!\n## ).)*?\n)\| key \|.*?\n(?=\n|\Z)", re.S)
+        if not pattern.search(text):
+            sys.exit(f"doc/scenarios.md: no section '## `{section}`' with a table; add one")
+        text = pattern.sub(lambda found: found[1] + head + "\n".join(rows) + "\n", text, count=1)
+    return text
+
+
 def main():
     structs = read_structs()
     files = {
+        "../doc/scenarios.md": scenarios_page(structs),
         "detector.yaml": yaml_file(structs, "DetectorNodeParams", "Parameters of the node window_detector."),
         "pose.yaml": yaml_file(structs, "PoseNodeParams", "Parameters of the node homography_pose."),
         "navigator.yaml": yaml_file(structs, "NavigatorNodeParams", "Parameters of the node ingress_navigator."),
@@ -175,7 +220,7 @@ def main():
         return
     for name in stale:
         (ROOT / "config" / name).write_text(files[name])
-        print(f"config/{name} written")
+        print((ROOT / 'config' / name).resolve().relative_to(ROOT), "written")
     (ROOT / "config" / "WindowDetector.cfg").chmod(0o755)
 
 

@@ -34,7 +34,8 @@ struct YamlReader::Impl {
   }
 
   template <typename Number>
-  void readNumber(const std::string& name, Number& value, double minimum, double maximum, const char* expected) {
+  void readNumber(const std::string& name, Number& value, double minimum, double maximum,
+                  const char* expected) {
     Number number = value;
     if (!read(name, number, expected)) return;
     RangeCheck check;
@@ -44,7 +45,8 @@ struct YamlReader::Impl {
   }
 };
 
-YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping) : impl_(new Impl{file, mapping, {}}) {
+YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping)
+    : impl_(new Impl{file, mapping, {}}) {
   if (!mapping.IsMap()) impl_->fail(mapping, "must be a mapping of keys to values");
 }
 
@@ -58,9 +60,23 @@ void YamlReader::operator()(const std::string& name, int& value, double minimum,
   impl_->readNumber(name, value, minimum, maximum, "a whole number");
 }
 
-void YamlReader::operator()(const std::string& name, bool& value) { impl_->read(name, value, "true or false"); }
+void YamlReader::operator()(const std::string& name, bool& value) {
+  impl_->read(name, value, "true or false");
+}
 
-void YamlReader::operator()(const std::string& name, std::string& value) { impl_->read(name, value, "a text"); }
+void YamlReader::operator()(const std::string& name, std::string& value) {
+  impl_->read(name, value, "a text");
+}
+
+void YamlReader::choice(const std::string& name, std::string& value,
+                        const std::vector<std::string>& allowed) {
+  std::string word = value;
+  if (!impl_->read(name, word, "a text")) return;
+  RangeCheck check;
+  check.choice(name, word, allowed);
+  if (!check.faults().empty()) impl_->fail(impl_->find(name), check.faults().front());
+  value = word;
+}
 
 std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
   const YAML::Node node = impl_->find(name);

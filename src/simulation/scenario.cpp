@@ -60,8 +60,6 @@ Eigen::Isometry3d Scenario::T_odom_window() const {
 std::vector<std::string> faultsOf(const Scenario& scenario) {
   auto faults = parameters::outOfRange(scenario);
   if (!faults.empty()) return faults;
-  if (scenario.house.wall_texture != "plaster" && scenario.house.wall_texture != "brick")
-    faults.push_back("house/wall_texture: must be plaster or brick");
   checkFits(scenario, faults);
   checkStart(scenario, faults);
   return faults;

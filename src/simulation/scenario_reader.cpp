@@ -7,6 +7,7 @@
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/simulation/random_stream.hpp"
 #include "window_ingress/simulation/scenario.hpp"
+#include "window_ingress/simulation/vehicle_profiles.hpp"
 
 namespace window_ingress::simulation {
 
@@ -27,6 +28,41 @@ struct ScenarioReader::Impl {
   const YAML::Node find(const std::string& name) {
     asked.insert(name);
     return static_cast<const YAML::Node&>(mapping)[name];
+  }
+
+  // What may stand there: the items of `{one_of: [...]}`, or the value itself.
+  std::vector<YAML::Node> optionsOf(const std::string& name, const YAML::Node& node) const {
+    if (!node.IsMap() || node.size() != 1 || !node["one_of"].IsDefined()) return {node};
+    const YAML::Node items = node["one_of"];
+    if (!items.IsSequence() || items.size() == 0)
+      fail(node, name + ": one_of must be a list of at least one value");
+    return {items.begin(), items.end()};
+  }
+
+  std::size_t drawOption(const std::string& name, std::size_t count) const {
+    return static_cast<std::size_t>(
+        RandomStream(seed, path + name + " option").uniformInt(0, static_cast<int>(count) - 1));
+  }
+
+  const YAML::Node findDrawn(const std::string& name) {
+    const YAML::Node node = find(name);
+    if (!node.IsDefined()) return node;
+    const auto options = optionsOf(name, node);
+    return options[drawOption(name, options.size())];
+  }
+
+  // All options are read, so that a bad one is an error whatever the seed.
+  template <typename Value, typename Read>
+  void readDrawn(const std::string& name, Value& value, const Read& read) {
+    const YAML::Node node = find(name);
+    if (!node.IsDefined()) return;
+    const auto options = optionsOf(name, node);
+    const std::size_t drawn = drawOption(name, options.size());
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      Value candidate = value;
+      read(options[i], candidate);
+      if (i == drawn) value = candidate;
+    }
   }
 
   // One value through the reader of all parameter files, for the same checks and words.
@@ -59,10 +95,10 @@ struct ScenarioReader::Impl {
 
   template <typename Number>
   void readNumber(const std::string& name, Number& value, double minimum, double maximum) {
-    const YAML::Node node = find(name);
-    if (!node.IsDefined()) return;
-    if (!node.IsSequence()) return readOne(name, node, value, minimum, maximum);
-    value = draw(RandomStream(seed, path + name), readRange<Number>(name, node, minimum, maximum));
+    readDrawn(name, value, [&](const YAML::Node& node, Number& number) {
+      if (!node.IsSequence()) return readOne(name, node, number, minimum, maximum);
+      number = draw(RandomStream(seed, path + name), readRange<Number>(name, node, minimum, maximum));
+    });
   }
 };
 
@@ -83,25 +119,34 @@ void ScenarioReader::operator()(const std::string& name, int& value, double mini
 }
 
 void ScenarioReader::operator()(const std::string& name, bool& value) {
-  const YAML::Node node = impl_->find(name);
-  if (node.IsDefined()) impl_->readOne(name, node, value);
+  impl_->readDrawn(name, value,
+                   [&](const YAML::Node& node, bool& flag) { impl_->readOne(name, node, flag); });
 }
 
 void ScenarioReader::operator()(const std::string& name, std::string& value) {
-  const YAML::Node node = impl_->find(name);
-  if (node.IsDefined()) impl_->readOne(name, node, value);
+  impl_->readDrawn(name, value,
+                   [&](const YAML::Node& node, std::string& text) { impl_->readOne(name, node, text); });
+}
+
+void ScenarioReader::choice(const std::string& name, std::string& value,
+                            const std::vector<std::string>& allowed) {
+  impl_->readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
+    YAML::Node single(YAML::NodeType::Map);
+    single[name] = node;
+    YamlReader(impl_->file, single).choice(name, word, allowed);
+  });
 }
 
 bool ScenarioReader::has(const std::string& name) const { return impl_->find(name).IsDefined(); }
 
 std::unique_ptr<ScenarioReader> ScenarioReader::descend(const std::string& name) {
-  const YAML::Node node = impl_->find(name);
+  const YAML::Node node = impl_->findDrawn(name);
   if (!node.IsDefined()) return nullptr;
   return std::make_unique<ScenarioReader>(impl_->file, node, impl_->path + name + "/", impl_->seed);
 }
 
 std::vector<std::unique_ptr<ScenarioReader>> ScenarioReader::descendAll(const std::string& name) {
-  const YAML::Node node = impl_->find(name);
+  const YAML::Node node = impl_->findDrawn(name);
   if (!node.IsSequence()) impl_->fail(node, name + ": must be a list, or [] for none");
   std::vector<std::unique_ptr<ScenarioReader>> children;
   for (std::size_t i = 0; i < node.size(); ++i) {
@@ -131,12 +176,31 @@ YAML::Node loadRoot(const std::string& file) {
   }
 }
 
+// `vehicle: NAME` is short for `vehicle: {profile: NAME}`.
+void spellOutProfile(YAML::Node& root) {
+  if (!root.IsMap() || !root["vehicle"].IsDefined() || !root["vehicle"].IsScalar()) return;
+  YAML::Node vehicle(YAML::NodeType::Map);
+  vehicle["profile"] = YAML::Node(root["vehicle"]);
+  root["vehicle"] = vehicle;
+}
+
+// Twice: what the file leaves open follows from the profile, which stands in the file.
+Scenario readScenario(const std::string& file, std::uint32_t seed) {
+  YAML::Node root = loadRoot(file);
+  spellOutProfile(root);
+  Scenario scenario, with_profile;
+  ScenarioReader(file, root, "", seed).fill(scenario);
+  applyProfile(scenario.vehicle.profile, with_profile.vehicle, with_profile.odometry);
+  ScenarioReader(file, root, "", seed).fill(with_profile);
+  return with_profile;
+}
+
 }  // namespace
 
 Scenario loadScenario(const std::string& file, std::uint32_t seed) {
   Scenario scenario;
   try {
-    ScenarioReader(file, loadRoot(file), "", seed).fill(scenario);
+    scenario = readScenario(file, seed);
   } catch (const YamlError& error) {
     throw ScenarioError(error.what());
   }

@@ -12,6 +12,7 @@
 ///     };
 ///
 /// `field(name, value, minimum, maximum)` for double and int, `field(name, value)` for bool and std::string,
+/// `field.choice(name, text, {allowed, ...})` for one of a few words,
 /// `field.group(name, params)` for a struct within,
 /// `field.list(name, items)` for a std::vector of structs (range checks and scenario files only).
 /// Names of nested fields are joined with '/', as ROS does.
@@ -37,6 +38,7 @@ class RangeCheck {
   }
   template <typename Value>
   void operator()(const std::string&, const Value&) {}
+  void choice(const std::string& name, const std::string& value, const std::vector<std::string>& allowed);
   template <typename Params>
   void group(const std::string& name, const Params& params) {
     const std::string outer = prefix_;

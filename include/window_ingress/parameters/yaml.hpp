@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "window_ingress/parameters/fields.hpp"
 
@@ -32,6 +33,7 @@ class YamlReader {
   void operator()(const std::string& name, int& value, double minimum, double maximum);
   void operator()(const std::string& name, bool& value);
   void operator()(const std::string& name, std::string& value);
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
   template <typename Params>
   void group(const std::string& name, Params& params) {
     if (auto child = descend(name)) {

@@ -7,7 +7,7 @@
 
 #include "window_ingress/simulation/lens.hpp"
 #include "window_ingress/simulation/renderer.hpp"
-#include "window_ingress/simulation/vehicle_params.hpp"
+#include "window_ingress/simulation/camera_params.hpp"
 
 namespace window_ingress::simulation {
 

@@ -95,7 +95,7 @@ struct HouseParams {
   int texture_seed = 1;             ///< seed of the patterns on all surfaces
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("wall_texture", self.wall_texture);
+    field.choice("wall_texture", self.wall_texture, {"plaster", "brick"});
     field.group("wall", self.wall);
     field("wall_thickness_m", self.wall_thickness_m, 0.05, 1.0);
     field("width_m", self.width_m, 2.0, 40.0);

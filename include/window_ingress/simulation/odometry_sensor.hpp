@@ -5,7 +5,7 @@
 
 #include "window_ingress/simulation/random_stream.hpp"
 #include "window_ingress/simulation/schedule.hpp"
-#include "window_ingress/simulation/vehicle_params.hpp"
+#include "window_ingress/simulation/sensor_params.hpp"
 #include "window_ingress/simulation/vehicle_truth.hpp"
 
 namespace window_ingress::simulation {

@@ -10,7 +10,9 @@
 
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/simulation/camera_params.hpp"
 #include "window_ingress/simulation/house_params.hpp"
+#include "window_ingress/simulation/sensor_params.hpp"
 #include "window_ingress/simulation/vehicle_params.hpp"
 
 namespace window_ingress::simulation {

@@ -12,7 +12,7 @@ class Node;
 namespace window_ingress::simulation {
 
 /// Visitor that fills a scenario from a yaml mapping. Beyond `parameters::YamlReader` it takes a range `[min,
-/// max]` for any number, and lists of structs. \throws parameters::YamlError with file, line and key
+/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. \throws parameters::YamlError with file, line and key
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
@@ -25,6 +25,7 @@ class ScenarioReader {
   void operator()(const std::string& name, int& value, double minimum, double maximum);
   void operator()(const std::string& name, bool& value);
   void operator()(const std::string& name, std::string& value);
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
 
   template <typename Params>
   void group(const std::string& name, Params& params) {

@@ -1,0 +1,55 @@
+/// Parameters of the camera; see `Scenario`.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::simulation {
+
+/// The camera and how it is mounted.
+struct CameraParams {
+  int width_px = 640;                ///< of the picture [px]
+  int height_px = 480;               ///< of the picture [px]
+  double horizontal_fov_rad = 1.20;  ///< of the lens without its distortion [rad]
+  double k1 = 0.0;                   ///< radial distortion of the model plumb_bob
+  double k2 = 0.0;                   ///< radial distortion
+  double p1 = 0.0;                   ///< tangential distortion
+  double p2 = 0.0;                   ///< tangential distortion
+  double k3 = 0.0;                   ///< radial distortion
+  double x_m = 0.10;                 ///< of the camera, forward of the vehicle's centre [m]
+  double y_m = 0.0;                  ///< of the camera, to the left [m]
+  double z_m = 0.02;                 ///< of the camera, up [m]
+  double pitch_rad = 0.0;            ///< of the camera: looking down is positive [rad]
+  double yaw_rad = 0.0;              ///< of the camera: looking left is positive [rad]
+  double rate_hz = 30.0;             ///< pictures a second [1/s]
+  double latency_sec = 0.03;         ///< from exposure to delivery [s]
+  double noise_grey = 2.0;           ///< standard deviation of each channel [grey levels]
+  double blur_px = 0.6;              ///< standard deviation of the lens's blur [px]
+  double gain = 1.0;                 ///< exposure: all brightness times this
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("width_px", self.width_px, 64, 1920);
+    field("height_px", self.height_px, 48, 1440);
+    field("horizontal_fov_rad", self.horizontal_fov_rad, 0.2, 2.4);
+    field("k1", self.k1, -1.0, 1.0);
+    field("k2", self.k2, -1.0, 1.0);
+    field("p1", self.p1, -0.1, 0.1);
+    field("p2", self.p2, -0.1, 0.1);
+    field("k3", self.k3, -1.0, 1.0);
+    field("x_m", self.x_m, -1.0, 1.0);
+    field("y_m", self.y_m, -1.0, 1.0);
+    field("z_m", self.z_m, -1.0, 1.0);
+    field("pitch_rad", self.pitch_rad, -1.5, 1.5);
+    field("yaw_rad", self.yaw_rad, -3.15, 3.15);
+    field("rate_hz", self.rate_hz, 1.0, 120.0);
+    field("latency_sec", self.latency_sec, 0.0, 1.0);
+    field("noise_grey", self.noise_grey, 0.0, 40.0);
+    field("blur_px", self.blur_px, 0.0, 5.0);
+    field("gain", self.gain, 0.1, 4.0);
+  }
+  geometry::PinholeCamera model() const;
+  Eigen::Isometry3d T_base_camera() const;
+};
+
+}  // namespace window_ingress::simulation
