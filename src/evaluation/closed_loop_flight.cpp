@@ -14,6 +14,8 @@ using navigation::State;
 using simulation::Claim;
 using simulation::Outcome;
 
+constexpr double kTrackPeriod_sec = 0.1;
+
 /// What is known of the vehicle and its target before the flight.
 FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   const auto camera = world.camera();
@@ -37,8 +39,10 @@ Claim claimOf(State state) {
 
 class Flight {
  public:
-  Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params)
-      : world_(scenario, seed),
+  Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
+         const std::vector<FlightObserver*>& observers)
+      : observers_(observers),
+        world_(scenario, seed),
         params_(withFactsOf(world_, params)),
         detector_(params_.detector),
         tracker_(params_.pose, params_.filter, params_.tracker),
@@ -48,8 +52,9 @@ class Flight {
     detector_.setReference(detection::ReferenceAppearance(picture, corners));
   }
 
-  simulation::Verdict fly(FlightLog* log) {
+  simulation::Verdict fly() {
     double next_step_sec = 0.0;
+    for (auto* observer : observers_) observer->onStart(world_);
     auto verdict = world_.referee().judge(Claim::kNone);
     while (verdict.outcome == Outcome::kRunning) {
       world_.advance();
@@ -57,7 +62,8 @@ class Flight {
       if (world_.timeSec() < next_step_sec) continue;
       next_step_sec += 1.0 / params_.step_rate_hz;
       step();
-      if (log != nullptr) log->records.push_back(record());
+      keepTrack();
+      if (!observers_.empty()) report();
       verdict = world_.referee().judge(claimOf(output_.state));
     }
     return verdict;
@@ -69,9 +75,12 @@ class Flight {
   void sense();
   void look(const simulation::CameraFrame& frame);
   void step();
+  void keepTrack();
+  void report() const;
   FlightRecord record() const;
   void recordTarget(FlightRecord& record) const;
 
+  std::vector<FlightObserver*> observers_;
   simulation::World world_;
   FlightParams params_;
   detection::WindowDetector detector_;
@@ -81,15 +90,20 @@ class Flight {
   navigation::NavigatorOutput output_;
   std::optional<double> started_sec_;
   bool detected_ = false;
+  std::vector<TrackPoint> track_;
 };
 
 void Flight::sense() {
   if (const auto odometry = world_.takeOdometry()) {
+    for (auto* observer : observers_) observer->onOdometry(*odometry);
     tracker_.addOdometry(odometry->stamp_sec, odometry->T_odom_base);
     input_.vehicle =
         navigation::VehicleState{odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
   }
-  if (const auto imu = world_.takeImu()) tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
+  if (const auto imu = world_.takeImu()) {
+    for (auto* observer : observers_) observer->onImu(*imu);
+    tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
+  }
   if (const auto frame = world_.takeFrame()) look(*frame);
 }
 
@@ -97,6 +111,7 @@ void Flight::look(const simulation::CameraFrame& frame) {
   const auto window = detector_.detect(frame.image, frame.stamp_sec, &world_.camera());
   detected_ = window.has_value();
   input_.image_stamp_sec = frame.stamp_sec;
+  for (auto* observer : observers_) observer->onImage(frame, detector_.trace(), window);
   if (window) tracker_.see(*window, world_.camera(), world_.T_base_camera());
 }
 
@@ -108,6 +123,17 @@ void Flight::step() {
   output_ = navigator_.step(input_, now_sec);
   if (!output_.enabled) return;
   world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
+}
+
+void Flight::keepTrack() {
+  const double time_sec = world_.timeSec() - started_sec_.value_or(world_.timeSec());
+  if (!track_.empty() && time_sec - track_.back().time_sec < kTrackPeriod_sec) return;
+  track_.push_back({time_sec, world_.T_odom_window().inverse() * world_.truth().T_odom_base.translation()});
+}
+
+void Flight::report() const {
+  const FlightRecord now = record();
+  for (auto* observer : observers_) observer->onStep(now, output_);
 }
 
 FlightRecord Flight::record() const {
@@ -149,6 +175,7 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
   FlightResult result;
   result.seed = seed;
   result.outcome = verdict.outcome;
+  result.track = track_;
   const double end_sec = referee.crossing() ? referee.crossing()->time_sec : world_.timeSec();
   result.time_sec = end_sec - started_sec_.value_or(0.0);
   if (referee.crossing()) {
@@ -169,9 +196,9 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
 }  // namespace
 
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
-                     FlightLog* log) {
-  Flight flight(scenario, seed, params);
-  const auto verdict = flight.fly(log);
+                     const std::vector<FlightObserver*>& observers) {
+  Flight flight(scenario, seed, params, observers);
+  const auto verdict = flight.fly();
   return flight.result(seed, verdict);
 }
 

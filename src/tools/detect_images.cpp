@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "command_line.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/evaluation/calibration_file.hpp"
@@ -23,16 +24,12 @@
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
+using tools::numbers;
+using tools::UsageError;
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Wrong usage or input that cannot be used: one line, exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The input is fine, the work failed: one line, exit code 1.
 class JobError : public std::runtime_error {
@@ -53,23 +50,6 @@ struct Job {
   std::optional<pose::WindowPoseEstimator> estimator;
   std::string overlay;
 };
-
-std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
-  std::vector<double> values;
-  std::istringstream stream(text);
-  std::string part;
-  while (std::getline(stream, part, ',')) {
-    std::istringstream one(part);
-    double value = 0.0;
-    char rest = 0;
-    if (!(one >> value) || one >> rest || !std::isfinite(value)) values.resize(count + 1);
-    values.push_back(value);
-  }
-  if (values.size() != count)
-    throw UsageError(option + ": '" + text + "' is not " + std::to_string(count) +
-                     " numbers with commas between");
-  return values;
-}
 
 Options parse(int argc, char** argv) {
   Options o;

@@ -10,20 +10,18 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "window_ingress/evaluation/campaign.hpp"
 #include "window_ingress/evaluation/closed_loop_flight.hpp"
+#include "window_ingress/evaluation/flight_log.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
 namespace {
 
 namespace options = boost::program_options;
 using namespace window_ingress;
-
-/// The command line, or a file that it names, cannot be used: exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using tools::makeFolder;
+using tools::UsageError;
 
 struct Job {
   std::string scenario_file, output_folder, log_folder;
@@ -50,12 +48,6 @@ options::options_description describe() {
 std::string required(const options::variables_map& given, const char* name) {
   if (given.count(name) == 0) throw UsageError(std::string("--") + name + " is missing; see --help");
   return given[name].as<std::string>();
-}
-
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) throw UsageError(folder + ": cannot make this folder");
 }
 
 std::vector<std::uint32_t> seedsOf(const options::variables_map& given) {
@@ -93,7 +85,7 @@ evaluation::FlightResult fly(const Job& job, std::uint32_t seed) {
   const auto scenario = simulation::loadScenario(job.scenario_file, seed);
   if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params);
   evaluation::FlightLog log;
-  const auto result = evaluation::flyOnce(scenario, seed, job.params, &log);
+  const auto result = evaluation::flyOnce(scenario, seed, job.params, {&log});
   std::ofstream file(job.log_folder + "/flight_" + std::to_string(seed) + ".csv");
   evaluation::writeCsv(log, file);
   return result;

@@ -16,40 +16,23 @@
 #include "adapters/detector_node.hpp"
 #include "adapters/parameters.hpp"
 #include "adapters/replay.hpp"
+#include "command_line.hpp"
 #include "window_ingress/evaluation/truth_comparison.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
+using tools::numbers;
+using tools::UsageError;
 
 namespace {
-
-/// Wrong usage: one line, exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Options {
   std::string bag, output, size, params, corners;
   adapters::BagTopics topics;
   adapters::ReferenceParams reference;
 };
-
-std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
-  std::vector<double> values;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    char* end = nullptr;
-    values.push_back(std::strtod(part.c_str(), &end));
-    if (part.empty() || *end != '\0' || !std::isfinite(values.back())) values.resize(count + 1);
-  }
-  if (values.size() != count)
-    throw UsageError(option + ": '" + text + "' is not " + std::to_string(count) +
-                     " numbers with commas between");
-  return values;
-}
 
 Options parse(int argc, char** argv) {
   Options o;

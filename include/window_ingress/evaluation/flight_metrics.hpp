@@ -1,6 +1,7 @@
 /// What a flight comes down to: the row of flights.csv, and many of them summed up.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,6 +12,12 @@
 #include "window_ingress/simulation/referee.hpp"
 
 namespace window_ingress::evaluation {
+
+/// Where the vehicle truly was, in the window's frame.
+struct TrackPoint {
+  double time_sec = 0.0;  ///< since the start of the mission
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+};
 
 struct FlightResult {
   std::uint32_t seed = 0;
@@ -24,6 +31,7 @@ struct FlightResult {
   double blind_sec = 0.0;                  ///< longest time without sight of the window before the plane
   std::optional<double> predicted_miss_m;  ///< by the navigator, at its last commit
   std::string reason;
+  std::vector<TrackPoint> track;  ///< ten points a second
 };
 
 /// Header of flights.csv, without the end of the line.

@@ -12,7 +12,8 @@ struct Interval {
 /// Wilson score interval of a rate, 95 % (z = 1.96). Of nothing at all it is [0, 1].
 Interval wilson95(int successes, int trials);
 
-/// Value below which the given fraction (0 to 1) of the values lies, linear between neighbours; 0 if there are none.
+/// Value below which the given fraction (0 to 1) of the values lies, linear between neighbours; 0 if there
+/// are none.
 double quantile(std::vector<double> values, double fraction);
 
 }  // namespace window_ingress::evaluation

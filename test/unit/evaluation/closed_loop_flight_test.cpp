@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "window_ingress/evaluation/flight_log.hpp"
+
 namespace window_ingress::evaluation {
 namespace {
 
@@ -28,7 +30,7 @@ std::string csvOf(const FlightLog& log) {
 
 TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
   FlightLog log;
-  const auto flight = flyOnce(shortFlight(), 1, FlightParams(), &log);
+  const auto flight = flyOnce(shortFlight(), 1, FlightParams(), {&log});
   ASSERT_EQ(flight.outcome, Outcome::kPassed) << flight.reason;
   EXPECT_LT(flight.time_sec, 10.0);
   ASSERT_TRUE(flight.offset_y_m && flight.offset_z_m && flight.predicted_miss_m && flight.min_clearance_m);
@@ -46,9 +48,9 @@ TEST(ClosedLoopFlight, RepeatsToTheBit) {
   scenario.camera.width_px = 320;
   scenario.camera.height_px = 240;
   FlightLog first, second, other;
-  const auto a = flyOnce(scenario, 5, FlightParams(), &first);
-  const auto b = flyOnce(scenario, 5, FlightParams(), &second);
-  flyOnce(scenario, 6, FlightParams(), &other);
+  const auto a = flyOnce(scenario, 5, FlightParams(), {&first});
+  const auto b = flyOnce(scenario, 5, FlightParams(), {&second});
+  flyOnce(scenario, 6, FlightParams(), {&other});
   EXPECT_EQ(csvRow(a), csvRow(b));
   EXPECT_EQ(csvOf(first), csvOf(second));
   EXPECT_NE(csvOf(first), csvOf(other));

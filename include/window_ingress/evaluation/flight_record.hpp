@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "window_ingress/navigation/navigator.hpp"
+
+namespace window_ingress::evaluation {
+
+/// One step of the navigator beside the truth. Positions and velocities in the true window's frame.
+struct FlightRecord {
+  double time_sec = 0.0;  ///< since the start of the mission
+  navigation::State state = navigation::State::kIdle;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();    ///< truth, of the body's centre
+  double heading_rad = 0.0;                                ///< truth, against the window's normal
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< truth
+  Eigen::Vector3d setpoint_mps = Eigen::Vector3d::Zero();
+  double setpoint_yaw_rate_radps = 0.0;
+  bool detected = false;    ///< in the latest image
+  bool has_target = false;  ///< the rest is set
+  bool sign_trusted = false;
+  double target_age_sec = 0.0;
+  Eigen::Vector3d target_error_m = Eigen::Vector3d::Zero();  ///< estimated less true centre, drift taken out
+  double target_yaw_error_rad = 0.0;
+  double target_sigma_m = 0.0;  ///< of the centre, along the window's y
+  double target_yaw_sigma_rad = 0.0;
+  std::string sighting;  ///< why the last image with a window did not contribute; empty if it did
+  std::string reason;
+};
+
+}  // namespace window_ingress::evaluation
