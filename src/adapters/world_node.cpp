@@ -1,9 +1,6 @@
 #include "adapters/world_node.hpp"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <rosgraph_msgs/Clock.h>
-#include <sensor_msgs/Imu.h>
 #include <window_ingress/ReferencePicture.h>
 
 #include <algorithm>
@@ -12,7 +9,7 @@
 #include "adapters/image_message.hpp"
 #include "adapters/parameters.hpp"
 #include "adapters/stamps.hpp"
-#include "window_ingress/geometry/frames.hpp"
+#include "adapters/world_messages.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -35,33 +32,6 @@ static_assert(same(VerdictMsg::RUNNING, simulation::Outcome::kRunning) &&
 simulation::Scenario load(const WorldNodeParams& params) {
   if (params.scenario.empty()) return {};
   return simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
-}
-
-std_msgs::Header header(const ros::Time& stamp, const std::string& frame_id) {
-  std_msgs::Header out;
-  out.stamp = stamp;
-  out.frame_id = frame_id;
-  return out;
-}
-
-nav_msgs::Odometry toOdometryMsg(const Eigen::Isometry3d& T_odom_base,
-                                 const Eigen::Vector3d& velocity_odom_mps,
-                                 const Eigen::Vector3d& angular_velocity_base_radps) {
-  nav_msgs::Odometry message;
-  message.pose.pose = toPoseMsg(T_odom_base);
-  message.twist.twist.linear = toVectorMsg(T_odom_base.linear().transpose() * velocity_odom_mps);
-  message.twist.twist.angular = toVectorMsg(angular_velocity_base_radps);
-  return message;
-}
-
-geometry_msgs::TransformStamped toStampedTransform(const Eigen::Isometry3d& pose,
-                                                   const std_msgs::Header& stamped,
-                                                   const std::string& child) {
-  geometry_msgs::TransformStamped message;
-  message.header = stamped;
-  message.child_frame_id = child;
-  message.transform = toTransformMsg(pose);
-  return message;
 }
 
 }  // namespace
@@ -106,10 +76,8 @@ void WorldNode::restart() {
   said_ = {};
   clock_due_sec_ = judge_due_sec_ = verdict_due_sec_ = debt_sec_ = 0.0;
   camera_info_.setCameraInfo(toMsg(world_->camera()));
-  geometry_msgs::PoseStamped window;
-  window.header = header(stampOf(0.0), params_.frames.odom);
-  window.pose = toPoseMsg(world_->T_odom_window());
-  truth_window_publisher_.publish(window);
+  truth_window_publisher_.publish(
+      toPoseStampedMsg(world_->T_odom_window(), headerOf(stampOf(0.0), params_.frames.odom)));
   publishReference();
 }
 
@@ -171,60 +139,33 @@ void WorldNode::publishClock() {
 }
 
 void WorldNode::publishFrame(const simulation::CameraFrame& frame) {
-  const std_msgs::Header stamped = header(stampOf(frame.stamp_sec), params_.camera_frame);
+  const std_msgs::Header stamped = headerOf(stampOf(frame.stamp_sec), params_.camera_frame);
   sensor_msgs::CameraInfo info = camera_info_.getCameraInfo();
   info.header = stamped;
   info_publisher_.publish(info);
   if (image_publisher_.getNumSubscribers() > 0) image_publisher_.publish(toImageMsg(frame.image, stamped));
-  geometry_msgs::PoseStamped truth;
-  truth.header = stamped;
-  truth.pose = toPoseMsg(frame.T_camera_window);
-  truth_in_camera_publisher_.publish(truth);
+  truth_in_camera_publisher_.publish(toPoseStampedMsg(frame.T_camera_window, stamped));
 }
 
 void WorldNode::publishOdometry(const simulation::OdometrySample& sample) {
-  nav_msgs::Odometry message =
-      toOdometryMsg(sample.T_odom_base, sample.velocity_odom_mps, sample.angular_velocity_base_radps);
-  message.header = header(stampOf(sample.stamp_sec), params_.frames.odom);
-  message.child_frame_id = params_.frames.base;
+  const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), params_.frames);
   odom_publisher_.publish(message);
   R_odom_base_ = sample.T_odom_base.linear();
-  tf_.sendTransform(toStampedTransform(sample.T_odom_base, message.header, params_.frames.base));
+  tf_.sendTransform(toTransformStampedMsg(sample.T_odom_base, message.header, params_.frames.base));
   publishTruth(world_->timeSec());
 }
 
 void WorldNode::publishImu(const simulation::ImuSample& sample) {
-  sensor_msgs::Imu message;
-  message.header = header(stampOf(sample.stamp_sec), params_.frames.base);
-  message.orientation =
-      toPoseMsg(geometry::makePose(sample.R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()))
-          .orientation;
-  message.angular_velocity = toVectorMsg(sample.angular_velocity_base_radps);
-  message.linear_acceleration = toVectorMsg(sample.specific_force_base_mps2);
-  imu_publisher_.publish(message);
+  imu_publisher_.publish(toImuMsg(sample, stampOf(sample.stamp_sec), params_.frames));
 }
 
 void WorldNode::publishTruth(double stamp_sec) {
-  const simulation::VehicleTruth& truth = world_->truth();
-  nav_msgs::Odometry message =
-      toOdometryMsg(truth.T_odom_base, truth.velocity_odom_mps, truth.angular_velocity_base_radps);
-  message.header = header(stampOf(stamp_sec), params_.frames.odom);
-  message.child_frame_id = params_.frames.base;
-  truth_odom_publisher_.publish(message);
+  truth_odom_publisher_.publish(toOdometryMsg(world_->truth(), stampOf(stamp_sec), params_.frames));
 }
 
-// base_link -> camera_link (forward-left-up) -> camera_optical_frame (right-down-forward), REP 103.
 void WorldNode::publishMounting() {
-  const Eigen::Isometry3d T_base_camera = world_->T_base_camera();
-  const Eigen::Matrix3d R_optical_flu = geometry::R_optical_flu();
-  const Eigen::Isometry3d T_base_link =
-      geometry::makePose(T_base_camera.linear() * R_optical_flu, T_base_camera.translation());
-  const Eigen::Isometry3d T_link_optical =
-      geometry::makePose(R_optical_flu.transpose(), Eigen::Vector3d::Zero());
-  const ros::Time stamp = stampOf(0.0);
-  static_tf_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      toStampedTransform(T_base_link, header(stamp, params_.frames.base), "camera_link"),
-      toStampedTransform(T_link_optical, header(stamp, "camera_link"), params_.camera_frame)});
+  static_tf_.sendTransform(
+      mountingOf(world_->T_base_camera(), stampOf(0.0), params_.frames, params_.camera_frame));
 }
 
 // What an operator would have photographed before the flight.
@@ -232,7 +173,7 @@ void WorldNode::publishReference() {
   geometry::Quadrilateral corners;
   window_ingress::ReferencePicture message;
   message.picture =
-      *toImageMsg(world_->referencePicture(&corners), header(stampOf(0.0), params_.camera_frame));
+      *toImageMsg(world_->referencePicture(&corners), headerOf(stampOf(0.0), params_.camera_frame));
   for (std::size_t i = 0; i < 4; ++i) {
     message.corner_x[i] = corners[i].x();
     message.corner_y[i] = corners[i].y();
@@ -244,7 +185,7 @@ window_ingress::FlightVerdict WorldNode::verdict() const {
   const simulation::Referee& referee = world_->referee();
   const simulation::Verdict judgement = referee.judge(claim_);
   window_ingress::FlightVerdict message;
-  message.header = header(stampOf(world_->timeSec()), "window");
+  message.header = headerOf(stampOf(world_->timeSec()), "window");
   message.outcome = static_cast<std::uint8_t>(judgement.outcome);
   message.outcome_name = simulation::toString(judgement.outcome);
   message.reason = judgement.reason;

@@ -3,26 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 namespace window_ingress::evaluation {
 namespace {
-
-std::string number(const std::optional<double>& value, const char* pattern = "%.4f") {
-  if (!value) return "";
-  char text[40];
-  std::snprintf(text, sizeof text, pattern, *value);
-  return text;
-}
-
-/// As one csv field: quoted if it has to be.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
-  return quoted + "\"";
-}
 
 /// The text with every number as #, so that like causes count together.
 std::string withoutNumbers(const std::string& text) {
@@ -39,19 +23,6 @@ std::string withoutNumbers(const std::string& text) {
 bool hasPassed(const FlightResult& flight) { return flight.outcome == simulation::Outcome::kPassed; }
 
 }  // namespace
-
-std::string csvHeader() {
-  return "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
-         "predicted_miss_m,reason";
-}
-
-std::string csvRow(const FlightResult& flight) {
-  return std::to_string(flight.seed) + "," + toString(flight.outcome) + "," +
-         number(flight.time_sec, "%.3f") + "," + number(flight.offset_y_m) + "," + number(flight.offset_z_m) +
-         "," + number(flight.min_clearance_m) + "," + number(flight.wrong_side_m) + "," +
-         number(flight.max_speed_mps) + "," + number(flight.blind_sec, "%.3f") + "," +
-         number(flight.predicted_miss_m) + "," + field(flight.reason);
-}
 
 FlightSummary summarise(const std::vector<FlightResult>& flights) {
   FlightSummary summary;

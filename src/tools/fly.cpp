@@ -1,11 +1,13 @@
-/// Flies a scenario many times in one process and sums up: flights.csv, summary.json.
+/// Flies a scenario many times in one process and sums up: flights.csv, tracks.csv, tracks.png, summary.json.
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,33 +16,52 @@
 #include "window_ingress/evaluation/campaign.hpp"
 #include "window_ingress/evaluation/closed_loop_flight.hpp"
 #include "window_ingress/evaluation/flight_log.hpp"
+#include "window_ingress/evaluation/flight_picture.hpp"
+#include "window_ingress/evaluation/flight_table.hpp"
 #include "window_ingress/parameters/yaml.hpp"
+#ifdef WINDOW_INGRESS_WITH_ROS
+#include "adapters/flight_bag.hpp"
+#endif
 
 namespace {
 
 namespace options = boost::program_options;
+namespace fs = std::filesystem;
 using namespace window_ingress;
 using tools::makeFolder;
 using tools::UsageError;
+using Observer = std::unique_ptr<evaluation::FlightObserver>;
 
 struct Job {
-  std::string scenario_file, output_folder, log_folder;
+  std::string scenario_file, output_folder, log_folder, failures_folder;
+  std::vector<std::string> join_folders;
   std::vector<std::uint32_t> seeds;
   int jobs = 1;
   evaluation::FlightParams params;
 };
+
+#ifdef WINDOW_INGRESS_WITH_ROS
+Observer bagRecorder(const std::string& file) { return std::make_unique<adapters::FlightBag>(file); }
+constexpr bool kCanRecordBags = true;
+#else
+Observer bagRecorder(const std::string&) { return nullptr; }
+constexpr bool kCanRecordBags = false;
+#endif
 
 options::options_description describe() {
   options::options_description description("fly --scenario FILE.yaml --output DIR [OPTION...]");
   auto add = description.add_options();
   add("help", "print this text");
   add("scenario", options::value<std::string>(), "scenario file, e.g. config/scenarios/nominal.yaml");
-  add("output", options::value<std::string>(), "folder for flights.csv and summary.json; made if missing");
+  add("output", options::value<std::string>(), "folder for the results; made if missing");
   add("seeds", options::value<std::string>()->default_value("1"), "A..B, a flight each");
   add("jobs", options::value<int>()->default_value(1), "flights at the same time");
   add("shard", options::value<std::string>(), "I/N: only every N-th seed, from the I-th on (1 to N)");
+  add("join", options::value<std::vector<std::string>>()->multitoken(),
+      "flies nothing: joins the folders of several shards into one");
   add("params", options::value<std::string>(),
       "yaml file with any of the sections detector, pose, filter, tracker, navigator");
+  add("keep-failures", "for each flight that did not pass, a bag and a picture in DIR/failures");
   add("log", options::value<std::string>(), "folder for a csv of every step of each flight");
   return description;
 }
@@ -74,22 +95,91 @@ Job parse(int argc, char** argv, const options::options_description& description
   job.seeds = seedsOf(given);
   job.jobs = given["jobs"].as<int>();
   if (job.jobs < 1 || job.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
+  if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
   if (given.count("params") != 0) parameters::readYamlFile(given["params"].as<std::string>(), "", job.params);
   for (const auto seed : job.seeds) simulation::loadScenario(job.scenario_file, seed);
-  if (given.count("log") != 0) makeFolder(job.log_folder = given["log"].as<std::string>());
   makeFolder(job.output_folder);
+  if (given.count("log") != 0) makeFolder(job.log_folder = given["log"].as<std::string>());
+  if (given.count("keep-failures") == 0) return job;
+  if (!kCanRecordBags)
+    throw UsageError(
+        "--keep-failures: this fly was built without ROS and cannot write bags; run scripts/build");
+  makeFolder(job.failures_folder = job.output_folder + "/failures");
   return job;
 }
 
-evaluation::FlightResult fly(const Job& job, std::uint32_t seed) {
-  const auto scenario = simulation::loadScenario(job.scenario_file, seed);
+evaluation::WallOutline outlineOf(const simulation::Scenario& scenario) {
+  return {scenario.window.width_m, scenario.window.height_m,
+          scenario.window.frame_depth_m + scenario.house.wall_thickness_m};
+}
+
+evaluation::FlightResult flyLogged(const Job& job, const simulation::Scenario& scenario, std::uint32_t seed) {
   if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params);
   evaluation::FlightLog log;
-  const auto result = evaluation::flyOnce(scenario, seed, job.params, {&log});
+  auto result = evaluation::flyOnce(scenario, seed, job.params, {&log});
   std::ofstream file(job.log_folder + "/flight_" + std::to_string(seed) + ".csv");
   evaluation::writeCsv(log, file);
   return result;
 }
+
+// A flight is the same to the bit when flown again: only those that failed are recorded.
+void recordAgain(const Job& job, const simulation::Scenario& scenario,
+                 const evaluation::FlightResult& flight) {
+  const std::string name = job.failures_folder + "/flight_" + std::to_string(flight.seed);
+  const Observer bag = bagRecorder(name + ".bag");
+  evaluation::FlightStrip strip;
+  const auto again = evaluation::flyOnce(scenario, flight.seed, job.params, {bag.get(), &strip});
+  if (evaluation::csvRow(again) != evaluation::csvRow(flight))
+    throw std::runtime_error("seed " + std::to_string(flight.seed) +
+                             ": flown again for its bag, it ended otherwise; flights must repeat");
+  const cv::Mat picture = strip.draw(flight, outlineOf(scenario));
+  if (picture.empty() || !cv::imwrite(name + ".png", picture))
+    throw std::runtime_error(name + ".png: cannot write");
+}
+
+evaluation::FlightResult fly(const Job& job, std::uint32_t seed) {
+  const auto scenario = simulation::loadScenario(job.scenario_file, seed);
+  auto flight = flyLogged(job, scenario, seed);
+  const bool failed = flight.outcome != simulation::Outcome::kPassed;
+  if (failed && !job.failures_folder.empty()) recordAgain(job, scenario, flight);
+  return flight;
+}
+
+/// The files that grow while flights come in, and those drawn at the end.
+class Results {
+ public:
+  explicit Results(const Job& job)
+      : job_(job), rows_(job.output_folder + "/flights.csv"), tracks_(job.output_folder + "/tracks.csv") {
+    rows_ << evaluation::csvHeader() << "\n";
+    tracks_ << evaluation::trackHeader() << "\n";
+  }
+  void add(const evaluation::FlightResult& flight) {
+    rows_ << evaluation::csvRow(flight) << "\n" << std::flush;
+    tracks_ << evaluation::trackRows(flight);
+    flights_.push_back(flight);
+    passed_ += flight.outcome == simulation::Outcome::kPassed ? 1 : 0;
+  }
+  int passed() const { return passed_; }
+  void finish() {
+    std::ofstream summary(job_.output_folder + "/summary.json");
+    summary << evaluation::toJson(evaluation::summarise(flights_));
+    summary.close();
+    tracks_.close();
+    const auto scenario = simulation::loadScenario(job_.scenario_file, flights_.front().seed);
+    const std::string title =
+        fs::path(job_.scenario_file).stem().string() + ", " + std::to_string(flights_.size()) + " flights";
+    const bool drawn = cv::imwrite(job_.output_folder + "/tracks.png",
+                                   evaluation::drawTracks(flights_, outlineOf(scenario), title));
+    if (!rows_ || !tracks_ || !summary || !drawn)
+      throw std::runtime_error(job_.output_folder + ": cannot write; is the disk full?");
+  }
+
+ private:
+  const Job& job_;
+  std::ofstream rows_, tracks_;
+  std::vector<evaluation::FlightResult> flights_;
+  int passed_ = 0;
+};
 
 void printProgress(int done, int total, int passed, double seconds) {
   const double a_minute = 60.0 * done / std::max(1e-3, seconds);
@@ -97,25 +187,24 @@ void printProgress(int done, int total, int passed, double seconds) {
                a_minute, 60.0 * (total - done) / std::max(1e-3, a_minute));
 }
 
-int run(const Job& job) {
+void flyJob(const Job& job, Results& results) {
   const auto began = std::chrono::steady_clock::now();
-  std::ofstream csv(job.output_folder + "/flights.csv");
-  csv << evaluation::csvHeader() << "\n";
-  std::vector<evaluation::FlightResult> flights;
-  int passed = 0;
   const auto report = [&](const evaluation::FlightResult& flight, int done, int total) {
-    csv << evaluation::csvRow(flight) << "\n" << std::flush;
-    flights.push_back(flight);
-    passed += flight.outcome == simulation::Outcome::kPassed ? 1 : 0;
-    printProgress(done, total, passed,
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+    results.add(flight);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+    printProgress(done, total, results.passed(), spent.count());
   };
   evaluation::flyAll(
       job.seeds, job.jobs, [&](std::uint32_t seed) { return fly(job, seed); }, report);
-  std::ofstream summary(job.output_folder + "/summary.json");
-  summary << evaluation::toJson(evaluation::summarise(flights));
-  summary.close();
-  if (!csv || !summary) throw std::runtime_error(job.output_folder + ": cannot write");
+}
+
+int run(const Job& job) {
+  std::vector<evaluation::FlightResult> joined;
+  if (!job.join_folders.empty()) joined = evaluation::joinFlights(job.join_folders);
+  Results results(job);
+  if (job.join_folders.empty()) flyJob(job, results);
+  for (const auto& flight : joined) results.add(flight);
+  results.finish();
   return 0;
 }
 
@@ -136,6 +225,8 @@ int main(int argc, char** argv) {
   } catch (const options::error& error) {
     return fail(std::string(error.what()) + "; see --help", 2);
   } catch (const simulation::ScenarioError& error) {
+    return fail(error.what(), 2);
+  } catch (const evaluation::TableError& error) {
     return fail(error.what(), 2);
   } catch (const parameters::YamlError& error) {
     return fail(error.what(), 2);

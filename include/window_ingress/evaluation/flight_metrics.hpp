@@ -1,4 +1,4 @@
-/// What a flight comes down to: the row of flights.csv, and many of them summed up.
+/// What a flight comes down to, and many of them summed up.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,12 +33,6 @@ struct FlightResult {
   std::string reason;
   std::vector<TrackPoint> track;  ///< ten points a second
 };
-
-/// Header of flights.csv, without the end of the line.
-std::string csvHeader();
-
-/// The flight as a row of flights.csv; what was never measured stays empty.
-std::string csvRow(const FlightResult& flight);
 
 struct FlightSummary {
   int flights = 0;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "window_ingress/evaluation/flight_log.hpp"
+#include "window_ingress/evaluation/flight_table.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

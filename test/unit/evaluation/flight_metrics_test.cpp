@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+
 namespace window_ingress::evaluation {
 namespace {
 
@@ -25,22 +26,6 @@ FlightResult failed(Outcome outcome, const std::string& reason) {
   flight.outcome = outcome;
   flight.reason = reason;
   return flight;
-}
-
-TEST(FlightRow, HasTheColumnsOfTheHeader) {
-  EXPECT_EQ(csvHeader(),
-            "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
-            "predicted_miss_m,reason");
-  auto flight = passed(7, 8.5, -0.0123);
-  flight.min_clearance_m = 0.25;
-  flight.predicted_miss_m = 0.1;
-  flight.reason = "crossed";
-  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed");
-}
-
-TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
-  EXPECT_EQ(csvRow(failed(Outcome::kAborted, "lost, \"really\"\nlost")),
-            "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\"");
 }
 
 TEST(FlightSummary, OfNothingSaysNothing) {

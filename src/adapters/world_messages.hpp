@@ -1,0 +1,36 @@
+/// What the simulated vehicle says, as messages: the same on topics and in the bags of `fly`.
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
+
+#include <string>
+#include <vector>
+
+#include "adapters/msg_conversion.hpp"
+#include "window_ingress/simulation/world.hpp"
+
+namespace window_ingress::adapters {
+
+std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id);
+
+/// The twist stands in the child frame (REP 147).
+nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const ros::Time& stamp,
+                                 const FrameNames& frames);
+nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ros::Time& stamp,
+                                 const FrameNames& frames);
+sensor_msgs::Imu toImuMsg(const simulation::ImuSample& sample, const ros::Time& stamp,
+                          const FrameNames& frames);
+geometry_msgs::PoseStamped toPoseStampedMsg(const Eigen::Isometry3d& pose, const std_msgs::Header& header);
+geometry_msgs::TransformStamped toTransformStampedMsg(const Eigen::Isometry3d& pose,
+                                                      const std_msgs::Header& header,
+                                                      const std::string& child);
+
+/// base_link -> camera_link (forward-left-up) -> `camera_frame` (right-down-forward), REP 103.
+std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d& T_base_camera,
+                                                        const ros::Time& stamp, const FrameNames& frames,
+                                                        const std::string& camera_frame);
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,110 @@
+#include "window_ingress/evaluation/flight_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace window_ingress::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+using simulation::Outcome;
+
+FlightResult flightWith(std::uint32_t seed) {
+  FlightResult flight;
+  flight.seed = seed;
+  flight.outcome = Outcome::kPassed;
+  flight.time_sec = 8.5;
+  flight.offset_y_m = -0.0123;
+  flight.offset_z_m = 0.0;
+  flight.reason = "crossed, \"well\"";
+  flight.track = {{0.0, {-5.0, 1.0, 0.25}}, {0.1, {-4.9, 0.9, 0.25}}};
+  return flight;
+}
+
+class FlightTable : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::temp_directory_path() / (std::string("flight_table_") + test->name());
+    fs::remove_all(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  std::string write(const std::string& name, const std::vector<FlightResult>& flights) const {
+    const fs::path folder = root_ / name;
+    fs::create_directories(folder);
+    std::ofstream rows(folder / "flights.csv"), tracks(folder / "tracks.csv");
+    rows << csvHeader() << "\n";
+    tracks << trackHeader() << "\n";
+    for (const auto& flight : flights) {
+      rows << csvRow(flight) << "\n";
+      tracks << trackRows(flight);
+    }
+    return folder.string();
+  }
+  static std::string error(const std::vector<std::string>& folders) {
+    try {
+      joinFlights(folders);
+    } catch (const TableError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  fs::path root_;
+};
+
+TEST(FlightRow, HasTheColumnsOfTheHeader) {
+  EXPECT_EQ(csvHeader(),
+            "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
+            "predicted_miss_m,reason");
+  auto flight = flightWith(7);
+  flight.min_clearance_m = 0.25;
+  flight.predicted_miss_m = 0.1;
+  flight.reason = "crossed";
+  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed");
+}
+
+TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
+  EXPECT_EQ(csvRow(failed(Outcome::kAborted, "lost, \"really\"\nlost")),
+            "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\"");
+}
+
+TEST_F(FlightTable, ReadsBackWhatItWrote) {
+  FlightResult bare;
+  bare.seed = 3;
+  bare.outcome = Outcome::kTimeout;
+  const auto read = readFlights(write("a", {flightWith(2), bare}));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(csvRow(read[0]), csvRow(flightWith(2)));
+  EXPECT_EQ(trackRows(read[0]), trackRows(flightWith(2)));
+  EXPECT_EQ(csvRow(read[1]), csvRow(bare));
+  EXPECT_FALSE(read[1].offset_y_m || read[1].min_clearance_m || read[1].predicted_miss_m);
+  EXPECT_TRUE(read[1].track.empty());
+}
+
+TEST_F(FlightTable, JoinsShardsInTheOrderOfTheirSeeds) {
+  const auto joined =
+      joinFlights({write("a", {flightWith(2), flightWith(4)}), write("b", {flightWith(1), flightWith(3)})});
+  ASSERT_EQ(joined.size(), 4u);
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(joined[i].seed, i + 1);
+  EXPECT_EQ(joined[2].track.size(), 2u);
+}
+
+TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
+  const std::string good = write("good", {flightWith(1)});
+  EXPECT_NE(error({good, good}).find("seed 1 was flown twice"), std::string::npos);
+  EXPECT_NE(error({"/nowhere"}).find("/nowhere/tracks.csv: cannot be read"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED\n";
+  EXPECT_NE(error({good}).find("flights.csv:2: has not 11 fields"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x\n";
+  EXPECT_NE(error({good}).find("flights.csv:2: 'LANDED' is no outcome"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x\n";
+  EXPECT_NE(error({good}).find("'soon' is no number"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << "seed\n1\n";
+  EXPECT_NE(error({good}).find("flights.csv:1: is not 'seed,outcome"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation
