@@ -84,6 +84,23 @@ struct WindowPicture {
   }
 };
 
+/// The same picture before a wall of bricks with pale joints.
+inline cv::Mat drawnBricks(const WindowPicture& window, int brick_px = 32, int course_px = 12) {
+  cv::Mat image(window.height, window.width, CV_8UC3, cv::Scalar(60, 75, 140));
+  const cv::Scalar joint(150, 155, 160);
+  for (int y = 0, row = 0; y < image.rows; y += course_px, ++row) {
+    image.rowRange(y, std::min(y + 2, image.rows)).setTo(joint);
+    for (int x = row % 2 * brick_px / 2; x < image.cols; x += brick_px)
+      cv::rectangle(image, cv::Rect(x, y, 2, course_px), joint, cv::FILLED);
+  }
+  if (window.frame_px > 0.0) fillQuad(image, grown(window.opening, window.frame_px), window.frame);
+  fillQuad(image, window.opening, window.hole);
+  if (window.blur_px > 0.0)
+    cv::GaussianBlur(image, image, cv::Size(), window.blur_px, window.blur_px, cv::BORDER_REPLICATE);
+  addNoise(image, window.noise, window.seed);
+  return image;
+}
+
 /// An upright rectangle, canonical order.
 inline geometry::Quadrilateral rectangle(double left, double top, double right, double bottom) {
   using Eigen::Vector2d;
