@@ -67,8 +67,10 @@ TEST(FlightRow, HasTheColumnsOfTheHeader) {
 }
 
 TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
-  EXPECT_EQ(csvRow(failed(Outcome::kAborted, "lost, \"really\"\nlost")),
-            "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\"");
+  FlightResult lost;
+  lost.outcome = Outcome::kAborted;
+  lost.reason = "lost, \"really\"\nlost";
+  EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\"");
 }
 
 TEST_F(FlightTable, ReadsBackWhatItWrote) {
