@@ -2,33 +2,21 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <set>
-#include <sstream>
+#include "window_ingress/parameters/yaml_mapping.hpp"
 
 namespace window_ingress::parameters {
 
 struct YamlReader::Impl {
-  std::string file;
-  YAML::Node mapping;
-  std::set<std::string> asked;
-
-  [[noreturn]] void fail(const YAML::Node& at, const std::string& text) const {
-    throw YamlError(file + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
-  }
-
-  const YAML::Node find(const std::string& name) {
-    asked.insert(name);
-    return static_cast<const YAML::Node&>(mapping)[name];
-  }
+  YamlMapping mapping;
 
   template <typename Value>
   bool read(const std::string& name, Value& value, const char* expected) {
-    const YAML::Node node = find(name);
+    const YAML::Node node = mapping.find(name);
     if (!node.IsDefined()) return false;
     try {
       value = node.as<Value>();
     } catch (const YAML::Exception&) {
-      fail(node, name + ": must be " + expected);
+      mapping.fail(node, name + ": must be " + expected);
     }
     return true;
   }
@@ -40,15 +28,13 @@ struct YamlReader::Impl {
     if (!read(name, number, expected)) return;
     RangeCheck check;
     check(name, number, minimum, maximum);
-    if (!check.faults().empty()) fail(find(name), check.faults().front());
+    if (!check.faults().empty()) mapping.fail(mapping.find(name), check.faults().front());
     value = number;
   }
 };
 
 YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping)
-    : impl_(new Impl{file, mapping, {}}) {
-  if (!mapping.IsMap()) impl_->fail(mapping, "must be a mapping of keys to values");
-}
+    : impl_(new Impl{YamlMapping(file, mapping)}) {}
 
 YamlReader::~YamlReader() = default;
 
@@ -74,33 +60,21 @@ void YamlReader::choice(const std::string& name, std::string& value,
   if (!impl_->read(name, word, "a text")) return;
   RangeCheck check;
   check.choice(name, word, allowed);
-  if (!check.faults().empty()) impl_->fail(impl_->find(name), check.faults().front());
+  if (!check.faults().empty()) impl_->mapping.fail(impl_->mapping.find(name), check.faults().front());
   value = word;
 }
 
 std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
-  const YAML::Node node = impl_->find(name);
+  const YAML::Node node = impl_->mapping.find(name);
   if (!node.IsDefined()) return nullptr;
-  return std::make_unique<YamlReader>(impl_->file, node);
+  return std::make_unique<YamlReader>(impl_->mapping.file(), node);
 }
 
-void YamlReader::refuseUnknownKeys() const {
-  for (const auto& entry : impl_->mapping) {
-    const auto key = entry.first.as<std::string>();
-    if (impl_->asked.count(key) == 0) impl_->fail(entry.first, key + ": unknown key");
-  }
-}
+void YamlReader::refuseUnknownKeys() const { impl_->mapping.refuseUnknownKeys(); }
 
 bool visitYamlFile(const std::string& file, const std::string& section,
                    const std::function<void(YamlReader&)>& visit) {
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(file);
-  } catch (const YAML::BadFile&) {
-    throw YamlError(file + ": cannot be read; does it exist?");
-  } catch (const YAML::Exception& error) {
-    throw YamlError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
-  }
+  YAML::Node root = loadYaml(file);
   if (!section.empty()) {
     if (!root.IsMap()) throw YamlError(file + ":1: must be a mapping of keys to values");
     const YAML::Node found = static_cast<const YAML::Node&>(root)[section];

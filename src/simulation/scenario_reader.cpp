@@ -1,10 +1,7 @@
 #include "window_ingress/simulation/scenario_reader.hpp"
 
-#include <yaml-cpp/yaml.h>
-
-#include <set>
-
 #include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/parameters/yaml_mapping.hpp"
 #include "window_ingress/simulation/random_stream.hpp"
 #include "window_ingress/simulation/scenario.hpp"
 #include "window_ingress/simulation/vehicle_profiles.hpp"
@@ -12,40 +9,29 @@
 namespace window_ingress::simulation {
 
 using parameters::YamlError;
+using parameters::YamlMapping;
 using parameters::YamlReader;
 
 struct ScenarioReader::Impl {
-  std::string file;
-  YAML::Node mapping;
-  std::string path;
+  YamlMapping mapping;
   std::uint32_t seed;
-  std::set<std::string> asked;
-
-  [[noreturn]] void fail(const YAML::Node& at, const std::string& text) const {
-    throw YamlError(file + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
-  }
-
-  const YAML::Node find(const std::string& name) {
-    asked.insert(name);
-    return static_cast<const YAML::Node&>(mapping)[name];
-  }
 
   // What may stand there: the items of `{one_of: [...]}`, or the value itself.
   std::vector<YAML::Node> optionsOf(const std::string& name, const YAML::Node& node) const {
     if (!node.IsMap() || node.size() != 1 || !node["one_of"].IsDefined()) return {node};
     const YAML::Node items = node["one_of"];
     if (!items.IsSequence() || items.size() == 0)
-      fail(node, name + ": one_of must be a list of at least one value");
+      mapping.fail(node, name + ": one_of must be a list of at least one value");
     return {items.begin(), items.end()};
   }
 
   std::size_t drawOption(const std::string& name, std::size_t count) const {
     return static_cast<std::size_t>(
-        RandomStream(seed, path + name + " option").uniformInt(0, static_cast<int>(count) - 1));
+        RandomStream(seed, mapping.path() + name + " option").uniformInt(0, static_cast<int>(count) - 1));
   }
 
   const YAML::Node findDrawn(const std::string& name) {
-    const YAML::Node node = find(name);
+    const YAML::Node node = mapping.find(name);
     if (!node.IsDefined()) return node;
     const auto options = optionsOf(name, node);
     return options[drawOption(name, options.size())];
@@ -54,7 +40,7 @@ struct ScenarioReader::Impl {
   // All options are read, so that a bad one is an error whatever the seed.
   template <typename Value, typename Read>
   void readDrawn(const std::string& name, Value& value, const Read& read) {
-    const YAML::Node node = find(name);
+    const YAML::Node node = mapping.find(name);
     if (!node.IsDefined()) return;
     const auto options = optionsOf(name, node);
     const std::size_t drawn = drawOption(name, options.size());
@@ -70,19 +56,19 @@ struct ScenarioReader::Impl {
   void readOne(const std::string& name, const YAML::Node& node, Value& value, Limits... limits) const {
     YAML::Node single(YAML::NodeType::Map);
     single[name] = node;
-    YamlReader reader(file, single);
+    YamlReader reader(mapping.file(), single);
     reader(name, value, limits...);
   }
 
   template <typename Number>
   std::pair<Number, Number> readRange(const std::string& name, const YAML::Node& node, double minimum,
                                       double maximum) const {
-    if (node.size() != 2) fail(node, name + ": a range must have two ends, [min, max]");
+    if (node.size() != 2) mapping.fail(node, name + ": a range must have two ends, [min, max]");
     std::pair<Number, Number> range{};
     readOne(name, node[0], range.first, minimum, maximum);
     readOne(name, node[1], range.second, minimum, maximum);
     if (range.first > range.second)
-      fail(node, name + ": the range's first end is the greater one; swap them");
+      mapping.fail(node, name + ": the range's first end is the greater one; swap them");
     return range;
   }
 
@@ -97,16 +83,15 @@ struct ScenarioReader::Impl {
   void readNumber(const std::string& name, Number& value, double minimum, double maximum) {
     readDrawn(name, value, [&](const YAML::Node& node, Number& number) {
       if (!node.IsSequence()) return readOne(name, node, number, minimum, maximum);
-      number = draw(RandomStream(seed, path + name), readRange<Number>(name, node, minimum, maximum));
+      number =
+          draw(RandomStream(seed, mapping.path() + name), readRange<Number>(name, node, minimum, maximum));
     });
   }
 };
 
 ScenarioReader::ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
                                std::uint32_t seed)
-    : impl_(new Impl{file, mapping, path, seed, {}}) {
-  if (!mapping.IsMap()) impl_->fail(mapping, path + ": must be a mapping of keys to values");
-}
+    : impl_(new Impl{YamlMapping(file, mapping, path), seed}) {}
 
 ScenarioReader::~ScenarioReader() = default;
 
@@ -133,48 +118,33 @@ void ScenarioReader::choice(const std::string& name, std::string& value,
   impl_->readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
     YAML::Node single(YAML::NodeType::Map);
     single[name] = node;
-    YamlReader(impl_->file, single).choice(name, word, allowed);
+    YamlReader(impl_->mapping.file(), single).choice(name, word, allowed);
   });
 }
 
-bool ScenarioReader::has(const std::string& name) const { return impl_->find(name).IsDefined(); }
+bool ScenarioReader::has(const std::string& name) const { return impl_->mapping.find(name).IsDefined(); }
 
 std::unique_ptr<ScenarioReader> ScenarioReader::descend(const std::string& name) {
   const YAML::Node node = impl_->findDrawn(name);
   if (!node.IsDefined()) return nullptr;
-  return std::make_unique<ScenarioReader>(impl_->file, node, impl_->path + name + "/", impl_->seed);
+  return std::make_unique<ScenarioReader>(impl_->mapping.file(), node, impl_->mapping.path() + name + "/",
+                                          impl_->seed);
 }
 
 std::vector<std::unique_ptr<ScenarioReader>> ScenarioReader::descendAll(const std::string& name) {
   const YAML::Node node = impl_->findDrawn(name);
-  if (!node.IsSequence()) impl_->fail(node, name + ": must be a list, or [] for none");
+  if (!node.IsSequence()) impl_->mapping.fail(node, name + ": must be a list, or [] for none");
   std::vector<std::unique_ptr<ScenarioReader>> children;
   for (std::size_t i = 0; i < node.size(); ++i) {
-    const std::string path = impl_->path + name + "[" + std::to_string(i) + "]/";
-    children.push_back(std::make_unique<ScenarioReader>(impl_->file, node[i], path, impl_->seed));
+    const std::string path = impl_->mapping.path() + name + "[" + std::to_string(i) + "]/";
+    children.push_back(std::make_unique<ScenarioReader>(impl_->mapping.file(), node[i], path, impl_->seed));
   }
   return children;
 }
 
-void ScenarioReader::refuseUnknownKeys() const {
-  for (const auto& entry : impl_->mapping) {
-    const auto key = entry.first.as<std::string>();
-    if (impl_->asked.count(key) == 0)
-      impl_->fail(entry.first, impl_->path + key + ": unknown key; see doc/scenarios.md");
-  }
-}
+void ScenarioReader::refuseUnknownKeys() const { impl_->mapping.refuseUnknownKeys("; see doc/scenarios.md"); }
 
 namespace {
-
-YAML::Node loadRoot(const std::string& file) {
-  try {
-    return YAML::LoadFile(file);
-  } catch (const YAML::BadFile&) {
-    throw ScenarioError(file + ": cannot be read; does it exist?");
-  } catch (const YAML::Exception& error) {
-    throw ScenarioError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
-  }
-}
 
 // `vehicle: NAME` is short for `vehicle: {profile: NAME}`.
 void spellOutProfile(YAML::Node& root) {
@@ -186,7 +156,7 @@ void spellOutProfile(YAML::Node& root) {
 
 // Twice: what the file leaves open follows from the profile, which stands in the file.
 Scenario readScenario(const std::string& file, std::uint32_t seed) {
-  YAML::Node root = loadRoot(file);
+  YAML::Node root = parameters::loadYaml(file);
   spellOutProfile(root);
   Scenario scenario, with_profile;
   ScenarioReader(file, root, "", seed).fill(scenario);

@@ -1,0 +1,41 @@
+#include "window_ingress/parameters/yaml_mapping.hpp"
+
+#include <utility>
+
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace window_ingress::parameters {
+
+YamlMapping::YamlMapping(std::string file, const YAML::Node& mapping, std::string path)
+    : file_(std::move(file)), mapping_(mapping), path_(std::move(path)) {
+  const std::string place = path_.empty() ? "" : path_ + ": ";
+  if (!mapping.IsMap()) fail(mapping, place + "must be a mapping of keys to values");
+}
+
+YAML::Node YamlMapping::find(const std::string& name) {
+  asked_.insert(name);
+  return static_cast<const YAML::Node&>(mapping_)[name];
+}
+
+void YamlMapping::fail(const YAML::Node& at, const std::string& text) const {
+  throw YamlError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
+}
+
+void YamlMapping::refuseUnknownKeys(const std::string& advice) const {
+  for (const auto& entry : mapping_) {
+    const auto key = entry.first.as<std::string>();
+    if (asked_.count(key) == 0) fail(entry.first, path_ + key + ": unknown key" + advice);
+  }
+}
+
+YAML::Node loadYaml(const std::string& file) {
+  try {
+    return YAML::LoadFile(file);
+  } catch (const YAML::BadFile&) {
+    throw YamlError(file + ": cannot be read; does it exist?");
+  } catch (const YAML::Exception& error) {
+    throw YamlError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
+  }
+}
+
+}  // namespace window_ingress::parameters
