@@ -73,6 +73,7 @@ class Flight {
 
  private:
   void sense();
+  void calibrate(const geometry::PinholeCamera& camera);
   void look(const simulation::CameraFrame& frame);
   void step();
   void keepTrack();
@@ -88,6 +89,7 @@ class Flight {
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput output_;
+  std::optional<geometry::PinholeCamera> camera_;  // as camera_info last said
   std::optional<double> started_sec_;
   bool detected_ = false;
   std::vector<TrackPoint> track_;
@@ -104,15 +106,23 @@ void Flight::sense() {
     for (auto* observer : observers_) observer->onImu(*imu);
     tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
   }
+  if (const auto calibration = world_.takeCalibration()) calibrate(calibration->camera);
   if (const auto frame = world_.takeFrame()) look(*frame);
 }
 
+// A calibration that cannot be used withdraws the one before.
+void Flight::calibrate(const geometry::PinholeCamera& camera) {
+  camera_.reset();
+  if (camera.validate().empty()) camera_ = camera;
+}
+
 void Flight::look(const simulation::CameraFrame& frame) {
-  const auto window = detector_.detect(frame.image, frame.stamp_sec, &world_.camera());
+  const geometry::PinholeCamera* camera = camera_ ? &*camera_ : nullptr;
+  const auto window = detector_.detect(frame.image, frame.stamp_sec, camera);
   detected_ = window.has_value();
   input_.image_stamp_sec = frame.stamp_sec;
   for (auto* observer : observers_) observer->onImage(frame, detector_.trace(), window);
-  if (window) tracker_.see(*window, world_.camera(), world_.T_base_camera());
+  if (window && camera_) tracker_.see(*window, *camera_, world_.T_base_camera());
 }
 
 void Flight::step() {

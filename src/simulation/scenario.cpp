@@ -26,6 +26,15 @@ void checkStart(const Scenario& s, std::vector<std::string>& faults) {
   if (gap_m < 0.05) faults.push_back("start/distance_m: starts in the wall");
 }
 
+void checkFaults(const Scenario& s, std::vector<std::string>& faults) {
+  for (std::size_t i = 0; i < s.faults.size(); ++i) {
+    std::string why_not = whyNoSuchFault(s.faults[i]);
+    if (why_not.empty() && s.vehicle.profile == "external")
+      why_not = whyNotBesideExternalVehicle(s.faults[i]);
+    if (!why_not.empty()) faults.push_back("faults[" + std::to_string(i) + "]: " + why_not);
+  }
+}
+
 }  // namespace
 
 geometry::PinholeCamera CameraParams::model() const {
@@ -62,6 +71,7 @@ std::vector<std::string> faultsOf(const Scenario& scenario) {
   if (!faults.empty()) return faults;
   checkFits(scenario, faults);
   checkStart(scenario, faults);
+  checkFaults(scenario, faults);
   return faults;
 }
 

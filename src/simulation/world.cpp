@@ -6,6 +6,8 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/simulation/camera_sensor.hpp"
+#include "window_ingress/simulation/faults.hpp"
+#include "window_ingress/simulation/followed_vehicle.hpp"
 #include "window_ingress/simulation/scene.hpp"
 #include "window_ingress/simulation/wind.hpp"
 
@@ -44,14 +46,9 @@ std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams&
 }  // namespace
 
 struct World::Impl {
-  struct Exposure {
-    std::uint64_t index;
-    double stamp_sec;
-    VehicleTruth truth;
-  };
-
-  Impl(const Scenario& given, std::uint32_t seed)
+  Impl(const Scenario& given, std::uint32_t seed_of_all)
       : scenario(checked(given)),
+        seed(seed_of_all),
         scene(buildScene(scenario)),
         model(scenario.camera.model()),
         T_base_camera(scenario.camera.T_base_camera()),
@@ -62,16 +59,51 @@ struct World::Impl {
                   T_odom_window.linear() * wind.steadyInWindow()),
         odometry(scenario.odometry, seed),
         imu(scenario.imu, seed),
+        followed(scenario.startPoseInOdom()),
+        faults(scenario.faults),
+        commands({RandomStream(seed, "cmd_vel garbage")}),
         shutter(scenario.camera.rate_hz),
         exposures(scenario.camera.latency_sec),
         referee(courseOf(scenario, scene)) {}
 
+  bool external() const { return scenario.vehicle.profile == "external"; }
+  const VehicleTruth& truth() const { return external() ? followed.truth() : quadrotor.truth(); }
+  const FaultParams* acting(const char* unit) const { return faults.acting(unit, time_sec); }
+
+  void move() {
+    obey();
+    quadrotor.step(kStepSec, T_odom_window.linear() * wind.step(kStepSec));
+  }
+
   void sense() {
-    const VehicleTruth& truth = quadrotor.truth();
-    odometry.update(time_sec, truth);
-    imu.update(time_sec, truth, quadrotor.specificForceBase(), odometry.drift());
-    if (shutter.due(time_sec)) exposures.push(time_sec, {exposure_count++, time_sec, truth});
-    referee.update(time_sec, truth);
+    if (!external()) {
+      odometry.update(time_sec, truth());
+      imu.update(time_sec, truth(), quadrotor.specificForceBase(), odometry.drift());
+    }
+    if (shutter.due(time_sec))
+      exposures.push(time_sec, {exposure_count++, time_sec, truth(), truth(), Exposure::Spoilt::kNot});
+    referee.update(time_sec, truth());
+  }
+
+  // What the sensors deliver by now sets out on its way out of the world.
+  void deliver() {
+    while (const auto sample = odometry.take(time_sec)) {
+      odometry_line.put(time_sec, *sample, acting("odom"));
+      transforms.put(time_sec, *sample, acting("tf"));
+    }
+    while (const auto sample = imu.take(time_sec)) imu_line.put(time_sec, *sample, acting("imu"));
+    while (const auto exposure = exposures.take(time_sec)) {
+      calibrations.put(time_sec, {exposure->stamp_sec, model}, acting("camera_info"));
+      images.put(time_sec, *exposure, acting("image"));
+    }
+  }
+
+  void obey() {
+    while (const auto command = commands.take(time_sec, acting("cmd_vel"))) {
+      VelocityCommand true_axes = *command;
+      true_axes.velocity_odom_mps = odometry.drift().linear().transpose() * command->velocity_odom_mps;
+      quadrotor.command(true_axes);
+    }
   }
 
   Eigen::Isometry3d cameraInWindow(const VehicleTruth& truth) const {
@@ -79,6 +111,7 @@ struct World::Impl {
   }
 
   Scenario scenario;
+  std::uint32_t seed;
   Scene scene;
   geometry::PinholeCamera model;
   Eigen::Isometry3d T_base_camera, T_odom_window;
@@ -87,6 +120,14 @@ struct World::Impl {
   Quadrotor quadrotor;
   OdometrySensor odometry;
   ImuSensor imu;
+  FollowedVehicle followed;
+  FaultPlan faults;
+  CommandLine commands;
+  OdometryLine odometry_line, transforms;
+  ImuLine imu_line;
+  CalibrationLine calibrations;
+  ImageLine images;
+  ClockLine clock;
   Periodic shutter;
   DelayLine<Exposure> exposures;
   Referee referee;
@@ -100,35 +141,68 @@ World::World(const Scenario& scenario, std::uint32_t seed) : impl_(std::make_uni
 World::~World() = default;
 
 void World::advance() {
-  impl_->quadrotor.step(kStepSec, impl_->T_odom_window.linear() * impl_->wind.step(kStepSec));
+  if (!impl_->external()) impl_->move();
   impl_->time_sec = static_cast<double>(++impl_->steps) * kStepSec;
+  if (impl_->external()) impl_->followed.moveTo(impl_->time_sec);
   impl_->sense();
+  impl_->deliver();
 }
 
 void World::command(const VelocityCommand& command) {
-  VelocityCommand true_axes = command;
-  true_axes.velocity_odom_mps = impl_->odometry.drift().linear().transpose() * command.velocity_odom_mps;
-  impl_->quadrotor.command(true_axes);
+  impl_->commands.put(impl_->time_sec, command, impl_->acting("cmd_vel"));
+  impl_->obey();
+}
+
+void World::follow(const VehicleTruth& truth, double stamp_sec) { impl_->followed.follow(truth, stamp_sec); }
+
+void World::inject(FaultParams fault) {
+  fault.at_sec = impl_->time_sec;
+  if (impl_->external()) {
+    const std::string why_not = whyNotBesideExternalVehicle(fault);
+    if (!why_not.empty()) throw ScenarioError("fault: " + why_not);
+  }
+  impl_->faults.inject(fault);
 }
 
 double World::timeSec() const { return impl_->time_sec; }
 
-const VehicleTruth& World::truth() const { return impl_->quadrotor.truth(); }
+const VehicleTruth& World::truth() const { return impl_->truth(); }
 
 std::optional<CameraFrame> World::takeFrame() {
-  const auto exposure = impl_->exposures.take(impl_->time_sec);
+  const auto exposure = impl_->images.take(impl_->time_sec, impl_->acting("image"));
   if (!exposure) return std::nullopt;
   CameraFrame frame;
   frame.stamp_sec = exposure->stamp_sec;
   frame.truth = exposure->truth;
   frame.T_camera_window = impl_->cameraInWindow(exposure->truth).inverse();
-  frame.image = impl_->camera->expose(frame.T_camera_window, exposure->index);
+  frame.image = impl_->camera->expose(impl_->cameraInWindow(exposure->shown).inverse(), exposure->index);
+  spoil(frame.image, *exposure, impl_->seed);
   return frame;
 }
 
-std::optional<OdometrySample> World::takeOdometry() { return impl_->odometry.take(impl_->time_sec); }
+std::optional<OdometrySample> World::takeOdometry() {
+  return impl_->odometry_line.take(impl_->time_sec, impl_->acting("odom"));
+}
 
-std::optional<ImuSample> World::takeImu() { return impl_->imu.take(impl_->time_sec); }
+std::optional<ImuSample> World::takeImu() {
+  return impl_->imu_line.take(impl_->time_sec, impl_->acting("imu"));
+}
+
+std::optional<CalibrationSample> World::takeCalibration() {
+  return impl_->calibrations.take(impl_->time_sec, impl_->acting("camera_info"));
+}
+
+std::optional<OdometrySample> World::takeTransform() {
+  return impl_->transforms.take(impl_->time_sec, impl_->acting("tf"));
+}
+
+std::optional<double> World::readClock() {
+  const FaultParams* fault = impl_->acting("clock");
+  impl_->clock.put(impl_->time_sec, impl_->time_sec, fault);
+  std::optional<double> reading;
+  while (const auto later = impl_->clock.take(impl_->time_sec, fault)) reading = later;
+  return reading;
+}
 
 const geometry::PinholeCamera& World::camera() const { return impl_->model; }
 

@@ -11,6 +11,7 @@
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/simulation/camera_params.hpp"
+#include "window_ingress/simulation/fault_params.hpp"
 #include "window_ingress/simulation/house_params.hpp"
 #include "window_ingress/simulation/sensor_params.hpp"
 #include "window_ingress/simulation/vehicle_params.hpp"
@@ -56,6 +57,7 @@ struct Scenario {
   ImuParams imu;
   VehicleParams vehicle;
   WindParams wind;
+  std::vector<FaultParams> faults;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("time_limit_sec", self.time_limit_sec, 1.0, 3600.0);
@@ -69,6 +71,7 @@ struct Scenario {
     field.group("imu", self.imu);
     field.group("vehicle", self.vehicle);
     field.group("wind", self.wind);
+    field.list("faults", self.faults);
   }
 
   geometry::OpeningSize opening() const { return {window.width_m, window.height_m}; }

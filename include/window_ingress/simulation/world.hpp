@@ -7,6 +7,7 @@
 
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/simulation/faults.hpp"
 #include "window_ingress/simulation/imu_sensor.hpp"
 #include "window_ingress/simulation/odometry_sensor.hpp"
 #include "window_ingress/simulation/quadrotor.hpp"
@@ -46,11 +47,24 @@ class World {
   /// In the axes of the odometry as the vehicle knows it, drift included.
   void command(const VelocityCommand& command);
 
+  /// For `vehicle: external`: the vehicle is there at that time; until then, `advance` moves it evenly.
+  /// \param stamp_sec after the time of the call before; the first one also says where it has been so far
+  void follow(const VehicleTruth& truth, double stamp_sec);
+
   double timeSec() const;
   const VehicleTruth& truth() const;
   std::optional<CameraFrame> takeFrame();
   std::optional<OdometrySample> takeOdometry();
   std::optional<ImuSample> takeImu();
+  /// What camera_info says: one sample a picture, however the picture fares. May be spoilt, see `validate`.
+  std::optional<CalibrationSample> takeCalibration();
+  /// The odometry as the source of the transform odom -> base_link.
+  std::optional<OdometrySample> takeTransform();
+  /// What a clock says that is asked now, or nothing.
+  std::optional<double> readClock();
+
+  /// From now on. \throws ScenarioError if there can be no such fault
+  void inject(FaultParams fault);
 
   const geometry::PinholeCamera& camera() const;
   Eigen::Isometry3d T_base_camera() const;

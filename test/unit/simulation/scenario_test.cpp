@@ -113,6 +113,24 @@ TEST_F(ScenarioFile, ABadOptionIsAnErrorWhateverTheSeed) {
   EXPECT_NE(error("start: {distance_m: {one_of: 3}}").find("at least one value"), std::string::npos);
 }
 
+TEST_F(ScenarioFile, ReadsFaultsAndDrawsThem) {
+  const std::string text =
+      "faults:\n  - {unit: {one_of: [odom, imu]}, kind: off, at_sec: [2, 9]}\n  - {unit: cmd_vel, kind: "
+      "stuck}\n";
+  std::set<std::string> units;
+  std::set<double> times;
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    const Scenario scenario = read(text, seed);
+    ASSERT_EQ(scenario.faults.size(), 2u);
+    EXPECT_EQ(scenario.faults[0].kind, "off");
+    units.insert(scenario.faults[0].unit);
+    times.insert(scenario.faults[0].at_sec);
+  }
+  EXPECT_EQ(units.size(), 2u);
+  EXPECT_EQ(times.size(), 30u);
+  EXPECT_NE(error("faults: [{unit: clock, kind: garbage}]").find("clock garbage"), std::string::npos);
+}
+
 TEST_F(ScenarioFile, AVehicleMayBeNamedByItsProfileAlone) {
   EXPECT_EQ(read("vehicle: external", 1).vehicle.profile, "external");
   EXPECT_NE(error("vehicle: zeppelin").find("profile = zeppelin is none of default"), std::string::npos);
