@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 namespace window_ingress::detection {
 namespace {
@@ -17,16 +18,40 @@ constexpr double kSameLinePx = 1.0;       ///< distance of their ends from the j
 
 Vector2d perpendicular(const Vector2d& v) { return {-v.y(), v.x()}; }
 
+/// What `joinCollinear` asks of a piece again and again.
+struct Piece {
+  Vector2d along;
+  double length;
+};
+
+std::vector<Piece> measured(const std::vector<Segment>& segments) {
+  std::vector<Piece> pieces;
+  pieces.reserve(segments.size());
+  for (const Segment& s : segments) pieces.push_back({(s.b - s.a).normalized(), s.length()});
+  return pieces;
+}
+
+void keepLongest(std::vector<Segment>& segments, int count) {
+  std::vector<std::pair<double, int>> order;
+  order.reserve(segments.size());
+  for (const Segment& s : segments) order.emplace_back(-s.length(), static_cast<int>(order.size()));
+  std::sort(order.begin(), order.end());
+  order.resize(std::min<std::size_t>(order.size(), count));
+  std::vector<Segment> longest;
+  longest.reserve(order.size());
+  for (const auto& [length, i] : order) longest.push_back(segments[i]);
+  segments.swap(longest);
+}
+
 }  // namespace
 
 void joinCollinear(std::vector<Segment>& segments, double max_gap) {
-  const std::size_t pieces = segments.size();
-  for (std::size_t i = 0; i < pieces; ++i)
-    for (std::size_t j = 0; j < pieces; ++j) {
+  const std::vector<Piece> pieces = measured(segments);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t j = 0; j < pieces.size(); ++j) {
       const Segment &p = segments[i], &q = segments[j];
       if (p.normal.dot(q.normal) < kSameDirection) continue;
-      const Vector2d along = (p.b - p.a).normalized();
-      const double gap = along.dot(q.a - p.b), lengths = p.length() + q.length();
+      const double gap = pieces[i].along.dot(q.a - p.b), lengths = pieces[i].length + pieces[j].length;
       if (gap < 0.0 || gap > max_gap * lengths) continue;
       const Vector2d normal = perpendicular((q.b - p.a).normalized());
       if (std::abs(normal.dot(p.b - p.a)) > kSameLinePx || std::abs(normal.dot(q.a - p.a)) > kSameLinePx)
@@ -36,75 +61,138 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap) {
     }
 }
 
+LineSupport::LineSupport(const LineSupportParams& params)
+    : params_(params),
+      min_cosine_(std::cos(params.direction_rad)),
+      spread_(static_cast<int>(std::ceil(params.spread_rad * kAngles / kTwoPi))) {}
+
+void LineSupport::prepare(const EdgeMap& map) {
+  const double side = std::max(map.edges.cols, map.edges.rows);
+  min_length_px_ = std::max(5.0, params_.min_length * side);
+  max_gap_px_ = params_.max_gap * side;
+  rho_offset_ = static_cast<int>(std::hypot(map.edges.cols, map.edges.rows)) + 1;
+  rho_count_ = 2 * rho_offset_ + 1;
+  votes_.assign(static_cast<std::size_t>(kAngles) * rho_count_, 0);
+  collect(map);
+  markSurroundings();
+  shuffle();
+}
+
 void LineSupport::collect(const EdgeMap& map) {
   pixels_.clear();
   index_.create(map.edges.size(), CV_32SC1);
   index_.setTo(0);
   for (int y = 0; y < map.edges.rows; ++y) {
     const uchar* edge = map.edges.ptr<uchar>(y);
+    const short *dx = map.dx.ptr<short>(y), *dy = map.dy.ptr<short>(y);
+    int* index = index_.ptr<int>(y);
     for (int x = 0; x < map.edges.cols; ++x) {
       if (!edge[x]) continue;
-      const double angle = std::atan2(map.dy.at<short>(y, x), map.dx.at<short>(y, x));
-      const int bin = static_cast<int>(std::lround(angle * kAngles / kTwoPi) + kAngles) % kAngles;
-      pixels_.push_back(
-          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(bin), 0});
-      index_.at<int>(y, x) = static_cast<int>(pixels_.size());
+      pixels_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
+                         static_cast<std::int16_t>(bins_.of(dx[x], dy[x])), 0});
+      index[x] = static_cast<int>(pixels_.size());
     }
   }
 }
 
-// Adds `step` to the cells of one pixel; the cell with most votes afterwards.
-int LineSupport::vote(Pixel& pixel, int step) {
-  int best = -1;
+void LineSupport::markSurroundings() {
+  surroundings_.create(index_.rows + 2, index_.cols + 2, CV_32SC1);
+  surroundings_.setTo(0);
+  for (const Pixel& pixel : pixels_) {
+    const std::uint32_t sector = 1U << (pixel.angle * kSectors / kAngles);
+    for (int y = pixel.y; y <= pixel.y + 2; ++y) {
+      auto* row = surroundings_.ptr<std::uint32_t>(y) + pixel.x;
+      for (int x = 0; x <= 2; ++x) row[x] |= sector;
+    }
+  }
+}
+
+void LineSupport::shuffle() {
+  order_.resize(pixels_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::mt19937 random(1);
+  for (std::size_t i = order_.size(); i > 1; --i)
+    std::swap(order_[i - 1], order_[static_cast<std::uint32_t>(random()) % static_cast<std::uint32_t>(i)]);
+}
+
+inline int LineSupport::cellOf(const Pixel& pixel, int angle) const {
+  const Vector2d& normal = bins_.direction(angle);
+  const double rho = pixel.x * normal.x() + pixel.y * normal.y() + rho_offset_;
+  return angle * rho_count_ + static_cast<int>(rho + 0.5);
+}
+
+// The cell with most votes afterwards.
+int LineSupport::vote(const Pixel& pixel) {
+  int best = -1, most = -1;
   for (int k = -spread_; k <= spread_; ++k) {
-    const int angle = (pixel.angle + k + kAngles) % kAngles;
-    const double rho = pixel.x * directions_[angle].x() + pixel.y * directions_[angle].y() + rho_offset_;
-    const int cell = angle * rho_count_ + static_cast<int>(rho + 0.5);
-    votes_[cell] = static_cast<std::uint16_t>(votes_[cell] + step);
-    if (best < 0 || votes_[cell] > votes_[best]) best = cell;
+    const int cell = cellOf(pixel, (pixel.angle + k + kAngles) % kAngles);
+    const int votes = ++votes_[cell];
+    if (votes > most) most = votes, best = cell;
   }
   return best;
 }
 
-LineSupport::Line LineSupport::seedLine(const Pixel& pixel, int cell) const {
-  return {Vector2d(pixel.x, pixel.y), directions_[cell / rho_count_]};
+void LineSupport::unvote(const Pixel& pixel) {
+  for (int k = -spread_; k <= spread_; ++k) --votes_[cellOf(pixel, (pixel.angle + k + kAngles) % kAngles)];
 }
 
-// Unused edge pixel within one pixel of the line beside `at` and with a fitting gradient; -1 if there is
-// none.
-int LineSupport::pixelNear(const EdgeMap& map, const Line& line, const Vector2d& at) const {
-  const double limit = std::cos(params_.direction_rad);
-  for (double side : {0.0, 1.0, -1.0}) {
-    const Vector2d p = at + side * line.normal;
-    const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
-    if (p.x() < 0.0 || p.y() < 0.0 || x < 0 || y < 0 || x >= map.edges.cols || y >= map.edges.rows) continue;
-    const int i = index_.at<int>(y, x) - 1;
-    if (i >= 0 && pixels_[i].state != 2 && directions_[pixels_[i].angle].dot(line.normal) > limit) return i;
-  }
-  return -1;
+// Number of the unused edge pixel under `at` if its gradient fits the line; -1 if there is none.
+inline int LineSupport::pixelAt(const Line& line, const Vector2d& at) const {
+  const int x = static_cast<int>(at.x() + 0.5), y = static_cast<int>(at.y() + 0.5);
+  if (at.x() < 0.0 || at.y() < 0.0 || x >= index_.cols || y >= index_.rows) return -1;
+  const int i = index_.ptr<int>(y)[x] - 1;
+  return i >= 0 && bins_.direction(pixels_[i].angle).dot(line.normal) > min_cosine_ ? i : -1;
 }
 
-void LineSupport::walkOneWay(const EdgeMap& map, const Line& line, const Vector2d& start, double way) {
+// The same within one pixel of the line.
+inline int LineSupport::pixelNear(const Line& line, const Vector2d& at) const {
+  int i = pixelAt(line, at);
+  if (i < 0) i = pixelAt(line, at + line.normal);
+  if (i < 0) i = pixelAt(line, at - line.normal);
+  return i;
+}
+
+// The sectors in which gradients may fit the line.
+std::uint32_t LineSupport::sectorsOf(const Line& line) const {
+  constexpr double kFine = 16384.0;
+  const int centre =
+      bins_.of(static_cast<int>(kFine * line.normal.x()), static_cast<int>(kFine * line.normal.y()));
+  const int reach = std::min(kSectors / 2, static_cast<int>(params_.direction_rad * kSectors / kTwoPi) + 1);
+  std::uint32_t sectors = 0;
+  for (int k = -reach; k <= reach; ++k)
+    sectors |= 1U << ((centre * kSectors / kAngles + k + kSectors) % kSectors);
+  return sectors;
+}
+
+// False only if there is no fitting pixel within one pixel of `at`.
+inline bool LineSupport::mayHold(std::uint32_t sectors, const Vector2d& at) const {
+  const int x = static_cast<int>(at.x() + 1.5), y = static_cast<int>(at.y() + 1.5);
+  if (at.x() < -1.5 || at.y() < -1.5 || x >= surroundings_.cols || y >= surroundings_.rows) return false;
+  return (surroundings_.ptr<std::uint32_t>(y)[x] & sectors) != 0;
+}
+
+void LineSupport::walkOneWay(const Line& line, std::uint32_t sectors, const Vector2d& start, double way) {
   Vector2d step = way * perpendicular(line.normal);
   step /= step.cwiseAbs().maxCoeff();
   Vector2d at = start - line.normal * line.normal.dot(start - line.point);
   for (double gap = 0.0; gap <= max_gap_px_ + 1.0; at += step, gap += 1.0) {
-    const int i = pixelNear(map, line, at);
+    if (!mayHold(sectors, at)) continue;
+    const int i = pixelNear(line, at);
     if (i < 0) continue;
     gap = 0.0;
     if (found_.empty() || found_.back() != i) found_.push_back(i);
   }
 }
 
-void LineSupport::walk(const EdgeMap& map, const Line& line, const Vector2d& start) {
+void LineSupport::walk(const Line& line, const Vector2d& start) {
+  const std::uint32_t sectors = sectorsOf(line);
   found_.clear();
-  walkOneWay(map, line, start, 1.0);
-  walkOneWay(map, line, start, -1.0);
+  walkOneWay(line, sectors, start, 1.0);
+  walkOneWay(line, sectors, start, -1.0);
 }
 
-// Total least squares through the pixels found; false if they do not form a line.
-bool LineSupport::fit(Line& line) const {
-  if (found_.size() < 4) return false;
+// Total least squares through the pixels found.
+void LineSupport::fit(Line& line) const {
   Vector2d mean = Vector2d::Zero();
   for (int i : found_) mean += Vector2d(pixels_[i].x, pixels_[i].y);
   mean /= static_cast<double>(found_.size());
@@ -117,18 +205,19 @@ bool LineSupport::fit(Line& line) const {
   const Vector2d normal = solver.eigenvectors().col(0);
   line.point = mean;
   line.normal = normal.dot(line.normal) < 0.0 ? Vector2d(-normal) : normal;
-  return true;
 }
 
-bool LineSupport::grow(const EdgeMap& map, const Pixel& seed, int cell, Segment& segment) {
-  Line line = seedLine(seed, cell);
+bool LineSupport::grow(const Pixel& seed, int cell, Segment& segment) {
   const Vector2d start(seed.x, seed.y);
-  for (int pass = 0; pass < 2; ++pass) {
-    walk(map, line, start);
-    if (!fit(line)) return false;
+  Line line{start, bins_.direction(cell / rho_count_)};
+  found_.clear();
+  for (int pass = 0; pass < 3; ++pass) {
+    found_before_.swap(found_);
+    walk(line, start);
+    if (found_.size() < 4) return false;
+    if (found_ == found_before_) break;  // neither line nor pixels would change any more
+    if (pass < 2) fit(line);
   }
-  walk(map, line, start);
-  if (found_.size() < 4) return false;
   const Vector2d along = perpendicular(line.normal);
   double low = 0.0, high = 0.0;
   for (int i : found_) {
@@ -142,43 +231,33 @@ bool LineSupport::grow(const EdgeMap& map, const Pixel& seed, int cell, Segment&
   return length >= min_length_px_ && static_cast<double>(found_.size()) >= params_.min_density * steps;
 }
 
+// The pixels found are used up.
+void LineSupport::take() {
+  for (int i : found_) {
+    Pixel& pixel = pixels_[i];
+    if (pixel.state == 1) unvote(pixel);
+    pixel.state = 2;
+    index_.at<int>(pixel.y, pixel.x) = 0;
+  }
+}
+
 std::vector<Segment> LineSupport::run(const EdgeMap& map) {
-  collect(map);
-  const double side = std::max(map.edges.cols, map.edges.rows);
-  min_length_px_ = std::max(5.0, params_.min_length * side);
-  max_gap_px_ = params_.max_gap * side;
-  spread_ = static_cast<int>(std::ceil(params_.spread_rad * kAngles / kTwoPi));
-  rho_offset_ = static_cast<int>(std::hypot(map.edges.cols, map.edges.rows)) + 1;
-  rho_count_ = 2 * rho_offset_ + 1;
-  votes_.assign(static_cast<std::size_t>(kAngles) * rho_count_, 0);
-  for (int a = 0; a < kAngles; ++a)
-    directions_[a] = Vector2d(std::cos(a * kTwoPi / kAngles), std::sin(a * kTwoPi / kAngles));
-
-  order_.resize(pixels_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::mt19937 random(1);
-  for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random() % i]);
-
+  prepare(map);
   std::vector<Segment> segments;
   const int threshold = std::max(4, static_cast<int>(params_.vote_fraction * min_length_px_));
   for (int i : order_) {
     Pixel& pixel = pixels_[i];
     if (pixel.state != 0) continue;
     pixel.state = 1;
-    const int cell = vote(pixel, 1);
+    const int cell = vote(pixel);
     if (votes_[cell] < threshold) continue;
     Segment segment;
-    if (!grow(map, pixel, cell, segment)) continue;
-    for (int j : found_) {
-      if (pixels_[j].state == 1) vote(pixels_[j], -1);
-      pixels_[j].state = 2;
-    }
+    if (!grow(pixel, cell, segment)) continue;
+    take();
     segments.push_back(segment);
   }
   joinCollinear(segments, params_.join_gap);
-  std::stable_sort(segments.begin(), segments.end(),
-                   [](const Segment& a, const Segment& b) { return a.length() > b.length(); });
-  if (static_cast<int>(segments.size()) > params_.max_segments) segments.resize(params_.max_segments);
+  keepLongest(segments, params_.max_segments);
   return segments;
 }
 

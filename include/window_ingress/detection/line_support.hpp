@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "window_ingress/detection/direction_bins.hpp"
 #include "window_ingress/detection/edge_map.hpp"
 
 namespace window_ingress::detection {
@@ -52,7 +52,7 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap);
 /// vote costs a thirtieth of the full one. The edge map itself is not redrawn.
 class LineSupport {
  public:
-  explicit LineSupport(const LineSupportParams& params) : params_(params) {}
+  explicit LineSupport(const LineSupportParams& params);
 
   /// Longest first; at most `max_segments`. Deterministic.
   std::vector<Segment> run(const EdgeMap& map);
@@ -67,25 +67,37 @@ class LineSupport {
     Eigen::Vector2d point, normal;
   };
 
+  void prepare(const EdgeMap& map);
   void collect(const EdgeMap& map);
-  int vote(Pixel& pixel, int step);
-  Line seedLine(const Pixel& pixel, int cell) const;
-  void walk(const EdgeMap& map, const Line& line, const Eigen::Vector2d& start);
-  void walkOneWay(const EdgeMap& map, const Line& line, const Eigen::Vector2d& start, double way);
-  int pixelNear(const EdgeMap& map, const Line& line, const Eigen::Vector2d& at) const;
-  bool fit(Line& line) const;
-  bool grow(const EdgeMap& map, const Pixel& seed, int cell, Segment& segment);
+  void markSurroundings();
+  void shuffle();
+  int cellOf(const Pixel& pixel, int angle) const;
+  int vote(const Pixel& pixel);
+  void unvote(const Pixel& pixel);
+  void take();
+  void walk(const Line& line, const Eigen::Vector2d& start);
+  void walkOneWay(const Line& line, std::uint32_t sectors, const Eigen::Vector2d& start, double way);
+  int pixelNear(const Line& line, const Eigen::Vector2d& at) const;
+  int pixelAt(const Line& line, const Eigen::Vector2d& at) const;
+  bool mayHold(std::uint32_t sectors, const Eigen::Vector2d& at) const;
+  std::uint32_t sectorsOf(const Line& line) const;
+  void fit(Line& line) const;
+  bool grow(const Pixel& seed, int cell, Segment& segment);
 
-  static constexpr int kAngles = 256;
+  static constexpr int kAngles = DirectionBins::kCount, kSectors = 32;
 
   LineSupportParams params_;
+  DirectionBins bins_;
+  double min_cosine_;
+  int spread_;
   std::vector<Pixel> pixels_;
   std::vector<int> order_;
-  cv::Mat index_;  ///< CV_32SC1: pixel number + 1, 0 none
+  cv::Mat index_;  ///< CV_32SC1: pixel number + 1, 0 none or used
+  /// CV_32SC1, one pixel larger all round: the sectors of gradient directions in the 3 x 3 pixels about one.
+  cv::Mat surroundings_;
   std::vector<std::uint16_t> votes_;
-  std::vector<int> found_;
-  std::array<Eigen::Vector2d, kAngles> directions_;
-  int rho_count_ = 0, rho_offset_ = 0, spread_ = 0;
+  std::vector<int> found_, found_before_;
+  int rho_count_ = 0, rho_offset_ = 0;
   double min_length_px_ = 0.0, max_gap_px_ = 0.0;
 };
 
