@@ -50,6 +50,7 @@ class Flight {
     geometry::Quadrilateral corners;
     const cv::Mat picture = world_.referencePicture(&corners);
     detector_.setReference(detection::ReferenceAppearance(picture, corners));
+    timing_.lap(Stage::kOther);
   }
 
   simulation::Verdict fly() {
@@ -58,18 +59,23 @@ class Flight {
     auto verdict = world_.referee().judge(Claim::kNone);
     while (verdict.outcome == Outcome::kRunning) {
       world_.advance();
+      timing_.lap(Stage::kPhysics);
       sense();
       if (world_.timeSec() < next_step_sec) continue;
       next_step_sec += 1.0 / params_.step_rate_hz;
       step();
+      timing_.lap(Stage::kNavigator);
       keepTrack();
       if (!observers_.empty()) report();
       verdict = world_.referee().judge(claimOf(output_.state));
+      timing_.lap(Stage::kOther);
     }
+    timing_.addSimulated(world_.timeSec());
     return verdict;
   }
 
   FlightResult result(std::uint32_t seed, const simulation::Verdict& verdict) const;
+  const FlightTiming& timing() const { return timing_; }
 
  private:
   void sense();
@@ -93,6 +99,7 @@ class Flight {
   std::optional<double> started_sec_;
   bool detected_ = false;
   std::vector<TrackPoint> track_;
+  FlightTiming timing_;
 };
 
 void Flight::sense() {
@@ -117,12 +124,17 @@ void Flight::calibrate(const geometry::PinholeCamera& camera) {
 }
 
 void Flight::look(const simulation::CameraFrame& frame) {
+  timing_.lap(Stage::kPicture);
+  timing_.countFrame();
   const geometry::PinholeCamera* camera = camera_ ? &*camera_ : nullptr;
   const auto window = detector_.detect(frame.image, frame.stamp_sec, camera);
+  timing_.lap(Stage::kDetector);
   detected_ = window.has_value();
   input_.image_stamp_sec = frame.stamp_sec;
   for (auto* observer : observers_) observer->onImage(frame, detector_.trace(), window);
+  timing_.lap(Stage::kOther);
   if (window && camera_) tracker_.see(*window, *camera_, world_.T_base_camera());
+  timing_.lap(Stage::kPose);
 }
 
 void Flight::step() {
@@ -206,9 +218,10 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
 }  // namespace
 
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
-                     const std::vector<FlightObserver*>& observers) {
+                     const std::vector<FlightObserver*>& observers, FlightTiming* timing) {
   Flight flight(scenario, seed, params, observers);
   const auto verdict = flight.fly();
+  if (timing != nullptr) timing->add(flight.timing());
   return flight.result(seed, verdict);
 }
 

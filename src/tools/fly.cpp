@@ -1,4 +1,6 @@
 /// Flies a scenario many times in one process and sums up: flights.csv, tracks.csv, tracks.png, summary.json.
+#include <sys/resource.h>
+
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cstdio>
@@ -6,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
@@ -37,6 +40,7 @@ struct Job {
   std::vector<std::string> join_folders;
   std::vector<std::uint32_t> seeds;
   int jobs = 1;
+  bool with_timing = false;
   evaluation::FlightParams params;
 };
 
@@ -62,6 +66,7 @@ options::options_description describe() {
   add("params", options::value<std::string>(),
       "yaml file with any of the sections detector, pose, filter, tracker, navigator");
   add("keep-failures", "for each flight that did not pass, a bag and a picture in DIR/failures");
+  add("timing", "where the time went, as a table, at the end");
   add("log", options::value<std::string>(), "folder for a csv of every step of each flight");
   return description;
 }
@@ -95,6 +100,7 @@ Job parse(int argc, char** argv, const options::options_description& description
   job.seeds = seedsOf(given);
   job.jobs = given["jobs"].as<int>();
   if (job.jobs < 1 || job.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
+  job.with_timing = given.count("timing") != 0;
   if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
   if (given.count("params") != 0) parameters::readYamlFile(given["params"].as<std::string>(), "", job.params);
   for (const auto seed : job.seeds) simulation::loadScenario(job.scenario_file, seed);
@@ -113,10 +119,11 @@ evaluation::WallOutline outlineOf(const simulation::Scenario& scenario) {
           scenario.window.frame_depth_m + scenario.house.wall_thickness_m};
 }
 
-evaluation::FlightResult flyLogged(const Job& job, const simulation::Scenario& scenario, std::uint32_t seed) {
-  if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params);
+evaluation::FlightResult flyLogged(const Job& job, const simulation::Scenario& scenario, std::uint32_t seed,
+                                   evaluation::FlightTiming& timing) {
+  if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params, {}, &timing);
   evaluation::FlightLog log;
-  auto result = evaluation::flyOnce(scenario, seed, job.params, {&log});
+  auto result = evaluation::flyOnce(scenario, seed, job.params, {&log}, &timing);
   std::ofstream file(job.log_folder + "/flight_" + std::to_string(seed) + ".csv");
   evaluation::writeCsv(log, file);
   return result;
@@ -137,9 +144,9 @@ void recordAgain(const Job& job, const simulation::Scenario& scenario,
     throw std::runtime_error(name + ".png: cannot write");
 }
 
-evaluation::FlightResult fly(const Job& job, std::uint32_t seed) {
+evaluation::FlightResult fly(const Job& job, std::uint32_t seed, evaluation::FlightTiming& timing) {
   const auto scenario = simulation::loadScenario(job.scenario_file, seed);
-  auto flight = flyLogged(job, scenario, seed);
+  auto flight = flyLogged(job, scenario, seed, timing);
   const bool failed = flight.outcome != simulation::Outcome::kPassed;
   if (failed && !job.failures_folder.empty()) recordAgain(job, scenario, flight);
   return flight;
@@ -188,15 +195,31 @@ void printProgress(int done, int total, int passed, double seconds) {
                a_minute, 60.0 * (total - done) / std::max(1e-3, a_minute));
 }
 
+void printTiming(const evaluation::FlightTiming& timing) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::fprintf(stderr, "%s%ld frames, %.1f s simulated; most memory %.0f MB\n", timing.table().c_str(),
+               timing.frames(), timing.simulatedSec(), usage.ru_maxrss / 1024.0);
+}
+
 void flyJob(const Job& job, Results& results) {
+  std::mutex mutex;
+  evaluation::FlightTiming all;
+  const auto flyTimed = [&](std::uint32_t seed) {
+    evaluation::FlightTiming timing;
+    auto flight = fly(job, seed, timing);
+    const std::lock_guard<std::mutex> lock(mutex);
+    all.add(timing);
+    return flight;
+  };
   const auto began = std::chrono::steady_clock::now();
   const auto report = [&](const evaluation::FlightResult& flight, int done, int total) {
     results.add(flight);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
     printProgress(done, total, results.passed(), spent.count());
   };
-  evaluation::flyAll(
-      job.seeds, job.jobs, [&](std::uint32_t seed) { return fly(job, seed); }, report);
+  evaluation::flyAll(job.seeds, job.jobs, flyTimed, report);
+  if (job.with_timing) printTiming(all);
 }
 
 int run(const Job& job) {

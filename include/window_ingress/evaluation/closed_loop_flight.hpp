@@ -7,6 +7,7 @@
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/evaluation/flight_metrics.hpp"
 #include "window_ingress/evaluation/flight_observer.hpp"
+#include "window_ingress/evaluation/flight_timing.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
 #include "window_ingress/pose/filter_params.hpp"
@@ -38,9 +39,9 @@ struct FlightParams {
 /// One flight in one process, by the objects that the nodes use: the world's pictures through detector, pose
 /// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
 /// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
-/// from the world. \throws simulation::ScenarioError,
+/// from the world. \param timing the flight's is added to it \throws simulation::ScenarioError,
 /// std::invalid_argument (parameters), std::runtime_error (no renderer)
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
-                     const std::vector<FlightObserver*>& observers = {});
+                     const std::vector<FlightObserver*>& observers = {}, FlightTiming* timing = nullptr);
 
 }  // namespace window_ingress::evaluation
