@@ -24,7 +24,8 @@ def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
     done = run(ROOT / "scripts/campaign", "--output", tmp_path / "campaign", "--seeds", "1..5", "--shards", "2", scenario)
     assert done.returncode == 0, done.stderr
     assert "| short | 5 |" in done.stdout
-    whole = run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--seeds", "1..5", "--output", tmp_path / "whole")
+    whole = run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--seeds", "1..5", "--jobs", "2", "--output",
+                tmp_path / "whole")
     assert whole.returncode == 0, whole.stderr
     for name in FILES:
         assert (tmp_path / "campaign/short" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
