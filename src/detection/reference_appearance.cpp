@@ -26,53 +26,58 @@ bool hasColour(const cv::Mat& image) { return image.type() == CV_8UC3; }
 bool addPixel(const cv::Vec3b& pixel, float* band) {
   const int sum = pixel[0] + pixel[1] + pixel[2];
   if (sum < kDarkest || sum > kBrightest) return false;
-  const auto bin = [&](int value) {
-    const double part = (static_cast<double>(value) / sum - kLow) / (kHigh - kLow);
-    return std::clamp(part, 0.0, 1.0) * (kBins - 1.001);
-  };
-  const double red = bin(pixel[2]), green = bin(pixel[1]);
-  const int r = static_cast<int>(red), g = static_cast<int>(green);
-  const auto u = static_cast<float>(red - r), v = static_cast<float>(green - g);
-  band[r * kBins + g] += (1 - u) * (1 - v);
-  band[(r + 1) * kBins + g] += u * (1 - v);
-  band[r * kBins + g + 1] += (1 - u) * v;
-  band[(r + 1) * kBins + g + 1] += u * v;
+  const Eigen::Array2d part = (Eigen::Array2d(pixel[2], pixel[1]) / sum - kLow) / (kHigh - kLow);
+  const Eigen::Array2d bin = part.max(0.0).min(1.0) * (kBins - 1.001);
+  const int r = static_cast<int>(bin.x()), g = static_cast<int>(bin.y());
+  const auto u = static_cast<float>(bin.x() - r), v = static_cast<float>(bin.y() - g);
+  float* cell = band + r * kBins + g;
+  cell[0] += (1 - u) * (1 - v);
+  cell[kBins] += u * (1 - v);
+  cell[1] += (1 - u) * v;
+  cell[kBins + 1] += u * v;
   return true;
 }
 
-// A point of the ring: `along` counts once round the opening (0 to 4), `out` is the distance from the border.
-Vector2d ringPoint(double along, double out_x, double out_y) {
-  const int side = std::min(3, static_cast<int>(along));
-  const double t = along - side, x = -out_x + t * (1 + 2 * out_x), y = -out_y + t * (1 + 2 * out_y);
+/// Samples of a ring round the unit square at the distance `out`; `t` is -out to 1 + out along a side.
+Vector2d ringPoint(int side, const Vector2d& t, const Vector2d& out) {
   switch (side) {
     case geometry::kTop:
-      return {x, -out_y};
+      return {t.x(), -out.y()};
     case geometry::kRight:
-      return {1 + out_x, y};
+      return {1 + out.x(), t.y()};
     case geometry::kBottom:
-      return {1 - x, 1 + out_y};
+      return {1 - t.x(), 1 + out.y()};
     default:
-      return {-out_x, 1 - y};
+      return {-out.x(), 1 - t.y()};
   }
 }
 
+// Adds the pixels of one ring to a band; how many counted.
+int addRing(const cv::Mat& image, const UnitSquare& map, const Vector2d& out, float* band) {
+  const Vector2d length = Vector2d::Ones() + 2 * out;
+  const double right = image.cols - 0.5, bottom = image.rows - 0.5;
+  int count = 0;
+  for (int side = 0; side < 4; ++side)
+    for (int k = 0; k < kAlong; ++k) {
+      const double t = (side * kAlong + k + 0.5) / kAlong - side;
+      const Vector2d p = map.toImage(ringPoint(side, t * length - out, out));
+      if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
+      count +=
+          addPixel(image.ptr<cv::Vec3b>(static_cast<int>(p.y() + 0.5))[static_cast<int>(p.x() + 0.5)], band);
+    }
+  return count;
+}
+
 // Fills one band of the histogram; the number of pixels that counted.
-int fillBand(const cv::Mat& image, const Quadrilateral& opening, double from, double to, float* band) {
-  const UnitSquare map(opening);
+int fillBand(const cv::Mat& image, const Quadrilateral& opening, const UnitSquare& map, double from,
+             double to, float* band) {
   const auto sides = geometry::sideLengths(opening);
   const double width = 0.5 * (sides[0] + sides[2]), height = 0.5 * (sides[1] + sides[3]),
                mean = 0.5 * (width + height);
   int count = 0;
   for (int a = 0; a < kAcross; ++a) {
     const double out = (from + (to - from) * (a + 0.5) / kAcross) * mean;
-    for (int k = 0; k < 4 * kAlong; ++k) {
-      const Vector2d ring = ringPoint((k + 0.5) / kAlong, out / width, out / height);
-      const Vector2d p = map.toImage(ring);
-      if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < image.cols - 0.5 && p.y() < image.rows - 0.5)) continue;
-      count += addPixel(
-          image.at<cv::Vec3b>(static_cast<int>(std::lround(p.y())), static_cast<int>(std::lround(p.x()))),
-          band);
-    }
+    count += addRing(image, map, Vector2d(out / width, out / height), band);
   }
   return count;
 }
@@ -110,9 +115,10 @@ std::optional<cv::Mat> ringHistogram(const cv::Mat& image, const Quadrilateral& 
   const double clear = kClearPx / std::sqrt(std::abs(geometry::signedArea(opening)) + 1.0);
   const double limits[3] = {std::min(clear, 0.5 * params.near_width), params.near_width,
                             std::max(params.near_width, params.far_width)};
+  const UnitSquare map(opening);
   for (int b = 0; b < 2; ++b) {
     if (bandPixels(opening, limits[b], limits[b + 1]) < params.min_pixels) return std::nullopt;
-    const int count = fillBand(image, opening, limits[b], limits[b + 1], histogram.ptr<float>(b));
+    const int count = fillBand(image, opening, map, limits[b], limits[b + 1], histogram.ptr<float>(b));
     if (count < params.min_pixels || !scaleToHalf(histogram.ptr<float>(b))) return std::nullopt;
   }
   return histogram;

@@ -14,9 +14,4 @@ UnitSquare::UnitSquare(const geometry::Quadrilateral& q) {
   inverse_ /= inverse_(2, 2);
 }
 
-Vector2d UnitSquare::apply(const Eigen::Matrix3d& map, const Vector2d& point) {
-  const Eigen::Vector3d p = map * Eigen::Vector3d(point.x(), point.y(), 1.0);
-  return p.z() > 1e-6 ? Vector2d(p.x() / p.z(), p.y() / p.z()) : Vector2d(-1e6, -1e6);
-}
-
 }  // namespace window_ingress::detection

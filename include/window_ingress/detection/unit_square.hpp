@@ -18,7 +18,12 @@ class UnitSquare {
   Eigen::Vector2d fromImage(const Eigen::Vector2d& pixel) const { return apply(inverse_, pixel); }
 
  private:
-  static Eigen::Vector2d apply(const Eigen::Matrix3d& map, const Eigen::Vector2d& point);
+  static Eigen::Vector2d apply(const Eigen::Matrix3d& map, const Eigen::Vector2d& point) {
+    const double depth = map(2, 0) * point.x() + (map(2, 1) * point.y() + map(2, 2));
+    if (!(depth > 1e-6)) return {-1e6, -1e6};
+    return (map.col(0).head<2>() * point.x() + map.col(1).head<2>() * point.y() + map.col(2).head<2>()) /
+           depth;
+  }
 
   Eigen::Matrix3d map_, inverse_;
 };
