@@ -29,8 +29,8 @@ FlightBag::FlightBag(const std::string& file) { bag_.open(file, rosbag::bagmode:
 void FlightBag::onStart(const simulation::World& world) {
   world_ = &world;
   const ros::Time stamp = stampOf(0.0);
-  bag_.write("tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
-  bag_.write("ground_truth/window", stamp,
+  bag_.write("/tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
+  bag_.write("/ground_truth/window", stamp,
              toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
 }
 
@@ -42,22 +42,22 @@ void FlightBag::onImage(const simulation::CameraFrame& frame, const detection::D
   picture.format = "bgr8; jpeg compressed bgr8";
   cv::imencode(".jpg", frame.image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, 95});
   picture.data.assign(jpeg_.begin(), jpeg_.end());
-  bag_.write("image_raw/compressed", now, picture);
+  bag_.write("/image_raw/compressed", now, picture);
   sensor_msgs::CameraInfo info = toMsg(world_->camera());
   info.header = picture.header;
-  bag_.write("camera_info", now, info);
-  bag_.write("ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, picture.header));
+  bag_.write("/camera_info", now, info);
+  bag_.write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, picture.header));
 }
 
 void FlightBag::onOdometry(const simulation::OdometrySample& sample) {
   const ros::Time now = stampOf(world_->timeSec());
   const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), frames_);
-  bag_.write("odom", now, message);
-  bag_.write("tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
+  bag_.write("/odom", now, message);
+  bag_.write("/tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
 }
 
 void FlightBag::onImu(const simulation::ImuSample& sample) {
-  bag_.write("imu", stampOf(world_->timeSec()), toImuMsg(sample, stampOf(sample.stamp_sec), frames_));
+  bag_.write("/imu", stampOf(world_->timeSec()), toImuMsg(sample, stampOf(sample.stamp_sec), frames_));
 }
 
 void FlightBag::onStep(const evaluation::FlightRecord&, const navigation::NavigatorOutput& output) {
@@ -66,11 +66,11 @@ void FlightBag::onStep(const evaluation::FlightRecord&, const navigation::Naviga
   setpoint.header = headerOf(now, frames_.odom);
   setpoint.twist.linear = toVectorMsg(output.setpoint.velocity_odom_mps);
   setpoint.twist.angular.z = output.setpoint.yaw_rate_radps;
-  if (output.enabled) bag_.write("cmd_vel", now, setpoint);
+  if (output.enabled) bag_.write("/cmd_vel", now, setpoint);
   window_ingress::IngressState state = toMsg(output);
   state.header = headerOf(now, frames_.odom);
-  bag_.write("state", now, state);
-  bag_.write("ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
+  bag_.write("/state", now, state);
+  bag_.write("/ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
 }
 
 }  // namespace window_ingress::adapters

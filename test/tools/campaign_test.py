@@ -69,5 +69,5 @@ def test_failures_are_kept_with_bag_and_picture(tmp_path):
     bag = tmp_path / "out/failures/flight_3.bag"
     assert os.path.getsize(tmp_path / "out/failures/flight_3.png") > 1000
     info = run(ROOT / "scripts/run", "rosbag", "info", bag)
-    for topic in ("camera_info", "cmd_vel", "ground_truth/odom", "image_raw/compressed", "imu", "odom", "state", "tf_static"):
+    for topic in ("/camera_info", "/cmd_vel", "/ground_truth/odom", "/image_raw/compressed", "/imu", "/odom", "/state", "/tf_static"):
         assert topic in info.stdout, info.stdout + info.stderr
