@@ -99,8 +99,8 @@ bool WorldNode::mayRun() {
 void WorldNode::stepOnce() {
   world_->advance();
   if (world_->timeSec() >= clock_due_sec_) publishClock();
-  if (const auto sample = world_->takeImu()) publishImu(*sample);
-  if (const auto sample = world_->takeOdometry()) publishOdometry(*sample);
+  while (const auto sample = world_->takeImu()) publishImu(*sample);
+  while (const auto sample = world_->takeOdometry()) publishOdometry(*sample);
   if (const auto frame = world_->takeFrame()) publishFrame(*frame);
   publishVerdict();
 }

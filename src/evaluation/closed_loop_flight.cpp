@@ -103,13 +103,13 @@ class Flight {
 };
 
 void Flight::sense() {
-  if (const auto odometry = world_.takeOdometry()) {
+  while (const auto odometry = world_.takeOdometry()) {
     for (auto* observer : observers_) observer->onOdometry(*odometry);
     tracker_.addOdometry(odometry->stamp_sec, odometry->T_odom_base);
     input_.vehicle =
         navigation::VehicleState{odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
   }
-  if (const auto imu = world_.takeImu()) {
+  while (const auto imu = world_.takeImu()) {
     for (auto* observer : observers_) observer->onImu(*imu);
     tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
   }

@@ -8,7 +8,11 @@ ImuSensor::ImuSensor(const ImuParams& params, std::uint32_t seed)
     : params_(params),
       random_(seed, "imu"),
       periodic_(params.rate_hz),
-      tilt_rad_(noise(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))) {}
+      delay_(params.latency_sec),
+      tilt_rad_(noise(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))) {
+  RandomStream bias(seed, "imu bias");
+  for (int axis = 0; axis < 3; ++axis) gyro_bias_radps_[axis] = bias.normal(params.gyro_bias_radps);
+}
 
 Eigen::Vector3d ImuSensor::noise(double sigma) {
   const double x = random_.normal(sigma), y = random_.normal(sigma), z = random_.normal(sigma);
@@ -25,12 +29,15 @@ void ImuSensor::update(double now_sec, const VehicleTruth& truth,
   tilt_rad_ = kept * tilt_rad_ + Eigen::Vector3d(fresh.x(), fresh.y(), 0.0);
 
   ImuSample sample;
-  sample.stamp_sec = now_sec;
+  sample.stamp_sec = now_sec + params_.stamp_offset_sec;
   Eigen::Matrix3d attitude = odometry_drift.linear() * truth.T_odom_base.linear();
-  if (tilt_rad_.norm() > 0.0)
-    attitude = attitude * Eigen::AngleAxisd(tilt_rad_.norm(), tilt_rad_.normalized()).toRotationMatrix();
+  const Eigen::Vector3d tilt =
+      tilt_rad_ + Eigen::Vector3d(params_.roll_bias_rad, params_.pitch_bias_rad, 0.0);
+  if (tilt.norm() > 0.0)
+    attitude = attitude * Eigen::AngleAxisd(tilt.norm(), tilt.normalized()).toRotationMatrix();
   sample.R_odom_base = Eigen::Quaterniond(attitude).normalized();
-  sample.angular_velocity_base_radps = truth.angular_velocity_base_radps + noise(params_.gyro_noise_radps);
+  sample.angular_velocity_base_radps =
+      truth.angular_velocity_base_radps + gyro_bias_radps_ + noise(params_.gyro_noise_radps);
   sample.specific_force_base_mps2 = specific_force_base_mps2 + noise(params_.accelerometer_noise_mps2);
   delay_.push(now_sec, sample);
 }

@@ -1,5 +1,7 @@
 #include "window_ingress/simulation/obstacle.hpp"
 
+#include <algorithm>
+
 namespace window_ingress::simulation {
 
 Eigen::Vector3d boundingHalfExtents(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& half_extents_m) {
@@ -22,6 +24,17 @@ bool touches(const Eigen::Isometry3d& T_window_box, const Eigen::Vector3d& half_
       if (separates(turned.col(i).cross(Eigen::Vector3d::Unit(j)))) return false;
   }
   return true;
+}
+
+double topBelow(const std::vector<Obstacle>& obstacles, const Eigen::Vector3d& point, double ground_z_m) {
+  double top_m = ground_z_m;
+  for (const Obstacle& obstacle : obstacles) {
+    const Eigen::Vector3d low = obstacle.box.min(), high = obstacle.box.max();
+    const bool under = (point.head<2>().array() >= low.head<2>().array()).all() &&
+                       (point.head<2>().array() <= high.head<2>().array()).all();
+    if (under && high.z() <= point.z()) top_m = std::max(top_m, high.z());
+  }
+  return top_m;
 }
 
 }  // namespace window_ingress::simulation

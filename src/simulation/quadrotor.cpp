@@ -9,7 +9,6 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr double kThrustTimeConstant_sec = 0.04;
-constexpr double kRateTimeConstant_sec = 0.03;
 constexpr double kLeastThrust_mps2 = 0.2 * Quadrotor::kGravity_mps2;
 constexpr double kMostThrust_mps2 = 2.0 * Quadrotor::kGravity_mps2;
 
@@ -43,15 +42,23 @@ double lag(double step_sec, double time_constant_sec) {
 
 Quadrotor::Quadrotor(const VehicleParams& params, const Eigen::Isometry3d& T_odom_base,
                      const Eigen::Vector3d& wind_odom_mps)
-    : params_(params) {
+    : params_(params),
+      mass_ratio_(1.0 + params.payload_kg / params.mass_kg),
+      thrust_factor_((1.0 + params.thrust_gain_error) / mass_ratio_),
+      controller_(params),
+      wanted_thrust_mps2_(kGravity_mps2 / thrust_factor_),
+      rest_height_m_(params.half_height_m) {
   truth_.T_odom_base = T_odom_base;
+  const Eigen::Vector3d gravity(0, 0, kGravity_mps2);
+  hover_trim_mps2_ = gravity / thrust_factor_ - gravity;
+  controller_.setTrim(hover_trim_mps2_);
   if (T_odom_base.translation().z() <= params.half_height_m + 1e-6) return;
-  trim_mps2_ = -params.drag_per_sec * wind_odom_mps;
-  const Eigen::Vector3d force =
-      limitTilt(trim_mps2_ + Eigen::Vector3d(0, 0, kGravity_mps2), params.max_tilt_rad);
+  const Eigen::Vector3d against_wind = -params.drag_per_sec / mass_ratio_ / thrust_factor_ * wind_odom_mps;
+  controller_.setTrim(hover_trim_mps2_ + against_wind);
+  const Eigen::Vector3d force = limitTilt(controller_.trim() + gravity, params.max_tilt_rad);
   truth_.T_odom_base.linear() = attitudeFor(force, geometry::yawOf(T_odom_base.linear()));
-  thrust_mps2_ = force.norm();
-  specific_force_base_mps2_ = truth_.T_odom_base.linear().transpose() * Eigen::Vector3d(0, 0, kGravity_mps2);
+  wanted_thrust_mps2_ = force.norm();
+  specific_force_base_mps2_ = truth_.T_odom_base.linear().transpose() * gravity;
 }
 
 void Quadrotor::command(const VelocityCommand& command) {
@@ -63,24 +70,35 @@ void Quadrotor::command(const VelocityCommand& command) {
 }
 
 void Quadrotor::step(double step_sec, const Eigen::Vector3d& wind_odom_mps) {
+  step(step_sec, {wind_odom_mps, Eigen::Vector3d::Zero()}, truth_.velocity_odom_mps);
+}
+
+void Quadrotor::step(double step_sec, const AirAtVehicle& air,
+                     const Eigen::Vector3d& estimated_velocity_odom_mps) {
   command_age_sec_ += step_sec;
   if (command_age_sec_ > params_.command_timeout_sec) command_ = VelocityCommand();
-  const Eigen::Vector3d force = wantedForce(step_sec);
-  turn(force, step_sec);
-  move(force, wind_odom_mps, step_sec);
+  if (crashed_) {
+    move(0.0, air, step_sec);
+  } else {
+    const Eigen::Vector3d force = wantedForce(estimated_velocity_odom_mps, step_sec);
+    turn(force, step_sec);
+    move(thrust(force, step_sec), air, step_sec);
+  }
   standOnGround();
 }
 
-// The trim is frozen while the acceleration is at its limit: no wind-up.
-Eigen::Vector3d Quadrotor::wantedForce(double step_sec) {
-  const Eigen::Vector3d error = command_.velocity_odom_mps - truth_.velocity_odom_mps;
-  const Eigen::Vector3d wish = error / params_.velocity_time_constant_sec;
-  const Eigen::Vector3d limited = shortened(wish, params_.max_acceleration_mps2);
-  const bool braking_or_cruising = error.norm() < 0.3;
-  if (wish.isApprox(limited) && braking_or_cruising)
-    trim_mps2_ += params_.velocity_integral_per_sec / params_.velocity_time_constant_sec * step_sec * error;
-  const Eigen::Vector3d known_drag = params_.drag_per_sec * truth_.velocity_odom_mps;
-  const Eigen::Vector3d force = limited + trim_mps2_ + known_drag + Eigen::Vector3d(0, 0, kGravity_mps2);
+void Quadrotor::crash(double rest_height_m) {
+  if (crashed_) return;
+  crashed_ = true;
+  rest_height_m_ = std::max(rest_height_m, params_.half_height_m);
+  truth_.velocity_odom_mps.setZero();
+  truth_.angular_velocity_base_radps.setZero();
+}
+
+Eigen::Vector3d Quadrotor::wantedForce(const Eigen::Vector3d& velocity_mps, double step_sec) {
+  const Eigen::Vector3d known_drag = params_.drag_per_sec * velocity_mps;
+  const Eigen::Vector3d force = controller_.step(command_.velocity_odom_mps, velocity_mps, step_sec) +
+                                known_drag + Eigen::Vector3d(0, 0, kGravity_mps2);
   return limitTilt(force, params_.max_tilt_rad);
 }
 
@@ -88,9 +106,10 @@ void Quadrotor::turn(const Eigen::Vector3d& force, double step_sec) {
   const Eigen::Matrix3d& attitude = truth_.T_odom_base.linear();
   const Eigen::Matrix3d wanted = attitudeFor(force, geometry::yawOf(attitude));
   const Eigen::AngleAxisd error(Eigen::Matrix3d(attitude.transpose() * wanted));
-  Eigen::Vector3d rate = error.angle() / params_.attitude_time_constant_sec * error.axis();
+  const double gain = (1.0 + params_.attitude_gain_error) / params_.attitude_time_constant_sec;
+  Eigen::Vector3d rate = gain * error.angle() * error.axis();
   rate.head<2>() *= std::min(1.0, params_.max_tilt_rate_radps / std::max(rate.head<2>().norm(), 1e-9));
-  rate.z() = command_.yaw_rate_radps;
+  rate.z() = params_.yaw_rate_gain * command_.yaw_rate_radps;
 
   Eigen::Vector3d& omega = truth_.angular_velocity_base_radps;
   omega.head<2>() += lag(step_sec, kRateTimeConstant_sec) * (rate - omega).head<2>();
@@ -102,25 +121,33 @@ void Quadrotor::turn(const Eigen::Vector3d& force, double step_sec) {
   truth_.T_odom_base.linear() = turned.normalized().toRotationMatrix();
 }
 
-void Quadrotor::move(const Eigen::Vector3d& force, const Eigen::Vector3d& wind_odom_mps, double step_sec) {
-  const Eigen::Vector3d up = truth_.T_odom_base.linear().col(2);
-  const double wanted_thrust = std::clamp(force.dot(up), kLeastThrust_mps2, kMostThrust_mps2);
-  thrust_mps2_ += lag(step_sec, kThrustTimeConstant_sec) * (wanted_thrust - thrust_mps2_);
-  const Eigen::Vector3d specific_force =
-      thrust_mps2_ * up - params_.drag_per_sec * (truth_.velocity_odom_mps - wind_odom_mps);
-  specific_force_base_mps2_ = truth_.T_odom_base.linear().transpose() * specific_force;
+double Quadrotor::thrust(const Eigen::Vector3d& force, double step_sec) {
+  const double wanted =
+      std::clamp(force.dot(truth_.T_odom_base.linear().col(2)), kLeastThrust_mps2, kMostThrust_mps2);
+  wanted_thrust_mps2_ += lag(step_sec, kThrustTimeConstant_sec) * (wanted - wanted_thrust_mps2_);
+  return thrust_factor_ * wanted_thrust_mps2_;
+}
+
+void Quadrotor::move(double thrust_mps2, const AirAtVehicle& air, double step_sec) {
+  const Eigen::Matrix3d& attitude = truth_.T_odom_base.linear();
+  const Eigen::Vector3d drag = params_.drag_per_sec * (air.wind_odom_mps - truth_.velocity_odom_mps);
+  const Eigen::Vector3d push = crashed_ ? Eigen::Vector3d::Zero() : air.push_odom_mps2;
+  const Eigen::Vector3d specific_force = thrust_mps2 * attitude.col(2) + (drag + push) / mass_ratio_;
+  specific_force_base_mps2_ = attitude.transpose() * specific_force;
   const Eigen::Vector3d before = truth_.velocity_odom_mps;
   truth_.velocity_odom_mps += step_sec * (specific_force - Eigen::Vector3d(0, 0, kGravity_mps2));
+  if (crashed_) truth_.velocity_odom_mps.head<2>().setZero();
   truth_.T_odom_base.translation() += 0.5 * step_sec * (before + truth_.velocity_odom_mps);
 }
 
 void Quadrotor::standOnGround() {
   double& height_m = truth_.T_odom_base.translation().z();
-  if (height_m > params_.half_height_m) return;
-  height_m = params_.half_height_m;
+  if (height_m > rest_height_m_) return;
+  height_m = rest_height_m_;
   truth_.velocity_odom_mps.head<2>().setZero();
   truth_.velocity_odom_mps.z() = std::max(0.0, truth_.velocity_odom_mps.z());
-  trim_mps2_.setZero();
+  controller_.restart();
+  controller_.setTrim(hover_trim_mps2_);
   const double yaw_rad = geometry::yawOf(truth_.T_odom_base.linear());
   truth_.T_odom_base.linear() = geometry::yawRotation(yaw_rad);
   truth_.angular_velocity_base_radps.setZero();

@@ -1,9 +1,80 @@
 #include "window_ingress/simulation/vehicle_profiles.hpp"
 
 namespace window_ingress::simulation {
+namespace {
 
-void applyProfile(const std::string& profile, VehicleParams& vehicle, OdometryParams&) {
+// Behind a satellite receiver and a compass: errors come and go, they do not grow.
+void setBoundedOdometry(double wander_m, OdometryParams& odometry) {
+  odometry.rate_hz = 50.0;
+  odometry.wander_m = wander_m;
+  odometry.drift_m_per_sqrt_sec = 0.0;
+  odometry.height_drift_m_per_sqrt_sec = 0.002;
+  odometry.yaw_drift_rad_per_sqrt_sec = 0.0005;
+  odometry.twist_frame = "body";
+}
+
+// A ramp to the setpoint and a pull to where it leads: it overshoots, and after a stop it comes back.
+void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
+  vehicle.velocity_gain = 1.03;
+  vehicle.yaw_rate_gain = 1.02;
+  vehicle.setpoint_acceleration_mps2 = 1.22;
+  vehicle.acceleration_feed_forward = 0.14;
+  vehicle.position_hold_per_sec = 0.39;
+  vehicle.velocity_time_constant_sec = 0.59;
+  vehicle.velocity_integral_per_sec = 0.2;
+  vehicle.attitude_time_constant_sec = 0.05;
+  vehicle.command_timeout_sec = 3.2;
+  setBoundedOdometry(0.020, odometry);
+  odometry.stamp_offset_sec = 0.08;
+  odometry.latency_sec = 0.085;
+  odometry.burst_period_sec = 0.034;
+}
+
+// A setpoint limited in acceleration and jerk that is fed forward: no overshoot, a slow end.
+void setArduCopter43(VehicleParams& vehicle, OdometryParams& odometry) {
+  vehicle.velocity_gain = 1.012;
+  vehicle.yaw_rate_gain = 0.84;
+  vehicle.setpoint_acceleration_mps2 = 1.635;
+  vehicle.setpoint_time_constant_sec = 0.62;
+  vehicle.setpoint_jerk_mps3 = 7.5;
+  vehicle.acceleration_feed_forward = 1.0;
+  vehicle.velocity_time_constant_sec = 0.58;
+  vehicle.velocity_integral_per_sec = 0.1;
+  vehicle.attitude_time_constant_sec = 0.05;
+  vehicle.command_timeout_sec = 3.2;
+  setBoundedOdometry(0.009, odometry);
+  odometry.stamp_offset_sec = 0.03;
+  odometry.latency_sec = 0.035;
+  odometry.jitter_sec = 0.015;
+}
+
+void setCrisp(VehicleParams& vehicle, OdometryParams& odometry) {
+  vehicle.acceleration_feed_forward = 0.03;
+  vehicle.position_hold_per_sec = 0.34;
+  vehicle.velocity_time_constant_sec = 0.095;
+  vehicle.velocity_integral_per_sec = 0.18;
+  vehicle.max_acceleration_mps2 = 2.89;
+  vehicle.max_tilt_rad = 0.57;
+  vehicle.attitude_time_constant_sec = 0.058;
+  vehicle.max_tilt_rate_radps = 13.8;
+  vehicle.command_timeout_sec = 1.0;
+  odometry = OdometryParams();
+  odometry.rate_hz = 100.0;
+  odometry.latency_sec = 0.002;
+  odometry.jitter_sec = 0.003;
+  odometry.position_noise_m = odometry.velocity_noise_mps = odometry.attitude_noise_rad = 0.0;
+  odometry.drift_m_per_sqrt_sec = odometry.height_drift_m_per_sqrt_sec = 0.0;
+  odometry.yaw_drift_rad_per_sqrt_sec = 0.0;
+  odometry.twist_frame = "world";
+}
+
+}  // namespace
+
+void applyProfile(const std::string& profile, VehicleParams& vehicle, OdometryParams& odometry) {
   vehicle.profile = profile;
+  if (profile == "arducopter_4_0") setArduCopter40(vehicle, odometry);
+  if (profile == "arducopter_4_3") setArduCopter43(vehicle, odometry);
+  if (profile == "crisp") setCrisp(vehicle, odometry);
 }
 
 }  // namespace window_ingress::simulation

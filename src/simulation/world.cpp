@@ -35,6 +35,18 @@ Course courseOf(const Scenario& scenario, const Scene& scene) {
   return course;
 }
 
+WallInAir wallOf(const Scenario& scenario, const Scene& scene) {
+  WallInAir wall;
+  wall.open = scene.opening.has_value();
+  wall.opening = scenario.opening();
+  wall.front_x_m = scenario.window.frame_depth_m;
+  wall.back_x_m = scene.opening_depth_m;
+  wall.half_width_m = 0.5 * scenario.house.width_m;
+  wall.ground_z_m = scene.ground_z_m;
+  wall.top_z_m = scene.ground_z_m + scenario.house.eaves_m;
+  return wall;
+}
+
 std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams& params, std::uint32_t seed) {
   try {
     return std::make_unique<CameraSensor>(scene, params, seed);
@@ -54,9 +66,9 @@ struct World::Impl {
         T_base_camera(scenario.camera.T_base_camera()),
         T_odom_window(scenario.T_odom_window()),
         camera(makeCamera(scene, scenario.camera, seed)),
-        wind(scenario.wind, seed),
+        wind(scenario.wind, wallOf(scenario, scene), scenario.vehicle.half_length_m, seed),
         quadrotor(scenario.vehicle, scenario.startPoseInOdom(),
-                  T_odom_window.linear() * wind.steadyInWindow()),
+                  T_odom_window.linear() * wind.steadyAt(scenario.startPoseInWindow().translation())),
         odometry(scenario.odometry, seed),
         imu(scenario.imu, seed),
         followed(scenario.startPoseInOdom()),
@@ -72,7 +84,11 @@ struct World::Impl {
 
   void move() {
     obey();
-    quadrotor.step(kStepSec, T_odom_window.linear() * wind.step(kStepSec));
+    const Eigen::Matrix3d& turn = T_odom_window.linear();
+    const Air air = wind.step(kStepSec, T_odom_window.inverse() * truth().T_odom_base.translation(),
+                              turn.transpose() * truth().velocity_odom_mps);
+    const Eigen::Vector3d estimate = odometry.drift().linear().transpose() * odometry.velocityEstimate();
+    quadrotor.step(kStepSec, {turn * air.wind_mps, turn * air.push_mps2}, estimate);
   }
 
   void sense() {
@@ -83,6 +99,14 @@ struct World::Impl {
     if (shutter.due(time_sec))
       exposures.push(time_sec, {exposure_count++, time_sec, truth(), truth(), Exposure::Spoilt::kNot});
     referee.update(time_sec, truth());
+    if (referee.touched() && !external() && !quadrotor.crashed()) quadrotor.crash(restHeight());
+  }
+
+  // In odom, where z = 0 is the ground.
+  double restHeight() const {
+    const double centre_m = T_odom_window.translation().z();
+    const Eigen::Vector3d position = T_odom_window.inverse() * quadrotor.truth().T_odom_base.translation();
+    return centre_m + topBelow(scene.obstacles, position, scene.ground_z_m) + scenario.vehicle.half_height_m;
   }
 
   // What the sensors deliver by now sets out on its way out of the world.

@@ -19,7 +19,8 @@ struct ImuSample {
 };
 
 /// Attitude with an error of roll and pitch that lasts for a while (first-order Gauss-Markov), white noise on
-/// rates and forces. Its heading is that of the drifted odometry. Delivered without delay.
+/// rates and forces, constant biases of roll, pitch and the gyroscope. Its heading is that of the drifted
+/// odometry.
 class ImuSensor {
  public:
   ImuSensor(const ImuParams& params, std::uint32_t seed);
@@ -27,6 +28,7 @@ class ImuSensor {
   /// At each physics step. `odometry_drift`: see `OdometrySensor::drift`.
   void update(double now_sec, const VehicleTruth& truth, const Eigen::Vector3d& specific_force_base_mps2,
               const Eigen::Isometry3d& odometry_drift);
+  /// The oldest sample that has arrived and was not taken; ask until there is none.
   std::optional<ImuSample> take(double now_sec) { return delay_.take(now_sec); }
 
  private:
@@ -35,8 +37,8 @@ class ImuSensor {
   ImuParams params_;
   RandomStream random_;
   Periodic periodic_;
-  DelayLine<ImuSample> delay_{0.0};
-  Eigen::Vector3d tilt_rad_;
+  DelayLine<ImuSample> delay_;
+  Eigen::Vector3d tilt_rad_, gyro_bias_radps_;
 };
 
 }  // namespace window_ingress::simulation

@@ -20,4 +20,7 @@ bool touches(const Eigen::Isometry3d& T_window_box, const Eigen::Vector3d& half_
 /// Half of the axis-aligned bounding box of a turned box [m].
 Eigen::Vector3d boundingHalfExtents(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& half_extents_m);
 
+/// The highest top below a point of all obstacles under it, or `ground_z_m` if that is higher [m].
+double topBelow(const std::vector<Obstacle>& obstacles, const Eigen::Vector3d& point, double ground_z_m);
+
 }  // namespace window_ingress::simulation

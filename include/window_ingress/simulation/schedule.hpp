@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -22,19 +23,29 @@ class Periodic {
   long count_ = 0;
 };
 
-/// Values on their way: what goes in at t comes out at t + delay.
+/// Values on their way, first in first out: what goes in at t comes out at t + delay, and never before what
+/// went in before it.
 template <typename Value>
 class DelayLine {
  public:
   explicit DelayLine(double delay_sec) : delay_sec_(delay_sec) {}
-  void push(double now_sec, Value value) { waiting_.emplace_back(now_sec + delay_sec_, std::move(value)); }
-  /// The latest value that has arrived by now; it and the older ones are forgotten.
+  void push(double now_sec, Value value) { pushUntil(now_sec + delay_sec_, std::move(value)); }
+  /// With an arrival of its own.
+  void pushUntil(double arrival_sec, Value value) {
+    if (!waiting_.empty()) arrival_sec = std::max(arrival_sec, waiting_.back().first);
+    waiting_.emplace_back(arrival_sec, std::move(value));
+  }
+  /// The oldest value that has arrived by now, which is forgotten; nothing once all of them were taken.
   std::optional<Value> take(double now_sec) {
+    if (waiting_.empty() || waiting_.front().first > now_sec + 1e-9) return std::nullopt;
+    std::optional<Value> oldest = std::move(waiting_.front().second);
+    waiting_.pop_front();
+    return oldest;
+  }
+  /// The latest value that has arrived by now; it and the older ones are forgotten.
+  std::optional<Value> takeLatest(double now_sec) {
     std::optional<Value> latest;
-    while (!waiting_.empty() && waiting_.front().first <= now_sec + 1e-9) {
-      latest = std::move(waiting_.front().second);
-      waiting_.pop_front();
-    }
+    while (auto next = take(now_sec)) latest = std::move(next);
     return latest;
   }
 

@@ -7,8 +7,13 @@
 
 namespace window_ingress::simulation {
 
-/// Makes vehicle and odometry answer as a real autopilot does. Profiles: see doc/scenarios.md. An unknown one
-/// changes nothing but the name.
+/// Makes vehicle and odometry answer as a real autopilot does: sets what is known of the profile, leaves the
+/// rest.
+///
+/// `arducopter_4_0`, `arducopter_4_3`: ArduCopter 4.0.7 and 4.3.2 in software-in-the-loop behind MAVROS.
+/// `crisp`: a simulator's controller (so3) that answers in a fifth of a second. `default`, `external` and
+/// unknown ones change nothing but the name. What each reproduces of what was measured: test
+/// `vehicle_profiles_test.cpp` and doc/scenarios.md.
 void applyProfile(const std::string& profile, VehicleParams& vehicle, OdometryParams& odometry);
 
 }  // namespace window_ingress::simulation

@@ -8,7 +8,6 @@
 #include "window_ingress/simulation/odometry_sensor.hpp"
 #include "window_ingress/simulation/random_stream.hpp"
 #include "window_ingress/simulation/schedule.hpp"
-#include "window_ingress/simulation/wind.hpp"
 
 namespace window_ingress::simulation {
 namespace {
@@ -61,15 +60,36 @@ TEST(Schedule, PeriodsNeitherDriftNorDoubleUp) {
   EXPECT_EQ(count, 301);
 }
 
-TEST(Schedule, DelayedValuesArriveInTimeAndTheLatestWins) {
+TEST(Schedule, DelayedValuesArriveInTimeAndInOrder) {
   DelayLine<int> line(0.1);
   line.push(0.0, 1);
   line.push(0.05, 2);
   line.push(0.2, 3);
   EXPECT_FALSE(line.take(0.09));
+  EXPECT_EQ(line.take(0.15), 1);
   EXPECT_EQ(line.take(0.15), 2);
   EXPECT_FALSE(line.take(0.2));
   EXPECT_EQ(line.take(5.0), 3);
+  EXPECT_FALSE(line.take(5.0));
+}
+
+TEST(Schedule, OfDelayedValuesTheLatestCanBeAskedFor) {
+  DelayLine<int> line(0.1);
+  EXPECT_FALSE(line.takeLatest(0.0));
+  line.push(0.0, 1);
+  line.push(0.05, 2);
+  line.push(0.2, 3);
+  EXPECT_EQ(line.takeLatest(0.15), 2);
+  EXPECT_FALSE(line.takeLatest(0.15));
+}
+
+TEST(Schedule, WhatLeftLaterNeverOvertakes) {
+  DelayLine<int> line(0.0);
+  line.pushUntil(0.5, 1);
+  line.pushUntil(0.2, 2);
+  EXPECT_FALSE(line.take(0.4));
+  EXPECT_EQ(line.take(0.5), 1);
+  EXPECT_EQ(line.take(0.5), 2);
 }
 
 TEST(Odometry, WithoutNoiseAndDriftItIsTheTruth) {
@@ -104,7 +124,8 @@ TEST(Odometry, DriftGrowsWithTheRootOfTimeAndTurnsVelocityToo) {
   VehicleTruth truth = standing();
   truth.velocity_odom_mps = {1.0, 0.0, 0.0};
   for (double t = 0.0; t < 5.0; t += 0.02) turning.update(t, truth);
-  const auto sample = turning.take(10.0);
+  std::optional<OdometrySample> sample;
+  while (const auto next = turning.take(10.0)) sample = next;
   EXPECT_NEAR(std::atan2(sample->velocity_odom_mps.y(), sample->velocity_odom_mps.x()),
               geometry::yawOf(turning.drift().linear()), 1e-9);
 }
@@ -144,19 +165,6 @@ TEST(Imu, AttitudeErrorHasItsSizeAndLastsAndLeavesTheHeading) {
   }
   EXPECT_NEAR(deviation(tilts), params.attitude_noise_rad, 0.0012);
   EXPECT_LT(deviation(changes), 0.3 * params.attitude_noise_rad) << "it must not jump from sample to sample";
-}
-
-TEST(Wind, GustsHaveTheirSizeAndSteadyWindIsSteady) {
-  WindParams params;
-  params.x_mps = 2.0;
-  Wind steady(params, 1);
-  EXPECT_EQ(steady.step(kStep_sec), Eigen::Vector3d(2.0, 0.0, 0.0));
-  params.gust_mps = 0.8;
-  params.gust_time_constant_sec = 0.5;
-  Wind gusty(params, 1);
-  std::vector<double> speeds;
-  for (int i = 0; i < 400 * 400; ++i) speeds.push_back(gusty.step(kStep_sec).x());
-  EXPECT_NEAR(deviation(speeds), 0.8, 0.1);
 }
 
 }  // namespace

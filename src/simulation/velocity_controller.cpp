@@ -1,0 +1,49 @@
+#include "window_ingress/simulation/velocity_controller.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace window_ingress::simulation {
+namespace {
+
+constexpr double kLongestLag_m = 1.0;      // beyond, the place that it is pulled to comes along
+constexpr double kNearSetpoint_mps = 0.3;  // the trim learns only there
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
+  const double length = v.norm();
+  return length > longest ? Eigen::Vector3d(v * (longest / length)) : v;
+}
+
+double limitOr(double limit) { return limit > 0.0 ? limit : std::numeric_limits<double>::infinity(); }
+
+}  // namespace
+
+void VelocityController::restart() {
+  reference_mps_.setZero();
+  reference_mps2_.setZero();
+  lag_m_.setZero();
+}
+
+void VelocityController::shape(const Eigen::Vector3d& wanted_mps, double step_sec) {
+  const double time_constant_sec = std::max(params_.setpoint_time_constant_sec, step_sec);
+  const Eigen::Vector3d wish = shortened((wanted_mps - reference_mps_) / time_constant_sec,
+                                         limitOr(params_.setpoint_acceleration_mps2));
+  reference_mps2_ += shortened(wish - reference_mps2_, limitOr(params_.setpoint_jerk_mps3) * step_sec);
+  reference_mps_ += step_sec * reference_mps2_;
+}
+
+Eigen::Vector3d VelocityController::step(const Eigen::Vector3d& setpoint_mps,
+                                         const Eigen::Vector3d& velocity_mps, double step_sec) {
+  shape(params_.velocity_gain * setpoint_mps, step_sec);
+  const Eigen::Vector3d error = reference_mps_ - velocity_mps;
+  lag_m_ = shortened(lag_m_ + step_sec * error, kLongestLag_m);
+  const Eigen::Vector3d wish =
+      params_.acceleration_feed_forward * reference_mps2_ +
+      (error + params_.position_hold_per_sec * lag_m_) / params_.velocity_time_constant_sec;
+  const Eigen::Vector3d limited = shortened(wish, params_.max_acceleration_mps2);
+  if (wish.isApprox(limited) && error.norm() < kNearSetpoint_mps)
+    trim_mps2_ += params_.velocity_integral_per_sec / params_.velocity_time_constant_sec * step_sec * error;
+  return limited + trim_mps2_;
+}
+
+}  // namespace window_ingress::simulation
