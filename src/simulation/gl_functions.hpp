@@ -29,7 +29,7 @@ namespace window_ingress::simulation {
   F(VertexPointer, void, (GLint, GLenum, GLsizei, const void*))                                     \
   F(TexCoordPointer, void, (GLint, GLenum, GLsizei, const void*))                                   \
   F(ColorPointer, void, (GLint, GLenum, GLsizei, const void*))                                      \
-  F(DrawArrays, void, (GLenum, GLint, GLsizei))                                                     \
+  F(DrawElements, void, (GLenum, GLsizei, GLenum, const void*))                                     \
   F(GenBuffers, void, (GLsizei, GLuint*))                                                           \
   F(BindBuffer, void, (GLenum, GLuint))                                                             \
   F(BufferData, void, (GLenum, GLsizeiptr, const void*, GLenum))                                    \

@@ -2,19 +2,22 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "edge_smoother.hpp"
+#include "faces.hpp"
 #include "gl_context.hpp"
+#include "gl_target.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
 namespace {
 
-constexpr int kSamples = 4;
 constexpr double kNear_m = 0.03;
 constexpr double kFar_m = 1000.0;
 
@@ -48,44 +51,19 @@ void requireUsable(const geometry::PinholeCamera& camera) {
 }  // namespace
 
 struct Renderer::Impl {
-  struct Batch {
-    bool indoors, textured;
-    GLuint texture;
-    GLint first;
-    GLsizei count;
-  };
-
-  Impl(const Scene& scene, const geometry::PinholeCamera& ideal) : camera(ideal), opening(scene.opening) {
+  Impl(const Scene& scene, const geometry::PinholeCamera& ideal, Antialiasing kind)
+      : camera(ideal),
+        opening(scene.opening),
+        antialiasing(kind),
+        faces(facesOf(scene.mesh)),
+        smoother(ideal),
+        bgra(ideal.height, ideal.width, CV_8UC4) {
     const GlFunctions& gl = context.makeCurrent();
-    makeFramebuffers(gl);
+    target.create(gl, bgra.size(), kind == Antialiasing::kMultisampling ? 4 : 0);
     upload(gl, scene);
     setState(gl);
-    bgra.create(camera.height, camera.width, CV_8UC4);
     if (gl.GetError() != GL_NO_ERROR)
       throw std::runtime_error("OpenGL reports an error while loading the scene");
-  }
-
-  GLuint attach(const GlFunctions& gl, GLenum attachment, GLenum format, int samples) const {
-    GLuint buffer = 0;
-    gl.GenRenderbuffers(1, &buffer);
-    gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, camera.width, camera.height);
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
-    return buffer;
-  }
-
-  void makeFramebuffers(const GlFunctions& gl) {
-    gl.GenFramebuffers(1, &sampled);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, sampled);
-    attach(gl, GL_COLOR_ATTACHMENT0, GL_RGBA8, kSamples);
-    attach(gl, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, kSamples);
-    const bool sampled_ok = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    gl.GenFramebuffers(1, &resolved);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, resolved);
-    attach(gl, GL_COLOR_ATTACHMENT0, GL_RGBA8, 0);
-    const bool resolved_ok = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    if (!sampled_ok || !resolved_ok)
-      throw std::runtime_error("OpenGL refuses a framebuffer with 4 samples a pixel");
   }
 
   static GLuint uploadTexture(const GlFunctions& gl, Texture kind, std::uint32_t seed) {
@@ -102,14 +80,15 @@ struct Renderer::Impl {
     return texture;
   }
 
+  // The surface's number takes the place of the colour's fourth component, to be read back with the picture.
   void upload(const GlFunctions& gl, const Scene& scene) {
     std::vector<Vertex> vertices;
-    for (const auto& [batch, quads] : scene.mesh.batches()) {
-      batches.push_back({batch.indoors, batch.texture != Texture::kPlain,
-                         uploadTexture(gl, batch.texture, scene.texture_seed),
-                         static_cast<GLint>(vertices.size()), static_cast<GLsizei>(quads.size())});
-      vertices.insert(vertices.end(), quads.begin(), quads.end());
+    for (const auto& [batch, corners] : scene.mesh.batches()) {
+      if (textures.count(batch.texture) == 0)
+        textures[batch.texture] = uploadTexture(gl, batch.texture, scene.texture_seed);
+      vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i].colour[3] = faces[i / 4].surface;
     GLuint buffer = 0;
     gl.GenBuffers(1, &buffer);
     gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -124,7 +103,8 @@ struct Renderer::Impl {
   void setState(const GlFunctions& gl) const {
     for (const GLenum array : {GL_VERTEX_ARRAY, GL_TEXTURE_COORD_ARRAY, GL_COLOR_ARRAY})
       gl.EnableClientState(array);
-    for (const GLenum ability : {GL_DEPTH_TEST, GL_CULL_FACE, GL_MULTISAMPLE}) gl.Enable(ability);
+    for (const GLenum ability : {GL_DEPTH_TEST, GL_CULL_FACE, GL_MULTISAMPLE, GL_SCISSOR_TEST})
+      gl.Enable(ability);
     gl.Disable(GL_DITHER);
     gl.FrontFace(GL_CW);  // the picture stands on its head
     gl.DepthFunc(GL_LESS);
@@ -153,52 +133,78 @@ struct Renderer::Impl {
     return cv::Rect(first, last + cv::Point(1, 1)) & picture;
   }
 
-  void draw(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window) {
-    gl.BindFramebuffer(GL_FRAMEBUFFER, sampled);
-    gl.Disable(GL_SCISSOR_TEST);
+  static void scissor(const GlFunctions& gl, const cv::Rect& part) {
+    gl.Scissor(part.x, part.y, part.width, part.height);
+  }
+
+  // Near faces hide far ones before those are painted; neighbours in this order with the same texture are
+  // drawn at once.
+  void draw(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const cv::Range& rows) {
+    const cv::Rect part(0, rows.start, camera.width, rows.size());
+    const cv::Rect indoors = roomIn(T_camera_window) & part;
+    visible.find(faces, camera, T_camera_window, !indoors.empty());
+    target.bind(gl);
+    gl.Enable(GL_SCISSOR_TEST);
+    scissor(gl, part);
     gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers what nothing else does
     gl.LoadMatrixd(T_camera_window.matrix().data());
-    const cv::Rect inside = roomIn(T_camera_window);
-    gl.Scissor(inside.x, inside.y, inside.width, inside.height);
-    for (const Batch& batch : batches) {
-      if (batch.indoors && inside.empty()) continue;
-      (batch.indoors ? gl.Enable : gl.Disable)(GL_SCISSOR_TEST);
-      (batch.textured ? gl.Enable : gl.Disable)(GL_TEXTURE_2D);
-      gl.BindTexture(GL_TEXTURE_2D, batch.texture);
-      gl.DrawArrays(GL_QUADS, batch.first, batch.count);
+    const auto& order = visible.order();
+    for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+      const Mesh::Batch& batch = faces[order[first]].batch;
+      indices.clear();
+      for (end = first; end < order.size() && same(batch, faces[order[end]].batch); ++end)
+        for (GLuint corner = 0; corner < 4; ++corner)
+          indices.push_back(static_cast<GLuint>(4 * order[end]) + corner);
+      scissor(gl, batch.indoors ? indoors : part);
+      drawRun(gl, batch.texture);
     }
   }
 
-  void read(const GlFunctions& gl, cv::Mat& image) {
-    const int w = camera.width, h = camera.height;
-    gl.Disable(GL_SCISSOR_TEST);
-    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled);
-    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
-    gl.BlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved);
-    gl.ReadPixels(0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, bgra.data);
-    cv::cvtColor(bgra, image, cv::COLOR_RGBA2BGR);
+  static bool same(const Mesh::Batch& a, const Mesh::Batch& b) { return !(a < b) && !(b < a); }
+
+  void drawRun(const GlFunctions& gl, Texture texture) const {
+    (texture != Texture::kPlain ? gl.Enable : gl.Disable)(GL_TEXTURE_2D);
+    gl.BindTexture(GL_TEXTURE_2D, textures.at(texture));
+    gl.DrawElements(GL_QUADS, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, indices.data());
+  }
+
+  void render(const Eigen::Isometry3d& T_camera_window, const cv::Range& rows, cv::Mat& image) {
+    const GlFunctions& gl = context.makeCurrent();
+    draw(gl, T_camera_window, rows);
+    target.read(gl, rows, bgra);
+    cv::Mat part = image.rowRange(rows);
+    cv::cvtColor(bgra.rowRange(rows), part, cv::COLOR_BGRA2BGR);
+    if (antialiasing == Antialiasing::kEdges)
+      smoother.smooth(faces, visible.order(), T_camera_window, bgra, rows, image);
   }
 
   geometry::PinholeCamera camera;
   std::optional<geometry::OpeningSize> opening;
+  Antialiasing antialiasing;
   GlContext context;
-  GLuint sampled = 0, resolved = 0;
-  std::vector<Batch> batches;
+  GlTarget target;
+  std::vector<Face> faces;
+  VisibleFaces visible;
+  EdgeSmoother smoother;
+  std::map<Texture, GLuint> textures;
+  std::vector<GLuint> indices;
   cv::Mat bgra;
 };
 
-Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera) {
+Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing) {
   requireUsable(camera);
-  impl_ = std::make_unique<Impl>(scene, camera);
+  impl_ = std::make_unique<Impl>(scene, camera, antialiasing);
 }
 
 Renderer::~Renderer() = default;
 
 void Renderer::render(const Eigen::Isometry3d& T_camera_window, cv::Mat& image) {
-  const GlFunctions& gl = impl_->context.makeCurrent();
-  impl_->draw(gl, T_camera_window);
-  impl_->read(gl, image);
+  renderRows(T_camera_window, cv::Range(0, impl_->camera.height), image);
+}
+
+void Renderer::renderRows(const Eigen::Isometry3d& T_camera_window, const cv::Range& rows, cv::Mat& image) {
+  image.create(impl_->camera.height, impl_->camera.width, CV_8UC3);
+  impl_->render(T_camera_window, rows, image);
 }
 
 }  // namespace window_ingress::simulation
