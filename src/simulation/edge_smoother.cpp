@@ -24,7 +24,7 @@ double partBefore(double middle, double slope) {
 void mix(std::uint8_t* pixel, double own_part, const std::uint8_t* other) {
   const int own = static_cast<int>(std::lround(256.0 * own_part));
   for (int c = 0; c < 3; ++c)
-    pixel[c] = static_cast<std::uint8_t>((own * pixel[c] + (256 - own) * other[c] + 128) >> 8);
+    pixel[c] = static_cast<std::uint8_t>((own * pixel[c] + (256 - own) * other[2 - c] + 128) >> 8);
 }
 
 }  // namespace

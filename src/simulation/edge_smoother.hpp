@@ -21,7 +21,7 @@ class EdgeSmoother {
  public:
   explicit EdgeSmoother(const geometry::PinholeCamera& camera);
 
-  /// `drawn`: CV_8UC4, B, G, R and `Face::surface`; `image`: CV_8UC3, B, G, R of `drawn`, to be smoothed.
+  /// `drawn`: CV_8UC4, R, G, B and `Face::surface`; `image`: CV_8UC3, B, G, R of `drawn`, to be smoothed.
   /// Only rows `rows` are read and written. Near faces go first, where two sides lie between the same
   /// pixels the first one counts.
   void smooth(const std::vector<Face>& faces, const std::vector<std::size_t>& near_first,

@@ -28,7 +28,7 @@ void GlTarget::create(const GlFunctions& gl, const cv::Size& size, int samples) 
   if (!complete) throw std::runtime_error("OpenGL refuses a framebuffer of the picture's size");
 }
 
-void GlTarget::read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& bgra) const {
+void GlTarget::read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& rgba) const {
   gl.Disable(GL_SCISSOR_TEST);
   if (averaged_) {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
@@ -37,7 +37,7 @@ void GlTarget::read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& bgra)
                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, averaged_ ? averaged_ : drawn_);
-  gl.ReadPixels(0, rows.start, size_.width, rows.size(), GL_BGRA, GL_UNSIGNED_BYTE, bgra.ptr(rows.start));
+  gl.ReadPixels(0, rows.start, size_.width, rows.size(), GL_RGBA, GL_UNSIGNED_BYTE, rgba.ptr(rows.start));
 }
 
 }  // namespace window_ingress::simulation

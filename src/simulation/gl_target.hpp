@@ -12,8 +12,8 @@ class GlTarget {
   /// \throws std::runtime_error if OpenGL refuses
   void create(const GlFunctions& gl, const cv::Size& size, int samples);
   void bind(const GlFunctions& gl) const { gl.BindFramebuffer(GL_FRAMEBUFFER, drawn_); }
-  /// Rows `rows` into those of `bgra` (CV_8UC4); several samples are averaged.
-  void read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& bgra) const;
+  /// Rows `rows` into those of `rgba` (CV_8UC4); several samples are averaged.
+  void read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& rgba) const;
 
  private:
   void attach(const GlFunctions& gl, GLenum attachment, GLenum format, int samples) const;

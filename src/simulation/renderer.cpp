@@ -35,11 +35,29 @@ Eigen::Matrix4d projectionOf(const geometry::PinholeCamera& camera) {
   return clip;
 }
 
-// Blending two levels costs as much as all the rest; only regular patterns show where levels meet.
-GLint minifyingFilter(Texture texture) {
-  const bool regular =
-      texture == Texture::kBrick || texture == Texture::kTiles || texture == Texture::kPaving;
-  return regular ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST;
+// How a texture is read, by what it can bear: reading four texels costs more than all else together, and
+// blending two levels as much again. Between soft and irregular patterns nobody sees the difference; only
+// regular ones show where levels meet.
+struct Filter {
+  GLint minifying, magnifying;
+  int enlarged;  // the texture is made so many times finer first
+};
+
+Filter filterOf(Texture texture) {
+  switch (texture) {
+    case Texture::kPlaster:
+      return {GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, 2};
+    case Texture::kGrass:
+    case Texture::kHedge:
+    case Texture::kClouds:
+      return {GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, 1};
+    case Texture::kBrick:
+    case Texture::kTiles:
+    case Texture::kPaving:
+      return {GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, 1};
+    default:
+      return {GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, 1};
+  }
 }
 
 void requireUsable(const geometry::PinholeCamera& camera) {
@@ -57,9 +75,9 @@ struct Renderer::Impl {
         antialiasing(kind),
         faces(facesOf(scene.mesh)),
         smoother(ideal),
-        bgra(ideal.height, ideal.width, CV_8UC4) {
+        rgba(ideal.height, ideal.width, CV_8UC4) {
     const GlFunctions& gl = context.makeCurrent();
-    target.create(gl, bgra.size(), kind == Antialiasing::kMultisampling ? 4 : 0);
+    target.create(gl, rgba.size(), kind == Antialiasing::kMultisampling ? 4 : 0);
     upload(gl, scene);
     setState(gl);
     if (gl.GetError() != GL_NO_ERROR)
@@ -67,15 +85,17 @@ struct Renderer::Impl {
   }
 
   static GLuint uploadTexture(const GlFunctions& gl, Texture kind, std::uint32_t seed) {
-    const cv::Mat image = makeTexture(kind, seed);
+    const Filter filter = filterOf(kind);
+    cv::Mat image = makeTexture(kind, seed);
+    if (filter.enlarged > 1) cv::resize(image, image, image.size() * filter.enlarged, 0, 0, cv::INTER_CUBIC);
     GLuint texture = 0;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.cols, image.rows, 0, GL_RGB, GL_UNSIGNED_BYTE,
                   image.data);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minifyingFilter(kind));
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter.minifying);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter.magnifying);
     gl.GenerateMipmap(GL_TEXTURE_2D);
     return texture;
   }
@@ -171,11 +191,11 @@ struct Renderer::Impl {
   void render(const Eigen::Isometry3d& T_camera_window, const cv::Range& rows, cv::Mat& image) {
     const GlFunctions& gl = context.makeCurrent();
     draw(gl, T_camera_window, rows);
-    target.read(gl, rows, bgra);
+    target.read(gl, rows, rgba);
     cv::Mat part = image.rowRange(rows);
-    cv::cvtColor(bgra.rowRange(rows), part, cv::COLOR_BGRA2BGR);
+    cv::cvtColor(rgba.rowRange(rows), part, cv::COLOR_RGBA2BGR);
     if (antialiasing == Antialiasing::kEdges)
-      smoother.smooth(faces, visible.order(), T_camera_window, bgra, rows, image);
+      smoother.smooth(faces, visible.order(), T_camera_window, rgba, rows, image);
   }
 
   geometry::PinholeCamera camera;
@@ -188,7 +208,7 @@ struct Renderer::Impl {
   EdgeSmoother smoother;
   std::map<Texture, GLuint> textures;
   std::vector<GLuint> indices;
-  cv::Mat bgra;
+  cv::Mat rgba;
 };
 
 Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing) {
