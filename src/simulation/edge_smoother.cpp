@@ -31,31 +31,30 @@ void mix(std::uint8_t* pixel, double own_part, const std::uint8_t* other) {
 
 // A side, followed pixel by pixel along the axis along which it is longer.
 struct EdgeSmoother::Walk {
-  std::uint8_t surface, bit;
-  int across_count;
+  std::uint8_t surface;
   std::ptrdiff_t along_stride, across_stride;  // [px]
   int across_first, across_last;
-  double slope;  // of the position across, without sign
+  double from, across, slope, inverse_depth, inverse_depth_slope;  // at `from` on the long axis; a pixel on
 };
 
-EdgeSmoother::EdgeSmoother(const geometry::PinholeCamera& camera)
-    : camera_(camera), mixed_(static_cast<std::size_t>(camera.width) * camera.height) {}
+EdgeSmoother::EdgeSmoother(const geometry::PinholeCamera& camera) : camera_(camera) {
+  for (auto& found : found_) found.assign(static_cast<std::size_t>(camera.width) * camera.height, 0);
+}
 
-void EdgeSmoother::smooth(const std::vector<Face>& faces, const std::vector<std::size_t>& near_first,
+void EdgeSmoother::smooth(const std::vector<Face>& faces, const std::vector<std::size_t>& visible,
                           const Eigen::Isometry3d& T_camera_window, const cv::Mat& drawn,
                           const cv::Range& rows, cv::Mat& image) {
   CV_Assert(drawn.isContinuous() && image.isContinuous());
   drawn_ = drawn.data;
   image_ = image.data;
   rows_ = rows;
-  std::fill(mixed_.begin() + static_cast<std::ptrdiff_t>(rows.start) * camera_.width,
-            mixed_.begin() + static_cast<std::ptrdiff_t>(rows.end) * camera_.width, 0);
-  for (const std::size_t i : near_first) {
+  for (const std::size_t i : visible) {
     const Face& face = faces[i];
     std::array<Eigen::Vector3d, 4> corners;
     for (int k = 0; k < 4; ++k) corners[k] = T_camera_window * face.corners[k];
     for (int k = 0; k < 4; ++k) follow(corners[k], corners[(k + 1) % 4], face.surface);
   }
+  mixAll();
 }
 
 void EdgeSmoother::follow(const Eigen::Vector3d& from_camera, const Eigen::Vector3d& to_camera,
@@ -64,28 +63,28 @@ void EdgeSmoother::follow(const Eigen::Vector3d& from_camera, const Eigen::Vecto
   if (std::max(a.z(), b.z()) <= kNear_m) return;
   if (a.z() < kNear_m) a += (kNear_m - a.z()) / (b.z() - a.z()) * (b - a);
   if (b.z() < kNear_m) b += (kNear_m - b.z()) / (a.z() - b.z()) * (a - b);
-  const Eigen::Vector2d f(camera_.fx, camera_.fy), c(camera_.cx, camera_.cy);
-  Eigen::Vector2d p = f.cwiseProduct(a.head<2>() / a.z()) + c, q = f.cwiseProduct(b.head<2>() / b.z()) + c;
-  const int along = std::abs(q.x() - p.x()) > std::abs(q.y() - p.y()) ? 0 : 1, across = 1 - along;
+  const auto project = [this](const Eigen::Vector3d& point) {
+    const double inverse = 1.0 / point.z();
+    return Eigen::Vector3d(camera_.fx * point.x() * inverse + camera_.cx,
+                           camera_.fy * point.y() * inverse + camera_.cy, inverse);
+  };
+  Eigen::Vector3d p = project(a), q = project(b);
+  const bool flat = std::abs(q.x() - p.x()) > std::abs(q.y() - p.y());
+  const int along = flat ? 0 : 1, across = 1 - along;
   if (p[along] > q[along]) std::swap(p, q);
-  const int first_allowed = along == 0 ? 0 : rows_.start,
-            end_allowed = along == 0 ? camera_.width : rows_.end;
-  const int first = static_cast<int>(std::ceil(std::clamp<double>(p[along], first_allowed, end_allowed)));
-  const int last = static_cast<int>(std::floor(std::clamp<double>(q[along], -1.0, end_allowed - 1)));
+  const cv::Range columns(0, camera_.width), allowed = flat ? columns : rows_, other = flat ? rows_ : columns;
+  const int first = static_cast<int>(std::ceil(std::clamp<double>(p[along], allowed.start, allowed.end)));
+  const int last = static_cast<int>(std::floor(std::clamp<double>(q[along], -1.0, allowed.end - 1)));
   if (last < first) return;
-  const double slope = (q[across] - p[across]) / (q[along] - p[along]);
-  Walk walk;
-  walk.surface = surface;
-  walk.bit = along == 0 ? 2 : 1;
-  walk.along_stride = along == 0 ? 1 : camera_.width;
-  walk.across_stride = along == 0 ? camera_.width : 1;
-  walk.across_first = along == 0 ? rows_.start : 0;
-  walk.across_last = (along == 0 ? rows_.end : camera_.width) - 1;
-  walk.slope = std::abs(slope);
-  for (int i = first; i <= last; ++i) step(walk, i, p[across] + slope * (i - p[along]));
+  const Eigen::Vector3d slope = (q - p) / (q[along] - p[along]);
+  const int right = 1, down = camera_.width;
+  const Walk walk{surface,  flat ? right : down, flat ? down : right, other.start, other.end - 1,
+                  p[along], p[across],           slope[across],       p.z(),       slope.z()};
+  for (int i = first; i <= last; ++i) step(walk, i);
 }
 
-void EdgeSmoother::step(const Walk& walk, int along, double across) {
+void EdgeSmoother::step(const Walk& walk, int along) {
+  const double across = walk.across + walk.slope * (along - walk.from);
   if (!(across >= walk.across_first - kSnap_px && across < walk.across_last + kSnap_px)) return;
   int before = static_cast<int>(std::floor(across));
   const auto differs = [&](int at) {
@@ -98,13 +97,29 @@ void EdgeSmoother::step(const Walk& walk, int along, double across) {
     before += part < kSnap_px ? -1 : part > 1.0 - kSnap_px ? 1 : 0;
     if (!differs(before)) return;
   }
-  const std::ptrdiff_t here = along * walk.along_stride + before * walk.across_stride,
-                       there = here + walk.across_stride;
-  if (mixed_[here] & walk.bit) return;
-  mixed_[here] |= walk.bit;
-  const double middle = across - (before - 0.5);
-  mix(image_ + 3 * here, partBefore(middle, walk.slope), drawn_ + 4 * there);
-  mix(image_ + 3 * there, 1.0 - partBefore(middle - 1.0, walk.slope), drawn_ + 4 * here);
+  keepNearest({along * walk.along_stride + before * walk.across_stride, walk.across_stride,
+               walk.inverse_depth + walk.inverse_depth_slope * (along - walk.from), across - (before - 0.5),
+               std::abs(walk.slope)});
+}
+
+void EdgeSmoother::keepNearest(const Crossing& crossing) {
+  int& number = found_[crossing.stride == 1 ? 0 : 1][crossing.first];
+  if (number == 0) {
+    crossings_.push_back(crossing);
+    number = static_cast<int>(crossings_.size());
+  } else if (crossing.inverse_depth > crossings_[number - 1].inverse_depth) {
+    crossings_[number - 1] = crossing;
+  }
+}
+
+void EdgeSmoother::mixAll() {
+  for (const Crossing& crossing : crossings_) {
+    const std::ptrdiff_t first = crossing.first, second = first + crossing.stride;
+    mix(image_ + 3 * first, partBefore(crossing.middle, crossing.slope), drawn_ + 4 * second);
+    mix(image_ + 3 * second, 1.0 - partBefore(crossing.middle - 1.0, crossing.slope), drawn_ + 4 * first);
+    found_[crossing.stride == 1 ? 0 : 1][first] = 0;
+  }
+  crossings_.clear();
 }
 
 }  // namespace window_ingress::simulation

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -22,19 +24,30 @@ class EdgeSmoother {
   explicit EdgeSmoother(const geometry::PinholeCamera& camera);
 
   /// `drawn`: CV_8UC4, R, G, B and `Face::surface`; `image`: CV_8UC3, B, G, R of `drawn`, to be smoothed.
-  /// Only rows `rows` are read and written. Near faces go first, where two sides lie between the same
-  /// pixels the first one counts.
-  void smooth(const std::vector<Face>& faces, const std::vector<std::size_t>& near_first,
+  /// Only rows `rows` are read and written. Where several sides pass between the same two pixels, the
+  /// nearest one counts: it hides the others.
+  void smooth(const std::vector<Face>& faces, const std::vector<std::size_t>& visible,
               const Eigen::Isometry3d& T_camera_window, const cv::Mat& drawn, const cv::Range& rows,
               cv::Mat& image);
 
  private:
   struct Walk;
+  /// Where a side passes between pixel `first` and `first + stride`.
+  struct Crossing {
+    std::ptrdiff_t first, stride;  // [px]
+    double inverse_depth;          // [1/m]
+    double middle;                 // of the side, from the first pixel's border [px]
+    double slope;                  // the side moves so far across while it passes [px]
+  };
   void follow(const Eigen::Vector3d& from_camera, const Eigen::Vector3d& to_camera, std::uint8_t surface);
-  void step(const Walk& walk, int along, double across);
+  void step(const Walk& walk, int along);
+  void keepNearest(const Crossing& crossing);
+  void mixAll();
 
   geometry::PinholeCamera camera_;
-  std::vector<std::uint8_t> mixed_;  // bits: with the right, with the lower neighbour
+  std::vector<Crossing> crossings_;
+  std::array<std::vector<int>, 2>
+      found_;  // number of the crossing + 1 towards the right, the lower neighbour
   const std::uint8_t* drawn_ = nullptr;
   std::uint8_t* image_ = nullptr;
   cv::Range rows_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <thread>
@@ -46,11 +47,12 @@ struct Errors {
 };
 
 // Differences between corners measured in pictures and projected ones, over random views.
-Errors compareCorners(const PinholeCamera& camera, int views) {
+Errors compareCorners(const PinholeCamera& camera, int views,
+                      Antialiasing antialiasing = Antialiasing::kEdges) {
   Scenario scenario;
   const Scene scene = whiteFrameBeforeBlackRoom(scenario);
   const Lens lens(camera);
-  Renderer renderer(scene, lens.idealCamera());
+  Renderer renderer(scene, lens.idealCamera(), antialiasing);
   RandomStream random(11, "views");
   PinholeCamera straight = camera;
   straight.distortion = {};
@@ -60,7 +62,7 @@ Errors compareCorners(const PinholeCamera& camera, int views) {
     const Eigen::Vector3d turn(random.uniform(-0.1, 0.1), random.uniform(-0.08, 0.08),
                                random.uniform(-0.08, 0.08));
     const auto T_camera_window =
-        lookingFrom(random.uniform(2.2, 6.0), random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.8), turn);
+        lookingFrom(random.uniform(2.2, 8.0), random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.8), turn);
     renderer.render(T_camera_window, ideal);
     lens.distort(ideal, image);
     cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
@@ -108,6 +110,58 @@ TEST(Renderer, RenderedCornersEqualProjectedCornersThroughALensThatBends) {
   PinholeCamera camera = PinholeCamera::fromFieldOfView(640, 480, 1.2);
   camera.distortion = {-0.22, 0.06, 0.001, -0.0008, 0.002};
   expectSmall(compareCorners(camera, 25));
+}
+
+TEST(Renderer, RenderedCornersEqualProjectedCornersWithMultisampling) {
+  expectSmall(
+      compareCorners(PinholeCamera::fromFieldOfView(640, 480, 1.2), 15, Antialiasing::kMultisampling));
+}
+
+// Fraction of the pixels in which two pictures differ by more than `limit` grey levels in any channel.
+double differing(const cv::Mat& a, const cv::Mat& b, int limit) {
+  cv::Mat difference;
+  cv::absdiff(a, b, difference);
+  int count = 0;
+  for (int v = 0; v < difference.rows; ++v)
+    for (int u = 0; u < difference.cols; ++u) {
+      const auto& d = difference.at<cv::Vec3b>(v, u);
+      count += std::max({d[0], d[1], d[2]}) > limit;
+    }
+  return count / static_cast<double>(difference.total());
+}
+
+TEST(Renderer, SmoothedEdgesLookAsMultisampledOnes) {
+  Scenario scenario;
+  scenario.decoys.emplace_back();
+  scenario.posters.emplace_back();
+  const Scene scene = buildScene(scenario);
+  const auto camera = PinholeCamera::fromFieldOfView(640, 480, 1.2);
+  Renderer smoothed(scene, camera), multisampled(scene, camera, Antialiasing::kMultisampling);
+  RandomStream random(7, "views");
+  cv::Mat a, b;
+  for (int view = 0; view < 8; ++view) {
+    const auto T_camera_window =
+        lookingFrom(random.uniform(1.0, 8.0), random.uniform(-1.0, 1.0), random.uniform(-0.5, 0.5),
+                    {random.uniform(-0.3, 0.3), 0.0, random.uniform(-0.2, 0.2)});
+    smoothed.render(T_camera_window, a);
+    multisampled.render(T_camera_window, b);
+    EXPECT_LT(differing(a, b, 50), 0.0005) << "four samples are off by up to 1/8 of an edge's contrast";
+    EXPECT_LT(cv::norm(a, b, cv::NORM_L1) / static_cast<double>(3 * a.total()), 0.6) << "view " << view;
+  }
+}
+
+TEST(Renderer, RowsAloneAreThoseOfTheWholePictureAndTheOthersStay) {
+  Scenario scenario;
+  const Scene scene = buildScene(scenario);
+  Renderer renderer(scene, PinholeCamera::fromFieldOfView(160, 120, 1.2));
+  const auto T_camera_window = lookingFrom(4.0, 0.3, 0.2, {0.1, 0.0, 0.0});
+  cv::Mat whole, part(120, 160, CV_8UC3, cv::Scalar(1, 2, 3));
+  renderer.render(T_camera_window, whole);
+  renderer.renderRows(T_camera_window, cv::Range(40, 80), part);
+  EXPECT_EQ(cv::norm(whole.rowRange(41, 79), part.rowRange(41, 79), cv::NORM_INF), 0.0);
+  const cv::Mat above = part.rowRange(0, 40), below = part.rowRange(80, 120);
+  EXPECT_EQ(cv::norm(above, cv::Mat(40, 160, CV_8UC3, cv::Scalar(1, 2, 3)), cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(below, cv::Mat(40, 160, CV_8UC3, cv::Scalar(1, 2, 3)), cv::NORM_INF), 0.0);
 }
 
 TEST(Renderer, AWindowToTheLeftAppearsLeftAndOneBelowAppearsBelow) {
