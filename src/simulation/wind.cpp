@@ -57,7 +57,8 @@ Eigen::Vector3d Wind::draughtAt(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d from(-side * before_m, p.y(), p.z());
   const double area_m2 = width_m * height_m;
   const double part = area_m2 / (area_m2 + kDallaValle * (nearest - from).squaredNorm());
-  const Eigen::Vector3d sink(0.5 * side * std::sqrt(area_m2), 0.5 * nearest.y(), 0.5 * nearest.z());
+  const double aside = 0.5 + 0.5 * part;  // straight on at the opening, towards its middle from afar
+  const Eigen::Vector3d sink(0.5 * side * std::sqrt(area_m2), aside * nearest.y(), aside * nearest.z());
   return std::abs(speed_mps) * part * (sink - from).normalized();
 }
 

@@ -153,5 +153,115 @@ TEST(Quadrotor, StandsOnTheGroundUntilToldToRise) {
   EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), 1.8, 0.3);
 }
 
+// The closed answer 1 / (T Tr s^2 + T s + 1) to a step of the wanted tilt.
+double secondOrder(double time_sec, double T, double Tr) {
+  const double natural = 1.0 / std::sqrt(T * Tr), damping = 0.5 * std::sqrt(T / Tr);
+  const double damped = natural * std::sqrt(1.0 - damping * damping), decay = natural * damping;
+  return 1.0 - std::exp(-decay * time_sec) *
+                   (std::cos(damped * time_sec) + decay / damped * std::sin(damped * time_sec));
+}
+
+TEST(Quadrotor, AttitudeAnswersAsItsSecondOrderModel) {
+  VehicleParams params;
+  params.drag_per_sec = params.velocity_integral_per_sec = 0.0;
+  params.max_acceleration_mps2 = 2.0;  // reached all the time: the wanted tilt is a step
+  for (const double gain_error : {0.0, 0.15}) {
+    params.attitude_gain_error = gain_error;
+    const double T = params.attitude_time_constant_sec / (1.0 + gain_error);
+    const double wanted_rad = std::atan2(2.0, Quadrotor::kGravity_mps2);
+    Quadrotor vehicle = hovering(0.3, params);
+    for (double t = kStep_sec; t < 0.6; t += kStep_sec) {
+      fly(vehicle, {geometry::yawRotation(0.3) * Eigen::Vector3d(5.0, 0, 0)}, 0.5 * kStep_sec);
+      const double expected_rad = wanted_rad * secondOrder(t, T, Quadrotor::kRateTimeConstant_sec);
+      EXPECT_NEAR(noseDown(vehicle), expected_rad, 0.025 * wanted_rad) << t;
+    }
+  }
+}
+
+double energy(const Quadrotor& vehicle) {
+  const auto& truth = vehicle.truth();
+  return Quadrotor::kGravity_mps2 * truth.T_odom_base.translation().z() +
+         0.5 * truth.velocity_odom_mps.squaredNorm();
+}
+
+TEST(Quadrotor, FallsWithAllItsEnergyLessWhatTheDragTakes) {
+  for (const double drag_per_sec : {0.0, 0.25}) {
+    VehicleParams params;
+    params.drag_per_sec = drag_per_sec;
+    Quadrotor vehicle(params, geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 60.0}));
+    vehicle.crash(0.0);
+    const double before = energy(vehicle);
+    double taken = 0.0;
+    for (int i = 0; i < 1200; ++i) {
+      const double speed_before = vehicle.truth().velocity_odom_mps.norm();
+      vehicle.step(kStep_sec, kStill);
+      const double speed = 0.5 * (speed_before + vehicle.truth().velocity_odom_mps.norm());
+      taken += drag_per_sec * speed * speed * kStep_sec;
+    }
+    EXPECT_GT(vehicle.truth().velocity_odom_mps.norm(), 15.0);
+    EXPECT_NEAR(energy(vehicle) + taken, before, 0.001 * before);
+    EXPECT_NEAR(vehicle.specificForceBase().norm(), drag_per_sec * vehicle.truth().velocity_odom_mps.norm(),
+                0.01)
+        << "nothing else is felt";
+  }
+}
+
+TEST(Quadrotor, AfterACrashItStopsFallsAndNeverFliesAgain) {
+  Quadrotor vehicle = hovering();
+  fly(vehicle, {Eigen::Vector3d(1.5, 0, 0)}, 3.0);
+  const double x_m = vehicle.truth().T_odom_base.translation().x();
+  vehicle.crash(0.9);
+  fly(vehicle, {Eigen::Vector3d(1.5, 0, 1.0), 1.0}, 3.0, {3, 0, 0});
+  EXPECT_TRUE(vehicle.crashed());
+  EXPECT_DOUBLE_EQ(vehicle.truth().T_odom_base.translation().x(), x_m);
+  EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), 0.9, 1e-9) << "on what lay below";
+  EXPECT_EQ(vehicle.truth().velocity_odom_mps, kStill);
+  EXPECT_NEAR(vehicle.specificForceBase().z(), Quadrotor::kGravity_mps2, 1e-9);
+}
+
+TEST(Quadrotor, PayloadAndThrustErrorMakeItSlowerOrFasterButItHovers) {
+  VehicleParams heavy, strong;
+  heavy.payload_kg = 0.5;
+  strong.thrust_gain_error = 0.2;
+  const auto climbed = [](const VehicleParams& params) {
+    Quadrotor vehicle = hovering(0.0, params);
+    fly(vehicle, {}, 2.0);
+    EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), 2.0, 1e-6);
+    EXPECT_NEAR(vehicle.specificForceBase().z(), Quadrotor::kGravity_mps2, 1e-6) << "hover takes its weight";
+    fly(vehicle, {Eigen::Vector3d(0, 0, 1.0)}, 0.4);
+    return vehicle.truth().T_odom_base.translation().z() - 2.0;
+  };
+  const double normal_m = climbed({});
+  EXPECT_LT(climbed(heavy), 0.95 * normal_m);
+  EXPECT_GT(climbed(strong), 1.03 * normal_m);
+  Quadrotor lifting(heavy, geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, heavy.half_height_m}));
+  fly(lifting, {Eigen::Vector3d(0, 0, 0.5)}, 4.0);
+  EXPECT_GT(lifting.truth().T_odom_base.translation().z(), 1.3);
+}
+
+TEST(Quadrotor, ControlsWhatItBelievesNotTheTruth) {
+  Quadrotor vehicle = hovering();
+  for (int i = 0; i < 4000; ++i) {
+    vehicle.command({Eigen::Vector3d(1.0, 0, 0)});
+    const Eigen::Vector3d believed = 1.25 * vehicle.truth().velocity_odom_mps + Eigen::Vector3d(0, 0.1, 0);
+    vehicle.step(kStep_sec, AirAtVehicle(), believed);
+  }
+  EXPECT_NEAR(vehicle.truth().velocity_odom_mps.x(), 0.8, 0.01);
+  EXPECT_NEAR(vehicle.truth().velocity_odom_mps.y(), -0.08, 0.005);
+}
+
+TEST(Quadrotor, APushMovesItUntilTheTrimHasLearntIt) {
+  Quadrotor vehicle = hovering();
+  const AirAtVehicle air{kStill, {0.5, 0, 0}};
+  double fastest_mps = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    vehicle.command({});
+    vehicle.step(kStep_sec, air, vehicle.truth().velocity_odom_mps);
+    fastest_mps = std::max(fastest_mps, vehicle.truth().velocity_odom_mps.x());
+  }
+  EXPECT_GT(fastest_mps, 0.05);
+  EXPECT_LT(vehicle.truth().velocity_odom_mps.norm(), 0.005);
+}
+
 }  // namespace
 }  // namespace window_ingress::simulation

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -165,6 +166,153 @@ TEST(Imu, AttitudeErrorHasItsSizeAndLastsAndLeavesTheHeading) {
   }
   EXPECT_NEAR(deviation(tilts), params.attitude_noise_rad, 0.0012);
   EXPECT_LT(deviation(changes), 0.3 * params.attitude_noise_rad) << "it must not jump from sample to sample";
+}
+
+OdometryParams exact() {
+  OdometryParams params = withoutNoise();
+  params.drift_m_per_sqrt_sec = params.height_drift_m_per_sqrt_sec = params.yaw_drift_rad_per_sqrt_sec = 0.0;
+  return params;
+}
+
+VehicleTruth movingAt(double time_sec, const Eigen::Vector3d& velocity_mps) {
+  VehicleTruth truth = standing();
+  truth.T_odom_base.translation() += time_sec * velocity_mps;
+  truth.velocity_odom_mps = velocity_mps;
+  return truth;
+}
+
+TEST(Odometry, AScaleErrorStretchesHorizontalMovementAndSpeed) {
+  OdometryParams params = exact();
+  params.scale_error = -0.1;
+  OdometrySensor sensor(params, 1);
+  std::optional<OdometrySample> first, last;
+  for (double t = 0.0; t < 4.0; t += kStep_sec) {
+    sensor.update(t, movingAt(t, {1.0, -0.5, 0.2}));
+    while (const auto sample = sensor.take(t)) {
+      if (!first) first = sample;
+      last = sample;
+    }
+  }
+  const Eigen::Vector3d moved = last->T_odom_base.translation() - first->T_odom_base.translation();
+  EXPECT_TRUE(moved.isApprox((last->stamp_sec - first->stamp_sec) * Eigen::Vector3d(0.9, -0.45, 0.2), 1e-9));
+  EXPECT_TRUE(last->velocity_odom_mps.isApprox(Eigen::Vector3d(0.9, -0.45, 0.2), 1e-9));
+  EXPECT_TRUE(sensor.velocityEstimate().isApprox(Eigen::Vector3d(0.9, -0.45, 0.2), 1e-9));
+  EXPECT_LT((sensor.drift() * movingAt(last->stamp_sec, {1.0, -0.5, 0.2}).T_odom_base.translation() -
+             last->T_odom_base.translation())
+                .norm(),
+            0.01)
+      << "drift says where the scale has put it";
+}
+
+double horizontalNoise(double height_m, double texture) {
+  OdometryParams params = exact();
+  params.position_noise_m = 0.01;
+  params.height_factor_per_m = 0.5;
+  params.texture_quality = texture;
+  OdometrySensor sensor(params, 2);
+  VehicleTruth truth = standing();
+  truth.T_odom_base.translation().z() = height_m;
+  std::vector<double> x, z;
+  for (double t = 0.0; t < 60.0; t += 0.02) {
+    sensor.update(t, truth);
+    while (const auto sample = sensor.take(t)) {
+      x.push_back(sample->T_odom_base.translation().x());
+      z.push_back(sample->T_odom_base.translation().z());
+    }
+  }
+  EXPECT_NEAR(deviation(z), 0.01, 0.001) << "the height comes from elsewhere";
+  return deviation(x);
+}
+
+TEST(Odometry, ErrorsGrowWithHeightAndLackOfTexture) {
+  EXPECT_NEAR(horizontalNoise(0.0, 1.0), 0.01, 0.001);
+  EXPECT_NEAR(horizontalNoise(4.0, 1.0), 0.03, 0.002);
+  EXPECT_NEAR(horizontalNoise(4.0, 0.5), 0.06, 0.004);
+  EXPECT_NEAR(horizontalNoise(0.0, 0.0), 0.2, 0.02) << "bounded where there is nothing to see";
+}
+
+TEST(Odometry, SamplesOfABurstComeTogetherInOrderAndNoneIsLost) {
+  OdometryParams params = exact();
+  params.burst_period_sec = 0.1;
+  params.jitter_sec = 0.03;
+  OdometrySensor sensor(params, 1);
+  double last_stamp_sec = -1.0;
+  std::size_t count = 0;
+  for (int step = 0; step <= 800; ++step) {
+    const double now_sec = step * kStep_sec;
+    sensor.update(now_sec, standing());
+    std::size_t burst = 0;
+    while (const auto sample = sensor.take(now_sec)) {
+      EXPECT_NEAR(std::remainder(now_sec, 0.1), 0.0, 1e-9);
+      EXPECT_GT(sample->stamp_sec, last_stamp_sec);
+      last_stamp_sec = sample->stamp_sec;
+      ++burst;
+    }
+    EXPECT_LE(burst, 8u);
+    count += burst;
+  }
+  EXPECT_NEAR(static_cast<double>(count), 98.0, 3.0);
+}
+
+TEST(Odometry, StampsMayBeInTheFutureAndTheLoopsOwnEstimateIsOfItsOwnAge) {
+  OdometryParams params = exact();
+  params.latency_sec = 0.0;
+  params.stamp_offset_sec = 0.054;
+  params.estimate_delay_sec = 0.1;
+  OdometrySensor sensor(params, 1);
+  for (int step = 0; step <= 400; ++step) {
+    const double now_sec = step * kStep_sec;
+    sensor.update(now_sec, movingAt(0.0, {now_sec, 0, 0}));  // speeds up by 1 m/s each second
+    while (const auto sample = sensor.take(now_sec)) {
+      EXPECT_NEAR(sample->stamp_sec, now_sec + 0.054, 1e-9);
+      EXPECT_NEAR(sample->velocity_odom_mps.x(), now_sec, 1e-9);
+    }
+    EXPECT_NEAR(sensor.velocityEstimate().x(), std::max(0.0, now_sec - 0.1), kStep_sec);
+  }
+}
+
+TEST(Odometry, WanderComesAndGoesAndStaysBounded) {
+  OdometryParams params = exact();
+  params.wander_m = 0.05;
+  params.wander_correlation_sec = 2.0;
+  OdometrySensor sensor(params, 3);
+  std::vector<double> errors;
+  for (double t = 0.0; t < 2000.0; t += 0.02) {
+    sensor.update(t, standing());
+    while (const auto sample = sensor.take(t)) errors.push_back(sample->T_odom_base.translation().x() - 3.0);
+  }
+  EXPECT_NEAR(deviation(errors), 0.05, 0.006);
+  double next = 0.0;
+  for (std::size_t i = 0; i + 100 < errors.size(); ++i) next += errors[i] * errors[i + 100];
+  EXPECT_NEAR(next / static_cast<double>(errors.size() - 100) / (0.05 * 0.05), std::exp(-1.0), 0.12);
+}
+
+TEST(Imu, BiasesStayTheSameAllFlightAndLatencyAndStampsAreTheirOwn) {
+  ImuParams params;
+  params.attitude_noise_rad = params.gyro_noise_radps = params.accelerometer_noise_mps2 = 0.0;
+  params.roll_bias_rad = 0.02;
+  params.pitch_bias_rad = -0.01;
+  params.gyro_bias_radps = 0.05;
+  params.latency_sec = 0.04;
+  params.stamp_offset_sec = -0.02;
+  const VehicleTruth truth = standing();
+  std::vector<double> biases;
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    ImuSensor sensor(params, seed);
+    sensor.update(0.0, truth, {0, 0, 9.81}, Eigen::Isometry3d::Identity());
+    sensor.update(0.01, truth, {0, 0, 9.81}, Eigen::Isometry3d::Identity());
+    EXPECT_FALSE(sensor.take(0.035));
+    const auto first = sensor.take(0.06), second = sensor.take(0.06);
+    ASSERT_TRUE(first && second);
+    EXPECT_NEAR(first->stamp_sec, -0.02, 1e-12);
+    EXPECT_EQ(first->angular_velocity_base_radps, second->angular_velocity_base_radps);
+    biases.push_back(first->angular_velocity_base_radps.x());
+    const Eigen::Matrix3d error =
+        truth.T_odom_base.linear().transpose() * first->R_odom_base.toRotationMatrix();
+    EXPECT_NEAR(error(2, 1), 0.02, 2e-4);
+    EXPECT_NEAR(error(0, 2), -0.01, 2e-4);
+  }
+  EXPECT_NEAR(deviation(biases), 0.05, 0.008);
 }
 
 }  // namespace

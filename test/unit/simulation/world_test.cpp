@@ -165,5 +165,35 @@ TEST(World, RefusesAScenarioThatCannotBe) {
   EXPECT_THROW(World(scenario, 1), ScenarioError);
 }
 
+TEST(World, AVehicleThatHitsTheWallStopsThereAndFallsToTheGround) {
+  Scenario scenario = quietScenario();
+  World world(scenario, 4);
+  const auto inWindow = [&] {
+    return Eigen::Vector3d(world.T_odom_window().inverse() * world.truth().T_odom_base.translation());
+  };
+  while (world.timeSec() < 14.0) {  // at the wall, 1.5 m beside the opening's centre
+    const Eigen::Vector3d way =
+        inWindow().x() < -2.0 ? Eigen::Vector3d(0, 1.5 - inWindow().y(), 0) : Eigen::Vector3d::Zero();
+    world.command({world.T_odom_window().linear() * (Eigen::Vector3d(1.0, 0, 0) + way)});
+    world.advance();
+  }
+  EXPECT_EQ(world.referee().judge(Claim::kNone).outcome, Outcome::kCollision);
+  EXPECT_EQ(world.referee().contact(), "wall");
+  EXPECT_LT(inWindow().x(), 0.0) << "outside, however long it is told to go on";
+  EXPECT_NEAR(world.truth().T_odom_base.translation().z(), world.vehicleHalfExtents().z(), 1e-6);
+  EXPECT_EQ(world.truth().velocity_odom_mps, Eigen::Vector3d::Zero().eval());
+}
+
+TEST(World, TheVehicleActsOnWhatItsOdometrySays) {
+  Scenario scenario = quietScenario();
+  scenario.odometry.scale_error = 0.25;
+  World world(scenario, 1);
+  while (world.timeSec() < 4.0) {
+    world.command({Eigen::Vector3d(1.0, 0, 0)});
+    world.advance();
+  }
+  EXPECT_NEAR(world.truth().velocity_odom_mps.x(), 0.8, 0.04) << "too slow, as it believes to be faster";
+}
+
 }  // namespace
 }  // namespace window_ingress::simulation
