@@ -11,11 +11,11 @@ namespace {
 // Keeps, of three neighbouring values in each array, the pair with the largest |dx| + |dy|.
 void strongestOfThree(const short* dx3, const short* dy3, int pixels, short* dx, short* dy) {
   for (int i = 0; i < pixels; ++i, dx3 += 3, dy3 += 3) {
-    int best = 0, strength = std::abs(dx3[0]) + std::abs(dy3[0]);
-    for (int c = 1; c < 3; ++c) {
-      const int other = std::abs(dx3[c]) + std::abs(dy3[c]);
-      if (other > strength) strength = other, best = c;
-    }
+    const int first = std::abs(dx3[0]) + std::abs(dy3[0]), second = std::abs(dx3[1]) + std::abs(dy3[1]),
+              third = std::abs(dx3[2]) + std::abs(dy3[2]);
+    // Without branches: which channel wins is as good as random.
+    const int better = static_cast<int>(second > first);
+    const int best = third > std::max(first, second) ? 2 : better;
     dx[i] = dx3[best];
     dy[i] = dy3[best];
   }

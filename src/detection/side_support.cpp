@@ -16,31 +16,45 @@ struct Hit {
   double strength = 0.0;  ///< gradient along the side's outward normal [grey levels a pixel], signed
 };
 
-Hit hitNear(const EdgeMap& map, const Vector2d& at, const Vector2d& outward, int reach, double min_cosine) {
-  for (int k = 0; k <= 2 * reach; ++k) {
-    const int offset = (k + 1) / 2 * (k % 2 ? 1 : -1);
-    const Vector2d p = at + offset * outward;
-    const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
-    if (p.x() < 0.0 || p.y() < 0.0 || x < 0 || y < 0 || x >= map.edges.cols || y >= map.edges.rows ||
-        !map.edges.at<uchar>(y, x))
-      continue;
-    const Vector2d gradient(map.dx.at<short>(y, x), map.dy.at<short>(y, x));
-    const double along = gradient.dot(outward);
-    if (std::abs(along) >= min_cosine * gradient.norm())
-      return {std::abs(offset) <= 1 ? 1.0 : 0.5, along / EdgeMap::kSobelGain};
+/// The question that is asked at many points along one line.
+struct Probe {
+  Vector2d outward;      ///< unit vector across the line
+  double square_cosine;  ///< of the largest angle between it and a gradient
+  int reach;             ///< how far beside the line [px]
+};
+
+// Looks at one pixel; worth 0 if there is no edge of this direction.
+inline Hit hitAt(const EdgeMap& map, const Vector2d& p, const Probe& probe) {
+  const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
+  if (p.x() < 0.0 || p.y() < 0.0 || x >= map.edges.cols || y >= map.edges.rows || !map.edges.ptr(y)[x])
+    return {};
+  const Vector2d gradient(map.dx.ptr<short>(y)[x], map.dy.ptr<short>(y)[x]);
+  const double along = gradient.dot(probe.outward);
+  if (along * along < probe.square_cosine * gradient.squaredNorm()) return {};
+  return {1.0, along / EdgeMap::kSobelGain};
+}
+
+// The nearest, first on the line, then outside and inside in turn.
+Hit hitNear(const EdgeMap& map, const Vector2d& at, const Probe& probe) {
+  Hit hit = hitAt(map, at, probe);
+  for (int offset = 1; offset <= probe.reach && hit.worth == 0.0; ++offset) {
+    const Vector2d beside = offset * probe.outward;
+    hit = hitAt(map, at + beside, probe);
+    if (hit.worth == 0.0) hit = hitAt(map, at - beside, probe);
+    if (offset > 1) hit.worth *= 0.5;
   }
-  return {};
+  return hit;
 }
 
 // Part of the stretch beyond `corner` where an edge goes on in the direction `way` (unit vector).
 double overshoot(const EdgeMap& map, const Vector2d& corner, const Vector2d& way, double stretch_px,
-                 double min_cosine) {
-  const Vector2d across(way.y(), -way.x());
+                 double square_cosine) {
+  const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
   const int samples = std::clamp(static_cast<int>(stretch_px), 4, 10);
   int hits = 0;
   for (int i = 0; i < samples; ++i) {
     const double distance = kCornerPx + stretch_px * (i + 0.5) / samples;
-    hits += hitNear(map, corner + distance * way, across, 1, min_cosine).worth > 0.0;
+    hits += hitNear(map, corner + distance * way, probe).worth > 0.0;
   }
   return static_cast<double>(hits) / samples;
 }
@@ -51,15 +65,15 @@ SideSupport measureSide(const EdgeMap& map, const Vector2d& a, const Vector2d& b
   const Vector2d along = b - a;
   const double length = along.norm();
   if (length < 1.0) return support;
-  const Vector2d outward = Vector2d(along.y(), -along.x()) / length;
+  const double cosine = std::cos(params.direction_rad), square_cosine = cosine * cosine;
+  const Probe probe = {Vector2d(along.y(), -along.x()) / length, square_cosine,
+                       static_cast<int>(std::lround(params.tolerance_px))};
   const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 40);
-  const int reach = static_cast<int>(std::lround(params.tolerance_px));
-  const double min_cosine = std::cos(params.direction_rad);
   int hits = 0, darker_outside = 0;
   double strength = 0.0, worth = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double t = params.skip + (1.0 - 2.0 * params.skip) * (i + 0.5) / samples;
-    const Hit hit = hitNear(map, a + t * along, outward, reach, min_cosine);
+    const Hit hit = hitNear(map, a + t * along, probe);
     if (hit.worth <= 0.0) continue;
     ++hits;
     worth += hit.worth;
@@ -69,8 +83,8 @@ SideSupport measureSide(const EdgeMap& map, const Vector2d& a, const Vector2d& b
   support.fraction = worth / samples;
   support.contrast = hits ? strength / hits : 0.0;
   const double stretch_px = std::max(4.0, params.beyond * length);
-  support.overshoot = 0.5 * (overshoot(map, a, -along / length, stretch_px, min_cosine) +
-                             overshoot(map, b, along / length, stretch_px, min_cosine));
+  support.overshoot = 0.5 * (overshoot(map, a, -along / length, stretch_px, square_cosine) +
+                             overshoot(map, b, along / length, stretch_px, square_cosine));
   support.polarity = hits ? 2.0 * darker_outside / hits - 1.0 : 0.0;
   return support;
 }
