@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "window_ingress/detection/unit_square.hpp"
 
@@ -22,15 +24,42 @@ constexpr double kLow = 0.05, kHigh = 0.70;  ///< chromaticities covered by the 
 
 bool hasColour(const cv::Mat& image) { return image.type() == CV_8UC3; }
 
+/// Where a chromaticity lies among the bins: `bin`, and `part` of the way to the next.
+struct Place {
+  float part;
+  std::int32_t bin;
+};
+
+/// The places of all values of a channel beside all sums of channels that count: a division each.
+class Places {
+ public:
+  Places() : places_((kBrightest - kDarkest + 1) * kValues) {
+    for (int sum = kDarkest; sum <= kBrightest; ++sum)
+      for (int value = 0; value < kValues; ++value)
+        places_[(sum - kDarkest) * kValues + value] = place(static_cast<double>(value) / sum);
+  }
+  /// Those of all values beside one sum.
+  const Place* beside(int sum) const { return &places_[(sum - kDarkest) * kValues]; }
+
+ private:
+  static constexpr int kValues = 256;
+
+  static Place place(double chromaticity) {
+    const double among = std::clamp((chromaticity - kLow) / (kHigh - kLow), 0.0, 1.0) * (kBins - 1.001);
+    const auto bin = static_cast<std::int32_t>(among);
+    return {static_cast<float>(among - bin), bin};
+  }
+
+  std::vector<Place> places_;
+};
+
 // Adds one pixel to the four bins round its chromaticity; false if it is too dark or clipped.
-bool addPixel(const cv::Vec3b& pixel, float* band) {
+bool addPixel(const cv::Vec3b& pixel, const Places& places, float* band) {
   const int sum = pixel[0] + pixel[1] + pixel[2];
   if (sum < kDarkest || sum > kBrightest) return false;
-  const Eigen::Array2d part = (Eigen::Array2d(pixel[2], pixel[1]) / sum - kLow) / (kHigh - kLow);
-  const Eigen::Array2d bin = part.max(0.0).min(1.0) * (kBins - 1.001);
-  const int r = static_cast<int>(bin.x()), g = static_cast<int>(bin.y());
-  const auto u = static_cast<float>(bin.x() - r), v = static_cast<float>(bin.y() - g);
-  float* cell = band + r * kBins + g;
+  const Place red = places.beside(sum)[pixel[2]], green = places.beside(sum)[pixel[1]];
+  const float u = red.part, v = green.part;
+  float* cell = band + red.bin * kBins + green.bin;
   cell[0] += (1 - u) * (1 - v);
   cell[kBins] += u * (1 - v);
   cell[1] += (1 - u) * v;
@@ -54,6 +83,7 @@ Vector2d ringPoint(int side, const Vector2d& t, const Vector2d& out) {
 
 // Adds the pixels of one ring to a band; how many counted.
 int addRing(const cv::Mat& image, const UnitSquare& map, const Vector2d& out, float* band) {
+  static const Places places;
   const Vector2d length = Vector2d::Ones() + 2 * out;
   const double right = image.cols - 0.5, bottom = image.rows - 0.5;
   int count = 0;
@@ -62,8 +92,8 @@ int addRing(const cv::Mat& image, const UnitSquare& map, const Vector2d& out, fl
       const double t = (side * kAlong + k + 0.5) / kAlong - side;
       const Vector2d p = map.toImage(ringPoint(side, t * length - out, out));
       if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
-      count +=
-          addPixel(image.ptr<cv::Vec3b>(static_cast<int>(p.y() + 0.5))[static_cast<int>(p.x() + 0.5)], band);
+      count += addPixel(image.ptr<cv::Vec3b>(static_cast<int>(p.y() + 0.5))[static_cast<int>(p.x() + 0.5)],
+                        places, band);
     }
   return count;
 }
