@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -72,7 +73,8 @@ void LineSupport::prepare(const EdgeMap& map) {
   max_gap_px_ = params_.max_gap * side;
   rho_offset_ = static_cast<int>(std::hypot(map.edges.cols, map.edges.rows)) + 1;
   rho_count_ = 2 * rho_offset_ + 1;
-  votes_.assign(static_cast<std::size_t>(kAngles) * rho_count_, 0);
+  votes_.resize(static_cast<std::size_t>(kAngles) * rho_count_);
+  std::memset(votes_.data(), 0, votes_.size() * sizeof votes_[0]);
   collect(map);
   markSurroundings();
   shuffle();

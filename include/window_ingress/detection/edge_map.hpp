@@ -42,7 +42,7 @@ class EdgeDetector {
  public:
   explicit EdgeDetector(const EdgeMapParams& params) : params_(params) {}
 
-  /// \param image CV_8UC1 or CV_8UC3, at least 3 x 3. The result stays valid until the next call.
+  /// \param image CV_8UC1 or CV_8UC3, not empty. The result stays valid until the next call.
   const EdgeMap& run(const cv::Mat& image);
 
  private:
@@ -51,7 +51,7 @@ class EdgeDetector {
 
   EdgeMapParams params_;
   EdgeMap map_;
-  cv::Mat all_dx_, all_dy_;
+  cv::Mat rows_;  ///< what `gradient` keeps of one row
 };
 
 }  // namespace window_ingress::detection
