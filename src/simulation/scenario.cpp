@@ -17,6 +17,62 @@ void checkFits(const Scenario& s, std::vector<std::string>& faults) {
   if (top_m > s.house.eaves_m) faults.push_back("window/sill_m: the window reaches above house/eaves_m");
   if (s.window.sill_m - s.window.frame_width_m < kLeastWallAround_m)
     faults.push_back("window/sill_m: the window's frame reaches into the ground");
+  if (s.window.bars != "none" && s.window.closed_by == "none")
+    faults.push_back("window/bars: an open window has none; close it by glass or the like");
+}
+
+// What a window or a poster takes of the wall, beside the target's centre.
+struct Patch {
+  double y_m, z_m, half_width_m, half_height_m;
+  bool overlaps(const Patch& other) const {
+    return std::abs(y_m - other.y_m) < half_width_m + other.half_width_m &&
+           std::abs(z_m - other.z_m) < half_height_m + other.half_height_m;
+  }
+};
+
+Patch patchOf(const DecoyParams& decoy) {
+  return {decoy.y_m, decoy.z_m, 0.5 * decoy.width_m + decoy.frame_width_m,
+          0.5 * decoy.height_m + decoy.frame_width_m};
+}
+
+Patch patchOf(const Scenario& s, const DoorParams& door) {
+  const double half_m = 0.5 * door.height_m;
+  return {door.y_m, half_m - s.windowCentreHeight(), 0.5 * door.width_m + door.frame_width_m, half_m};
+}
+
+// Nothing may cover the target, and windows and doors may not cover each other. Posters may hang anywhere
+// else.
+void checkWall(const Scenario& s, std::vector<std::string>& faults) {
+  std::vector<std::pair<std::string, Patch>> patches;
+  const double margin_m = s.window.frame_width_m;
+  if (s.window.present)
+    patches.push_back(
+        {"the window", {0, 0, 0.5 * s.window.width_m + margin_m, 0.5 * s.window.height_m + margin_m}});
+  const auto add = [&](const std::string& list, std::size_t i, const Patch& patch, bool stays) {
+    const std::string name = list + "[" + std::to_string(i) + "]";
+    for (const auto& [other, taken] : patches)
+      if (patch.overlaps(taken)) faults.push_back(name + ": overlaps " + other);
+    if (stays) patches.push_back({name, patch});
+  };
+  for (std::size_t i = 0; i < s.posters.size(); ++i) {
+    const auto& poster = s.posters[i];
+    add("posters", i, {poster.y_m, poster.z_m, 0.5 * poster.width_m, 0.5 * poster.height_m}, false);
+  }
+  for (std::size_t i = 0; i < s.decoys.size(); ++i) add("decoys", i, patchOf(s.decoys[i]), true);
+  for (std::size_t i = 0; i < s.doors.size(); ++i) add("doors", i, patchOf(s, s.doors[i]), true);
+}
+
+// What is open leads into the room, so that it must lie within the wall.
+void checkOpenDecoys(const Scenario& s, std::vector<std::string>& faults) {
+  for (std::size_t i = 0; i < s.decoys.size(); ++i) {
+    const Patch patch = patchOf(s.decoys[i]);
+    const double bottom_m = s.windowCentreHeight() + patch.z_m - patch.half_height_m;
+    const bool fits = std::abs(patch.y_m) + patch.half_width_m + 0.2 <= 0.5 * s.house.width_m &&
+                      bottom_m >= kLeastWallAround_m &&
+                      bottom_m + 2.0 * patch.half_height_m + 0.05 <= s.house.eaves_m;
+    if (s.decoys[i].isOpen() && !fits)
+      faults.push_back("decoys[" + std::to_string(i) + "]: is open and reaches beyond the wall");
+  }
 }
 
 void checkStart(const Scenario& s, std::vector<std::string>& faults) {
@@ -70,6 +126,8 @@ std::vector<std::string> faultsOf(const Scenario& scenario) {
   auto faults = parameters::outOfRange(scenario);
   if (!faults.empty()) return faults;
   checkFits(scenario, faults);
+  checkWall(scenario, faults);
+  checkOpenDecoys(scenario, faults);
   checkStart(scenario, faults);
   checkFaults(scenario, faults);
   return faults;

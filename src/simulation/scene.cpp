@@ -1,5 +1,6 @@
 #include "window_ingress/simulation/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene_parts.hpp"
@@ -7,31 +8,43 @@
 namespace window_ingress::simulation {
 namespace {
 
-Lighting daylight(const HouseParams& house) {
-  const double level = std::cos(house.sun_elevation_rad);
-  const Eigen::Vector3d towards(-level * std::cos(house.sun_azimuth_rad),
-                                level * std::sin(house.sun_azimuth_rad), std::sin(house.sun_elevation_rad));
-  return {towards, house.sun, house.ambient};
+bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
+  const double beside_m = 0.5 * (poster.width_m + scenario.window.width_m) + scenario.window.frame_width_m;
+  const double above_m = 0.5 * (poster.height_m + scenario.window.height_m) + scenario.window.frame_width_m;
+  return std::abs(poster.y_m) < beside_m && std::abs(poster.z_m) < above_m;
 }
 
 }  // namespace
 
 Scene buildScene(const Scenario& scenario) {
   const HouseParams& house = scenario.house;
-  Scene scene{Mesh(daylight(house)), {}, 0.0, 0.0, std::nullopt, 0};
-  scene.opening_depth_m = scenario.window.frame_depth_m + house.wall_thickness_m;
+  Scene scene{Mesh(daylight(scenario)), {}, 0.0, 0.0, std::nullopt, 0};
+  scene.opening_depth_m = scenario.window.wallFront() + house.wall_thickness_m;
   scene.ground_z_m = -scenario.windowCentreHeight();
   if (scenario.window.present) scene.opening = scenario.opening();
   scene.texture_seed = static_cast<std::uint32_t>(house.texture_seed);
   addFront(scenario, scene);
   addTarget(scenario, scene);
   for (const auto& decoy : scenario.decoys) addDecoy(scenario, decoy, scene);
+  for (const auto& door : scenario.doors) addDoor(scenario, door, scene);
   for (const auto& poster : scenario.posters) addPoster(scenario, poster, scene);
   addRoof(scenario, scene);
   addGarden(scene);
-  addSky(scene);
+  addSky(scenario, scene);
   addRoom(scenario, scene);
   return scene;
+}
+
+Scenario asPhotographed(const Scenario& scenario) {
+  Scenario expected = scenario;
+  expected.window.present = true;
+  expected.window.closed_by = "none";
+  expected.house.fog_m = 0.0;
+  auto& posters = expected.posters;
+  posters.erase(std::remove_if(posters.begin(), posters.end(),
+                               [&](const PosterParams& poster) { return reachesInto(poster, scenario); }),
+                posters.end());
+  return expected;
 }
 
 }  // namespace window_ingress::simulation

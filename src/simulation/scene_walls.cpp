@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "scene_parts.hpp"
 
@@ -6,6 +7,15 @@ namespace window_ingress::simulation {
 
 Surface painted(const ColourParams& colour, Texture texture) {
   return {texture, Eigen::Vector3d(colour.r, colour.g, colour.b)};
+}
+
+Texture wallTexture(const std::string& name) {
+  static const std::map<std::string, Texture> textures{{"plaster", Texture::kPlaster},
+                                                       {"brick", Texture::kBrick},
+                                                       {"siding", Texture::kSiding},
+                                                       {"stone", Texture::kStone},
+                                                       {"paint", Texture::kPaint}};
+  return textures.at(name);
 }
 
 Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face) {
@@ -49,7 +59,7 @@ void addWallFace(Mesh& mesh, double x_m, bool outside, const Rectangle& wall,
       const double y_m = 0.5 * (y[i] + y[i + 1]), z_m = 0.5 * (z[j] + z[j + 1]);
       const auto covers = [&](const Rectangle& hole) { return hole.contains(y_m, z_m); };
       if (std::any_of(holes.begin(), holes.end(), covers)) continue;
-      mesh.setLighting({light.towards_sun, z_m > shadow_z_m ? 0.0 : light.sun, light.ambient});
+      mesh.setLighting(z_m > shadow_z_m ? light.inShadow() : light);
       addCell(mesh, x_m, outside, {y[i], y[i + 1], z[j], z[j + 1]}, surface);
     }
   mesh.setLighting(light);
@@ -68,7 +78,9 @@ void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, d
   mesh.addQuad(corner, across, deep, surface);       // downwards
 }
 
-void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
+namespace {
+
+void addInnerFaces(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
   const Eigen::Vector3d deep(x1 - x0, 0, 0);
   const Eigen::Vector3d across(0, opening.left_m - opening.right_m, 0),
       up(0, 0, opening.top_m - opening.bottom_m);
@@ -79,13 +91,47 @@ void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const
   mesh.addQuad(corner, deep, across, surface);       // the sill faces up
 }
 
-void addSolidAround(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& opening,
-                    const Rectangle& outer, double x0, double x1) {
-  obstacles.push_back({name, box(x0, x1, {outer.right_m, opening.right_m, outer.bottom_m, outer.top_m})});
-  obstacles.push_back({name, box(x0, x1, {opening.left_m, outer.left_m, outer.bottom_m, outer.top_m})});
-  obstacles.push_back(
-      {name, box(x0, x1, {opening.right_m, opening.left_m, outer.bottom_m, opening.bottom_m})});
-  obstacles.push_back({name, box(x0, x1, {opening.right_m, opening.left_m, opening.top_m, outer.top_m})});
+}  // namespace
+
+// Behind each face lies a second one: where the sun's border cuts the first, nothing shines through.
+void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface) {
+  constexpr double kBehind_m = 0.002;
+  const Lighting light = mesh.lighting();
+  addInnerFaces(mesh, opening, x0, x1, surface);
+  mesh.setLighting(light.inShadow());
+  addInnerFaces(mesh, opening.grown(kBehind_m), x0 + 0.5 * kBehind_m, x1, surface);
+  mesh.setLighting(light);
+}
+
+void addPane(Mesh& mesh, double x_m, const Rectangle& face, const Surface& surface) {
+  const Eigen::Vector3d across(0, face.left_m - face.right_m, 0), up(0, 0, face.top_m - face.bottom_m);
+  mesh.addPicture({x_m, face.left_m, face.bottom_m}, -across, up, surface);
+}
+
+void addSolidWall(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& wall,
+                  const std::vector<Rectangle>& holes, double x0, double x1) {
+  std::vector<double> y;
+  for (const auto& hole : holes) y.insert(y.end(), {hole.right_m, hole.left_m});
+  y = cuts(wall.right_m, wall.left_m, y);
+  for (std::size_t i = 0; i + 1 < y.size(); ++i) {
+    const double y_m = 0.5 * (y[i] + y[i + 1]);
+    std::vector<double> ends;
+    for (const auto& hole : holes)
+      if (y_m > hole.right_m && y_m < hole.left_m) ends.insert(ends.end(), {hole.bottom_m, hole.top_m});
+    ends = cuts(wall.bottom_m, wall.top_m, ends);
+    for (std::size_t j = 0; j + 1 < ends.size(); ++j) {
+      const double z_m = 0.5 * (ends[j] + ends[j + 1]);
+      const auto covers = [&](const Rectangle& hole) { return hole.contains(y_m, z_m); };
+      if (std::any_of(holes.begin(), holes.end(), covers)) continue;
+      obstacles.push_back({name, box(x0, x1, {y[i], y[i + 1], ends[j], ends[j + 1]})});
+    }
+  }
+}
+
+void addSolid(Scene& scene, const std::string& name, const Eigen::AlignedBox3d& solid,
+              const Surface& surface) {
+  scene.mesh.addBox(solid, surface);
+  scene.obstacles.push_back({name, solid});
 }
 
 }  // namespace window_ingress::simulation

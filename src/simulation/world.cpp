@@ -254,7 +254,8 @@ cv::Mat World::referencePicture(geometry::Quadrilateral* corners) const {
                 ideal.fy * size.height_m / (kReferencePart * ideal.height)});
   const Eigen::Isometry3d T_camera_window = geometry::makePose(geometry::R_optical_flu(), {0, 0, distance_m});
   cv::Mat picture;
-  Renderer(impl_->scene, ideal).render(T_camera_window, picture);
+  Renderer(buildScene(asPhotographed(impl_->scenario)), ideal).render(T_camera_window, picture);
+  if (params.gain != 1.0) picture.convertTo(picture, CV_8U, params.gain);
   if (corners) *corners = *geometry::projectOpening(ideal, T_camera_window, size);
   return picture;
 }

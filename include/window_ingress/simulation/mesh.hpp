@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "window_ingress/simulation/lighting.hpp"
 #include "window_ingress/simulation/texture.hpp"
 
 namespace window_ingress::simulation {
@@ -23,15 +24,19 @@ struct Surface {
   Eigen::Vector3d colour = Eigen::Vector3d::Constant(200.0);  ///< red, green, blue in white light, 0..255
 };
 
-/// One direction of light and light from everywhere; brightness of a face by its normal.
-struct Lighting {
-  Eigen::Vector3d towards_sun = Eigen::Vector3d::UnitZ();
-  double sun = 0.5;
-  double ambient = 0.5;
-  double operator()(const Eigen::Vector3d& normal) const;
+/// A corner of a flat polygon.
+struct Corner {
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector2d uv;        ///< [tiles]
 };
+using Polygon = std::vector<Corner>;
 
-/// Quadrilaterals by texture, shaded once, with the light that was set when they were added.
+/// Parts of a convex polygon within and beyond a half space; either may be empty. What lies within 1e-9 m of
+/// the plane belongs to both.
+std::pair<Polygon, Polygon> split(const Polygon& polygon, const HalfSpace& half_space);
+
+/// Quadrilaterals by texture, shaded once, with the light that was set when they were added: cut where the
+/// border of sun and shadow runs over them.
 class Mesh {
  public:
   explicit Mesh(const Lighting& lighting) : lighting_(lighting) {}
@@ -49,8 +54,10 @@ class Mesh {
   void addPicture(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                   const Surface& surface);
   void addBox(const Eigen::AlignedBox3d& box, const Surface& surface);
+  /// Flat and convex, at least four corners, its face where they run anticlockwise.
+  void addPolygon(const Polygon& polygon, const Surface& surface);
 
-  /// Four vertices a quadrilateral.
+  /// Four vertices a quadrilateral; the last two may be the same.
   struct Batch {
     bool indoors;
     Texture texture;
@@ -61,8 +68,7 @@ class Mesh {
   const std::map<Batch, std::vector<Vertex>>& batches() const { return batches_; }
 
  private:
-  void add(const std::array<Eigen::Vector3d, 4>& corners, const std::array<Eigen::Vector2d, 4>& uv,
-           const Surface& surface);
+  void emit(const Polygon& polygon, const Surface& surface, const Eigen::Vector3d& brightness);
 
   Lighting lighting_;
   bool indoors_ = false;

@@ -50,6 +50,7 @@ struct Scenario {
   StartParams start;
   WindowParams window;
   std::vector<DecoyParams> decoys;
+  std::vector<DoorParams> doors;
   std::vector<PosterParams> posters;
   HouseParams house;
   CameraParams camera;
@@ -64,6 +65,7 @@ struct Scenario {
     field.group("start", self.start);
     field.group("window", self.window);
     field.list("decoys", self.decoys);
+    field.list("doors", self.doors);
     field.list("posters", self.posters);
     field.group("house", self.house);
     field.group("camera", self.camera);

@@ -14,17 +14,21 @@ namespace window_ingress::simulation {
 ///
 /// The plane x = 0 is the front of the target's frame, and the rectangle `Scenario::opening()` in it is the
 /// frame's inner border: this *front inner border* is what `T_odom_window` and `opening()` describe
-/// everywhere. The wall begins `frame_depth_m` behind it and ends at `wall_thickness_m` behind that; the
-/// inner faces of the opening run from x = 0 to there.
+/// everywhere. The wall begins `WindowParams::wallFront()` behind it and ends at `wall_thickness_m` behind
+/// that; the inner faces of the opening run from x = 0 to there.
 struct Scene {
   Mesh mesh;
   std::vector<Obstacle> obstacles;
   double opening_depth_m = 0.0;  ///< where the opening ends in the room
   double ground_z_m = 0.0;
-  std::optional<geometry::OpeningSize> opening;  ///< nothing if the wall is closed
+  std::optional<geometry::OpeningSize> opening;  ///< nothing without a target; may be closed all the same
   std::uint32_t texture_seed = 0;
 };
 
 Scene buildScene(const Scenario& scenario);
+
+/// The world as it was when the operator photographed the target: there, open, with nothing over it, in clear
+/// air.
+Scenario asPhotographed(const Scenario& scenario);
 
 }  // namespace window_ingress::simulation

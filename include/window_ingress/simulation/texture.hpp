@@ -1,4 +1,5 @@
-/// Procedural surfaces, drawn from a seed. All of them tile without a seam, except the poster and the glass.
+/// Procedural surfaces, drawn from a seed. All of them tile without a seam, except the pictures: glass,
+/// curtain, poster and printed window.
 #pragma once
 
 #include <cstdint>
@@ -6,19 +7,26 @@
 
 namespace window_ingress::simulation {
 
-/// In the order in which they are drawn: what hides most comes first.
+/// In the order in which they are drawn: what hides most comes first. The numbers feed the patterns' seeds.
 enum class Texture {
-  kPlaster,
-  kBrick,
-  kPlain,
-  kGlass,
-  kPoster,
-  kPaving,
-  kGrass,
-  kHedge,
-  kWood,
-  kTiles,
-  kClouds
+  kSiding = -3,
+  kStone = -2,
+  kPaint = -1,
+  kPlaster = 0,
+  kBrick = 1,
+  kPlain = 2,
+  kGlass = 3,
+  kPoster = 4,
+  kPaving = 5,
+  kGrass = 6,
+  kHedge = 7,
+  kWood = 8,
+  kTiles = 9,
+  kClouds = 10,
+  kCurtain = 11,
+  kLouvres = 12,
+  kPrintedWindow = 13,
+  kView = 14
 };
 
 /// Colour factors, 255 for "as the surface's own colour"; CV_8UC3 in RGB order, square, sides a power of two.

@@ -1,0 +1,36 @@
+/// What the patterns of `makeTexture` are made of. All pictures are of kTextureSize.
+#pragma once
+
+#include <initializer_list>
+#include <opencv2/core.hpp>
+#include <utility>
+
+namespace window_ingress::simulation {
+
+constexpr int kTextureSize = 512;
+
+/// Smooth noise of `cells` bumps along a side, wrapping around; zero mean, standard deviation near 1. CV_32F.
+cv::Mat bumps(cv::RNG& random, int cells);
+/// Sum of such: {cells, amplitude} each.
+cv::Mat noise(cv::RNG& random, std::initializer_list<std::pair<int, double>> octaves);
+/// The same factor for all channels times a tint.
+cv::Mat tinted(const cv::Mat& grey, const cv::Scalar& tint);
+cv::Mat roughened(cv::RNG& random, const cv::Mat& image, double amplitude);
+
+// --- surfaces that tile (texture_surfaces.cpp)
+/// Rows of stones with joints between; each stone has a shade of its own, every other row is shifted by half.
+cv::Mat courses(cv::RNG& random, int columns, int rows, double joint_px, double spread,
+                const cv::Scalar& stone, const cv::Scalar& joint);
+cv::Mat fieldStone(cv::RNG& random);
+cv::Mat siding(cv::RNG& random);
+cv::Mat louvres(cv::RNG& random);
+cv::Mat wood(cv::RNG& random);
+
+// --- pictures (texture_pictures.cpp)
+cv::Mat glass(cv::RNG& random);
+cv::Mat curtain(cv::RNG& random);
+cv::Mat poster(cv::RNG& random);
+cv::Mat printedWindow(cv::RNG& random);
+cv::Mat gardenView(cv::RNG& random);
+
+}  // namespace window_ingress::simulation
