@@ -12,6 +12,9 @@ namespace window_ingress::simulation {
   F(GetError, GLenum, (void))                                                                       \
   F(Enable, void, (GLenum))                                                                         \
   F(Disable, void, (GLenum))                                                                        \
+  F(Fogi, void, (GLenum, GLint))                                                                    \
+  F(Fogf, void, (GLenum, GLfloat))                                                                  \
+  F(Fogfv, void, (GLenum, const GLfloat*))                                                          \
   F(Scissor, void, (GLint, GLint, GLsizei, GLsizei))                                                \
   F(FrontFace, void, (GLenum))                                                                      \
   F(DepthFunc, void, (GLenum))                                                                      \

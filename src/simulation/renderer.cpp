@@ -1,5 +1,6 @@
 #include "window_ingress/simulation/renderer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -46,12 +47,16 @@ struct Filter {
 Filter filterOf(Texture texture) {
   switch (texture) {
     case Texture::kPlaster:
+    case Texture::kPaint:
       return {GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, 2};
     case Texture::kGrass:
     case Texture::kHedge:
     case Texture::kClouds:
       return {GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, 1};
     case Texture::kBrick:
+    case Texture::kStone:
+    case Texture::kSiding:
+    case Texture::kLouvres:
     case Texture::kTiles:
     case Texture::kPaving:
       return {GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, 1};
@@ -72,6 +77,8 @@ struct Renderer::Impl {
   Impl(const Scene& scene, const geometry::PinholeCamera& ideal, Antialiasing kind)
       : camera(ideal),
         opening(scene.opening),
+        other_ways_in(scene.other_ways_in),
+        fog(scene.fog),
         antialiasing(kind),
         faces(facesOf(scene.mesh)),
         smoother(ideal),
@@ -80,6 +87,7 @@ struct Renderer::Impl {
     target.create(gl, rgba.size(), kind == Antialiasing::kMultisampling ? 4 : 0);
     upload(gl, scene);
     setState(gl);
+    if (fog) setFog(gl);
     if (gl.GetError() != GL_NO_ERROR)
       throw std::runtime_error("OpenGL reports an error while loading the scene");
   }
@@ -134,9 +142,28 @@ struct Renderer::Impl {
     gl.MatrixMode(GL_MODELVIEW);
   }
 
+  void setFog(const GlFunctions& gl) const {
+    const Eigen::Vector4f colour(static_cast<float>(fog->colour.x()), static_cast<float>(fog->colour.y()),
+                                 static_cast<float>(fog->colour.z()), 1.0F);
+    gl.Enable(GL_FOG);
+    gl.Fogf(GL_FOG_DENSITY, static_cast<GLfloat>(fog->density_per_m));
+    gl.Fogfv(GL_FOG_COLOR, colour.data());
+  }
+
+  // There is no fog in the room: what is seen there keeps the contrast that the way to the wall leaves.
+  // OpenGL knows fog by depth only: over a range that is long enough it is the same for all depths.
+  void setFogOf(const GlFunctions& gl, bool indoors, double way_to_wall_m) const {
+    constexpr float kRange_m = 1e7F;
+    const auto kept = static_cast<float>(std::exp(-fog->density_per_m * std::max(0.0, way_to_wall_m)));
+    gl.Fogi(GL_FOG_MODE, indoors ? GL_LINEAR : GL_EXP);
+    gl.Fogf(GL_FOG_END, kept * kRange_m);
+    gl.Fogf(GL_FOG_START, (kept - 1.0F) * kRange_m);
+  }
+
   // Part of the picture in which the room can be seen: seen from outside, what the opening spans.
   cv::Rect roomIn(const Eigen::Isometry3d& T_camera_window) const {
     const cv::Rect picture(0, 0, camera.width, camera.height);
+    if (other_ways_in) return picture;
     const bool outside = T_camera_window.inverse().translation().x() < -kNear_m;
     if (!outside) return picture;
     if (!opening) return {};
@@ -176,6 +203,7 @@ struct Renderer::Impl {
         for (GLuint corner = 0; corner < 4; ++corner)
           indices.push_back(static_cast<GLuint>(4 * order[end]) + corner);
       scissor(gl, batch.indoors ? indoors : part);
+      if (fog) setFogOf(gl, batch.indoors, -T_camera_window.inverse().translation().x());
       drawRun(gl, batch.texture);
     }
   }
@@ -200,6 +228,8 @@ struct Renderer::Impl {
 
   geometry::PinholeCamera camera;
   std::optional<geometry::OpeningSize> opening;
+  bool other_ways_in;
+  std::optional<Fog> fog;
   Antialiasing antialiasing;
   GlContext context;
   GlTarget target;

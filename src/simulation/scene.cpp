@@ -18,7 +18,7 @@ bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
 
 Scene buildScene(const Scenario& scenario) {
   const HouseParams& house = scenario.house;
-  Scene scene{Mesh(daylight(scenario)), {}, 0.0, 0.0, std::nullopt, 0};
+  Scene scene{Mesh(daylight(scenario)), {}, 0.0, 0.0, std::nullopt, false, 0, fogOf(scenario)};
   scene.opening_depth_m = scenario.window.wallFront() + house.wall_thickness_m;
   scene.ground_z_m = -scenario.windowCentreHeight();
   if (scenario.window.present) scene.opening = scenario.opening();

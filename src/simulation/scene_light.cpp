@@ -99,4 +99,11 @@ Lighting skyLight(const Scenario& scenario) {
   return light;
 }
 
+std::optional<Fog> fogOf(const Scenario& scenario) {
+  const HouseParams& house = scenario.house;
+  if (house.fog_m <= 0.0) return std::nullopt;
+  const Vector3d white = Vector3d(0.80, 0.82, 0.84) * house.sky;
+  return Fog{white.cwiseProduct(factors(house.light)).cwiseMin(1.0), -std::log(0.05) / house.fog_m};
+}
+
 }  // namespace window_ingress::simulation

@@ -1,6 +1,7 @@
 /// Parts of which `buildScene` makes a world. All take and give coordinates of the target's window frame.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face);
 Lighting daylight(const Scenario& scenario);
 Lighting roomLight(const Scenario& scenario);
 Lighting skyLight(const Scenario& scenario);
+std::optional<Fog> fogOf(const Scenario& scenario);
 /// Cuts `region` down to where the sun shines through a hole in the plane `x_m`.
 void addBeam(std::vector<HalfSpace>& region, double x_m, const Rectangle& hole, const Eigen::Vector3d& sun);
 /// Height of the lower border of the shadow that the eaves throw on an upright plane.

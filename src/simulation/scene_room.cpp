@@ -85,20 +85,17 @@ void addGables(const Scenario& scenario, Scene& scene) {
   scene.mesh.addQuad({front_m, wall.left_m, wall.bottom_m}, up, deep, plaster);
 }
 
-// Through another open window the room is seen beside the target's opening.
-bool seenThroughTheTargetOnly(const Scenario& scenario) {
-  return openHoles(scenario).size() == 1 && scenario.window.isOpen();
-}
-
 }  // namespace
 
 void addRoom(const Scenario& scenario, Scene& scene) {
   addGables(scenario, scene);
   addRoomSolids(scenario, scene);
-  if (openHoles(scenario).empty()) return;
+  const auto ways_in = openHoles(scenario);
+  if (ways_in.empty()) return;
+  scene.other_ways_in = ways_in.size() > 1 || !scenario.window.isOpen();
   const Lighting outdoors = scene.mesh.lighting();
   scene.mesh.setLighting(roomLight(scenario));
-  scene.mesh.setIndoors(seenThroughTheTargetOnly(scenario));
+  scene.mesh.setIndoors(true);
   addRoomShell(scenario, scene);
   if (scenario.house.back_window) addBackWindow(scenario, scene);
   if (scenario.house.furniture != "none") addFurniture(scenario, scene);

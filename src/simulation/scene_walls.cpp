@@ -85,7 +85,7 @@ void addInnerFaces(Mesh& mesh, const Rectangle& opening, double x0, double x1, c
   const Eigen::Vector3d across(0, opening.left_m - opening.right_m, 0),
       up(0, 0, opening.top_m - opening.bottom_m);
   const Eigen::Vector3d corner(x0, opening.right_m, opening.bottom_m);
-  mesh.addQuad(corner, up, deep, surface);           // the right one faces left
+  mesh.addQuad(corner + deep, -deep, up, surface);   // the right one faces left
   mesh.addQuad(corner + across, deep, up, surface);  // the left one faces right
   mesh.addQuad(corner + up, across, deep, surface);  // the upper one faces down
   mesh.addQuad(corner, deep, across, surface);       // the sill faces up

@@ -74,7 +74,7 @@ cv::Mat makeTexture(Texture texture, std::uint32_t seed) {
     case Texture::kPoster:
       return poster(random);
     case Texture::kPrintedWindow:
-      return printedWindow(random);
+      return printedWindow(random, makeTexture(Texture::kPoster, seed));
     case Texture::kView:
       return gardenView(random);
     case Texture::kClouds:

@@ -30,7 +30,7 @@ cv::Mat wood(cv::RNG& random);
 cv::Mat glass(cv::RNG& random);
 cv::Mat curtain(cv::RNG& random);
 cv::Mat poster(cv::RNG& random);
-cv::Mat printedWindow(cv::RNG& random);
+cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall);
 cv::Mat gardenView(cv::RNG& random);
 
 }  // namespace window_ingress::simulation

@@ -85,23 +85,29 @@ cv::Mat poster(cv::RNG& random) {
   return image;
 }
 
-// A room seen through an open window, printed: back wall, floor, ceiling, shelf, sofa and picture.
-cv::Mat printedWindow(cv::RNG& random) {
-  const cv::Point room[] = {{158, 150}, {354, 150}, {354, 372}, {158, 372}};  // the back wall
-  const cv::Point border[] = {{0, 0}, {kSize, 0}, {kSize, kSize}, {0, kSize}};
-  const cv::Scalar shades[] = {
-      {82, 82, 80}, {66, 64, 57}, {78, 60, 44}, {56, 54, 48}};  // up, right, down, left
-  cv::Mat image(kSize, kSize, CV_8UC3, cv::Scalar(86, 84, 75));
+// A room seen through an open window from some metres away, printed: the back wall with its picture, and the
+// inner faces of the opening as a narrow border, lit from the left.
+cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall) {
+  constexpr int kFace_px = 14;
+  const cv::Point inner[] = {{kFace_px, kFace_px},
+                             {kSize - kFace_px, kFace_px},
+                             {kSize - kFace_px, kSize - kFace_px},
+                             {kFace_px, kSize - kFace_px}};
+  const cv::Point outer[] = {{0, 0}, {kSize, 0}, {kSize, kSize}, {0, kSize}};
+  const cv::Scalar faces[] = {
+      {126, 123, 117}, {182, 178, 169}, {240, 235, 223}, {137, 134, 127}};  // from the top
+  cv::Mat image(kSize, kSize, CV_8UC3, cv::Scalar(96, 93, 84));
   for (int side = 0; side < 4; ++side) {
     const int next = (side + 1) % 4;
-    const std::vector<cv::Point> face{border[side], border[next], room[next], room[side]};
-    cv::fillConvexPoly(image, face, shades[side], cv::LINE_AA);
+    const std::vector<cv::Point> face{outer[side], outer[next], inner[next], inner[side]};
+    cv::fillConvexPoly(image, face, faces[side], cv::LINE_AA);
   }
-  cv::rectangle(image, {172, 210, 46, 162}, cv::Scalar(58, 43, 30), cv::FILLED);
-  cv::rectangle(image, {300, 320, 120, 90}, cv::Scalar(52, 26, 26), cv::FILLED);
-  cv::rectangle(image, {236, 214, 62, 46}, cv::Scalar(40, 31, 22), cv::FILLED);
-  cv::rectangle(image, {240, 218, 54, 38}, cv::Scalar(45, 70, 95), cv::FILLED);
-  cv::GaussianBlur(image, image, {}, 1.5);
+  const cv::Rect picture(90, 143, 217, 188);
+  cv::rectangle(image, {picture.x - 10, picture.y - 12, picture.width + 20, picture.height + 24},
+                {48, 37, 27}, cv::FILLED);
+  cv::Mat small;
+  cv::resize(picture_on_wall, small, picture.size(), 0, 0, cv::INTER_AREA);
+  small.convertTo(image(picture), CV_8U, 0.53);
   return roughened(random, image, 2.0);
 }
 

@@ -9,24 +9,21 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "window_ingress/simulation/world.hpp"
 
 namespace {
 
 namespace options = boost::program_options;
 using namespace window_ingress;
+using tools::UsageError;
 
 constexpr double kSettling_sec = 0.4;  // until the camera has seen the scene
-
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Job {
   std::vector<std::string> files;
   std::string output;
-  std::uint32_t seed = 1;
+  std::uint32_t seed = 1;  // of the first one
   int columns = 4, cell_width_px = 400;
   double distance_m = 0.0, off_axis_rad = 0.0;  // 0 m: as the scenario has it
 };
@@ -36,7 +33,8 @@ options::options_description describe() {
   auto add = description.add_options();
   add("help", "print this text");
   add("output", options::value<std::string>(), "the sheet");
-  add("seed", options::value<std::uint32_t>()->default_value(1), "of all scenarios");
+  add("seed", options::value<std::uint32_t>()->default_value(1),
+      "of the first scenario; each further one has the next");
   add("columns", options::value<int>()->default_value(4), "pictures in a row");
   add("width", options::value<int>()->default_value(400), "of each picture [px]");
   add("distance", options::value<double>()->default_value(0.0), "instead of the start's [m]");
@@ -70,14 +68,14 @@ Job parse(int argc, char** argv, const options::options_description& description
 }
 
 // From the start, but looking at the window.
-cv::Mat photograph(simulation::Scenario scenario, const Job& job) {
+cv::Mat photograph(simulation::Scenario scenario, std::uint32_t seed, const Job& job) {
   scenario.start.heading_rad = 0.0;
   if (job.distance_m > 0.0) {
     scenario.start.distance_m = job.distance_m;
     scenario.start.off_axis_rad = job.off_axis_rad;
     scenario.start.height_offset_m = 0.0;
   }
-  simulation::World world(scenario, job.seed);
+  simulation::World world(scenario, seed);
   cv::Mat picture;
   while (picture.empty() || world.timeSec() < kSettling_sec) {
     world.advance();
@@ -112,10 +110,12 @@ cv::Mat sheetOf(const std::vector<cv::Mat>& cells, int columns) {
 
 int run(const Job& job) {
   std::vector<cv::Mat> cells;
+  std::uint32_t seed = job.seed;
   for (const auto& file : job.files) {
-    const auto scenario = simulation::loadScenario(file, job.seed);
-    const std::string name = std::filesystem::path(file).stem().string();
-    cells.push_back(labelled(photograph(scenario, job), name, job.cell_width_px));
+    const std::string label = std::filesystem::path(file).stem().string() + ", seed " + std::to_string(seed);
+    cells.push_back(
+        labelled(photograph(simulation::loadScenario(file, seed), seed, job), label, job.cell_width_px));
+    ++seed;
   }
   if (!cv::imwrite(job.output, sheetOf(cells, job.columns)))
     throw std::runtime_error(job.output + ": cannot write");

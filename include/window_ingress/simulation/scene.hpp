@@ -10,6 +10,12 @@
 
 namespace window_ingress::simulation {
 
+/// What is seen at a depth d keeps exp(-d density) of its contrast; the rest is the fog's own colour.
+struct Fog {
+  Eigen::Vector3d colour;  ///< red, green, blue, 0..1
+  double density_per_m;
+};
+
 /// What is to be seen and what is in the way, in the axes of the target's window frame.
 ///
 /// The plane x = 0 is the front of the target's frame, and the rectangle `Scenario::opening()` in it is the
@@ -22,7 +28,9 @@ struct Scene {
   double opening_depth_m = 0.0;  ///< where the opening ends in the room
   double ground_z_m = 0.0;
   std::optional<geometry::OpeningSize> opening;  ///< nothing without a target; may be closed all the same
+  bool other_ways_in = false;  ///< the room is seen through other windows too
   std::uint32_t texture_seed = 0;
+  std::optional<Fog> fog;
 };
 
 Scene buildScene(const Scenario& scenario);
