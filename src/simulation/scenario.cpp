@@ -82,6 +82,12 @@ void checkStart(const Scenario& s, std::vector<std::string>& faults) {
   if (gap_m < 0.05) faults.push_back("start/distance_m: starts in the wall");
 }
 
+// So that there is thrust left to climb and to tilt.
+void checkPayload(const Scenario& s, std::vector<std::string>& faults) {
+  const double part = (1.0 + s.vehicle.thrust_gain_error) / (1.0 + s.vehicle.payload_kg / s.vehicle.mass_kg);
+  if (part < 0.6) faults.push_back("vehicle/payload_kg: too heavy for its thrust");
+}
+
 void checkFaults(const Scenario& s, std::vector<std::string>& faults) {
   for (std::size_t i = 0; i < s.faults.size(); ++i) {
     std::string why_not = whyNoSuchFault(s.faults[i]);
@@ -129,6 +135,7 @@ std::vector<std::string> faultsOf(const Scenario& scenario) {
   checkWall(scenario, faults);
   checkOpenDecoys(scenario, faults);
   checkStart(scenario, faults);
+  checkPayload(scenario, faults);
   checkFaults(scenario, faults);
   return faults;
 }

@@ -17,11 +17,11 @@ void setBoundedOdometry(double wander_m, OdometryParams& odometry) {
 void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.03;
   vehicle.yaw_rate_gain = 1.02;
-  vehicle.setpoint_acceleration_mps2 = 1.22;
-  vehicle.acceleration_feed_forward = 0.14;
-  vehicle.position_hold_per_sec = 0.39;
-  vehicle.velocity_time_constant_sec = 0.59;
-  vehicle.velocity_integral_per_sec = 0.2;
+  vehicle.setpoint_acceleration_mps2 = 1.235;
+  vehicle.acceleration_feed_forward = 0.19;
+  vehicle.position_hold_per_sec = 0.36;
+  vehicle.velocity_time_constant_sec = 0.636;
+  vehicle.velocity_integral_per_sec = 0.3;
   vehicle.attitude_time_constant_sec = 0.05;
   vehicle.command_timeout_sec = 3.2;
   setBoundedOdometry(0.020, odometry);
@@ -34,12 +34,12 @@ void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
 void setArduCopter43(VehicleParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.012;
   vehicle.yaw_rate_gain = 0.84;
-  vehicle.setpoint_acceleration_mps2 = 1.635;
-  vehicle.setpoint_time_constant_sec = 0.62;
-  vehicle.setpoint_jerk_mps3 = 7.5;
+  vehicle.setpoint_acceleration_mps2 = 1.494;
+  vehicle.setpoint_time_constant_sec = 0.634;
+  vehicle.setpoint_jerk_mps3 = 9.2;
   vehicle.acceleration_feed_forward = 1.0;
-  vehicle.velocity_time_constant_sec = 0.58;
-  vehicle.velocity_integral_per_sec = 0.1;
+  vehicle.velocity_time_constant_sec = 0.62;
+  vehicle.velocity_integral_per_sec = 0.5;
   vehicle.attitude_time_constant_sec = 0.05;
   vehicle.command_timeout_sec = 3.2;
   setBoundedOdometry(0.009, odometry);

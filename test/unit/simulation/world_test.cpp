@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
 
@@ -193,6 +194,59 @@ TEST(World, TheVehicleActsOnWhatItsOdometrySays) {
     world.advance();
   }
   EXPECT_NEAR(world.truth().velocity_odom_mps.x(), 0.8, 0.04) << "too slow, as it believes to be faster";
+}
+
+std::vector<double> stormyFlight(std::uint32_t seed) {
+  Scenario scenario = quietScenario();
+  scenario.wind.gusts = "dryden";
+  scenario.wind.draught_mps = 2.0;
+  scenario.odometry.jitter_sec = 0.02;
+  scenario.odometry.burst_period_sec = 0.05;
+  scenario.odometry.wander_m = 0.02;
+  scenario.imu.gyro_bias_radps = 0.01;
+  World world(scenario, seed);
+  std::vector<double> numbers;
+  while (world.timeSec() < 3.0) {
+    world.command({Eigen::Vector3d(0.5, 0.1, 0.0), 0.1});
+    world.advance();
+    while (const auto sample = world.takeOdometry()) numbers.push_back(sample->T_odom_base.translation().y());
+    while (const auto sample = world.takeImu()) numbers.push_back(sample->angular_velocity_base_radps.x());
+  }
+  return numbers;
+}
+
+TEST(World, GustsBurstsAndBiasesFollowFromTheSeedAlone) {
+  const auto first = stormyFlight(3);
+  EXPECT_GT(first.size(), 400u);
+  EXPECT_EQ(first, stormyFlight(3));
+  EXPECT_NE(first, stormyFlight(4));
+}
+
+TEST(World, ForwardIsWhereTheNosePointsWhateverTheHeading) {
+  for (const double heading_rad : {0.0, 0.8, -1.9}) {
+    for (const double odom_yaw_rad : {0.0, 2.6}) {
+      Scenario scenario = quietScenario();
+      scenario.start.heading_rad = heading_rad;
+      scenario.start.odom_yaw_rad = odom_yaw_rad;
+      World world(scenario, 1);
+      const Eigen::Isometry3d start = world.truth().T_odom_base;
+      while (world.timeSec() < 2.0) {
+        world.command({start.linear() * Eigen::Vector3d(1.0, 0, 0), 0.0});
+        world.advance();
+      }
+      const Eigen::Vector3d moved = (start.inverse() * world.truth().T_odom_base).translation();
+      EXPECT_NEAR(moved.x(), 1.6, 0.2);
+      EXPECT_LT(moved.tail<2>().norm(), 0.1);
+    }
+  }
+}
+
+TEST(World, RefusesAPayloadThatItCannotLift) {
+  Scenario scenario;
+  scenario.vehicle.payload_kg = 1.2 * scenario.vehicle.mass_kg;
+  EXPECT_THROW(World(scenario, 1), ScenarioError);
+  scenario.vehicle.payload_kg = 0.4 * scenario.vehicle.mass_kg;
+  EXPECT_NO_THROW(World(scenario, 1));
 }
 
 }  // namespace
