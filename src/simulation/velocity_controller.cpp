@@ -1,13 +1,14 @@
 #include "window_ingress/simulation/velocity_controller.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace window_ingress::simulation {
 namespace {
 
 constexpr double kLongestLag_m = 1.0;      // beyond, the place that it is pulled to comes along
-constexpr double kNearSetpoint_mps = 0.3;  // the trim learns only there
+constexpr double kNearSetpoint_mps = 0.3;  // beyond, the trim learns the less the further
 
 Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
   const double length = v.norm();
@@ -32,6 +33,14 @@ void VelocityController::shape(const Eigen::Vector3d& wanted_mps, double step_se
   reference_mps_ += step_sec * reference_mps2_;
 }
 
+// A step of the setpoint hardly winds it up, and yet no lasting error is too great to be learnt away.
+void VelocityController::learnTrim(const Eigen::Vector3d& error_mps, double step_sec) {
+  const double rate = params_.velocity_integral_per_sec / params_.velocity_time_constant_sec;
+  const double trust =
+      std::min(1.0, std::pow(kNearSetpoint_mps, 2) / std::max(error_mps.squaredNorm(), 1e-9));
+  trim_mps2_ += rate * trust * step_sec * error_mps;
+}
+
 Eigen::Vector3d VelocityController::step(const Eigen::Vector3d& setpoint_mps,
                                          const Eigen::Vector3d& velocity_mps, double step_sec) {
   shape(params_.velocity_gain * setpoint_mps, step_sec);
@@ -41,8 +50,7 @@ Eigen::Vector3d VelocityController::step(const Eigen::Vector3d& setpoint_mps,
       params_.acceleration_feed_forward * reference_mps2_ +
       (error + params_.position_hold_per_sec * lag_m_) / params_.velocity_time_constant_sec;
   const Eigen::Vector3d limited = shortened(wish, params_.max_acceleration_mps2);
-  if (wish.isApprox(limited) && error.norm() < kNearSetpoint_mps)
-    trim_mps2_ += params_.velocity_integral_per_sec / params_.velocity_time_constant_sec * step_sec * error;
+  if (wish.isApprox(limited)) learnTrim(error, step_sec);
   return limited + trim_mps2_;
 }
 

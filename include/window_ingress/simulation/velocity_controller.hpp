@@ -14,7 +14,7 @@ namespace window_ingress::simulation {
 ///     integral / velocity_time_constant * (r - v)
 ///
 /// v is the velocity as the vehicle estimates it. Without limits of the shaping, r is the setpoint. The trim
-/// is frozen while the acceleration is at its limit and far from the setpoint: no wind-up.
+/// rests while the acceleration is at its limit, and learns less from errors beyond 0.3 m/s: little wind-up.
 class VelocityController {
  public:
   explicit VelocityController(const VehicleParams& params) : params_(params) {}
@@ -27,6 +27,7 @@ class VelocityController {
   const Eigen::Vector3d& trim() const { return trim_mps2_; }
 
  private:
+  void learnTrim(const Eigen::Vector3d& error_mps, double step_sec);
   void shape(const Eigen::Vector3d& wanted_mps, double step_sec);
 
   VehicleParams params_;

@@ -71,17 +71,27 @@ TEST(VelocityController, HoldPullsItToWhereTheSetpointLed) {
   }
 }
 
-TEST(VelocityController, TheTrimLearnsNearTheSetpointOnly) {
-  VehicleParams params;
+TEST(VelocityController, TheTrimLearnsNearTheSetpointAndIsHardlyWoundUpByAStep) {
+  const VehicleParams params;
+  const double rate = params.velocity_integral_per_sec / params.velocity_time_constant_sec;
   VelocityController controller(params);
   controller.setTrim({0, 0, 1.0});
   for (int i = 0; i < 400; ++i) controller.step({3.0, 0, 0}, kStill, kStep_sec);
-  EXPECT_EQ(controller.trim(), Eigen::Vector3d(0, 0, 1.0)) << "far from it: frozen";
+  EXPECT_EQ(controller.trim(), Eigen::Vector3d(0, 0, 1.0)) << "at the limit: not at all";
   for (int i = 0; i < 400; ++i) controller.step({0.1, 0, 0}, kStill, kStep_sec);
-  EXPECT_NEAR(controller.trim().x(),
-              0.1 * params.velocity_integral_per_sec / params.velocity_time_constant_sec, 1e-9);
+  EXPECT_NEAR(controller.trim().x(), 0.1 * rate, 1e-9);
+  for (int i = 0; i < 400; ++i) controller.step({0, 0.9, 0}, kStill, kStep_sec);
+  EXPECT_NEAR(controller.trim().y(), 0.1 * rate, 1e-9) << "a ninth of the error counts";
   controller.restart();
   EXPECT_EQ(controller.trim().z(), 1.0) << "a restart keeps it";
+}
+
+TEST(VelocityController, NoPushIsTooStrongToBeLearntAway) {
+  VelocityController controller{VehicleParams()};
+  Eigen::Vector3d velocity = kStill;
+  for (int i = 0; i < 8000; ++i)
+    velocity += kStep_sec * (controller.step(kStill, velocity, kStep_sec) + Eigen::Vector3d(0, 2.0, 0));
+  EXPECT_LT(velocity.norm(), 0.01);
 }
 
 }  // namespace
