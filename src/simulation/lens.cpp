@@ -26,7 +26,7 @@ cv::Mat idealPixels(const geometry::PinholeCamera& camera) {
 
 }  // namespace
 
-Lens::Lens(const geometry::PinholeCamera& camera) : ideal_(camera) {
+Lens::Lens(const geometry::PinholeCamera& camera) : ideal_(camera), size_(camera.width, camera.height) {
   if (!camera.hasDistortion()) return;
   cv::Mat map = idealPixels(camera), channels[2];
   cv::split(map, channels);

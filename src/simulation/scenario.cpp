@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
@@ -100,6 +101,7 @@ void checkFaults(const Scenario& s, std::vector<std::string>& faults) {
 }  // namespace
 
 geometry::PinholeCamera CameraParams::model() const {
+  if (!calibration_file.empty()) return parameters::readCalibrationFile(calibration_file);
   auto camera = geometry::PinholeCamera::fromFieldOfView(width_px, height_px, horizontal_fov_rad);
   camera.distortion = {k1, k2, p1, p2, k3};
   return camera;

@@ -1,5 +1,7 @@
 #include "window_ingress/simulation/scenario_reader.hpp"
 
+#include <filesystem>
+
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/parameters/yaml_mapping.hpp"
 #include "window_ingress/simulation/random_stream.hpp"
@@ -174,6 +176,9 @@ Scenario loadScenario(const std::string& file, std::uint32_t seed) {
   } catch (const YamlError& error) {
     throw ScenarioError(error.what());
   }
+  auto& calibration_file = scenario.camera.calibration_file;
+  if (!calibration_file.empty())
+    calibration_file = (std::filesystem::path(file).parent_path() / calibration_file).string();
   const auto faults = faultsOf(scenario);
   if (!faults.empty()) throw ScenarioError(file + ": " + parameters::joined(faults));
   return scenario;

@@ -6,6 +6,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/simulation/camera_sensor.hpp"
+#include "window_ingress/simulation/renderer.hpp"
 #include "window_ingress/simulation/faults.hpp"
 #include "window_ingress/simulation/followed_vehicle.hpp"
 #include "window_ingress/simulation/scene.hpp"
@@ -47,6 +48,14 @@ WallInAir wallOf(const Scenario& scenario, const Scene& scene) {
   return wall;
 }
 
+geometry::PinholeCamera modelOf(const CameraParams& params) {
+  try {
+    return params.model();
+  } catch (const std::runtime_error& error) {
+    throw ScenarioError(std::string("scenario: camera/calibration_file: ") + error.what());
+  }
+}
+
 std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams& params, std::uint32_t seed) {
   try {
     return std::make_unique<CameraSensor>(scene, params, seed);
@@ -62,7 +71,7 @@ struct World::Impl {
       : scenario(checked(given)),
         seed(seed_of_all),
         scene(buildScene(scenario)),
-        model(scenario.camera.model()),
+        model(modelOf(scenario.camera)),
         T_base_camera(scenario.camera.T_base_camera()),
         T_odom_window(scenario.T_odom_window()),
         camera(makeCamera(scene, scenario.camera, seed)),
@@ -75,6 +84,7 @@ struct World::Impl {
         faults(scenario.faults),
         commands({RandomStream(seed, "cmd_vel garbage")}),
         shutter(scenario.camera.rate_hz),
+        transport(scenario.camera, seed),
         exposures(scenario.camera.latency_sec),
         referee(courseOf(scenario, scene)) {}
 
@@ -96,10 +106,14 @@ struct World::Impl {
       odometry.update(time_sec, truth());
       imu.update(time_sec, truth(), quadrotor.specificForceBase(), odometry.drift());
     }
-    if (shutter.due(time_sec))
-      exposures.push(time_sec, {exposure_count++, time_sec, truth(), truth(), Exposure::Spoilt::kNot});
+    if (shutter.due(time_sec)) expose();
     referee.update(time_sec, truth());
     if (referee.touched() && !external() && !quadrotor.crashed()) quadrotor.crash(restHeight());
+  }
+
+  void expose() {
+    const Exposure exposure{exposure_count++, time_sec, truth(), truth(), Exposure::Spoilt::kNot};
+    if (const auto arrival_sec = transport.arrivalOf(time_sec)) exposures.pushUntil(*arrival_sec, exposure);
   }
 
   // In odom, where z = 0 is the ground.
@@ -153,6 +167,7 @@ struct World::Impl {
   ImageLine images;
   ClockLine clock;
   Periodic shutter;
+  CameraTransport transport;
   DelayLine<Exposure> exposures;
   Referee referee;
   long steps = 0;
@@ -199,7 +214,8 @@ std::optional<CameraFrame> World::takeFrame() {
   frame.stamp_sec = exposure->stamp_sec;
   frame.truth = exposure->truth;
   frame.T_camera_window = impl_->cameraInWindow(exposure->truth).inverse();
-  frame.image = impl_->camera->expose(impl_->cameraInWindow(exposure->shown).inverse(), exposure->index);
+  const auto motion = CameraMotion::of(exposure->shown, impl_->T_odom_window, impl_->T_base_camera);
+  frame.image = impl_->camera->expose(motion, exposure->index, exposure->stamp_sec);
   spoil(frame.image, *exposure, impl_->seed);
   return frame;
 }
@@ -245,9 +261,8 @@ const Scenario& World::scenario() const { return impl_->scenario; }
 const Referee& World::referee() const { return impl_->referee; }
 
 cv::Mat World::referencePicture(geometry::Quadrilateral* corners) const {
-  CameraParams params = impl_->scenario.camera;
-  params.k1 = params.k2 = params.p1 = params.p2 = params.k3 = 0.0;
-  const geometry::PinholeCamera ideal = params.model();
+  geometry::PinholeCamera ideal = impl_->model;
+  ideal.distortion = {};
   const geometry::OpeningSize size = opening();
   const double distance_m =
       std::max({kReferenceDistance_m, ideal.fx * size.width_m / (kReferencePart * ideal.width),

@@ -16,7 +16,7 @@
 #include "command_line.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "window_ingress/evaluation/calibration_file.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/evaluation/detection_table.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/pose/window_pose_estimator.hpp"
@@ -137,7 +137,7 @@ Job prepare(const Options& o) {
   Job job;
   if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", job.params))
     throw UsageError(o.params + ": no section 'detector' in this file");
-  if (!o.camera.empty()) job.camera = evaluation::readCalibrationFile(o.camera);
+  if (!o.camera.empty()) job.camera = parameters::readCalibrationFile(o.camera);
   if (!o.reference.empty()) job.reference = readReference(o, job.params);
   if (!o.size.empty()) {
     pose::PoseParams params;

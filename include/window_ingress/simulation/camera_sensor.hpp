@@ -1,34 +1,45 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
-#include <vector>
+#include <optional>
 
-#include "window_ingress/simulation/lens.hpp"
-#include "window_ingress/simulation/renderer.hpp"
+#include "window_ingress/simulation/camera_motion.hpp"
 #include "window_ingress/simulation/camera_params.hpp"
+#include "window_ingress/simulation/random_stream.hpp"
+#include "window_ingress/simulation/scene.hpp"
 
 namespace window_ingress::simulation {
 
-/// Makes of an ideal rendering what a camera delivers: distortion, blur, exposure, noise.
+/// Makes of ideal renderings what a camera delivers: motion during the exposure, distortion, blur, brightness
+/// and colour, noise.
 class CameraSensor {
  public:
-  /// \throws as `Renderer` and `Lens`
+  /// \throws as `Renderer`, `Lens` and `CameraParams::model`
   CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed);
+  ~CameraSensor();
 
-  /// The picture number `index` of the flight; the noise depends on seed and index alone. The picture is
-  /// valid until the next call.
-  cv::Mat expose(const Eigen::Isometry3d& T_camera_window, std::uint64_t index);
+  /// The picture number `index` of the flight; the noise depends on seed and index alone, automatic gains on
+  /// the pictures exposed before. The picture is valid until the next call.
+  cv::Mat expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec);
 
  private:
-  void addNoise(std::uint64_t index);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
-  CameraParams params_;
-  std::uint32_t seed_;
-  Lens lens_;
-  Renderer renderer_;
-  cv::Mat ideal_, image_, brighter_, darker_;  // noise: what is added, what is taken away
+/// When pictures arrive, and which ones do not.
+class CameraTransport {
+ public:
+  CameraTransport(const CameraParams& params, std::uint32_t seed);
+  /// Of the next picture, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::pushUntil` sees to it
+  /// that none overtakes another.
+  std::optional<double> arrivalOf(double stamp_sec);
+
+ private:
+  double latency_sec_, jitter_sec_, drop_probability_;
+  RandomStream jitter_, drops_;
 };
 
 }  // namespace window_ingress::simulation

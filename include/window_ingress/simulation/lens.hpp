@@ -17,11 +17,15 @@ class Lens {
   /// is no distortion.
   const geometry::PinholeCamera& idealCamera() const { return ideal_; }
 
+  /// Of the pictures that `distort` makes.
+  cv::Size size() const { return size_; }
+
   /// `image` shares its pixels with `ideal_image` if there is no distortion.
   void distort(const cv::Mat& ideal_image, cv::Mat& image) const;
 
  private:
   geometry::PinholeCamera ideal_;
+  cv::Size size_;
   cv::Mat map_, map_fraction_;
 };
 

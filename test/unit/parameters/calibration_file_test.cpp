@@ -1,14 +1,11 @@
-#include "window_ingress/evaluation/calibration_file.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
-#include "window_ingress/evaluation/detection_table.hpp"
-
-namespace window_ingress::evaluation {
+namespace window_ingress::parameters {
 namespace {
 
 const char* const kGood =
@@ -61,22 +58,5 @@ TEST(CalibrationFile, RefusesWithFileAndReason) {
   expectRefused(written(replaced(kGood, ", 0.001, 0, 0", "")), "distortion_coefficients");
 }
 
-TEST(DetectionTable, RowsHaveAsManyFieldsAsTheHeader) {
-  const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
-  DetectionRow row;
-  row.reject_reason = "border";
-  EXPECT_EQ(commas(detectionValues(row)), commas(detectionColumns()));
-  row.window.emplace();
-  for (auto& corner : row.window->corners) corner.setZero();
-  row.window->has_appearance = true;
-  row.pose.emplace();
-  EXPECT_EQ(commas(detectionValues(row)), commas(detectionColumns()));
-}
-
-TEST(DetectionTable, FieldsWithCommasAreQuoted) {
-  EXPECT_EQ(csvField("plain.png"), "plain.png");
-  EXPECT_EQ(csvField("a,\"b\""), "\"a,\"\"b\"\"\"");
-}
-
 }  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::parameters

@@ -1,4 +1,4 @@
-#include "window_ingress/evaluation/calibration_file.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -8,7 +8,7 @@
 
 #include "window_ingress/parameters/fields.hpp"
 
-namespace window_ingress::evaluation {
+namespace window_ingress::parameters {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const std::string& text) {
@@ -72,8 +72,8 @@ geometry::PinholeCamera readCalibrationFile(const std::string& file) {
   camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
   readLens(root, file, camera);
   const auto faults = camera.validate();
-  if (!faults.empty()) refuse(file, parameters::joined(faults));
+  if (!faults.empty()) refuse(file, joined(faults));
   return camera;
 }
 
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::parameters

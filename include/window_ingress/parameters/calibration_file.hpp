@@ -4,7 +4,7 @@
 
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
-namespace window_ingress::evaluation {
+namespace window_ingress::parameters {
 
 /// Reads a calibration as camera_info_manager writes it (yaml: image_width, image_height, camera_matrix,
 /// distortion_model, distortion_coefficients).
@@ -13,4 +13,4 @@ namespace window_ingress::evaluation {
 ///         (K all zero), or of a lens model other than plumb_bob
 geometry::PinholeCamera readCalibrationFile(const std::string& file);
 
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::parameters

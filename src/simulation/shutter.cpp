@@ -1,0 +1,36 @@
+#include "shutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::simulation {
+namespace {
+
+int countFor(double shift_px, int most) {
+  return std::clamp(static_cast<int>(std::ceil(shift_px / Shutter::kShiftOfOne_px)), 1, most);
+}
+
+}  // namespace
+
+void Shutter::take(Renderer& renderer, const geometry::PinholeCamera& camera, const CameraMotion& motion,
+                   cv::Mat& image) {
+  const int pictures = countFor(motion.greatestShift(camera, exposure_sec_), kMostPictures);
+  const int bands = countFor(motion.greatestShift(camera, readout_sec_), kMostBands);
+  for (int k = 0; k < pictures; ++k) {
+    const double in_exposure_sec = ((k + 0.5) / pictures - 0.5) * exposure_sec_;
+    cv::Mat& target = pictures == 1 ? image : one_;
+    for (int band = 0; band < bands; ++band) {
+      const cv::Range rows(band * camera.height / bands, (band + 1) * camera.height / bands);
+      const double in_readout_sec = (0.5 * (rows.start + rows.end) / camera.height - 0.5) * readout_sec_;
+      renderer.renderRows(motion.T_camera_window(in_exposure_sec + in_readout_sec), rows, target);
+    }
+    if (pictures == 1) return;
+    if (k == 0)
+      one_.convertTo(sum_, CV_16U);
+    else
+      cv::add(sum_, one_, sum_, cv::noArray(), CV_16U);
+  }
+  sum_.convertTo(image, CV_8U, 1.0 / pictures);
+}
+
+}  // namespace window_ingress::simulation
