@@ -6,9 +6,9 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/simulation/camera_sensor.hpp"
-#include "window_ingress/simulation/renderer.hpp"
 #include "window_ingress/simulation/faults.hpp"
 #include "window_ingress/simulation/followed_vehicle.hpp"
+#include "window_ingress/simulation/renderer.hpp"
 #include "window_ingress/simulation/scene.hpp"
 #include "window_ingress/simulation/wind.hpp"
 
@@ -270,7 +270,8 @@ cv::Mat World::referencePicture(geometry::Quadrilateral* corners) const {
   const Eigen::Isometry3d T_camera_window = geometry::makePose(geometry::R_optical_flu(), {0, 0, distance_m});
   cv::Mat picture;
   Renderer(buildScene(asPhotographed(impl_->scenario)), ideal).render(T_camera_window, picture);
-  if (params.gain != 1.0) picture.convertTo(picture, CV_8U, params.gain);
+  const double gain = impl_->scenario.camera.gain;
+  if (gain != 1.0) picture.convertTo(picture, CV_8U, gain);
   if (corners) *corners = *geometry::projectOpening(ideal, T_camera_window, size);
   return picture;
 }

@@ -10,26 +10,25 @@ namespace window_ingress::simulation {
 
 /// The camera and how it is mounted.
 struct CameraParams {
-  int width_px = 640;                ///< of the picture [px]
-  int height_px = 480;               ///< of the picture [px]
-  double horizontal_fov_rad = 1.20;  ///< of the lens without its distortion [rad]
-  double k1 = 0.0;                   ///< radial distortion of the model plumb_bob
-  double k2 = 0.0;                   ///< radial distortion
-  double p1 = 0.0;                   ///< tangential distortion
-  double p2 = 0.0;                   ///< tangential distortion
-  double k3 = 0.0;                   ///< radial distortion
-  /// Of camera_info_manager (yaml), in place of size, field of view and distortion; relative to the scenario
-  std::string calibration_file = "";
-  double x_m = 0.10;                ///< of the camera, forward of the vehicle's centre [m]
-  double y_m = 0.0;                 ///< of the camera, to the left [m]
-  double z_m = 0.02;                ///< of the camera, up [m]
-  double pitch_rad = 0.0;           ///< of the camera: looking down is positive [rad]
-  double yaw_rad = 0.0;             ///< of the camera: looking left is positive [rad]
-  double rate_hz = 30.0;            ///< pictures a second [1/s]
-  double latency_sec = 0.03;        ///< from exposure to delivery [s]
-  double latency_jitter_sec = 0.0;  ///< a picture takes up to so much longer, evenly distributed [s]
-  double drop_probability = 0.0;    ///< that a picture is lost
-  double exposure_sec = 0.004;      ///< the shutter is open so long, around the picture's stamp [s]
+  int width_px = 640;                 ///< of the picture [px]
+  int height_px = 480;                ///< of the picture [px]
+  double horizontal_fov_rad = 1.20;   ///< of the lens without its distortion [rad]
+  double k1 = 0.0;                    ///< radial distortion of the model plumb_bob
+  double k2 = 0.0;                    ///< radial distortion
+  double p1 = 0.0;                    ///< tangential distortion
+  double p2 = 0.0;                    ///< tangential distortion
+  double k3 = 0.0;                    ///< radial distortion
+  std::string calibration_file = "";  ///< yaml file in place of size, field of view and distortion
+  double x_m = 0.10;                  ///< of the camera, forward of the vehicle's centre [m]
+  double y_m = 0.0;                   ///< of the camera, to the left [m]
+  double z_m = 0.02;                  ///< of the camera, up [m]
+  double pitch_rad = 0.0;             ///< of the camera: looking down is positive [rad]
+  double yaw_rad = 0.0;               ///< of the camera: looking left is positive [rad]
+  double rate_hz = 30.0;              ///< pictures a second [1/s]
+  double latency_sec = 0.03;          ///< from exposure to delivery [s]
+  double latency_jitter_sec = 0.0;    ///< a picture takes up to so much longer, evenly distributed [s]
+  double drop_probability = 0.0;      ///< that a picture is lost
+  double exposure_sec = 0.004;        ///< the shutter is open so long, around the picture's stamp [s]
   double readout_sec = 0.0;      ///< the last row is exposed so much later than the first; 0: all at once [s]
   double noise_grey = 2.0;       ///< of a black pixel, standard deviation of each channel [grey levels]
   double shot_noise_grey = 0.0;  ///< added in squares, times grey / 255: that of white [grey levels]
