@@ -23,10 +23,12 @@ void CameraSource::receive(const sensor_msgs::CameraInfo& message) {
   health_.arrived();
   camera_ = cameraFromMsg(message, rectified_);
   frame_id_ = message.header.frame_id;
+  stamp_ = message.header.stamp;
   if (camera_)
     health_.accepted();
   else
     health_.refused(camera_.reason);
+  if (came_) came_();
 }
 
 std::string CameraSource::fault(int width_px, int height_px, const std::string& frame_id) const {

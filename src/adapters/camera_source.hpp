@@ -3,7 +3,9 @@
 #include <ros/node_handle.h>
 #include <sensor_msgs/CameraInfo.h>
 
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "adapters/diagnostics.hpp"
 #include "adapters/msg_conversion.hpp"
@@ -25,12 +27,19 @@ class CameraSource {
 
   void receive(const sensor_msgs::CameraInfo& message);
 
+  /// For lockstep: stamp of the message that came last, and something to call when one has come.
+  ros::Time lastStamp() const { return stamp_; }
+  bool isConnected() const { return subscriber_.getNumPublishers() > 0; }
+  void notify(std::function<void()> came) { came_ = std::move(came); }
+
  private:
   std::string fault(int width_px, int height_px, const std::string& frame_id) const;
 
   bool rectified_;
   Converted<geometry::PinholeCamera> camera_;
   std::string frame_id_;
+  ros::Time stamp_;
+  std::function<void()> came_;
   TopicHealth health_;
   ros::Subscriber subscriber_;
 };

@@ -38,20 +38,52 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       diagnostics_(nh, pnh),
       detector_(params_.detector),
       camera_(nh, diagnostics_, params_.image_is_rectified),
-      images_(nh, diagnostics_, params_.image_transport, params_.image, params_.stamps,
+      images_(nh, diagnostics_, params_.image_transport, params_.image,
+              limitsFor(params_.lockstep, params_.stamps),
               [this](const auto& header, const auto& picture) { receive(header, picture); }),
       tuning_(pnh, params_.detector, [this](const auto& params) { detector_.setParams(params); }) {
   if (!params_.reference.picture.empty())
     detector_.setReference(loadReference(params_.reference, params_.detector));
-  window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1);
+  window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);
   debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
   reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
       nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
   diagnostics_.add("detection", [this] { return detectionHealth(); });
+  if (!params_.lockstep) return;
+  lockstep_.emplace(
+      nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+      [this](const auto& step) { lookInStep(step); });
+  camera_.notify([this] { lockstep_->check(); });
+}
+
+bool DetectorNode::isComplete(const Lockstep::Step& step) const {
+  const bool connected = images_.isConnected() && camera_.isConnected();
+  return (step.has_image ? waiting_header_.stamp >= step.image : connected) &&
+         camera_.lastStamp() >= step.camera_info && reference_stamp_ >= step.reference;
+}
+
+// Before the first picture there is an answer, too: those who wait for it learn that this node is there.
+void DetectorNode::lookInStep(const Lockstep::Step& step) {
+  if (waiting_) look(waiting_header_, *waiting_);
+  waiting_.reset();
+  if (step.has_image || announced_ >= step.image) return;
+  announced_ = step.image;
+  window_ingress::WindowDetection message;
+  message.header = step.header;
+  message.header.stamp = step.image;
+  message.reject_reason = "no picture so far";
+  window_publisher_.publish(message);
 }
 
 void DetectorNode::receive(const std_msgs::Header& header, const GuardedImage& picture) {
+  if (!lockstep_) return look(header, picture);
+  waiting_header_ = header;
+  waiting_ = picture;
+  lockstep_->check();
+}
+
+void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& picture) {
   const double begun_sec = steadyNowSec();
   const cv::Mat& image = picture.image;
   const auto camera = camera_.cameraOf(image.cols, image.rows, header.frame_id);
@@ -86,6 +118,8 @@ void DetectorNode::receiveReference(const window_ingress::ReferencePicture& mess
   detector_.setReference(
       makeReference(picture.image.clone(), whole ? std::vector<double>() : corners, params_.detector));
   ROS_INFO("reference taken from %s", reference_subscriber_.getTopic().c_str());
+  reference_stamp_ = message.picture.header.stamp;
+  if (lockstep_) lockstep_->check();
 }
 
 bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& response) {

@@ -15,6 +15,7 @@
 #include "adapters/camera_source.hpp"
 #include "adapters/diagnostics.hpp"
 #include "adapters/image_source.hpp"
+#include "adapters/lockstep.hpp"
 #include "adapters/reconfigure.hpp"
 #include "adapters/run_node.hpp"
 #include "window_ingress/detection/window_detector.hpp"
@@ -36,6 +37,7 @@ struct ReferenceParams {
 struct DetectorNodeParams {
   std::string image_transport = "raw";  ///< raw, compressed, or a plugin of image_transport
   bool image_is_rectified = false;      ///< pictures are rectified: P of camera_info counts
+  bool lockstep = false;                ///< with the simulated world, step by step; only with use_sim_time
   ImageLimits image;
   StampLimits stamps;
   ReferenceParams reference;
@@ -44,6 +46,7 @@ struct DetectorNodeParams {
   static void visit(Self& self, Visitor&& field) {
     field("image_transport", self.image_transport);
     field("image_is_rectified", self.image_is_rectified);
+    field("lockstep", self.lockstep);
     field.group("image", self.image);
     field.group("stamps", self.stamps);
     field.group("reference", self.reference);
@@ -69,6 +72,9 @@ class DetectorNode : public Node {
   using Tuning = Reconfigure<window_ingress::WindowDetectorConfig, detection::DetectorParams>;
 
   void receive(const std_msgs::Header& header, const GuardedImage& picture);
+  void look(const std_msgs::Header& header, const GuardedImage& picture);
+  bool isComplete(const Lockstep::Step& step) const;
+  void lookInStep(const Lockstep::Step& step);
   void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image);
   void receiveReference(const window_ingress::ReferencePicture& message);
   bool captureReference(Trigger::Request& request, Trigger::Response& response);
@@ -84,6 +90,10 @@ class DetectorNode : public Node {
   GuardedImage last_picture_;
   std::optional<detection::WindowObservation> last_window_;
   double slowest_ms_ = 0.0;
+  std::optional<Lockstep> lockstep_;
+  std_msgs::Header waiting_header_;  // in lockstep: of the picture that waits for its step
+  std::optional<GuardedImage> waiting_;
+  ros::Time reference_stamp_, announced_;
 
   ros::Subscriber reference_subscriber_;
   ros::Publisher window_publisher_, debug_publisher_;

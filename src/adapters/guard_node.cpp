@@ -26,11 +26,14 @@ GuardNode::GuardNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<GuardParams>(pnh)),
       diagnostics_(nh, pnh),
       received_sec_(-std::numeric_limits<double>::infinity()) {
+  if (params_.lockstep && !ros::Time::isSimTime())
+    throw ParameterError("lockstep is for simulated time only, and use_sim_time is not set");
   input_.header.frame_id = params_.frame;
   diagnostics_.add("cmd_vel_in", [this] { return health(); });
-  publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
+  publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1, params_.lockstep);
   subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
       nh, "cmd_vel_in", 1, diagnostics_, [this](const auto& message) { receive(message); });
+  if (params_.lockstep) return;
   timer_ = createGuardedTimer(nh, 1.0 / params_.rate_hz, "send", diagnostics_, [this] { send(); });
 }
 
@@ -38,16 +41,18 @@ void GuardNode::receive(const geometry_msgs::TwistStampedConstPtr& message) {
   input_ = *message;
   received_sec_ = steadyNowSec();
   fault_ = whyUnsafe(message->twist, params_);
+  if (params_.lockstep)
+    publish(fault_.empty() ? input_.twist : geometry_msgs::Twist(), message->header.stamp);
 }
 
 void GuardNode::send() {
   const bool late = steadyNowSec() - received_sec_ > params_.late_sec;
-  publish(late || !fault_.empty() ? geometry_msgs::Twist() : input_.twist);
+  publish(late || !fault_.empty() ? geometry_msgs::Twist() : input_.twist, ros::Time::now());
 }
 
-void GuardNode::publish(const geometry_msgs::Twist& twist) {
+void GuardNode::publish(const geometry_msgs::Twist& twist, const ros::Time& stamp) {
   geometry_msgs::TwistStamped message;
-  message.header.stamp = ros::Time::now();
+  message.header.stamp = stamp;
   message.header.frame_id = input_.header.frame_id;
   message.twist = twist;
   publisher_.publish(message);
@@ -63,7 +68,7 @@ Health GuardNode::health() const {
 void GuardNode::stop() {
   subscriber_.shutdown();
   for (int i = 0; i < 5; ++i) {
-    publish(geometry_msgs::Twist());
+    publish(geometry_msgs::Twist(), ros::Time::now());
     ros::WallDuration(0.05).sleep();
   }
 }

@@ -22,6 +22,8 @@ class ImageSource {
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
               const ImageLimits& limits, const StampLimits& stamps, Callback callback);
 
+  bool isConnected() const { return plugin_subscriber_.getNumPublishers() > 0; }
+
  private:
   void subscribeCompressed(ros::NodeHandle& nh);
   void subscribePlugin(const std::string& transport);

@@ -17,6 +17,8 @@ constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 
 NavigatorNodeParams checked(NavigatorNodeParams params) {
+  if (params.start_at_once && !params.lockstep)
+    throw ParameterError("start_at_once is for lockstep only: call ~start");
   if (params.setpoint_frame == kOdomAxes || params.setpoint_frame == kBaseAxes) return params;
   throw ParameterError("setpoint_frame is '" + params.setpoint_frame + "', must be 'odom' or 'base_link'");
 }
@@ -28,16 +30,17 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       diagnostics_(nh, pnh),
       odom_health_(diagnostics_, "odom", 2.0),
       pose_health_(diagnostics_, "window_pose", 2.0),
-      odom_gate_(params_.stamps),
-      pose_gate_(params_.stamps),
+      odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
       navigator_(params_.navigator) {
   setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
   state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
   marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  const int queue = queueFor(params_.lockstep, 1);
   odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
-      nh, "odom", 1, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+      nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
   pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
-      nh, "window_pose", 1, diagnostics_, [this](const auto& message) { receivePose(message); });
+      nh, "window_pose", queue, diagnostics_, [this](const auto& message) { receivePose(message); });
   odom_health_.watch(odom_subscriber_);
   pose_health_.watch(pose_subscriber_);
   diagnostics_.add("mission", [this] { return missionHealth(); });
@@ -47,10 +50,45 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       "abort", &NavigatorNode::abort, this);
   reset_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
       "reset", &NavigatorNode::reset, this);
-  timer_ = createGuardedTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
+  if (params_.lockstep)
+    lockstep_.emplace(
+        nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+        [this](const auto& step) { stepInStep(step); });
+  else
+    timer_ = createGuardedTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
 }
 
+bool NavigatorNode::isComplete(const Lockstep::Step& step) const {
+  const bool connected =
+      odom_subscriber_.getNumPublishers() > 0 && setpoint_publisher_.getNumSubscribers() > 0;
+  if (!step.has_image && !connected) return false;
+  return odom_came_ >= step.odom && pose_came_ >= step.image;
+}
+
+void NavigatorNode::stepInStep(const Lockstep::Step& step) {
+  step_sec_ = step.header.stamp.toSec();
+  restartIfClockJumpedBack(step_sec_);
+  if (params_.start_at_once && last_.state == navigation::State::kIdle)
+    ROS_INFO("start at once: %s", navigator_.start(input_, step_sec_).message.c_str());
+  last_ = navigator_.step(input_, step_sec_);
+  publish(last_, step.header.stamp);
+}
+
+double NavigatorNode::nowSec() const { return lockstep_ ? step_sec_ : ros::Time::now().toSec(); }
+
 void NavigatorNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  takeOdometry(message);
+  odom_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  takePose(message);
+  pose_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.arrived();
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return odom_health_.refused(*late);
@@ -60,7 +98,7 @@ void NavigatorNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
   input_.vehicle = vehicle.value;
 }
 
-void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) {
   pose_health_.arrived();
   const auto late = pose_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return pose_health_.refused(*late);
@@ -111,10 +149,12 @@ bool NavigatorNode::clockStandsStill(double now_sec) {
 }
 
 bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
-  const double now_sec = ros::Time::now().toSec();
-  forgetSilentInputs();
-  if (clockStandsStill(now_sec))
+  const double now_sec = nowSec();
+  if (!lockstep_) forgetSilentInputs();
+  if (!lockstep_ && clockStandsStill(now_sec))
     return answer("start", {false, "the clock stands still: nothing on /clock"}, response);
+  if (params_.start_at_once && last_.state == navigation::State::kIdle)
+    return answer("start", {false, "starts by itself in the first step in which it may"}, response);
   navigation::Reply reply = navigator_.start(input_, now_sec);
   for (const TopicHealth* topic : {&odom_health_, &pose_health_}) {
     const Health health = topic->health();
@@ -164,7 +204,7 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
   const bool news =
       message.state != said_.state || message.reason != said_.reason || message.enabled != said_.enabled;
   const double period_sec = output.enabled ? kStatePeriodEnabledSec : kStatePeriodIdleSec;
-  if (!news && steadyNowSec() - said_sec_ < period_sec) return;
+  if (!lockstep_ && !news && steadyNowSec() - said_sec_ < period_sec) return;
   if (message.state != said_.state) ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
   message.header.stamp = now;
   message.header.frame_id = params_.frames.odom;

@@ -7,9 +7,11 @@
 #include <window_ingress/WindowPose.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapters/diagnostics.hpp"
+#include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/stamps.hpp"
@@ -23,7 +25,10 @@ struct NavigatorNodeParams {
       0.25;  ///< odometry that has not arrived for this long, on the steady clock, is gone [s]
   double max_pose_silence_sec = 1.5;  ///< likewise the messages on window_pose [s]
   std::string setpoint_frame =
-      "odom";  ///< axes of the setpoints: odom or base_link, whatever these frames are called
+      "odom";             ///< axes of the setpoints: odom or base_link, whatever these frames are called
+  bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
+  bool start_at_once =
+      false;  ///< in lockstep: the mission starts with the first step at which it may, not when asked
   FrameNames frames;
   StampLimits stamps;
   navigation::NavigatorParams navigator;
@@ -33,6 +38,8 @@ struct NavigatorNodeParams {
     field("max_silence_sec", self.max_silence_sec, 0.05, 5.0);
     field("max_pose_silence_sec", self.max_pose_silence_sec, 0.05, 5.0);
     field("setpoint_frame", self.setpoint_frame);
+    field("lockstep", self.lockstep);
+    field("start_at_once", self.start_at_once);
     FrameNames::visit(self.frames, field);
     field.group("stamps", self.stamps);
     field.group("navigator", self.navigator);
@@ -50,7 +57,12 @@ class NavigatorNode : public Node {
 
   void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
   void receivePose(const window_ingress::WindowPoseConstPtr& message);
+  void takeOdometry(const nav_msgs::OdometryConstPtr& message);
+  void takePose(const window_ingress::WindowPoseConstPtr& message);
   void step();
+  bool isComplete(const Lockstep::Step& step) const;
+  void stepInStep(const Lockstep::Step& step);
+  double nowSec() const;
   void forgetSilentInputs();
   void restartIfClockJumpedBack(double now_sec);
   bool clockStandsStill(double now_sec);
@@ -75,6 +87,9 @@ class NavigatorNode : public Node {
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
   bool was_enabled_ = false;
+  std::optional<Lockstep> lockstep_;
+  ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
+  double step_sec_ = 0.0;            // in lockstep: the time that the world has
 
   ros::Subscriber odom_subscriber_, pose_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;

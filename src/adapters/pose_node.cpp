@@ -14,6 +14,8 @@ constexpr double kPendingPeriodSec = 0.01;
 constexpr double kOdometryGoneSec = 0.3;
 
 PoseNodeParams checked(PoseNodeParams params) {
+  if (params.lockstep && params.gravity_source == "tf")
+    throw ParameterError("gravity_source is 'tf', must be imu or odom in lockstep");
   for (const char* known : {"imu", "odom", "tf"})
     if (params.gravity_source == known) return params;
   throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom or tf");
@@ -26,46 +28,77 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       diagnostics_(nh, pnh),
       window_health_(diagnostics_, "window", kSilenceSec),
       odom_health_(diagnostics_, "odom", kSilenceSec),
-      window_gate_(params_.stamps),
-      odom_gate_(params_.stamps),
+      window_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
       camera_(nh, diagnostics_, params_.image_is_rectified),
       tracker_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_) {
-  pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1);
+  pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1, params_.lockstep);
   covariance_publisher_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
   polygon_publisher_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
   marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  const int queue = queueFor(params_.lockstep, 10);
   window_subscriber_ = subscribeGuarded<window_ingress::WindowDetection>(
       nh, "window", 1, diagnostics_, [this](const auto& message) { receiveWindow(message); });
   odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
-      nh, "odom", 10, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+      nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
   window_health_.watch(window_subscriber_);
   odom_health_.watch(odom_subscriber_);
   if (params_.gravity_source == "imu") {
     imu_health_.emplace(diagnostics_, "imu", kSilenceSec);
     imu_subscriber_ = subscribeGuarded<sensor_msgs::Imu>(
-        nh, "imu", 10, diagnostics_, [this](const auto& message) { receiveImu(message); });
+        nh, "imu", queue, diagnostics_, [this](const auto& message) { receiveImu(message); });
     imu_health_->watch(imu_subscriber_);
   }
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
-  timer_ = createGuardedTimer(nh, kPendingPeriodSec, "pending image", diagnostics_,
-                              [this] { processPending(false); });
+  if (params_.lockstep) {
+    lockstep_.emplace(
+        nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+        [this](const auto&) { processInStep(); });
+    camera_.notify([this] { lockstep_->check(); });
+  } else {
+    timer_ = createGuardedTimer(nh, kPendingPeriodSec, "pending image", diagnostics_,
+                                [this] { processPending(false); });
+  }
+}
+
+bool PoseNode::isComplete(const Lockstep::Step& step) const {
+  const bool first = !step.has_image, with_imu = imu_health_.has_value();
+  const bool connected = camera_.isConnected() && odom_subscriber_.getNumPublishers() > 0 &&
+                         (!with_imu || imu_subscriber_.getNumPublishers() > 0);
+  if (first && !(connected && mounting(step.header.frame_id))) return false;
+  return window_came_ >= step.image && odom_came_ >= step.odom && (!with_imu || imu_came_ >= step.imu) &&
+         camera_.lastStamp() >= step.camera_info;
+}
+
+void PoseNode::processInStep() {
+  if (!pending_) return;
+  const window_ingress::WindowDetectionConstPtr message = pending_;
+  pending_.reset();
+  process(*message);
 }
 
 void PoseNode::receiveWindow(const window_ingress::WindowDetectionConstPtr& message) {
   restartIfClockJumpedBack();
+  window_came_ = message->header.stamp;
   window_health_.arrived();
   const auto late = window_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return window_health_.refused(*late);
   window_health_.accepted();
-  processPending(true);
+  if (!lockstep_) processPending(true);
   pending_ = message;
   pending_since_sec_ = steadyNowSec();
-  processPending(false);
+  lockstep_ ? lockstep_->check() : processPending(false);
 }
 
 void PoseNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  takeOdometry(message);
+  odom_came_ = message->header.stamp;
+  lockstep_ ? lockstep_->check() : processPending(false);
+}
+
+void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   restartIfClockJumpedBack();
   odom_health_.arrived();
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
@@ -75,10 +108,15 @@ void PoseNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.accepted();
   tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
-  processPending(false);
 }
 
 void PoseNode::receiveImu(const sensor_msgs::ImuConstPtr& message) {
+  takeImu(message);
+  imu_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
   imu_health_->arrived();
   const auto stamp_sec = stampSec(message->header.stamp);
   if (!stamp_sec) return imu_health_->refused("header.stamp is zero or not normalised");

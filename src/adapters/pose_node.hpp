@@ -14,6 +14,7 @@
 
 #include "adapters/camera_source.hpp"
 #include "adapters/diagnostics.hpp"
+#include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/stamps.hpp"
@@ -25,6 +26,7 @@ struct PoseNodeParams {
   bool image_is_rectified = false;      ///< the detector works on rectified pictures: use P of camera_info
   std::string gravity_source = "imu";   ///< where "up" comes from: imu, odom or tf
   double odom_wait_sec = 0.05;          ///< an image waits this long for odometry as new as itself [s]
+  bool lockstep = false;                ///< with the simulated world, step by step; only with use_sim_time
   bool publish_tf = false;              ///< broadcast the filtered window as a frame
   std::string window_frame = "window";  ///< its name
   FrameNames frames;
@@ -37,6 +39,7 @@ struct PoseNodeParams {
     field("image_is_rectified", self.image_is_rectified);
     field("gravity_source", self.gravity_source);
     field("odom_wait_sec", self.odom_wait_sec, 0.0, 0.5);
+    field("lockstep", self.lockstep);
     field("publish_tf", self.publish_tf);
     field("window_frame", self.window_frame);
     FrameNames::visit(self.frames, field);
@@ -56,7 +59,11 @@ class PoseNode : public Node {
   void receiveWindow(const window_ingress::WindowDetectionConstPtr& message);
   void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
   void receiveImu(const sensor_msgs::ImuConstPtr& message);
+  void takeOdometry(const nav_msgs::OdometryConstPtr& message);
+  void takeImu(const sensor_msgs::ImuConstPtr& message);
   void processPending(bool however_old);
+  bool isComplete(const Lockstep::Step& step) const;
+  void processInStep();
   void process(const window_ingress::WindowDetection& message);
   void estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
   void publish(const window_ingress::WindowPose& message);
@@ -71,6 +78,8 @@ class PoseNode : public Node {
   Diagnostics diagnostics_;
   TopicHealth window_health_, odom_health_;
   std::optional<TopicHealth> imu_health_;
+  std::optional<Lockstep> lockstep_;
+  ros::Time window_came_, odom_came_, imu_came_;  // stamps of what came last, used or not
   StampGate window_gate_, odom_gate_;
   ClockWatch clock_;
   CameraSource camera_;

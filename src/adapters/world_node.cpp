@@ -1,37 +1,32 @@
 #include "adapters/world_node.hpp"
 
-#include <rosgraph_msgs/Clock.h>
-#include <window_ingress/ReferencePicture.h>
-
 #include <algorithm>
 
 #include "adapters/guarded.hpp"
-#include "adapters/image_message.hpp"
 #include "adapters/parameters.hpp"
 #include "adapters/stamps.hpp"
-#include "adapters/world_messages.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
 constexpr double kTickSec = 0.005;
-constexpr double kMostDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
-constexpr double kJudgePeriodSec = 0.05, kVerdictPeriodSec = 1.0;
-
-constexpr bool same(int constant, simulation::Outcome outcome) {
-  return constant == static_cast<int>(outcome);
-}
-using VerdictMsg = window_ingress::FlightVerdict;
-static_assert(same(VerdictMsg::RUNNING, simulation::Outcome::kRunning) &&
-              same(VerdictMsg::PASSED, simulation::Outcome::kPassed) &&
-              same(VerdictMsg::COLLISION, simulation::Outcome::kCollision) &&
-              same(VerdictMsg::FALSE_INGRESS, simulation::Outcome::kFalseIngress) &&
-              same(VerdictMsg::ABORTED, simulation::Outcome::kAborted) &&
-              same(VerdictMsg::TIMEOUT, simulation::Outcome::kTimeout));
+constexpr double kMostDebtSec = 0.05;    // what the machine cannot keep up with is given up, not caught up
+constexpr double kMostSilenceSec = 5.0;  // of an external vehicle: then it is another flight
+constexpr double kVehicleSilenceSec = 0.5;
+constexpr double kStepSec = simulation::World::kStepSec;
 
 simulation::Scenario load(const WorldNodeParams& params) {
   if (params.scenario.empty()) return {};
   return simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
+}
+
+void refuseInLockstep(const simulation::Scenario& scenario) {
+  if (scenario.vehicle.profile == "external")
+    throw ParameterError("lockstep: the time of an external vehicle is its own; set lockstep to false");
+  for (const auto& fault : scenario.faults)
+    if (fault.unit == "clock" || fault.unit == "tf")
+      throw ParameterError("lockstep: nobody looks at " + fault.unit +
+                           " there, its fault would do nothing; set lockstep to false");
 }
 
 }  // namespace
@@ -39,31 +34,41 @@ simulation::Scenario load(const WorldNodeParams& params) {
 WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<WorldNodeParams>(pnh)),
       diagnostics_(nh, pnh),
-      command_health_(diagnostics_, "cmd_vel", 1e9),
       epoch_sec_(params_.start_time_sec),
       created_sec_(steadyNowSec()),
       ticked_sec_(created_sec_),
-      camera_info_(nh, "world") {
-  clock_publisher_ = nh.advertise<rosgraph_msgs::Clock>("/clock", 1);
-  image_publisher_ = nh.advertise<sensor_msgs::Image>("image_raw", 1);
-  info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("camera_info", 1);
-  odom_publisher_ = nh.advertise<nav_msgs::Odometry>("odom", 10);
-  imu_publisher_ = nh.advertise<sensor_msgs::Imu>("imu", 10);
-  truth_odom_publisher_ = nh.advertise<nav_msgs::Odometry>("ground_truth/odom", 10);
-  truth_window_publisher_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window", 1, true);
-  truth_in_camera_publisher_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window_in_camera", 1);
-  verdict_publisher_ = nh.advertise<window_ingress::FlightVerdict>("referee", 1, true);
-  reference_publisher_ = nh.advertise<window_ingress::ReferencePicture>("reference", 1, true);
-  command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
-      nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
-  state_subscriber_ = subscribeGuarded<window_ingress::IngressState>(
-      nh, "state", 10, diagnostics_, [this](const auto& message) { receiveState(message); });
-  command_health_.watch(command_subscriber_);
+      camera_info_(nh, "world"),
+      publishers_(nh, params_.frames, params_.camera_frame, params_.lockstep),
+      referee_(nh, params_.verdict_file) {
+  const simulation::Scenario scenario = load(params_);
+  if (params_.lockstep) {
+    refuseInLockstep(scenario);
+    lockstep_.emplace(nh, params_.camera_frame, params_.lockstep_timeout_sec);
+    diagnostics_.add("lockstep", [this] { return lockstep_->health(); });
+  }
+  camera_info_.setCameraInfo(toMsg(scenario.camera.model()));
+  restart();
+  subscribe(nh);
   diagnostics_.add("speed", [this] { return speedHealth(); });
   reset_ = pnh.advertiseService("reset", &WorldNode::reset, this);
-  restart();
-  publishMounting();
+  inject_ = pnh.advertiseService("inject", &WorldNode::inject, this);
   timer_ = createGuardedTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
+}
+
+void WorldNode::subscribe(ros::NodeHandle& nh) {
+  state_subscriber_ = subscribeGuarded<window_ingress::IngressState>(
+      nh, "state", 10, diagnostics_, [this](const auto& message) { receiveState(message); });
+  if (isExternal()) {
+    vehicle_health_.emplace(diagnostics_, "vehicle_odom", kVehicleSilenceSec);
+    vehicle_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+        nh, "vehicle_odom", 10, diagnostics_, [this](const auto& message) { receiveVehicle(message); });
+    vehicle_health_->watch(vehicle_subscriber_);
+    return;
+  }
+  command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
+  command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
+      nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
+  command_health_->watch(command_subscriber_);
 }
 
 void WorldNode::restart() {
@@ -71,54 +76,180 @@ void WorldNode::restart() {
   world_.reset();
   world_ = std::make_unique<simulation::World>(load(params_), static_cast<std::uint32_t>(params_.seed));
   R_odom_base_ = world_->truth().T_odom_base.linear();
-  claim_ = simulation::Claim::kNone;
-  mission_start_sec_ = -1.0;
-  said_ = {};
-  clock_due_sec_ = judge_due_sec_ = verdict_due_sec_ = debt_sec_ = 0.0;
-  camera_info_.setCameraInfo(toMsg(world_->camera()));
-  truth_window_publisher_.publish(
-      toPoseStampedMsg(world_->T_odom_window(), headerOf(stampOf(0.0), params_.frames.odom)));
-  publishReference();
+  answer_.reset();
+  followed_sec_ = -1.0;
+  clock_due_sec_ = debt_sec_ = 0.0;
+  began_sec_ = steadyNowSec();
+  pictures_.emplace(world_->scenario().camera.rate_hz);
+  truth_due_.emplace(world_->scenario().odometry.rate_hz);
+  referee_.restart();
+  publishers_.facts(*world_, now());
+  if (!lockstep_) return;
+  lockstep_->sent().reference = lockstep_->sent().image = now();
+  lockstep_->sent().has_image = false;
+  if (running_) lockstep_->ask(now());
 }
 
+// --- time --------------------------------------------------------------------------------------------------
+
 void WorldNode::tick() {
+  if (isExternal()) return;
+  if (lockstep_) return tickLockstep();
   const double now_sec = steadyNowSec();
   debt_sec_ += running_ ? (now_sec - ticked_sec_) * params_.real_time_factor : 0.0;
   ticked_sec_ = now_sec;
   running_ = running_ || mayRun();
   lost_sec_ += std::max(0.0, debt_sec_ - kMostDebtSec);
   debt_sec_ = std::min(debt_sec_, kMostDebtSec);
-  for (; debt_sec_ >= simulation::World::kStepSec; debt_sec_ -= simulation::World::kStepSec) stepOnce();
+  for (; debt_sec_ >= kStepSec; debt_sec_ -= kStepSec) {
+    stepOnce();
+    deliverPictures();
+  }
+}
+
+// The first step asks at time zero: once it is answered, all nodes are there and hear each other.
+void WorldNode::tickLockstep() {
+  if (!running_ && mayRun()) {
+    running_ = true;
+    tellTime();
+    lockstep_->ask(now());
+  }
+  const bool early = (steadyNowSec() - began_sec_) * params_.real_time_factor < world_->timeSec();
+  if (!running_ || (params_.realtime && early)) return;
+  const bool may_give_up = steadyNowSec() - created_sec_ >= params_.wait_sec;
+  if (lockstep_->goesOn(state_subscriber_.getNumPublishers() > 0, may_give_up)) advanceToNextStep();
+}
+
+// Pictures leave when the vehicle has answered to all that came before them.
+void WorldNode::advanceToNextStep() {
+  if (answer_) world_->command(*answer_);
+  answer_.reset();
+  deliverPictures();
+  do stepOnce();
+  while (!pictureIsDue());
+  tellTime();
+  lockstep_->ask(now());
+}
+
+// The shutter opens for the first time at the end of the first step.
+bool WorldNode::pictureIsDue() {
+  const double exposed_sec = world_->timeSec() - world_->scenario().camera.latency_sec;
+  return exposed_sec + 1e-9 >= kStepSec && pictures_->due(exposed_sec);
 }
 
 bool WorldNode::mayRun() {
-  const bool awaited = image_publisher_.getNumSubscribers() > 0 && odom_publisher_.getNumSubscribers() > 0;
+  const bool awaited = publishers_.imagesAreAwaited() && publishers_.odometryIsAwaited() &&
+                       (!lockstep_ || lockstep_->hasListeners());
   return awaited || steadyNowSec() - created_sec_ >= params_.wait_sec;
 }
 
 void WorldNode::stepOnce() {
   world_->advance();
-  if (world_->timeSec() >= clock_due_sec_) publishClock();
-  while (const auto sample = world_->takeImu()) publishImu(*sample);
-  while (const auto sample = world_->takeOdometry()) publishOdometry(*sample);
-  if (const auto frame = world_->takeFrame()) publishFrame(*frame);
-  publishVerdict();
+  if (!isExternal() && world_->timeSec() >= clock_due_sec_) tellTime();
+  while (const auto sample = world_->takeImu()) sendImu(*sample);
+  while (const auto sample = world_->takeOdometry()) sendOdometry(*sample);
+  while (const auto sample = world_->takeTransform())
+    publishers_.transform(*sample, stampOf(sample->stamp_sec));
+  if (truth_due_->due(world_->timeSec())) publishers_.truth(world_->truth(), now());
+  referee_.judge(*world_, now());
 }
 
+void WorldNode::tellTime() {
+  if (const auto reading_sec = world_->readClock()) publishers_.clock(stampOf(*reading_sec));
+  clock_due_sec_ = world_->timeSec() + 1.0 / params_.clock_rate_hz - 0.5 * kStepSec;
+}
+
+ros::Time WorldNode::stampOf(double world_sec) const { return toStamp(epoch_sec_ + world_sec); }
+
+// --- what leaves -------------------------------------------------------------------------------------------
+
+void WorldNode::deliverPictures() {
+  while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
+  while (const auto frame = world_->takeFrame()) {
+    const ros::Time stamp = stampOf(frame->stamp_sec);
+    const bool sent = publishers_.frame(*frame, stamp);
+    if (!sent || !lockstep_) continue;
+    lockstep_->sent().image = stamp;
+    lockstep_->sent().has_image = true;
+  }
+}
+
+// What set_camera_info has set, spoilt as the world's own calibration is.
+void WorldNode::sendCalibration(const simulation::CalibrationSample& sample) {
+  sensor_msgs::CameraInfo info = camera_info_.getCameraInfo();
+  const double zoom = sample.camera.fx / world_->camera().fx;
+  for (double* focal : {&info.K[0], &info.K[4], &info.P[0], &info.P[5]}) *focal *= zoom;
+  const ros::Time stamp = stampOf(sample.stamp_sec);
+  publishers_.cameraInfo(info, stamp);
+  if (lockstep_) lockstep_->sent().camera_info = stamp;
+}
+
+void WorldNode::sendOdometry(const simulation::OdometrySample& sample) {
+  const ros::Time stamp = stampOf(sample.stamp_sec);
+  publishers_.odometry(sample, stamp);
+  if (sample.T_odom_base.matrix().allFinite()) R_odom_base_ = sample.T_odom_base.linear();
+  if (lockstep_) lockstep_->sent().odom = stamp;
+}
+
+void WorldNode::sendImu(const simulation::ImuSample& sample) {
+  const ros::Time stamp = stampOf(sample.stamp_sec);
+  publishers_.imu(sample, stamp);
+  if (lockstep_) lockstep_->sent().imu = stamp;
+}
+
+// --- what comes --------------------------------------------------------------------------------------------
+
 void WorldNode::receiveCommand(const geometry_msgs::TwistStampedConstPtr& message) {
-  command_health_.arrived();
+  command_health_->arrived();
+  if (lockstep_) lockstep_->hearSetpoint(message->header.stamp);
   const auto setpoint = fromMsg(*message, params_.frames, R_odom_base_);
-  if (!setpoint) return command_health_.refused(setpoint.reason);
-  command_health_.accepted();
-  world_->command({setpoint.value->velocity_odom_mps, setpoint.value->yaw_rate_radps});
+  if (setpoint) {
+    command_health_->accepted();
+    const simulation::VelocityCommand command{setpoint.value->velocity_odom_mps,
+                                              setpoint.value->yaw_rate_radps};
+    lockstep_ ? void(answer_ = command) : world_->command(command);
+  } else {
+    command_health_->refused(setpoint.reason);
+  }
+  if (lockstep_) tickLockstep();
 }
 
 void WorldNode::receiveState(const window_ingress::IngressStateConstPtr& message) {
-  using State = window_ingress::IngressState;
-  if (message->state == State::PASSED) claim_ = simulation::Claim::kPassed;
-  if (message->state == State::ABORTED) claim_ = simulation::Claim::kAborted;
-  if (message->state == State::IDLE) claim_ = simulation::Claim::kNone;
-  if (mission_start_sec_ < 0.0 && message->state != State::IDLE) mission_start_sec_ = world_->timeSec();
+  referee_.hear(*message, *world_);
+  if (!lockstep_) return;
+  lockstep_->hearState(*message);
+  tickLockstep();
+}
+
+void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
+  vehicle_health_->arrived();
+  const auto vehicle = fromMsg(*message, params_.frames);
+  if (!vehicle) return vehicle_health_->refused(vehicle.reason);
+  if (vehicle.value->stamp_sec == followed_sec_)
+    return vehicle_health_->refused("two messages with one stamp");
+  const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
+  if (!turning.allFinite()) return vehicle_health_->refused("angular velocity is not finite");
+  vehicle_health_->accepted();
+  follow(*vehicle.value, turning);
+}
+
+// Time is that of the stamps; where none come it stands still, and no picture shows what nobody said.
+void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
+  const double passed_sec = vehicle.stamp_sec - followed_sec_;
+  const bool goes_on = running_ && followed_sec_ > 0.0 && passed_sec > 0.0 && passed_sec <= kMostSilenceSec;
+  if (!goes_on) {
+    if (running_) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
+    if (running_) restart();
+    epoch_sec_ = vehicle.stamp_sec;
+    running_ = true;
+  }
+  followed_sec_ = vehicle.stamp_sec;
+  const double until_sec = vehicle.stamp_sec - epoch_sec_;
+  world_->follow({vehicle.T_odom_base, vehicle.velocity_odom_mps, turning_radps}, until_sec);
+  while (world_->timeSec() + kStepSec <= until_sec + 1e-9) {
+    stepOnce();
+    deliverPictures();
+  }
 }
 
 bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
@@ -129,93 +260,28 @@ bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
-ros::Time WorldNode::stampOf(double world_sec) const { return toStamp(epoch_sec_ + world_sec); }
-
-void WorldNode::publishClock() {
-  rosgraph_msgs::Clock message;
-  message.clock = stampOf(world_->timeSec());
-  clock_publisher_.publish(message);
-  clock_due_sec_ = world_->timeSec() + 1.0 / params_.clock_rate_hz - 0.5 * simulation::World::kStepSec;
-}
-
-void WorldNode::publishFrame(const simulation::CameraFrame& frame) {
-  const std_msgs::Header stamped = headerOf(stampOf(frame.stamp_sec), params_.camera_frame);
-  sensor_msgs::CameraInfo info = camera_info_.getCameraInfo();
-  info.header = stamped;
-  info_publisher_.publish(info);
-  if (image_publisher_.getNumSubscribers() > 0) image_publisher_.publish(toImageMsg(frame.image, stamped));
-  truth_in_camera_publisher_.publish(toPoseStampedMsg(frame.T_camera_window, stamped));
-}
-
-void WorldNode::publishOdometry(const simulation::OdometrySample& sample) {
-  const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), params_.frames);
-  odom_publisher_.publish(message);
-  R_odom_base_ = sample.T_odom_base.linear();
-  tf_.sendTransform(toTransformStampedMsg(sample.T_odom_base, message.header, params_.frames.base));
-  publishTruth(world_->timeSec());
-}
-
-void WorldNode::publishImu(const simulation::ImuSample& sample) {
-  imu_publisher_.publish(toImuMsg(sample, stampOf(sample.stamp_sec), params_.frames));
-}
-
-void WorldNode::publishTruth(double stamp_sec) {
-  truth_odom_publisher_.publish(toOdometryMsg(world_->truth(), stampOf(stamp_sec), params_.frames));
-}
-
-void WorldNode::publishMounting() {
-  static_tf_.sendTransform(
-      mountingOf(world_->T_base_camera(), stampOf(0.0), params_.frames, params_.camera_frame));
-}
-
-// What an operator would have photographed before the flight.
-void WorldNode::publishReference() {
-  geometry::Quadrilateral corners;
-  window_ingress::ReferencePicture message;
-  message.picture =
-      *toImageMsg(world_->referencePicture(&corners), headerOf(stampOf(0.0), params_.camera_frame));
-  for (std::size_t i = 0; i < 4; ++i) {
-    message.corner_x[i] = corners[i].x();
-    message.corner_y[i] = corners[i].y();
+bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
+  simulation::FaultParams fault;
+  fault.unit = request.unit;
+  fault.kind = request.kind;
+  fault.duration_sec = request.duration_sec;
+  const bool unheard = lockstep_ && (fault.unit == "clock" || fault.unit == "tf");
+  try {
+    if (unheard) throw simulation::ScenarioError("fault: in lockstep nobody looks at " + fault.unit);
+    world_->inject(fault);
+    response.success = true;
+    response.message = fault.unit + " " + fault.kind + " from " + std::to_string(now().toSec()) + " s for " +
+                       std::to_string(fault.duration_sec) + " s";
+  } catch (const simulation::ScenarioError& error) {
+    response.message = error.what();
   }
-  reference_publisher_.publish(message);
-}
-
-window_ingress::FlightVerdict WorldNode::verdict() const {
-  const simulation::Referee& referee = world_->referee();
-  const simulation::Verdict judgement = referee.judge(claim_);
-  window_ingress::FlightVerdict message;
-  message.header = headerOf(stampOf(world_->timeSec()), "window");
-  message.outcome = static_cast<std::uint8_t>(judgement.outcome);
-  message.outcome_name = simulation::toString(judgement.outcome);
-  message.reason = judgement.reason;
-  message.crossed = referee.crossing().has_value();
-  const double until_sec = message.crossed ? referee.crossing()->time_sec : world_->timeSec();
-  message.time = mission_start_sec_ < 0.0 ? 0.0 : until_sec - mission_start_sec_;
-  message.offset_y = message.crossed ? referee.crossing()->offset_y_m : 0.0;
-  message.offset_z = message.crossed ? referee.crossing()->offset_z_m : 0.0;
-  message.was_inside = referee.minClearance().has_value();
-  message.min_clearance = referee.minClearance().value_or(0.0);
-  message.wrong_side = referee.wrongSide();
-  message.max_speed = referee.maxSpeed();
-  return message;
-}
-
-// The first outcome stands: what happens afterwards is no longer the flight.
-void WorldNode::publishVerdict() {
-  if (world_->timeSec() < judge_due_sec_) return;
-  judge_due_sec_ = world_->timeSec() + kJudgePeriodSec;
-  const bool over = said_.outcome != window_ingress::FlightVerdict::RUNNING;
-  const window_ingress::FlightVerdict message = over ? said_ : verdict();
-  const bool news = message.outcome != said_.outcome;
-  if (!news && world_->timeSec() < verdict_due_sec_) return;
-  if (news) ROS_INFO("referee: %s: %s", message.outcome_name.c_str(), message.reason.c_str());
-  verdict_publisher_.publish(message);
-  said_ = message;
-  verdict_due_sec_ = world_->timeSec() + kVerdictPeriodSec;
+  ROS_INFO("inject: %s", response.message.c_str());
+  return true;
 }
 
 Health WorldNode::speedHealth() const {
+  if (isExternal())
+    return {Health::kOk, running_ ? "time is that of vehicle_odom" : "no vehicle_odom so far"};
   if (!ros::Time::isSimTime())
     return {Health::kError, "use_sim_time is not set: nodes will take the stamps for old"};
   if (!running_) return {Health::kWarn, "waiting for subscribers of image_raw and odom"};

@@ -2,19 +2,23 @@
 
 #include <camera_info_manager/camera_info_manager.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
-#include <window_ingress/FlightVerdict.h>
 #include <window_ingress/IngressState.h>
+#include <window_ingress/Inject.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapters/diagnostics.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
+#include "adapters/world_lockstep.hpp"
+#include "adapters/world_publishers.hpp"
+#include "adapters/world_referee.hpp"
+#include "window_ingress/simulation/schedule.hpp"
 #include "window_ingress/simulation/world.hpp"
 
 namespace window_ingress::adapters {
@@ -27,6 +31,12 @@ struct WorldNodeParams {
   double clock_rate_hz = 100.0;   ///< of /clock, in simulated time [Hz]
   double wait_sec =
       0.0;  ///< time starts when images and odometry are subscribed to, at the latest after this [s]
+  bool lockstep =
+      false;  ///< the world waits at each picture until the vehicle has answered: runs repeat exactly
+  bool realtime = false;  ///< in lockstep: not faster than real_time_factor, instead of as fast as it goes
+  double lockstep_timeout_sec =
+      2.0;                   ///< in lockstep, on the steady clock: longer than this it does not wait [s]
+  std::string verdict_file;  ///< json with the referee's verdict, written at the end; empty: none
   std::string camera_frame = "camera_optical_frame";
   FrameNames frames;
   template <typename Self, typename Visitor>
@@ -37,61 +47,72 @@ struct WorldNodeParams {
     field("start_time_sec", self.start_time_sec, 1.0, 1e9);
     field("clock_rate_hz", self.clock_rate_hz, 20.0, 400.0);
     field("wait_sec", self.wait_sec, 0.0, 600.0);
+    field("lockstep", self.lockstep);
+    field("realtime", self.realtime);
+    field("lockstep_timeout_sec", self.lockstep_timeout_sec, 0.05, 600.0);
+    field("verdict_file", self.verdict_file);
     field("camera_frame", self.camera_frame);
     FrameNames::visit(self.frames, field);
   }
 };
 
 /// `simulation::World` on topics; stands in for vehicle, camera and Gazebo. Runs in one thread.
+///
+/// Its time runs by the steady clock, or step by step in lockstep with the vehicle, or, when the vehicle is
+/// external, by the stamps of `vehicle_odom`.
 class WorldNode : public Node {
  public:
   WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+  void stop() override { referee_.finish(); }
 
  private:
   using Trigger = std_srvs::Trigger;
+  using Inject = window_ingress::Inject;
 
+  void subscribe(ros::NodeHandle& nh);
   void restart();
   void tick();
+  void tickLockstep();
+  void advanceToNextStep();
   bool mayRun();
+  bool pictureIsDue();
   void stepOnce();
+  void deliverPictures();
   void receiveCommand(const geometry_msgs::TwistStampedConstPtr& message);
   void receiveState(const window_ingress::IngressStateConstPtr& message);
+  void receiveVehicle(const nav_msgs::OdometryConstPtr& message);
+  void follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& angular_velocity_radps);
   bool reset(Trigger::Request& request, Trigger::Response& response);
+  bool inject(Inject::Request& request, Inject::Response& response);
 
-  void publishClock();
-  void publishFrame(const simulation::CameraFrame& frame);
-  void publishOdometry(const simulation::OdometrySample& sample);
-  void publishImu(const simulation::ImuSample& sample);
-  void publishTruth(double stamp_sec);
-  void publishMounting();
-  void publishReference();
-  void publishVerdict();
-  window_ingress::FlightVerdict verdict() const;
+  void tellTime();
+  void sendCalibration(const simulation::CalibrationSample& sample);
+  void sendOdometry(const simulation::OdometrySample& sample);
+  void sendImu(const simulation::ImuSample& sample);
   ros::Time stampOf(double world_sec) const;
+  ros::Time now() const { return stampOf(world_->timeSec()); }
+  bool isExternal() const { return world_->scenario().vehicle.profile == "external"; }
   Health speedHealth() const;
 
   WorldNodeParams params_;
   Diagnostics diagnostics_;
-  TopicHealth command_health_;
+  std::optional<TopicHealth> command_health_, vehicle_health_;
   std::unique_ptr<simulation::World> world_;
   Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // as the odometry last said
-  simulation::Claim claim_ = simulation::Claim::kNone;
-  window_ingress::FlightVerdict said_;
-  double epoch_sec_;                 // stamp of the world's time zero
-  double mission_start_sec_ = -1.0;  // in the world's time
-  double clock_due_sec_ = 0.0, judge_due_sec_ = 0.0, verdict_due_sec_ = 0.0;
+  std::optional<simulation::VelocityCommand> answer_;          // in lockstep: obeyed when time goes on
+  double epoch_sec_;                                           // stamp of the world's time zero
+  double clock_due_sec_ = 0.0;
   double created_sec_, ticked_sec_, debt_sec_ = 0.0, lost_sec_ = 0.0;
+  double began_sec_ = 0.0, followed_sec_ = -1.0;
   bool running_ = false;
 
   camera_info_manager::CameraInfoManager camera_info_;
-  tf2_ros::TransformBroadcaster tf_;
-  tf2_ros::StaticTransformBroadcaster static_tf_;
-  ros::Subscriber command_subscriber_, state_subscriber_;
-  ros::Publisher clock_publisher_, image_publisher_, info_publisher_, odom_publisher_, imu_publisher_;
-  ros::Publisher reference_publisher_;
-  ros::Publisher truth_odom_publisher_, truth_window_publisher_, truth_in_camera_publisher_,
-      verdict_publisher_;
-  ros::ServiceServer reset_;
+  WorldPublishers publishers_;
+  WorldReferee referee_;
+  std::optional<WorldLockstep> lockstep_;
+  std::optional<simulation::Periodic> truth_due_, pictures_;  // the latter for lockstep
+  ros::Subscriber command_subscriber_, state_subscriber_, vehicle_subscriber_;
+  ros::ServiceServer reset_, inject_;
   ros::SteadyTimer timer_;
 };
 

@@ -49,6 +49,23 @@ class RefusedStartTest(unittest.TestCase):
         for value in (float("nan"), float("inf"), -1.0, 1e300):
             self.assert_refused("ingress_navigator", "navigator/limits/speed_mps", value, "is not within")
 
+    def test_lockstep_is_refused_without_simulated_time(self):
+        for node in ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"):
+            rospy.set_param(f"/{node}/lockstep", True)
+            process = launch(node)
+            _, errors = process.communicate(timeout=support.DEADLINE_S)
+            rospy.delete_param(f"/{node}/lockstep")
+            self.assertEqual(process.returncode, 2, errors)
+            self.assertIn("use_sim_time", errors)
+
+    def test_start_at_once_is_refused_outside_lockstep(self):
+        rospy.set_param("/ingress_navigator/start_at_once", True)
+        process = launch("ingress_navigator")
+        _, errors = process.communicate(timeout=support.DEADLINE_S)
+        rospy.delete_param("/ingress_navigator/start_at_once")
+        self.assertEqual(process.returncode, 2, errors)
+        self.assertIn("start_at_once", errors)
+
     def test_unknown_transport_lists_the_known_ones(self):
         rospy.set_param("/window_detector/image_transport", "theora_or_so")
         process = launch("window_detector")

@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""A vehicle that is simulated elsewhere is seen and judged where vehicle_odom says it is."""
+import itertools
+import math
+import sys
+import threading
+import time
+import unittest
+
+import numpy
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Image
+from window_ingress.msg import FlightVerdict
+
+import support
+
+RATE_HZ = 50.0
+SPEED_MPS = 1.0
+WINDOW_X_M, CENTRE_Z_M, STOP_X_M = 5.0, 1.5, 6.8   # of config/scenarios/external.yaml
+CAMERA_AHEAD_M, CAMERA_UP_M = 0.10, 0.02
+OFFSET_Y_M = 0.07
+
+
+def pose_at(t):
+    """Straight through the window, a little left of its middle, then standing."""
+    x = min(STOP_X_M, SPEED_MPS * t)
+    return x, OFFSET_Y_M, CENTRE_Z_M
+
+
+def odometry_at(began, count):
+    """What the other simulator says in its step number `count`."""
+    message = Odometry(child_frame_id="base_link")
+    message.header.stamp = began + rospy.Duration(count / RATE_HZ)
+    message.header.frame_id = "odom"
+    p = message.pose.pose.position
+    p.x, p.y, p.z = pose_at(count / RATE_HZ)
+    message.pose.pose.orientation.w = 1.0
+    message.twist.twist.linear.x = SPEED_MPS if p.x < STOP_X_M else 0.0
+    return message
+
+
+class Flight:
+    """Another simulator, with a time of its own; not faster than the world, which may be slow here, can follow."""
+
+    _next_s = 1000.0   # flights follow each other
+    _publisher = None
+
+    def __init__(self):
+        self.began = rospy.Time.from_sec(Flight._next_s)
+        Flight._next_s += 100.0
+        Flight._publisher = Flight._publisher or rospy.Publisher("vehicle_odom", Odometry, queue_size=20)
+        self._truths = support.Listener("ground_truth/odom", Odometry)
+        self._seen = self.began
+        self._over = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        support.wait_for(lambda: Flight._publisher.get_num_connections() > 0, "a world that listens")
+        for count in itertools.count():
+            if self._over.wait(0.25 / RATE_HZ):
+                return
+            message = odometry_at(self.began, count)
+            Flight._publisher.publish(message)
+            while not self._over.is_set() and count > 10 and message.header.stamp - self._truth() > rospy.Duration(0.1):
+                time.sleep(0.001)
+
+    def _truth(self):
+        stamps = [m.header.stamp for m in self._truths.since(time.monotonic() - 5.0)]
+        self._seen = max([self._seen, *stamps])
+        return self._seen
+
+    def stop(self):
+        self._over.set()
+        self._thread.join()
+        self._truths.stop()
+
+
+class ExternalVehicleTest(unittest.TestCase):
+    def test_1_without_vehicle_odom_it_is_said_so(self):
+        support.Diagnostics().wait("world: vehicle_odom", "no vehicle_odom on", "0 publishers")
+
+    def test_2_the_flight_through_the_window_is_seen_and_passed(self):
+        images = support.Listener("image_raw", Image)
+        in_camera = support.Listener("ground_truth/window_in_camera", PoseStamped)
+        verdicts = support.Listener("referee", FlightVerdict)
+        flight = Flight()
+        try:
+            verdict = verdicts.wait(lambda v: v.outcome != FlightVerdict.RUNNING, "a verdict", 60.0)
+        finally:
+            flight.stop()
+        self.assertEqual(verdict.outcome_name, "PASSED", verdict.reason)
+        self.assertAlmostEqual(verdict.offset_y, OFFSET_Y_M, delta=1e-3)
+        truths = {t.header.stamp: t.pose.position for t in in_camera.since(0.0)}
+        pictures = [i for i in images.since(0.0) if i.header.stamp in truths]
+        self.assertGreater(len(pictures), 100)
+        self.assertGreaterEqual(len(pictures), len(images.since(0.0)) - 1, "truth stands beside each picture")
+        for picture in pictures:
+            x = pose_at((picture.header.stamp - flight.began).to_sec())[0]
+            where = truths[picture.header.stamp]
+            self.assertAlmostEqual(where.z, WINDOW_X_M - x - CAMERA_AHEAD_M, delta=0.01)
+            self.assertAlmostEqual(where.x, OFFSET_Y_M, delta=1e-6)
+            self.assertAlmostEqual(where.y, CAMERA_UP_M, delta=1e-6)
+        self.assert_opening_is_where_the_truth_says(pictures, truths)
+
+    def assert_opening_is_where_the_truth_says(self, pictures, truths):
+        """The orange frame left of the opening: the columns that hold it, beside its projection."""
+        focal = 320.0 / math.tan(0.6)
+        checked = 0
+        for picture in pictures[::10]:
+            where = truths[picture.header.stamp]
+            if not 2.0 < where.z < 4.5:
+                continue
+            pixels = numpy.frombuffer(picture.data, numpy.uint8).reshape(picture.height, picture.width, 3).astype(int)
+            row = pixels[int(round(239.5 + focal * where.y / where.z))]
+            orange = numpy.flatnonzero((row[:, 2] > 120) & (row[:, 2] > 2 * row[:, 1]) & (row[:, 1] > row[:, 0]))
+            left = orange[orange < 319.5 + focal * where.x / where.z]
+            border = 319.5 + focal * (where.x - 0.6) / where.z
+            self.assertAlmostEqual(left.max() + 0.5, border, delta=3.0)
+            checked += 1
+        self.assertGreater(checked, 4)
+
+    def test_3_when_it_falls_silent_pictures_stop_and_it_is_said(self):
+        flight = Flight()
+        images = support.Listener("image_raw", Image)
+        images.wait(what="a picture")
+        flight.stop()
+        support.Diagnostics().wait("world: vehicle_odom", "no more vehicle_odom")
+        begin = time.monotonic()
+        support.wait_for(lambda: time.monotonic() - begin > 0.5, "half a second")
+        self.assertEqual(len(images.since(begin)), 0)
+
+    def test_4_what_is_no_pose_is_refused_by_name(self):
+        def bend(message):
+            message.pose.pose.orientation.w = 2.0
+
+        def spoil(message):
+            message.pose.pose.position.x = math.nan
+
+        def rename(message):
+            message.header.frame_id = "map"
+
+        diagnostics = support.Diagnostics()
+        images = support.Listener("image_raw", Image)
+        for distort, word in ((bend, "quaternion"), (spoil, "finite"), (rename, "'map'")):
+            count = itertools.count()
+
+            def make(_):
+                message = odometry_at(rospy.Time(9000), next(count))
+                distort(message)
+                return message
+            stream = support.Stream("vehicle_odom", Odometry, make, RATE_HZ)
+            diagnostics.wait("world: vehicle_odom", "refused", word)
+            stream.stop()
+        self.assertEqual([i.header.stamp for i in images.since(0.0) if i.header.stamp > rospy.Time(8999)], [])
+
+
+if __name__ == "__main__":
+    rospy.init_node("external_vehicle_test")
+    rostest.rosrun("window_ingress", "external_vehicle_test", ExternalVehicleTest, sys.argv)
