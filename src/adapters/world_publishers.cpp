@@ -7,46 +7,12 @@
 #include <window_ingress/ReferencePicture.h>
 
 #include "adapters/image_message.hpp"
-#include "window_ingress/geometry/frames.hpp"
+#include "adapters/world_messages.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
 constexpr int kSampleQueue = 10, kCompleteQueue = 1000;
-
-std_msgs::Header header(const ros::Time& stamp, const std::string& frame_id) {
-  std_msgs::Header out;
-  out.stamp = stamp;
-  out.frame_id = frame_id;
-  return out;
-}
-
-nav_msgs::Odometry toOdometryMsg(const Eigen::Isometry3d& T_odom_base,
-                                 const Eigen::Vector3d& velocity_odom_mps,
-                                 const Eigen::Vector3d& angular_velocity_base_radps) {
-  nav_msgs::Odometry message;
-  message.pose.pose = toPoseMsg(T_odom_base);
-  message.twist.twist.linear = toVectorMsg(T_odom_base.linear().transpose() * velocity_odom_mps);
-  message.twist.twist.angular = toVectorMsg(angular_velocity_base_radps);
-  return message;
-}
-
-geometry_msgs::PoseStamped toPoseStamped(const Eigen::Isometry3d& pose, const std_msgs::Header& stamped) {
-  geometry_msgs::PoseStamped message;
-  message.header = stamped;
-  message.pose = toPoseMsg(pose);
-  return message;
-}
-
-geometry_msgs::TransformStamped toStampedTransform(const Eigen::Isometry3d& pose,
-                                                   const std_msgs::Header& stamped,
-                                                   const std::string& child) {
-  geometry_msgs::TransformStamped message;
-  message.header = stamped;
-  message.child_frame_id = child;
-  message.transform = toTransformMsg(pose);
-  return message;
-}
 
 }  // namespace
 
@@ -72,73 +38,45 @@ void WorldPublishers::clock(const ros::Time& now) {
 }
 
 bool WorldPublishers::frame(const simulation::CameraFrame& frame, const ros::Time& stamp) {
-  const std_msgs::Header stamped = header(stamp, camera_frame_);
-  truth_in_camera_.publish(toPoseStamped(frame.T_camera_window, stamped));
+  const std_msgs::Header stamped = headerOf(stamp, camera_frame_);
+  truth_in_camera_.publish(toPoseStampedMsg(frame.T_camera_window, stamped));
   if (!imagesAreAwaited()) return false;
   image_.publish(toImageMsg(frame.image, stamped));
   return true;
 }
 
 void WorldPublishers::cameraInfo(sensor_msgs::CameraInfo info, const ros::Time& stamp) {
-  info.header = header(stamp, camera_frame_);
+  info.header = headerOf(stamp, camera_frame_);
   info_.publish(info);
 }
 
 void WorldPublishers::odometry(const simulation::OdometrySample& sample, const ros::Time& stamp) {
-  nav_msgs::Odometry message =
-      toOdometryMsg(sample.T_odom_base, sample.velocity_odom_mps, sample.angular_velocity_base_radps);
-  message.header = header(stamp, frames_.odom);
-  message.child_frame_id = frames_.base;
-  odom_.publish(message);
+  odom_.publish(toOdometryMsg(sample, stamp, frames_));
 }
 
 void WorldPublishers::transform(const simulation::OdometrySample& sample, const ros::Time& stamp) {
-  tf_.sendTransform(toStampedTransform(sample.T_odom_base, header(stamp, frames_.odom), frames_.base));
+  tf_.sendTransform(toTransformStampedMsg(sample.T_odom_base, headerOf(stamp, frames_.odom), frames_.base));
 }
 
 void WorldPublishers::imu(const simulation::ImuSample& sample, const ros::Time& stamp) {
-  sensor_msgs::Imu message;
-  message.header = header(stamp, frames_.base);
-  message.orientation.x = sample.R_odom_base.x();
-  message.orientation.y = sample.R_odom_base.y();
-  message.orientation.z = sample.R_odom_base.z();
-  message.orientation.w = sample.R_odom_base.w();
-  message.angular_velocity = toVectorMsg(sample.angular_velocity_base_radps);
-  message.linear_acceleration = toVectorMsg(sample.specific_force_base_mps2);
-  imu_.publish(message);
+  imu_.publish(toImuMsg(sample, stamp, frames_));
 }
 
 void WorldPublishers::truth(const simulation::VehicleTruth& truth, const ros::Time& stamp) {
-  nav_msgs::Odometry message =
-      toOdometryMsg(truth.T_odom_base, truth.velocity_odom_mps, truth.angular_velocity_base_radps);
-  message.header = header(stamp, frames_.odom);
-  message.child_frame_id = frames_.base;
-  truth_odom_.publish(message);
+  truth_odom_.publish(toOdometryMsg(truth, stamp, frames_));
 }
 
 void WorldPublishers::facts(const simulation::World& world, const ros::Time& stamp) {
-  mounting(world.T_base_camera(), stamp);
-  truth_window_.publish(toPoseStamped(world.T_odom_window(), header(stamp, frames_.odom)));
+  static_tf_.sendTransform(mountingOf(world.T_base_camera(), stamp, frames_, camera_frame_));
+  truth_window_.publish(toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
   reference(world, stamp);
-}
-
-// base_link -> camera_link (forward-left-up) -> camera_optical_frame (right-down-forward), REP 103.
-void WorldPublishers::mounting(const Eigen::Isometry3d& T_base_camera, const ros::Time& stamp) {
-  const Eigen::Matrix3d R_optical_flu = geometry::R_optical_flu();
-  const Eigen::Isometry3d T_base_link =
-      geometry::makePose(T_base_camera.linear() * R_optical_flu, T_base_camera.translation());
-  const Eigen::Isometry3d T_link_optical =
-      geometry::makePose(R_optical_flu.transpose(), Eigen::Vector3d::Zero());
-  static_tf_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      toStampedTransform(T_base_link, header(stamp, frames_.base), "camera_link"),
-      toStampedTransform(T_link_optical, header(stamp, "camera_link"), camera_frame_)});
 }
 
 // What an operator would have photographed before the flight.
 void WorldPublishers::reference(const simulation::World& world, const ros::Time& stamp) {
   geometry::Quadrilateral corners;
   window_ingress::ReferencePicture message;
-  message.picture = *toImageMsg(world.referencePicture(&corners), header(stamp, camera_frame_));
+  message.picture = *toImageMsg(world.referencePicture(&corners), headerOf(stamp, camera_frame_));
   for (std::size_t i = 0; i < 4; ++i) {
     message.corner_x[i] = corners[i].x();
     message.corner_y[i] = corners[i].y();

@@ -33,7 +33,6 @@ class WorldPublishers {
   bool odometryIsAwaited() const { return odom_.getNumSubscribers() > 0; }
 
  private:
-  void mounting(const Eigen::Isometry3d& T_base_camera, const ros::Time& stamp);
   void reference(const simulation::World& world, const ros::Time& stamp);
 
   FrameNames frames_;
