@@ -14,7 +14,8 @@ class Shutter {
  public:
   static constexpr int kMostPictures = 6;
   static constexpr int kMostBands = 24;
-  static constexpr double kShiftOfOne_px = 0.75;  ///< between two pictures, and two bands of rows
+  static constexpr double kShiftOfPicture_px = 1.5;  ///< between two pictures
+  static constexpr double kShiftOfBand_px = 0.75;    ///< between two bands of rows
 
   Shutter(double exposure_sec, double readout_sec) : exposure_sec_(exposure_sec), readout_sec_(readout_sec) {}
 
