@@ -28,8 +28,10 @@ FlightBag::FlightBag(const std::string& file) { bag_.open(file, rosbag::bagmode:
 
 void FlightBag::onStart(const simulation::World& world) {
   world_ = &world;
+  twist_in_odom_ = world.scenario().odometry.twist_frame == "world";
   const ros::Time stamp = stampOf(0.0);
   bag_.write("/tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
+  bag_.write("/reference", stamp, toReferenceMsg(world, headerOf(stamp, kCameraFrame)));
   bag_.write("/ground_truth/window", stamp,
              toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
 }
@@ -51,7 +53,7 @@ void FlightBag::onImage(const simulation::CameraFrame& frame, const detection::D
 
 void FlightBag::onOdometry(const simulation::OdometrySample& sample) {
   const ros::Time now = stampOf(world_->timeSec());
-  const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), frames_);
+  const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), frames_, twist_in_odom_);
   bag_.write("/odom", now, message);
   bag_.write("/tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
 }

@@ -12,8 +12,8 @@
 namespace window_ingress::adapters {
 
 /// Records a flight of `fly` as the nodes would have published it: image_raw/compressed (JPEG), camera_info,
-/// odom, imu, tf, cmd_vel, state, ground_truth/{odom, window, window_in_camera}. `replay_bag` and rviz read
-/// it.
+/// odom, imu, tf, reference, cmd_vel, state, ground_truth/{odom, window, window_in_camera}. `replay_bag` and
+/// rviz read it.
 class FlightBag : public evaluation::FlightObserver {
  public:
   /// \throws rosbag::BagException if the file cannot be written
@@ -30,6 +30,7 @@ class FlightBag : public evaluation::FlightObserver {
   rosbag::Bag bag_;
   FrameNames frames_;
   const simulation::World* world_ = nullptr;
+  bool twist_in_odom_ = false;
   std::vector<unsigned char> jpeg_;
 };
 

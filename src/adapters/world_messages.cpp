@@ -1,5 +1,6 @@
 #include "adapters/world_messages.hpp"
 
+#include "adapters/image_message.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
@@ -24,9 +25,10 @@ std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id) {
 }
 
 nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const ros::Time& stamp,
-                                 const FrameNames& frames) {
+                                 const FrameNames& frames, bool twist_in_odom) {
   nav_msgs::Odometry message =
       odometryMsg(sample.T_odom_base, sample.velocity_odom_mps, sample.angular_velocity_base_radps);
+  if (twist_in_odom) message.twist.twist.linear = toVectorMsg(sample.velocity_odom_mps);
   message.header = headerOf(stamp, frames.odom);
   message.child_frame_id = frames.base;
   return message;
@@ -38,6 +40,18 @@ nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ro
       odometryMsg(truth.T_odom_base, truth.velocity_odom_mps, truth.angular_velocity_base_radps);
   message.header = headerOf(stamp, frames.odom);
   message.child_frame_id = frames.base;
+  return message;
+}
+
+window_ingress::ReferencePicture toReferenceMsg(const simulation::World& world,
+                                                const std_msgs::Header& header) {
+  geometry::Quadrilateral corners;
+  window_ingress::ReferencePicture message;
+  message.picture = *toImageMsg(world.referencePicture(&corners), header);
+  for (std::size_t i = 0; i < 4; ++i) {
+    message.corner_x[i] = corners[i].x();
+    message.corner_y[i] = corners[i].y();
+  }
   return message;
 }
 

@@ -5,6 +5,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
+#include <window_ingress/ReferencePicture.h>
 
 #include <string>
 #include <vector>
@@ -16,11 +17,15 @@ namespace window_ingress::adapters {
 
 std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id);
 
-/// The twist stands in the child frame (REP 147).
+/// The twist stands in the child frame (REP 147). \param twist_in_odom the velocity stands in the axes of
+/// odom instead, as some simulators have it
 nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const ros::Time& stamp,
-                                 const FrameNames& frames);
+                                 const FrameNames& frames, bool twist_in_odom = false);
 nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ros::Time& stamp,
                                  const FrameNames& frames);
+/// What an operator would have photographed before the flight.
+window_ingress::ReferencePicture toReferenceMsg(const simulation::World& world,
+                                                const std_msgs::Header& header);
 sensor_msgs::Imu toImuMsg(const simulation::ImuSample& sample, const ros::Time& stamp,
                           const FrameNames& frames);
 geometry_msgs::PoseStamped toPoseStampedMsg(const Eigen::Isometry3d& pose, const std_msgs::Header& header);

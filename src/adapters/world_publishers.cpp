@@ -51,7 +51,7 @@ void WorldPublishers::cameraInfo(sensor_msgs::CameraInfo info, const ros::Time& 
 }
 
 void WorldPublishers::odometry(const simulation::OdometrySample& sample, const ros::Time& stamp) {
-  odom_.publish(toOdometryMsg(sample, stamp, frames_));
+  odom_.publish(toOdometryMsg(sample, stamp, frames_, twist_in_odom_));
 }
 
 void WorldPublishers::transform(const simulation::OdometrySample& sample, const ros::Time& stamp) {
@@ -69,19 +69,8 @@ void WorldPublishers::truth(const simulation::VehicleTruth& truth, const ros::Ti
 void WorldPublishers::facts(const simulation::World& world, const ros::Time& stamp) {
   static_tf_.sendTransform(mountingOf(world.T_base_camera(), stamp, frames_, camera_frame_));
   truth_window_.publish(toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
-  reference(world, stamp);
-}
-
-// What an operator would have photographed before the flight.
-void WorldPublishers::reference(const simulation::World& world, const ros::Time& stamp) {
-  geometry::Quadrilateral corners;
-  window_ingress::ReferencePicture message;
-  message.picture = *toImageMsg(world.referencePicture(&corners), headerOf(stamp, camera_frame_));
-  for (std::size_t i = 0; i < 4; ++i) {
-    message.corner_x[i] = corners[i].x();
-    message.corner_y[i] = corners[i].y();
-  }
-  reference_.publish(message);
+  reference_.publish(toReferenceMsg(world, headerOf(stamp, camera_frame_)));
+  twist_in_odom_ = world.scenario().odometry.twist_frame == "world";
 }
 
 }  // namespace window_ingress::adapters

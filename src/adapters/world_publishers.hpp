@@ -33,10 +33,9 @@ class WorldPublishers {
   bool odometryIsAwaited() const { return odom_.getNumSubscribers() > 0; }
 
  private:
-  void reference(const simulation::World& world, const ros::Time& stamp);
-
   FrameNames frames_;
   std::string camera_frame_;
+  bool twist_in_odom_ = false;  // as some simulators say it, against REP 147
   tf2_ros::TransformBroadcaster tf_;
   tf2_ros::StaticTransformBroadcaster static_tf_;
   ros::Publisher clock_, image_, info_, odom_, imu_, reference_;
