@@ -32,6 +32,12 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   return params;
 }
 
+const simulation::Scenario& flyable(const simulation::Scenario& scenario) {
+  if (scenario.vehicle.profile != "external") return scenario;
+  throw simulation::ScenarioError(
+      "vehicle: external is flown elsewhere, over ROS topics; take another profile, or the world node");
+}
+
 Claim claimOf(State state) {
   if (state == State::kPassed) return Claim::kPassed;
   return state == State::kAborted ? Claim::kAborted : Claim::kNone;
@@ -42,7 +48,7 @@ class Flight {
   Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
          const std::vector<FlightObserver*>& observers)
       : observers_(observers),
-        world_(scenario, seed),
+        world_(flyable(scenario), seed),
         params_(withFactsOf(world_, params)),
         detector_(params_.detector),
         tracker_(params_.pose, params_.filter, params_.tracker),

@@ -48,7 +48,7 @@ class LockstepTest(unittest.TestCase):
         listeners = {topic: support.Listener(topic, kind) for topic, kind in TOPICS.items()}
         launch = subprocess.Popen(["roslaunch", "window_ingress", "sim.launch", "lockstep:=true", "auto_start:=true",
                                    f"seed:={seed}", f"verdict_file:={verdict_file}", *arguments],
-                                  stdout=sys.stderr, start_new_session=True)
+                                  start_new_session=True)
         try:
             launch.wait(FLIGHT_WITHIN_S)
         finally:

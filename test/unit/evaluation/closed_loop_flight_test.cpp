@@ -58,6 +58,12 @@ TEST(ClosedLoopFlight, RepeatsToTheBit) {
   EXPECT_EQ(a.outcome, Outcome::kTimeout);
 }
 
+TEST(ClosedLoopFlight, RefusesAVehicleThatIsFlownElsewhere) {
+  auto scenario = shortFlight();
+  scenario.vehicle.profile = "external";
+  EXPECT_THROW(flyOnce(scenario, 1, FlightParams()), simulation::ScenarioError);
+}
+
 TEST(ClosedLoopFlight, RefusesBadParameters) {
   FlightParams params;
   params.navigator.limits.speed_mps = -1.0;
