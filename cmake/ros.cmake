@@ -18,9 +18,11 @@ target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_adapters -
 
 foreach(source ${node_sources})
   get_filename_component(node ${source} NAME_WE)
-  add_executable(${node} ${source})
-  target_link_libraries(${node} PRIVATE ${PROJECT_NAME}_adapters)
-  install(TARGETS ${node} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  set(target ${PROJECT_NAME}_${node})
+  add_executable(${target} ${source})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${node} PREFIX "")
+  target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters)
+  install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()
 
 install(TARGETS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_nodelets

@@ -5,5 +5,6 @@ roslaunch_add_file_check(launch IGNORE_UNSET_ARGS)
 
 file(GLOB ros_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
 foreach(test ${ros_tests})
-  add_rostest(${test} DEPENDENCIES window_detector homography_pose ingress_navigator setpoint_guard world)
+  add_rostest(${test} DEPENDENCIES ${PROJECT_NAME}_window_detector ${PROJECT_NAME}_homography_pose
+              ${PROJECT_NAME}_ingress_navigator ${PROJECT_NAME}_setpoint_guard ${PROJECT_NAME}_world)
 endforeach()
