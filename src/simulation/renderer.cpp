@@ -146,6 +146,7 @@ struct Renderer::Impl {
     const Eigen::Vector4f colour(static_cast<float>(fog->colour.x()), static_cast<float>(fog->colour.y()),
                                  static_cast<float>(fog->colour.z()), 1.0F);
     gl.Enable(GL_FOG);
+    gl.Fogi(GL_FOG_DISTANCE_MODE_NV, GL_EYE_PLANE);  // with a sign: faces reach behind the camera
     gl.Fogf(GL_FOG_DENSITY, static_cast<GLfloat>(fog->density_per_m));
     gl.Fogfv(GL_FOG_COLOR, colour.data());
   }

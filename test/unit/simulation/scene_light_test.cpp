@@ -102,6 +102,22 @@ TEST(Sunlight, MakesAPatchOnTheFloorOfTheRoomBelowTheOpening) {
   EXPECT_GT(patch, views::greyAt(scene, {-0.6, 0, 0.3}, {beyond_m, 0.0, -1.49}) + 20.0);
 }
 
+// The lawn is one large face that reaches behind the camera: its near part must keep its colour.
+TEST(Fog, IsThinNearTheCamera) {
+  Scenario scenario;
+  const Eigen::Vector3d eye(-12.0, 0.0, 0.0), lawn(-10.5, 0.0, -scenario.windowCentreHeight());
+  const auto greenness = [&](double fog_m) {
+    scenario.house.fog_m = fog_m;
+    const cv::Mat image = views::photograph(buildScene(scenario), views::lookAt(eye, lawn), 0.3);
+    const cv::Scalar mean = cv::mean(image);
+    return mean[1] - 0.5 * (mean[0] + mean[2]);
+  };
+  const double clear = greenness(0.0), in_fog = greenness(10.0);
+  ASSERT_GT(clear, 10.0);
+  EXPECT_GT(in_fog, 0.4 * clear) << "at 2 m, 0.05^(2/10) = 0.55 of the contrast is left";
+  EXPECT_LT(in_fog, 0.7 * clear);
+}
+
 TEST(Fog, TakesContrastWithDistanceButNotInTheRoom) {
   Scenario scenario;
   const auto contrast = [&](double distance_m) {
