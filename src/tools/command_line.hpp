@@ -1,13 +1,19 @@
 /// What the command-line tools share: their errors, and options that need more than boost's parser.
 #pragma once
 
+#include <boost/program_options/errors.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "window_ingress/evaluation/flight_table.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/simulation/scenario.hpp"
 
 namespace window_ingress::tools {
 
@@ -38,6 +44,33 @@ inline void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) throw UsageError(folder + ": cannot make this folder");
+}
+
+/// Runs a tool. What it throws becomes one line on stderr and the exit code: 2 for wrong usage and for input
+/// that cannot be used, 1 for a job that failed.
+template <typename Body>
+int runTool(const char* name, const Body& body) {
+  const auto fail = [name](const std::string& what, int code) {
+    std::cerr << name << ": " << what << "\n";
+    return code;
+  };
+  try {
+    return body();
+  } catch (const boost::program_options::error& error) {
+    return fail(std::string(error.what()) + "; see --help", 2);
+  } catch (const UsageError& error) {
+    return fail(error.what(), 2);
+  } catch (const simulation::ScenarioError& error) {
+    return fail(error.what(), 2);
+  } catch (const evaluation::TableError& error) {
+    return fail(error.what(), 2);
+  } catch (const parameters::YamlError& error) {
+    return fail(error.what(), 2);
+  } catch (const std::invalid_argument& error) {
+    return fail(error.what(), 2);
+  } catch (const std::exception& error) {
+    return fail(error.what(), 1);
+  }
 }
 
 }  // namespace window_ingress::tools

@@ -232,31 +232,12 @@ int run(const Job& job) {
   return 0;
 }
 
-int fail(const std::string& what, int code) {
-  std::cerr << "fly: " << what << "\n";
-  return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  try {
+  return tools::runTool("fly", [&] {
     const Job job = parse(argc, argv, describe());
     return job.scenario_file.empty() ? 0 : run(job);
-  } catch (const UsageError& error) {
-    return fail(error.what(), 2);
-  } catch (const options::error& error) {
-    return fail(std::string(error.what()) + "; see --help", 2);
-  } catch (const simulation::ScenarioError& error) {
-    return fail(error.what(), 2);
-  } catch (const evaluation::TableError& error) {
-    return fail(error.what(), 2);
-  } catch (const parameters::YamlError& error) {
-    return fail(error.what(), 2);
-  } catch (const std::invalid_argument& error) {
-    return fail(error.what(), 2);
-  } catch (const std::exception& error) {
-    return fail(error.what(), 1);
-  }
+  });
 }
