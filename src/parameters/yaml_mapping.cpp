@@ -10,6 +10,12 @@ YamlMapping::YamlMapping(std::string file, const YAML::Node& mapping, std::strin
     : file_(std::move(file)), mapping_(mapping), path_(std::move(path)) {
   const std::string place = path_.empty() ? "" : path_ + ": ";
   if (!mapping.IsMap()) fail(mapping, place + "must be a mapping of keys to values");
+  std::set<std::string> keys;
+  for (const auto& entry : mapping) {
+    if (!entry.first.IsScalar()) fail(entry.first, place + "a key must be a word");
+    if (!keys.insert(entry.first.Scalar()).second)
+      fail(entry.first, path_ + entry.first.Scalar() + ": stands here for the second time");
+  }
 }
 
 YAML::Node YamlMapping::find(const std::string& name) {

@@ -32,24 +32,25 @@ struct ScenarioReader::Impl {
         RandomStream(seed, mapping.path() + name + " option").uniformInt(0, static_cast<int>(count) - 1));
   }
 
-  const YAML::Node findDrawn(const std::string& name) {
+  // Each option with true for the drawn one; none where the key is missing.
+  std::vector<std::pair<YAML::Node, bool>> findOptions(const std::string& name) {
     const YAML::Node node = mapping.find(name);
-    if (!node.IsDefined()) return node;
+    std::vector<std::pair<YAML::Node, bool>> found;
+    if (!node.IsDefined()) return found;
     const auto options = optionsOf(name, node);
-    return options[drawOption(name, options.size())];
+    const std::size_t drawn = drawOption(name, options.size());
+    for (std::size_t i = 0; i < options.size(); ++i) found.emplace_back(options[i], i == drawn);
+    return found;
   }
 
   // All options are read, so that a bad one is an error whatever the seed.
   template <typename Value, typename Read>
   void readDrawn(const std::string& name, Value& value, const Read& read) {
-    const YAML::Node node = mapping.find(name);
-    if (!node.IsDefined()) return;
-    const auto options = optionsOf(name, node);
-    const std::size_t drawn = drawOption(name, options.size());
-    for (std::size_t i = 0; i < options.size(); ++i) {
-      Value candidate = value;
-      read(options[i], candidate);
-      if (i == drawn) value = candidate;
+    const Value before = value;
+    for (const auto& [node, drawn] : findOptions(name)) {
+      Value candidate = before;
+      read(node, candidate);
+      if (drawn) value = candidate;
     }
   }
 
@@ -124,36 +125,50 @@ void ScenarioReader::choice(const std::string& name, std::string& value,
   });
 }
 
-bool ScenarioReader::has(const std::string& name) const { return impl_->mapping.find(name).IsDefined(); }
-
-std::unique_ptr<ScenarioReader> ScenarioReader::descend(const std::string& name) {
-  const YAML::Node node = impl_->findDrawn(name);
-  if (!node.IsDefined()) return nullptr;
-  return std::make_unique<ScenarioReader>(impl_->mapping.file(), node, impl_->mapping.path() + name + "/",
-                                          impl_->seed);
+std::vector<ScenarioReader::MappingOption> ScenarioReader::descend(const std::string& name) {
+  std::vector<MappingOption> options;
+  const std::string path = impl_->mapping.path() + name + "/";
+  for (const auto& [node, drawn] : impl_->findOptions(name))
+    options.push_back(
+        {std::make_unique<ScenarioReader>(impl_->mapping.file(), node, path, impl_->seed), drawn});
+  return options;
 }
 
-std::vector<std::unique_ptr<ScenarioReader>> ScenarioReader::descendAll(const std::string& name) {
-  const YAML::Node node = impl_->findDrawn(name);
-  if (!node.IsSequence()) impl_->mapping.fail(node, name + ": must be a list, or [] for none");
-  std::vector<std::unique_ptr<ScenarioReader>> children;
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const std::string path = impl_->mapping.path() + name + "[" + std::to_string(i) + "]/";
-    children.push_back(std::make_unique<ScenarioReader>(impl_->mapping.file(), node[i], path, impl_->seed));
+std::vector<ScenarioReader::ListOption> ScenarioReader::descendAll(const std::string& name) {
+  std::vector<ListOption> options;
+  for (const auto& [node, drawn] : impl_->findOptions(name)) {
+    if (!node.IsSequence()) impl_->mapping.fail(node, name + ": must be a list, or [] for none");
+    ListOption& option = options.emplace_back();
+    option.drawn = drawn;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const std::string path = impl_->mapping.path() + name + "[" + std::to_string(i) + "]/";
+      option.readers.push_back(
+          std::make_unique<ScenarioReader>(impl_->mapping.file(), node[i], path, impl_->seed));
+    }
   }
-  return children;
+  return options;
 }
 
 void ScenarioReader::refuseUnknownKeys() const { impl_->mapping.refuseUnknownKeys("; see doc/scenarios.md"); }
 
 namespace {
 
-// `vehicle: NAME` is short for `vehicle: {profile: NAME}`.
+YAML::Node spelledOut(const YAML::Node& vehicle) {
+  if (!vehicle.IsScalar()) return vehicle;
+  YAML::Node mapping(YAML::NodeType::Map);
+  mapping["profile"] = vehicle;
+  return mapping;
+}
+
+// `vehicle: NAME` is short for `vehicle: {profile: NAME}`, among the items of `{one_of: [...]}` too.
 void spellOutProfile(YAML::Node& root) {
-  if (!root.IsMap() || !root["vehicle"].IsDefined() || !root["vehicle"].IsScalar()) return;
-  YAML::Node vehicle(YAML::NodeType::Map);
-  vehicle["profile"] = YAML::Node(root["vehicle"]);
-  root["vehicle"] = vehicle;
+  if (!root.IsMap() || !root["vehicle"].IsDefined()) return;
+  const YAML::Node vehicle = root["vehicle"];
+  if (vehicle.IsScalar()) root["vehicle"] = spelledOut(vehicle);
+  if (!vehicle.IsMap() || !vehicle["one_of"].IsDefined() || !vehicle["one_of"].IsSequence()) return;
+  YAML::Node items(YAML::NodeType::Sequence);
+  for (const auto& item : vehicle["one_of"]) items.push_back(spelledOut(item));
+  root["vehicle"]["one_of"] = items;
 }
 
 // Twice: what the file leaves open follows from the profile, which stands in the file.

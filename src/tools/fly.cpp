@@ -162,28 +162,37 @@ class Results {
   }
   void add(const evaluation::FlightResult& flight) {
     rows_ << evaluation::csvRow(flight) << "\n" << std::flush;
-    tracks_ << evaluation::trackRows(flight);
+    tracks_ << evaluation::trackRows(flight) << std::flush;
+    check(rows_ && tracks_);
     passed_ += flight.outcome == simulation::Outcome::kPassed ? 1 : 0;
   }
   int passed() const { return passed_; }
   void finish() {
     rows_.close();
     tracks_.close();
+    check(rows_ && tracks_);
     // Of the numbers as they stand in the table: joined shards give the same bytes.
     const auto flights = evaluation::readFlights(job_.output_folder);
     std::ofstream summary(job_.output_folder + "/summary.json");
     summary << evaluation::toJson(evaluation::summarise(flights));
     summary.close();
-    const auto scenario = simulation::loadScenario(job_.scenario_file, flights.front().seed);
+    const auto scenario = simulation::loadScenario(job_.scenario_file, seedOf(flights));
     const std::string title =
         fs::path(job_.scenario_file).stem().string() + ", " + std::to_string(flights.size()) + " flights";
     const bool drawn = cv::imwrite(job_.output_folder + "/tracks.png",
                                    evaluation::drawTracks(flights, outlineOf(scenario), title));
-    if (!rows_ || !tracks_ || !summary || !drawn)
-      throw std::runtime_error(job_.output_folder + ": cannot write; is the disk full?");
+    check(summary && drawn);
   }
 
  private:
+  void check(bool written) const {
+    if (!written) throw std::runtime_error(job_.output_folder + ": cannot write; is the disk full?");
+  }
+  // Of a flight whose scenario stands for all in the picture; there may be none in a shard.
+  std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
+    return flights.empty() ? 1u : flights.front().seed;
+  }
+
   const Job& job_;
   std::ofstream rows_, tracks_;
   int passed_ = 0;

@@ -41,6 +41,20 @@ def test_help_explains_and_succeeds(tool):
     assert "--output" in result.stdout
 
 
+def test_a_shard_without_flights_is_done_at_once(tmp_path):
+    result = run("fly", "--scenario", NOMINAL, "--seeds", "1..1", "--shard", "2/2", "--output", tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert len((tmp_path / "flights.csv").read_text().splitlines()) == 1
+    assert '"flights": 0' in (tmp_path / "summary.json").read_text()
+
+
+def test_a_full_disk_ends_the_flights_with_one_line(tmp_path):
+    (tmp_path / "flights.csv").symlink_to("/dev/full")
+    scenario = tmp_path / "short.yaml"
+    scenario.write_text("time_limit_sec: 1\ncamera: {width_px: 64, height_px: 48}\n")
+    assert_refused(run("fly", "--scenario", scenario, "--seeds", "1..3", "--output", tmp_path), 1, "is the disk full?")
+
+
 @pytest.mark.parametrize("tool", TOOLS)
 def test_unknown_option_is_wrong_usage(tool):
     assert_refused(run(tool, "--no-such-option"), 2, "no-such-option")

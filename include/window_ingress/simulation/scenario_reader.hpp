@@ -12,7 +12,8 @@ class Node;
 namespace window_ingress::simulation {
 
 /// Visitor that fills a scenario from a yaml mapping. Beyond `parameters::YamlReader` it takes a range `[min,
-/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. \throws parameters::YamlError with file, line and key
+/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. \throws parameters::YamlError
+/// with file, line and key
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
@@ -29,13 +30,20 @@ class ScenarioReader {
 
   template <typename Params>
   void group(const std::string& name, Params& params) {
-    if (const auto child = descend(name)) child->fill(params);
+    const Params before = params;
+    for (const auto& option : descend(name)) {
+      Params candidate = before;
+      option.reader->fill(candidate);
+      if (option.drawn) params = candidate;
+    }
   }
   template <typename Params>
   void list(const std::string& name, std::vector<Params>& items) {
-    if (!has(name)) return;
-    items.clear();
-    for (const auto& child : descendAll(name)) child->fill(items.emplace_back());
+    for (const auto& option : descendAll(name)) {
+      std::vector<Params> candidates;
+      for (const auto& reader : option.readers) reader->fill(candidates.emplace_back());
+      if (option.drawn) items = candidates;
+    }
   }
   template <typename Params>
   void fill(Params& params) {
@@ -45,9 +53,17 @@ class ScenarioReader {
 
  private:
   struct Impl;
-  bool has(const std::string& name) const;
-  std::unique_ptr<ScenarioReader> descend(const std::string& name);
-  std::vector<std::unique_ptr<ScenarioReader>> descendAll(const std::string& name);
+  // One of the options of a mapping or a list. All are read, so that a bad one is an error whatever the seed.
+  struct MappingOption {
+    std::unique_ptr<ScenarioReader> reader;
+    bool drawn;
+  };
+  struct ListOption {
+    std::vector<std::unique_ptr<ScenarioReader>> readers;
+    bool drawn;
+  };
+  std::vector<MappingOption> descend(const std::string& name);
+  std::vector<ListOption> descendAll(const std::string& name);
   void refuseUnknownKeys() const;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,12 +1,11 @@
 #include "window_ingress/parameters/yaml.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
-
-#include <unistd.h>
 
 namespace window_ingress::parameters {
 namespace {
@@ -36,7 +35,8 @@ struct Sample {
 class YamlFile : public testing::Test {
  protected:
   std::string file_ = (std::filesystem::temp_directory_path() /
-                       ("window_ingress_" + std::to_string(::getpid()) + "_yaml_test.yaml")).string();
+                       ("window_ingress_" + std::to_string(::getpid()) + "_yaml_test.yaml"))
+                          .string();
   void TearDown() override { std::filesystem::remove(file_); }
 
   Sample read(const std::string& text, const std::string& section = "") {
@@ -75,6 +75,7 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("speed_mps: quick\n"), file_ + ":1: speed_mps: must be a number");
   EXPECT_EQ(error("inner: {count: 1.5}\n"), file_ + ":1: count: must be a whole number");
   EXPECT_NE(error("speed_mps: .nan\n").find("not within"), std::string::npos);
+  EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: stands here for the second time");
   EXPECT_NE(error("a: [1, 2\n").find("not valid yaml"), std::string::npos);
   EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
 }

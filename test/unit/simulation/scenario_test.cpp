@@ -108,7 +108,10 @@ TEST_F(ScenarioFile, DrawsOneOfSeveralValuesOfAnyKind) {
 
 TEST_F(ScenarioFile, ABadOptionIsAnErrorWhateverTheSeed) {
   for (std::uint32_t seed = 0; seed < 8; ++seed)
-    EXPECT_THROW(read("start: {distance_m: {one_of: [3, 500]}}", seed), ScenarioError);
+    for (const char* text :
+         {"start: {distance_m: {one_of: [3, 500]}}", "start: {one_of: [{distance_m: 3}, {distanse_m: 4}]}",
+          "decoys: {one_of: [[], [{y_m: 3, colour: 1}]]}", "vehicle: {one_of: [crisp, zeppelin]}"})
+      EXPECT_THROW(read(text, seed), ScenarioError) << text;
   EXPECT_NE(error("start: {distance_m: {one_of: []}}").find("at least one value"), std::string::npos);
   EXPECT_NE(error("start: {distance_m: {one_of: 3}}").find("at least one value"), std::string::npos);
 }
@@ -134,6 +137,17 @@ TEST_F(ScenarioFile, ReadsFaultsAndDrawsThem) {
 TEST_F(ScenarioFile, AVehicleMayBeNamedByItsProfileAlone) {
   EXPECT_EQ(read("vehicle: external", 1).vehicle.profile, "external");
   EXPECT_NE(error("vehicle: zeppelin").find("profile = zeppelin is none of default"), std::string::npos);
+  std::set<std::string> profiles;
+  for (std::uint32_t seed = 0; seed < 30; ++seed)
+    profiles.insert(read("vehicle: {one_of: [crisp, {mass_kg: 2}]}", seed).vehicle.profile);
+  EXPECT_EQ(profiles, (std::set<std::string>{"crisp", "default"}));
+}
+
+TEST_F(ScenarioFile, AKeyMayNotStandTwice) {
+  EXPECT_EQ(error("start:\n  distance_m: 4\n  distance_m: 5\n"),
+            file_ + ":3: start/distance_m: stands here for the second time");
+  EXPECT_NE(error("house: {}\nhouse: {}\n").find(":2: house: stands here"), std::string::npos);
+  EXPECT_NE(error("? {a: 1}\n: 2\n").find(":1: a key must be a word"), std::string::npos);
 }
 
 TEST_F(ScenarioFile, NamesFileLineAndKeyOfEveryKindOfFault) {
