@@ -45,12 +45,16 @@ WorldReferee::WorldReferee(ros::NodeHandle& nh, const std::string& file) : file_
 void WorldReferee::restart() {
   claim_ = simulation::Claim::kNone;
   mission_start_sec_ = -1.0;
+  heard_of_this_flight_ = false;
   said_ = {};
   judge_due_sec_ = verdict_due_sec_ = 0.0;
 }
 
 void WorldReferee::hear(const window_ingress::IngressState& message, const simulation::World& world) {
   using State = window_ingress::IngressState;
+  const bool is_over = message.state == State::PASSED || message.state == State::ABORTED;
+  heard_of_this_flight_ = heard_of_this_flight_ || !is_over;
+  if (!heard_of_this_flight_) return;
   if (message.state == State::PASSED) claim_ = simulation::Claim::kPassed;
   if (message.state == State::ABORTED) claim_ = simulation::Claim::kAborted;
   if (message.state == State::IDLE) claim_ = simulation::Claim::kNone;

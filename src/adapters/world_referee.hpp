@@ -30,6 +30,7 @@ class WorldReferee {
   std::string file_;
   ros::Publisher publisher_;
   simulation::Claim claim_ = simulation::Claim::kNone;
+  bool heard_of_this_flight_ = false;  // before it, PASSED and ABORTED are what became of an earlier one
   window_ingress::FlightVerdict said_;
   double mission_start_sec_ = -1.0, judge_due_sec_ = 0.0, verdict_due_sec_ = 0.0;  // in the world's time
 };

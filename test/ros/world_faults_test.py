@@ -14,6 +14,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from sensor_msgs.srv import SetCameraInfo
 from std_srvs.srv import Trigger
+from window_ingress.msg import FlightVerdict, IngressState
 from window_ingress.srv import Inject
 
 import support
@@ -54,6 +55,24 @@ class WorldFaultsTest(unittest.TestCase):
         self.assertAlmostEqual((again.header.stamp - said).to_sec(), SHORT_S, delta=0.2)
         stamps = [m.header.stamp for m in imu.since(0.0)]
         self.assertGreater(sum(said < s < again.header.stamp for s in stamps), 80, "the imu went on")
+
+    def test_what_a_vehicle_claims_of_an_earlier_flight_is_no_verdict_on_the_next(self):
+        verdicts = self.listen("referee", FlightVerdict)
+        publisher = rospy.Publisher("state", IngressState, queue_size=1)
+        support.wait_for(lambda: publisher.get_num_connections() > 0, "the world hears states")
+
+        def say(state, duration_s):
+            end = time.monotonic() + duration_s
+            while time.monotonic() < end:
+                publisher.publish(IngressState(state=state))
+                time.sleep(0.05)
+
+        self.assertTrue(self.reset().success)
+        say(IngressState.PASSED, 1.5)
+        self.assertEqual(verdicts.since(0.0)[-1].outcome_name, "RUNNING")
+        say(IngressState.SEARCH, 0.5)
+        say(IngressState.PASSED, 1.0)
+        self.assertEqual(verdicts.since(0.0)[-1].outcome_name, "FALSE_INGRESS")
 
     def test_garbage_and_wrong(self):
         odometry, imu, info = self.listen("odom", Odometry), self.listen("imu", Imu), self.listen("camera_info", CameraInfo)
