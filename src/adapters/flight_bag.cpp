@@ -24,16 +24,31 @@ tf2_msgs::TFMessage tfMsg(const std::vector<geometry_msgs::TransformStamped>& tr
 
 }  // namespace
 
-FlightBag::FlightBag(const std::string& file) { bag_.open(file, rosbag::bagmode::Write); }
+FlightBag::FlightBag(const std::string& file)
+    : bag_(std::make_unique<rosbag::Bag>(file, rosbag::bagmode::Write)) {}
+
+// A bag that cannot be closed throws in its own destructor, too: it must not be destroyed then.
+FlightBag::~FlightBag() {
+  try {
+    if (bag_) bag_->close();
+  } catch (const std::exception&) {
+    static_cast<void>(bag_.release());
+  }
+}
+
+template <typename Message>
+void FlightBag::write(const char* topic, const ros::Time& now, const Message& message) {
+  bag_->write(topic, now, message);
+}
 
 void FlightBag::onStart(const simulation::World& world) {
   world_ = &world;
   twist_in_odom_ = world.scenario().odometry.twist_frame == "world";
   const ros::Time stamp = stampOf(0.0);
-  bag_.write("/tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
-  bag_.write("/reference", stamp, toReferenceMsg(world, headerOf(stamp, kCameraFrame)));
-  bag_.write("/ground_truth/window", stamp,
-             toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
+  write("/tf_static", stamp, tfMsg(mountingOf(world.T_base_camera(), stamp, frames_, kCameraFrame)));
+  write("/reference", stamp, toReferenceMsg(world, headerOf(stamp, kCameraFrame)));
+  write("/ground_truth/window", stamp,
+        toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
 }
 
 void FlightBag::onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace&,
@@ -44,22 +59,25 @@ void FlightBag::onImage(const simulation::CameraFrame& frame, const detection::D
   picture.format = "bgr8; jpeg compressed bgr8";
   cv::imencode(".jpg", frame.image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, 95});
   picture.data.assign(jpeg_.begin(), jpeg_.end());
-  bag_.write("/image_raw/compressed", now, picture);
-  sensor_msgs::CameraInfo info = toMsg(world_->camera());
-  info.header = picture.header;
-  bag_.write("/camera_info", now, info);
-  bag_.write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, picture.header));
+  write("/image_raw/compressed", now, picture);
+  write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, picture.header));
+}
+
+void FlightBag::onCalibration(const simulation::CalibrationSample& sample) {
+  sensor_msgs::CameraInfo info = toMsg(sample.camera);
+  info.header = headerOf(stampOf(sample.stamp_sec), kCameraFrame);
+  write("/camera_info", stampOf(world_->timeSec()), info);
 }
 
 void FlightBag::onOdometry(const simulation::OdometrySample& sample) {
   const ros::Time now = stampOf(world_->timeSec());
   const auto message = toOdometryMsg(sample, stampOf(sample.stamp_sec), frames_, twist_in_odom_);
-  bag_.write("/odom", now, message);
-  bag_.write("/tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
+  write("/odom", now, message);
+  write("/tf", now, tfMsg({toTransformStampedMsg(sample.T_odom_base, message.header, frames_.base)}));
 }
 
 void FlightBag::onImu(const simulation::ImuSample& sample) {
-  bag_.write("/imu", stampOf(world_->timeSec()), toImuMsg(sample, stampOf(sample.stamp_sec), frames_));
+  write("/imu", stampOf(world_->timeSec()), toImuMsg(sample, stampOf(sample.stamp_sec), frames_));
 }
 
 void FlightBag::onStep(const evaluation::FlightRecord&, const navigation::NavigatorOutput& output) {
@@ -68,11 +86,13 @@ void FlightBag::onStep(const evaluation::FlightRecord&, const navigation::Naviga
   setpoint.header = headerOf(now, frames_.odom);
   setpoint.twist.linear = toVectorMsg(output.setpoint.velocity_odom_mps);
   setpoint.twist.angular.z = output.setpoint.yaw_rate_radps;
-  if (output.enabled) bag_.write("/cmd_vel", now, setpoint);
+  if (output.enabled) write("/cmd_vel", now, setpoint);
   window_ingress::IngressState state = toMsg(output);
   state.header = headerOf(now, frames_.odom);
-  bag_.write("/state", now, state);
-  bag_.write("/ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
+  write("/state", now, state);
+  write("/ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
 }
+
+void FlightBag::onEnd() { bag_->close(); }
 
 }  // namespace window_ingress::adapters

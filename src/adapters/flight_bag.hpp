@@ -2,6 +2,7 @@
 
 #include <rosbag/bag.h>
 
+#include <memory>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -16,18 +17,25 @@ namespace window_ingress::adapters {
 /// rviz read it.
 class FlightBag : public evaluation::FlightObserver {
  public:
-  /// \throws rosbag::BagException if the file cannot be written
+  /// Here and in every call: \throws rosbag::BagException if the file cannot be written
   explicit FlightBag(const std::string& file);
+  /// A flight that was broken off: closes without a word.
+  ~FlightBag() override;
 
   void onStart(const simulation::World& world) override;
   void onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace& trace,
                const std::optional<detection::WindowObservation>& window) override;
+  void onCalibration(const simulation::CalibrationSample& sample) override;
   void onOdometry(const simulation::OdometrySample& sample) override;
   void onImu(const simulation::ImuSample& sample) override;
   void onStep(const evaluation::FlightRecord& record, const navigation::NavigatorOutput& output) override;
+  void onEnd() override;  ///< writes what is left
 
  private:
-  rosbag::Bag bag_;
+  template <typename Message>
+  void write(const char* topic, const ros::Time& now, const Message& message);
+
+  std::unique_ptr<rosbag::Bag> bag_;
   FrameNames frames_;
   const simulation::World* world_ = nullptr;
   bool twist_in_odom_ = false;

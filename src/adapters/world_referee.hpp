@@ -24,6 +24,7 @@ class WorldReferee {
   void finish() const;  ///< the node ends
 
  private:
+  double limitBegins(const simulation::World& world) const;
   window_ingress::FlightVerdict verdict(const simulation::World& world, const ros::Time& now) const;
   void write() const;
 

@@ -73,9 +73,10 @@ class Flight {
       timing_.lap(Stage::kNavigator);
       keepTrack();
       if (!observers_.empty()) report();
-      verdict = world_.referee().judge(claimOf(output_.state));
+      verdict = world_.referee().judge(claimOf(output_.state), started_sec_.value_or(0.0));
       timing_.lap(Stage::kOther);
     }
+    for (auto* observer : observers_) observer->onEnd();
     timing_.addSimulated(world_.timeSec());
     return verdict;
   }
@@ -85,7 +86,7 @@ class Flight {
 
  private:
   void sense();
-  void calibrate(const geometry::PinholeCamera& camera);
+  void calibrate(const simulation::CalibrationSample& sample);
   void look(const simulation::CameraFrame& frame);
   void step();
   void keepTrack();
@@ -119,14 +120,15 @@ void Flight::sense() {
     for (auto* observer : observers_) observer->onImu(*imu);
     tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
   }
-  if (const auto calibration = world_.takeCalibration()) calibrate(calibration->camera);
+  while (const auto calibration = world_.takeCalibration()) calibrate(*calibration);
   if (const auto frame = world_.takeFrame()) look(*frame);
 }
 
 // A calibration that cannot be used withdraws the one before.
-void Flight::calibrate(const geometry::PinholeCamera& camera) {
+void Flight::calibrate(const simulation::CalibrationSample& sample) {
+  for (auto* observer : observers_) observer->onCalibration(sample);
   camera_.reset();
-  if (camera.validate().empty()) camera_ = camera;
+  if (sample.camera.validate().empty()) camera_ = sample.camera;
 }
 
 void Flight::look(const simulation::CameraFrame& frame) {

@@ -81,8 +81,9 @@ void Referee::watchSides(const Sample& now) {
 }
 
 void Referee::watchCrossing(const Sample& now) {
-  if (crossing_ || !previous_) return;
+  if (!previous_) return;
   const Eigen::Vector3d a = previous_->T_window_base.translation(), b = now.T_window_base.translation();
+  if (a.x() >= 0.0 && b.x() < 0.0) crossing_.reset();
   if (!(a.x() < 0.0 && b.x() >= 0.0)) return;
   const double part = -a.x() / (b.x() - a.x());
   const Eigen::Vector3d at = a + part * (b - a);
@@ -114,7 +115,7 @@ void Referee::watchStanding(const Sample& now, double speed_mps) {
   stood_behind_ = stood_behind_ || now.time_sec - *standing_since_sec_ >= kStandingTime_sec;
 }
 
-Verdict Referee::judge(Claim claim) const {
+Verdict Referee::judge(Claim claim, double mission_start_sec) const {
   const bool crossed_inside = crossing_ && crossing_->inside;
   if (touched()) return {Outcome::kCollision, "touched " + contact_ + text(" at %.2f s", contact_time_sec_)};
   if (crossed_inside && stood_behind_)
@@ -123,7 +124,7 @@ Verdict Referee::judge(Claim claim) const {
   if (claim == Claim::kPassed && !crossed_inside)
     return {Outcome::kFalseIngress, text("claims to have passed at %.2f s and has not", time_sec_)};
   if (claim == Claim::kAborted) return {Outcome::kAborted, text("gave up at %.2f s", time_sec_)};
-  if (time_sec_ >= course_.time_limit_sec)
+  if (time_sec_ - mission_start_sec >= course_.time_limit_sec)
     return {Outcome::kTimeout, text("not done after %.1f s", course_.time_limit_sec)};
   return {Outcome::kRunning, ""};
 }

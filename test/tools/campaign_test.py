@@ -41,6 +41,9 @@ def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     lost.unlink()
     assert run(*command, "--resume").returncode == 0
     assert lost.exists() and kept.stat().st_mtime_ns == before
+    command[command.index("1..2")] = "1..4"
+    other = run(*command, "--resume")
+    assert other.returncode == 1 and "other seeds than 1..4" in other.stderr
 
 
 def test_a_failed_shard_is_an_error_and_no_result(tmp_path):

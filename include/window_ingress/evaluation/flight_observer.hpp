@@ -20,10 +20,13 @@ class FlightObserver {
   /// Each picture, with what the detector made of it.
   virtual void onImage(const simulation::CameraFrame&, const detection::DetectionTrace&,
                        const std::optional<detection::WindowObservation>&) {}
+  virtual void onCalibration(const simulation::CalibrationSample&) {}
   virtual void onOdometry(const simulation::OdometrySample&) {}
   virtual void onImu(const simulation::ImuSample&) {}
   /// Each step of the navigator, with the truth beside it.
   virtual void onStep(const FlightRecord&, const navigation::NavigatorOutput&) {}
+  /// Once, after everything else; the last chance to throw.
+  virtual void onEnd() {}
 };
 
 }  // namespace window_ingress::evaluation

@@ -45,10 +45,10 @@ struct Verdict {
 
 /// Judges a flight by the truth alone.
 ///
-/// PASSED: the first crossing of the plane lies inside the opening less the vehicle's half extents (of its
-/// box as turned at that moment), nothing was ever touched, and the vehicle stood (< `kStandingSpeed_mps` for
-/// `kStandingTime_sec`) with its whole box behind the wall. What the vehicle claims cannot make a flight
-/// PASSED.
+/// PASSED: the crossing of the plane (the last one, should the vehicle have come out again) lies inside the
+/// opening less the vehicle's half extents (of its box as turned at that moment), nothing was ever touched,
+/// and the vehicle stood (< `kStandingSpeed_mps` for `kStandingTime_sec`) with its whole box behind the wall.
+/// What the vehicle claims cannot make a flight PASSED.
 class Referee {
  public:
   static constexpr double kStandingSpeed_mps = 0.1;
@@ -60,8 +60,9 @@ class Referee {
   void update(double time_sec, const VehicleTruth& truth);
 
   /// COLLISION before all else; then PASSED; then what the claim makes of the flight; then TIMEOUT. A claim
-  /// of having passed after a true crossing is still RUNNING until the vehicle stands.
-  Verdict judge(Claim claim) const;
+  /// of having passed after a true crossing is still RUNNING until the vehicle stands. The time limit runs
+  /// from `mission_start_sec`.
+  Verdict judge(Claim claim, double mission_start_sec = 0.0) const;
 
   const std::optional<Crossing>& crossing() const { return crossing_; }
   bool touched() const { return !contact_.empty(); }

@@ -56,6 +56,28 @@ class Flight : public testing::Test {
   double yaw_rad_ = 0.0, time_sec_ = 0.0;
 };
 
+TEST_F(Flight, WhoComesOutAgainHasNotCrossed) {
+  flyTo({-1.5, 0, 0});
+  flyTo({0.5, 0.1, 0});
+  ASSERT_TRUE(referee_.crossing());
+  flyTo({-1.5, 0, 0});
+  EXPECT_FALSE(referee_.crossing());
+  EXPECT_EQ(outcome(Claim::kPassed), Outcome::kFalseIngress);
+  flyTo({1.5, -0.1, 0});
+  stand(1.0);
+  ASSERT_TRUE(referee_.crossing());
+  EXPECT_LT(referee_.crossing()->offset_y_m, 0.0) << "the second way counts";
+  EXPECT_EQ(outcome(), Outcome::kPassed);
+}
+
+TEST_F(Flight, TheTimeLimitRunsFromTheStartOfTheMission) {
+  stand(60.1);
+  EXPECT_EQ(outcome(), Outcome::kTimeout);
+  EXPECT_EQ(referee_.judge(Claim::kNone, 10.0).outcome, Outcome::kRunning);
+  stand(10.0);
+  EXPECT_EQ(referee_.judge(Claim::kNone, 10.0).outcome, Outcome::kTimeout);
+}
+
 TEST_F(Flight, ACleanPassWithAStopBehindIsPassed) {
   flyTo({-1.5, 0, 0});
   flyTo({1.5, 0.1, -0.05});
