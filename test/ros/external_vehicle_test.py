@@ -66,7 +66,7 @@ class Flight:
             message = odometry_at(self.began, count)
             Flight._publisher.publish(message)
             while not self._over.is_set() and count > 10 and message.header.stamp - self._truth() > rospy.Duration(0.1):
-                time.sleep(0.001)
+                self._over.wait(0.001)
 
     def _truth(self):
         stamps = [m.header.stamp for m in self._truths.since(time.monotonic() - 5.0)]
