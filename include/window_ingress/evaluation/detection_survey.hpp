@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/evaluation/survey_picture.hpp"
+
+namespace window_ingress::evaluation {
+
+/// What the detector made of one picture.
+enum class SurveyVerdict {
+  kHit,          ///< the inner border, every corner within `hitTolerance`
+  kInexact,      ///< the inner border, but a corner is farther away
+  kOuterBorder,  ///< the outer border of the frame taken for it
+  kFarBorder,    ///< the border in the room, at the wall's back, taken for it
+  kWrongTarget,  ///< something else taken for it
+  kMissed,       ///< nothing found
+  kNothing,      ///< nothing found where there is nothing
+  kFalseAlarm    ///< something found where there is nothing
+};
+constexpr int kSurveyVerdicts = static_cast<int>(SurveyVerdict::kFalseAlarm) + 1;
+const char* toString(SurveyVerdict verdict);
+
+/// 3 px or 2 % of the true border's mean side, whichever is more [px].
+double hitTolerance(const geometry::Quadrilateral& truth);
+
+/// Which of the window's borders a quadrilateral is: the one whose corners are nearest in the mean, if it
+/// covers half of their union at least.
+SurveyVerdict judge(const std::optional<geometry::Quadrilateral>& found, const SurveyTruth& truth);
+
+/// One picture of the survey.
+struct SurveyResult {
+  std::string scenario;
+  std::uint32_t seed = 0;
+  double distance_m = 0.0, off_axis_rad = 0.0, milliseconds = 0.0;
+  SurveyTruth truth;
+  std::optional<detection::WindowObservation> window;
+  SurveyVerdict verdict = SurveyVerdict::kMissed;
+  std::string outcome;  ///< of the whole picture, for people
+  /// What stopped the best candidate that lies on the inner border; "unseen" if none does.
+  std::string true_candidate;
+};
+
+SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detection::WindowObservation>& window,
+                      const detection::DetectionTrace& trace, double milliseconds);
+
+std::string surveyColumns();
+std::string surveyRow(const SurveyResult& result);  ///< no line end
+
+/// Corner errors of hits.
+class CornerStatistics {
+ public:
+  void add(const geometry::Quadrilateral& found, const geometry::Quadrilateral& truth);
+  int frames() const { return frames_; }
+  Eigen::Vector2d rms() const;   ///< per axis [px]
+  Eigen::Vector2d mean() const;  ///< per axis [px]
+  /// Mean distance of the corners from the true sides, positive outwards: positive if the found border is too
+  /// large [px].
+  double outward() const;
+
+ private:
+  int frames_ = 0;
+  Eigen::Vector2d sum_ = Eigen::Vector2d::Zero(), squares_ = Eigen::Vector2d::Zero();
+  double outward_sum_ = 0.0;
+};
+
+/// One scenario, or all of them.
+class SurveySummary {
+ public:
+  static constexpr std::array<double, 4> kBins_m{2.0, 3.0, 5.0, 8.0};
+
+  void add(const SurveyResult& result);
+  int frames() const { return frames_; }
+  int count(SurveyVerdict verdict) const { return counts_[static_cast<int>(verdict)]; }
+  double part(SurveyVerdict verdict) const;  ///< 0 to 1
+  /// The i-th bin of the distance; nearer and farther ones count to the first and the last.
+  const CornerStatistics& corners(int bin) const { return corners_[bin]; }
+  const std::map<std::string, int>& misses() const {
+    return misses_;
+  }  ///< by what stopped the true candidate
+  double medianMilliseconds() const;
+
+ private:
+  int frames_ = 0;
+  std::array<int, kSurveyVerdicts> counts_{};
+  std::array<CornerStatistics, kBins_m.size() - 1> corners_;
+  std::map<std::string, int> misses_;
+  std::vector<double> milliseconds_;
+};
+
+/// Scenarios in the order in which they came.
+class SurveyTable {
+ public:
+  void add(const SurveyResult& result);
+  std::string csv() const;       ///< one row a scenario
+  std::string markdown() const;  ///< the same in two tables: what was found, and how exactly
+
+ private:
+  std::vector<std::pair<std::string, SurveySummary>> scenarios_;
+};
+
+}  // namespace window_ingress::evaluation

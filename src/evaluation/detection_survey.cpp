@@ -1,0 +1,163 @@
+#include "window_ingress/evaluation/detection_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "window_ingress/evaluation/detection_table.hpp"
+#include "window_ingress/evaluation/statistics.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kTolerance_px = 3.0, kTolerance = 0.02;
+constexpr double kSameWindowIou = 0.5, kOnBorderIou = 0.8;
+constexpr double kDegreesPerRad = 57.29577951308232;
+
+double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
+  double sum = 0.0;
+  for (int i = 0; i < 4; ++i) sum += (a[i] - b[i]).norm();
+  return 0.25 * sum;
+}
+
+double worstCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
+  double worst = 0.0;
+  for (int i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).norm());
+  return worst;
+}
+
+std::string number(const char* pattern, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+std::string corners(const Quadrilateral& quad) {
+  std::string text;
+  for (const Eigen::Vector2d& corner : quad)
+    text += "," + number("%.4f", corner.x()) + "," + number("%.4f", corner.y());
+  return text;
+}
+
+// Of the candidates that lie on the true border, the one that got farthest.
+std::string fateOfTrueCandidate(const detection::DetectionTrace& trace, const Quadrilateral& truth) {
+  double best = kOnBorderIou;
+  const detection::CandidateTrace* found = nullptr;
+  for (const auto& candidate : trace.candidates) {
+    if (!geometry::isConvex(candidate.quad)) continue;
+    const double iou = geometry::intersectionOverUnion(candidate.quad, truth);
+    if (iou < best) continue;
+    best = iou;
+    found = &candidate;
+  }
+  return found ? detection::toString(found->reject) : "unseen";
+}
+
+}  // namespace
+
+const char* toString(SurveyVerdict verdict) {
+  static constexpr std::array<const char*, kSurveyVerdicts> kNames{
+      "hit", "inexact", "outer_border", "far_border", "wrong_target", "missed", "nothing", "false_alarm"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+double hitTolerance(const Quadrilateral& truth) {
+  const auto sides = geometry::sideLengths(truth);
+  return std::max(kTolerance_px, kTolerance * 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]));
+}
+
+SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth& truth) {
+  if (!truth.present) return found ? SurveyVerdict::kFalseAlarm : SurveyVerdict::kNothing;
+  if (!found) return SurveyVerdict::kMissed;
+  const Quadrilateral* nearest = &truth.inner;
+  SurveyVerdict border = SurveyVerdict::kInexact;
+  const auto consider = [&](const Quadrilateral& other, SurveyVerdict verdict) {
+    if (meanCornerDistance(*found, other) >= meanCornerDistance(*found, *nearest)) return;
+    nearest = &other;
+    border = verdict;
+  };
+  if (truth.outer) consider(*truth.outer, SurveyVerdict::kOuterBorder);
+  consider(truth.far, SurveyVerdict::kFarBorder);
+  if (geometry::intersectionOverUnion(*found, *nearest) < kSameWindowIou) return SurveyVerdict::kWrongTarget;
+  if (border != SurveyVerdict::kInexact) return border;
+  return worstCornerDistance(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit : border;
+}
+
+SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detection::WindowObservation>& window,
+                      const detection::DetectionTrace& trace, double milliseconds) {
+  SurveyResult result;
+  result.scenario = picture.scenario;
+  result.seed = picture.seed;
+  result.distance_m = picture.distance_m;
+  result.off_axis_rad = picture.off_axis_rad;
+  result.milliseconds = milliseconds;
+  result.truth = picture.truth;
+  result.window = window;
+  result.verdict = judge(window ? std::make_optional(window->corners) : std::nullopt, picture.truth);
+  result.outcome = window ? "found" : std::string(detection::toString(trace.outcome)) + ": " + trace.detail;
+  if (picture.truth.present) result.true_candidate = fateOfTrueCandidate(trace, picture.truth.inner);
+  return result;
+}
+
+std::string surveyColumns() {
+  std::string text = "scenario,seed,distance_m,off_axis_deg,verdict,score,bhattacharyya,worst_corner_px";
+  for (const char* quad : {"found", "true"})
+    for (int i = 1; i <= 4; ++i)
+      for (const char* axis : {"x", "y"}) text += std::string(",") + quad + "_" + axis + std::to_string(i);
+  return text + ",outcome,true_candidate,milliseconds";
+}
+
+std::string surveyRow(const SurveyResult& result) {
+  const auto& window = result.window;
+  std::string text =
+      result.scenario + "," + std::to_string(result.seed) + "," + number("%.3f", result.distance_m) + "," +
+      number("%.2f", result.off_axis_rad * kDegreesPerRad) + "," + toString(result.verdict) + ",";
+  if (window) text += number("%.4f", window->score);
+  text += ",";
+  if (window && window->has_appearance) text += number("%.4f", window->bhattacharyya);
+  text += ",";
+  if (window && result.truth.present)
+    text += number("%.3f", worstCornerDistance(window->corners, result.truth.inner));
+  text += window ? corners(window->corners) : ",,,,,,,,";
+  text += corners(result.truth.inner);
+  return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +
+         number("%.3f", result.milliseconds);
+}
+
+void CornerStatistics::add(const Quadrilateral& found, const Quadrilateral& truth) {
+  ++frames_;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d error = found[i] - truth[i];
+    sum_ += error;
+    squares_ += error.cwiseAbs2();
+    const Eigen::Vector2d along = (truth[(i + 1) % 4] - truth[i]).normalized();
+    const Eigen::Vector2d out(along.y(), -along.x());
+    outward_sum_ += 0.5 * out.dot(error + found[(i + 1) % 4] - truth[(i + 1) % 4]);
+  }
+}
+
+Eigen::Vector2d CornerStatistics::rms() const { return (squares_ / std::max(1, 4 * frames_)).cwiseSqrt(); }
+Eigen::Vector2d CornerStatistics::mean() const { return sum_ / std::max(1, 4 * frames_); }
+double CornerStatistics::outward() const { return outward_sum_ / std::max(1, 4 * frames_); }
+
+void SurveySummary::add(const SurveyResult& result) {
+  ++frames_;
+  ++counts_[static_cast<int>(result.verdict)];
+  milliseconds_.push_back(result.milliseconds);
+  if (result.verdict == SurveyVerdict::kMissed) ++misses_[result.true_candidate];
+  if (result.verdict != SurveyVerdict::kHit) return;
+  std::size_t bin = 0;
+  while (bin + 1 < corners_.size() && result.distance_m >= kBins_m[bin + 1]) ++bin;
+  corners_[bin].add(result.window->corners, result.truth.inner);
+}
+
+double SurveySummary::part(SurveyVerdict verdict) const {
+  return frames_ > 0 ? static_cast<double>(count(verdict)) / frames_ : 0.0;
+}
+
+double SurveySummary::medianMilliseconds() const { return quantile(milliseconds_, 0.5); }
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,182 @@
+/// Measures the detector on random views of scenarios; see --help.
+#include <boost/program_options.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/evaluation/detection_survey.hpp"
+#include "window_ingress/evaluation/survey_folder.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using namespace window_ingress;
+using tools::UsageError;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kRadPerDegree = 0.017453292519943295;
+
+struct Options {
+  std::vector<std::string> scenarios;
+  std::string output, params, save, load, distance, antialiasing;
+  int frames = 100;
+  std::uint32_t seed = 1;
+  double off_axis_deg = 45.0;
+  bool no_reference = false, still = false, without_target = false;
+};
+
+po::options_description describe(Options& o) {
+  po::options_description description(
+      "Usage: survey_detector --scenario FILE.yaml... --frames N --output DIR [options]\n"
+      "       survey_detector --load DIR --output DIR [options]\n"
+      "Draws random views of each scenario, looks for the window in each, and compares with the truth.\n"
+      "Writes DIR/frames.csv and DIR/summary.csv, prints the summary as tables.\n\nOptions");
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("scenario", po::value(&o.scenarios)->composing()->multitoken(), "scenario files");
+  add("frames", po::value(&o.frames)->default_value(o.frames), "of each scenario");
+  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first frame; each further one has the next");
+  add("output,o", po::value(&o.output), "folder of the results");
+  add("params", po::value(&o.params), "yaml file with a section 'detector'");
+  add("no-reference", po::bool_switch(&o.no_reference), "without the picture of the target");
+  add("distance", po::value(&o.distance)->default_value("2,8"), "NEAREST,FARTHEST [m]");
+  add("off-axis", po::value(&o.off_axis_deg)->default_value(o.off_axis_deg), "to either side, at most [deg]");
+  add("static-camera", po::bool_switch(&o.still), "the camera does not move");
+  add("without-target", po::bool_switch(&o.without_target),
+      "the scenario, but the wall closed at the target");
+  add("antialiasing", po::value(&o.antialiasing), "instead of the scenario's: edges or multisampling");
+  add("save", po::value(&o.save), "folder for the pictures and the truth about them");
+  add("load", po::value(&o.load), "pictures from such a folder, instead of drawing them");
+  return description;
+}
+
+evaluation::ViewRange rangeOf(const Options& o) {
+  const auto distance = tools::numbers("--distance", o.distance, 2);
+  if (distance[0] < 0.3 || distance[1] < distance[0] || distance[1] > 100.0)
+    throw UsageError("--distance: needs 0.3 <= NEAREST <= FARTHEST <= 100");
+  if (!(o.off_axis_deg >= 0.0 && o.off_axis_deg < 85.0))
+    throw UsageError("--off-axis: needs 0 to 85 degrees");
+  evaluation::ViewRange range;
+  range.nearest_m = distance[0];
+  range.farthest_m = distance[1];
+  range.off_axis_rad = o.off_axis_deg * kRadPerDegree;
+  range.still = o.still;
+  return range;
+}
+
+void check(const Options& o) {
+  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.scenarios.empty() == o.load.empty())
+    throw UsageError("needs either --scenario or --load; see --help");
+  if (!o.load.empty() && !o.save.empty()) throw UsageError("--save has no use with --load");
+  if (o.frames < 1) throw UsageError("--frames: needs 1 at least");
+}
+
+/// Looks for the window in one picture after the other.
+class Survey {
+ public:
+  explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)) {
+    tools::makeFolder(o.output);
+    frames_.open(fs::path(o.output) / "frames.csv");
+    frames_ << evaluation::surveyColumns() << "\n";
+  }
+
+  void look(const evaluation::SurveyPicture& picture) {
+    if (options_.no_reference || picture.reference.empty())
+      detector_.clearReference();
+    else
+      detector_.setReference(detection::ReferenceAppearance(picture.reference, picture.reference_corners));
+    const auto start = Clock::now();
+    const auto window = detector_.detect(picture.image, 0.0, &picture.camera);
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const auto result = evaluation::resultOf(picture, window, detector_.trace(), ms);
+    frames_ << evaluation::surveyRow(result) << "\n";
+    table_.add(result);
+  }
+
+  void finish() {
+    std::ofstream summary(fs::path(options_.output) / "summary.csv");
+    summary << table_.csv();
+    if (!frames_.flush() || !summary.flush())
+      throw std::runtime_error(options_.output + ": cannot be written; is the disk full?");
+    std::cout << table_.markdown();
+  }
+
+ private:
+  static detection::DetectorParams paramsOf(const Options& o) {
+    detection::DetectorParams params;
+    if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", params))
+      throw UsageError(o.params + ": no section 'detector' in this file");
+    return params;
+  }
+
+  Options options_;
+  detection::WindowDetector detector_;
+  std::ofstream frames_;
+  evaluation::SurveyTable table_;
+};
+
+simulation::Scenario load(const std::string& file, std::uint32_t seed, const Options& o) {
+  simulation::Scenario scenario = simulation::loadScenario(file, seed);
+  if (!o.antialiasing.empty()) scenario.camera.antialiasing = o.antialiasing;
+  if (o.without_target) scenario.window.present = false;
+  const auto faults = simulation::faultsOf(scenario);
+  if (!faults.empty()) throw UsageError(file + ": " + faults[0]);
+  return scenario;
+}
+
+void draw(const Options& o, const std::function<void(const evaluation::SurveyPicture&)>& use) {
+  const evaluation::ViewRange range = rangeOf(o);
+  for (const std::string& file : o.scenarios)
+    for (int i = 0; i < o.frames; ++i) {
+      const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(i);
+      auto picture = evaluation::takePicture(load(file, seed, o), seed, range, !o.no_reference);
+      picture.scenario = fs::path(file).stem().string();
+      use(picture);
+    }
+}
+
+int run(const Options& o) {
+  check(o);
+  Survey survey(o);
+  evaluation::SurveyFolder folder(o.load.empty() ? o.save : o.load);
+  if (!o.load.empty()) {
+    folder.readTable();
+    for (int i = 0; i < folder.size(); ++i) survey.look(folder.load(i));
+  } else {
+    if (!o.save.empty()) tools::makeFolder(o.save);
+    draw(o, [&](const evaluation::SurveyPicture& picture) {
+      if (!o.save.empty()) folder.add(picture);
+      survey.look(picture);
+    });
+    if (!o.save.empty()) folder.writeTable();
+  }
+  survey.finish();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  return tools::runTool("survey_detector", [&] {
+    Options o;
+    const auto description = describe(o);
+    po::variables_map given;
+    po::store(po::command_line_parser(argc, argv).options(description).run(), given);
+    po::notify(given);
+    if (given.count("help") == 0) return run(o);
+    std::cout << description;
+    return 0;
+  });
+}
