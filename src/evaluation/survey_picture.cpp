@@ -1,8 +1,8 @@
 #include "window_ingress/evaluation/survey_picture.hpp"
 
 #include "window_ingress/simulation/camera_sensor.hpp"
+#include "window_ingress/simulation/reference_picture.hpp"
 #include "window_ingress/simulation/scene.hpp"
-#include "window_ingress/simulation/world.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -47,8 +47,7 @@ SurveyPicture takePicture(const simulation::Scenario& scenario, std::uint32_t se
   picture.off_axis_rad = view.off_axis_rad;
   picture.truth = truthOf(scenario, scene, picture.camera, view.motion);
   picture.image = expose(scenario, scene, view.motion, seed);
-  if (with_reference)
-    picture.reference = simulation::World(scenario, seed).referencePicture(&picture.reference_corners);
+  if (with_reference) picture.reference = simulation::referencePicture(scenario, &picture.reference_corners);
   return picture;
 }
 

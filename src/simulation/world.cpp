@@ -8,15 +8,12 @@
 #include "window_ingress/simulation/camera_sensor.hpp"
 #include "window_ingress/simulation/faults.hpp"
 #include "window_ingress/simulation/followed_vehicle.hpp"
-#include "window_ingress/simulation/renderer.hpp"
+#include "window_ingress/simulation/reference_picture.hpp"
 #include "window_ingress/simulation/scene.hpp"
 #include "window_ingress/simulation/wind.hpp"
 
 namespace window_ingress::simulation {
 namespace {
-
-constexpr double kReferenceDistance_m = 2.5;
-constexpr double kReferencePart = 0.5;  // of the picture's width or height that the opening may fill
 
 const Scenario& checked(const Scenario& scenario) {
   const auto faults = faultsOf(scenario);
@@ -261,19 +258,7 @@ const Scenario& World::scenario() const { return impl_->scenario; }
 const Referee& World::referee() const { return impl_->referee; }
 
 cv::Mat World::referencePicture(geometry::Quadrilateral* corners) const {
-  geometry::PinholeCamera ideal = impl_->model;
-  ideal.distortion = {};
-  const geometry::OpeningSize size = opening();
-  const double distance_m =
-      std::max({kReferenceDistance_m, ideal.fx * size.width_m / (kReferencePart * ideal.width),
-                ideal.fy * size.height_m / (kReferencePart * ideal.height)});
-  const Eigen::Isometry3d T_camera_window = geometry::makePose(geometry::R_optical_flu(), {0, 0, distance_m});
-  cv::Mat picture;
-  Renderer(buildScene(asPhotographed(impl_->scenario)), ideal).render(T_camera_window, picture);
-  const double gain = impl_->scenario.camera.gain;
-  if (gain != 1.0) picture.convertTo(picture, CV_8U, gain);
-  if (corners) *corners = *geometry::projectOpening(ideal, T_camera_window, size);
-  return picture;
+  return simulation::referencePicture(impl_->scenario, corners);
 }
 
 }  // namespace window_ingress::simulation

@@ -76,9 +76,7 @@ class World {
   Eigen::Vector3d vehicleHalfExtents() const;  ///< of the body's box [m]
   const Scenario& scenario() const;
   const Referee& referee() const;
-  /// The target as an operator would have photographed it on the same day: square, sharp, open, with frame and
-  /// surround, in the camera's exposure; and the corners of its opening in that picture. It shows the target
-  /// even where the wall or the window is closed by now.
+  /// As `simulation::referencePicture` of the scenario.
   cv::Mat referencePicture(geometry::Quadrilateral* corners) const;
 
  private:
