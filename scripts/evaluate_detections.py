@@ -4,11 +4,16 @@
 A picture counts as found if its detection overlaps any annotated quadrilateral by IoU >= 0.7. Rates are averaged over
 scenes, not over pictures. Precision: detections on pictures without a target, and on pictures whose every target is
 annotated. Labels that start with pose_only_ are no targets.
+
+The pictures fall into two halves, by a hash of scene and file name: what is tuned is tuned on the half `tune`, what is
+reported is measured on the half `report`. Names that differ in their last digit only, neighbours in a video, go together.
 """
 import argparse
 import collections
 import csv
+import hashlib
 import os
+import re
 import sys
 
 
@@ -59,6 +64,17 @@ def read(path):
         return list(csv.DictReader(file))
 
 
+def half_of(scene, name):
+    """"tune" or "report"."""
+    stem = os.path.splitext(os.path.basename(name))[0]
+    key = scene + "/" + re.sub(r"[0-9]$", "", stem)
+    return ("tune", "report")[hashlib.md5(key.encode()).digest()[0] & 1]
+
+
+def only(records, half):
+    return [r for r in records if half == "all" or half_of(r["scene"], r["file"]) == half]
+
+
 def evaluate(detections, annotations, meta, leave_out, min_iou):
     """One record a picture: scene, tier, whether it holds a target, detected, overlap with the best target."""
     quads = collections.defaultdict(list)
@@ -78,7 +94,7 @@ def evaluate(detections, annotations, meta, leave_out, min_iou):
         records.append({"file": name, "scene": info["scene"], "tier": info["tier"], "hard": name in hard,
                         "target": bool(quads[name]), "exhaustive": info["exhaustive"] == "yes",
                         "detected": found is not None, "iou": best, "hit": best >= min_iou,
-                        "score": float(row["score"] or 0), "ms": float(row["milliseconds"] or 0)})
+                        "score": float(row["score"] or 0), "reason": row["reject_reason"], "ms": float(row["milliseconds"] or 0)})
     return records
 
 
@@ -118,6 +134,13 @@ def report(records, title, per_scene):
         print(f"time: median {times[len(times) // 2]:.2f} ms, largest {times[-1]:.2f} ms")
 
 
+def print_misses(records):
+    for r in records:
+        if not r["hit"] and (r["target"] or r["detected"]):
+            said = f"iou {r['iou']:.2f} score {r['score']:.2f}" if r["detected"] else r["reason"]
+            print(f"{r['tier']:3s} {r['scene'][:44]:44s} {r['file']:46s} {said}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("detections", help="csv of detect_images")
@@ -125,7 +148,7 @@ def main():
     parser.add_argument("--meta", required=True)
     parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="picture the reference is from")
     parser.add_argument("--iou", type=float, default=0.7)
-    parser.add_argument("--halves", action="store_true", help="also for every second picture of each scene")
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those pictures")
     parser.add_argument("--per-scene", action="store_true")
     parser.add_argument("--misses", action="store_true", help="list the pictures whose target was not found")
     options = parser.parse_args()
@@ -139,18 +162,10 @@ def main():
     if not records:
         print(f"evaluate_detections: {options.detections}: no picture of {options.meta} in it", file=sys.stderr)
         return 1
-    report(records, "all", options.per_scene)
-    if options.halves:
-        places, halves = collections.Counter(), ([], [])
-        for r in sorted(records, key=lambda r: r["file"]):
-            halves[places[r["scene"]] % 2].append(r)
-            places[r["scene"]] += 1
-        report(halves[0], "even half", False)
-        report(halves[1], "odd half", False)
+    records = only(records, options.half)
+    report(records, options.half, options.per_scene)
     if options.misses:
-        for r in records:
-            if r["target"] != r["hit"] or (not r["target"] and r["detected"]):
-                print(f"{r['tier']} {r['scene'][:30]:30s} {r['file']:50s} iou {r['iou']:.2f} score {r['score']:.2f}")
+        print_misses(records)
     return 0
 
 
