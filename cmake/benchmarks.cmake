@@ -1,14 +1,57 @@
-# Measurements, never part of the tests: benchmark_<name> for each test/benchmark/<name>_benchmark.cpp, where Google
-# Benchmark is installed. Run e.g. build/core/benchmark_detection --benchmark_filter=detector
+# Measurements, never part of the package or of its tests; scripts/bench installs, builds and runs them.
+#   benchmark_draw_frames  the pictures that need no recordings
+#   benchmark_detection    times, with Google Benchmark
+#   benchmark_instructions the same, counted under callgrind
+#   benchmark_allocations  allocations a picture, by who asks for them
+#   benchmark_memory       memory over an hour's worth of pictures
+set(folder ${PROJECT_SOURCE_DIR}/test/benchmark)
+
+add_library(benchmark_support STATIC EXCLUDE_FROM_ALL ${folder}/frame_set.cpp ${folder}/subjects.cpp ${folder}/stages.cpp
+            ${folder}/marker_subjects.cpp)
+target_include_directories(benchmark_support PUBLIC ${folder} ${PROJECT_SOURCE_DIR}/test/support)
+target_link_libraries(benchmark_support PUBLIC ${PROJECT_NAME}_simulation opencv_imgcodecs nlohmann_json::nlohmann_json)
+
+find_path(APRILTAG_INCLUDE_DIR apriltag/apriltag.h)
+find_library(APRILTAG_LIBRARY apriltag)
+if(APRILTAG_INCLUDE_DIR AND APRILTAG_LIBRARY)
+  target_include_directories(benchmark_support SYSTEM PRIVATE ${APRILTAG_INCLUDE_DIR})
+  target_compile_definitions(benchmark_support PRIVATE WINDOW_INGRESS_WITH_APRILTAG)
+  target_link_libraries(benchmark_support PRIVATE ${APRILTAG_LIBRARY})
+else()
+  message(STATUS "benchmarks: without AprilTag (libapriltag-dev is not installed)")
+endif()
+
+# Markers moved from the contributed module into objdetect with OpenCV 4.7.
+find_path(ARUCO_INCLUDE_DIR NAMES opencv2/objdetect/aruco_detector.hpp opencv2/aruco.hpp PATHS ${OpenCV_INCLUDE_DIRS})
+if(ARUCO_INCLUDE_DIR AND TARGET opencv_aruco)
+  target_compile_definitions(benchmark_support PRIVATE WINDOW_INGRESS_WITH_ARUCO)
+  target_link_libraries(benchmark_support PRIVATE opencv_aruco)
+elseif(ARUCO_INCLUDE_DIR AND TARGET opencv_objdetect AND NOT OpenCV_VERSION VERSION_LESS 4.7)
+  target_compile_definitions(benchmark_support PRIVATE WINDOW_INGRESS_WITH_ARUCO)
+  target_link_libraries(benchmark_support PRIVATE opencv_objdetect)
+else()
+  message(STATUS "benchmarks: without ArUco (libopencv-contrib-dev is not installed)")
+endif()
+
+# add_benchmark(name libraries...)
+function(add_benchmark name)
+  add_executable(benchmark_${name} EXCLUDE_FROM_ALL ${folder}/${name}.cpp)
+  target_link_libraries(benchmark_${name} benchmark_support ${ARGN})
+  target_compile_definitions(benchmark_${name} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endfunction()
+
+add_benchmark(draw_frames)
 find_package(benchmark QUIET)
 if(benchmark_FOUND)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/benchmark/*_benchmark.cpp)
-  foreach(source ${sources})
-    get_filename_component(name ${source} NAME_WE)
-    string(REPLACE _benchmark "" name ${name})
-    add_executable(benchmark_${name} EXCLUDE_FROM_ALL ${source})
-    target_link_libraries(benchmark_${name} ${PROJECT_NAME}_simulation benchmark::benchmark)
-    target_include_directories(benchmark_${name} PRIVATE ${PROJECT_SOURCE_DIR}/test/support)
-    target_compile_definitions(benchmark_${name} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  endforeach()
+  add_benchmark(detection benchmark::benchmark)
+else()
+  message(STATUS "benchmarks: without times (libbenchmark-dev is not installed)")
+endif()
+
+find_path(VALGRIND_INCLUDE_DIR valgrind/callgrind.h)
+if(VALGRIND_INCLUDE_DIR)
+  add_benchmark(instructions)
+  target_include_directories(benchmark_instructions SYSTEM PRIVATE ${VALGRIND_INCLUDE_DIR})
+else()
+  message(STATUS "benchmarks: without instructions (valgrind is not installed)")
 endif()

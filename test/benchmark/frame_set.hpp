@@ -1,0 +1,35 @@
+/// The pictures that all measurements share, in a folder: lossless files and an index.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::bench {
+
+/// Successive pictures of one camera before one target.
+struct Sequence {
+  std::string name;                  ///< of the rows in the tables
+  std::string kind;                  ///< "rendering", "drawn", "recording" or "photograph"
+  double period_sec = 1.0 / 30.0;    ///< between the pictures [s]
+  std::vector<cv::Mat> images;       ///< CV_8UC3, BGR; at least one
+  std::vector<cv::Mat> grey_images;  ///< the same, CV_8UC1
+  std::optional<geometry::PinholeCamera> camera;
+  std::optional<detection::ReferenceAppearance> reference;
+
+  const geometry::PinholeCamera* cameraOrNull() const { return camera ? &*camera : nullptr; }
+};
+
+/// Reads `folder`/frames.json: a list of {name, kind, period_sec, images: [files], camera: {width, height,
+/// fx, fy, cx, cy, distortion: [5]} or null, reference: {picture: file, corners: [8] or null} or null}.
+/// \throws std::runtime_error, one line "file: what is wrong"
+std::vector<Sequence> readFrameSet(const std::string& folder);
+
+/// Adds one sequence to the index, made if need be, and writes its pictures as PNG.
+void addToFrameSet(const std::string& folder, const Sequence& sequence);
+
+}  // namespace window_ingress::bench

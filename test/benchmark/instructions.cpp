@@ -1,0 +1,51 @@
+/// Instructions a picture: the figure that does not depend on the machine's load. Under callgrind, which
+/// writes one file for each subject and sequence, with "subject/sequence" in its head:
+///   valgrind --tool=callgrind --instr-atstart=no benchmark_instructions --frames=FOLDER [SUBJECT...]
+/// The first pictures of each sequence are used, once for warming up and once counted; how many, it prints.
+#include <valgrind/callgrind.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <opencv2/core/utility.hpp>
+
+#include "arguments.hpp"
+#include "subjects.hpp"
+
+namespace {
+
+using namespace window_ingress::bench;
+
+constexpr std::size_t kPictures = 2;
+
+void count(const Subject& subject, const Sequence& sequence) {
+  const Step step = subject.start(sequence);
+  if (!step) return;
+  const std::size_t pictures = std::min(kPictures, sequence.images.size());
+  for (std::size_t i = 0; i < pictures; ++i) step();
+  const std::string name = subject.name + "/" + sequence.name;
+  CALLGRIND_START_INSTRUMENTATION;
+  CALLGRIND_ZERO_STATS;
+  for (std::size_t i = 0; i < pictures; ++i) step();
+  CALLGRIND_DUMP_STATS_AT(name.c_str());
+  CALLGRIND_STOP_INSTRUMENTATION;
+  std::printf("%s pictures=%zu\n", name.c_str(), pictures);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  try {
+    const Arguments arguments(argc, argv);
+    for (Sequence& sequence : readFrameSet(arguments.value("frames", "out/bench/frames"))) {
+      sequence.images.resize(std::min(kPictures, sequence.images.size()));
+      for (const Subject& subject : allSubjects())
+        if (arguments.names(subject.name)) count(subject, sequence);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_instructions: %s\n", error.what());
+    return 2;
+  }
+}

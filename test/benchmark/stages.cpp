@@ -1,0 +1,94 @@
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "subjects.hpp"
+#include "window_ingress/detection/candidate_search.hpp"
+#include "window_ingress/detection/target_borders.hpp"
+
+namespace window_ingress::bench {
+namespace {
+
+using namespace window_ingress::detection;
+
+/// The stages in the order of the search, with what those before gave, on the first picture.
+struct Stages {
+  explicit Stages(const Sequence& from) : sequence(from), image(from.images.front()) {
+    level = preprocess.run(image);
+    map = edges.run(level.image);
+    segments = lines.run(map);
+    closed = closing.run(map.edges).clone();
+    rivals = search.run(image, trace);
+  }
+
+  const Sequence& sequence;
+  cv::Mat image;
+  DetectorParams params;
+  Preprocess preprocess{params.preprocess};
+  EdgeDetector edges{params.edges};
+  LineSupport lines{params.lines};
+  Closing closing{params.closing};
+  ContourPolygons contours{params.contours};
+  SegmentQuads quads{params.segment_quads};
+  CandidateSearch search{params};
+  TargetBorders borders{params.refinement};
+  SearchLevel level;
+  EdgeMap map;
+  std::vector<Segment> segments;
+  cv::Mat closed;
+  DetectionTrace trace;
+  std::vector<Rival> rivals;
+};
+
+bool runPreprocess(Stages& s) { return !s.preprocess.run(s.image).image.empty(); }
+bool runEdges(Stages& s) { return !s.edges.run(s.level.image).edges.empty(); }
+bool runLines(Stages& s) { return !s.lines.run(s.map).empty(); }
+bool runClosing(Stages& s) { return !s.closing.run(s.map.edges).empty(); }
+bool runContours(Stages& s) {
+  return !s.contours.run(s.closed, s.closing.radiusPx(s.closed.size())).candidates.empty();
+}
+bool runSegmentQuads(Stages& s) {
+  return !s.quads.run(s.segments, s.params.gates.min_area * s.level.image.size().area()).candidates.empty();
+}
+bool runHalfSearch(Stages& s) {
+  s.trace = DetectionTrace();
+  return !s.search.run(s.image, s.trace).empty();
+}
+bool runAppearance(Stages& s) {
+  bool compared = false;
+  for (const Rival& rival : s.rivals)
+    compared |= s.sequence.reference->distance(s.image, rival.quad, s.params.appearance).has_value();
+  return compared;
+}
+bool runBorders(Stages& s) {
+  double inliers = 0.0;
+  return s.borders.seen(s.image, s.rivals.front(), s.search.factor(), s.sequence.cameraOrNull(), &inliers)
+      .has_value();
+}
+
+using Run = bool (*)(Stages&);
+
+Subject stage(const char* name, Run run, bool (*applies)(const Stages&) = nullptr) {
+  return {std::string("stage_") + name, [run, applies](const Sequence& sequence) -> Step {
+            auto stages = std::make_shared<Stages>(sequence);
+            if (applies && !applies(*stages)) return {};
+            return [run, stages] { return run(*stages); };
+          }};
+}
+
+}  // namespace
+
+std::vector<Subject> ownStages() {
+  const auto has_reference = [](const Stages& s) { return s.sequence.reference.has_value(); };
+  const auto has_rival = [](const Stages& s) { return !s.rivals.empty(); };
+  return {stage("preprocess", runPreprocess),
+          stage("edges", runEdges),
+          stage("lines", runLines),
+          stage("closing", runClosing),
+          stage("contours", runContours),
+          stage("segment_quads", runSegmentQuads),
+          stage("all_to_candidates", runHalfSearch),
+          stage("appearance_of_all", runAppearance, has_reference),
+          stage("borders_of_one", runBorders, has_rival)};
+}
+
+}  // namespace window_ingress::bench
