@@ -143,15 +143,34 @@ Eigen::Vector2d CornerStatistics::rms() const { return (squares_ / std::max(1, 4
 Eigen::Vector2d CornerStatistics::mean() const { return sum_ / std::max(1, 4 * frames_); }
 double CornerStatistics::outward() const { return outward_sum_ / std::max(1, 4 * frames_); }
 
+std::string DistanceBin::name() const {
+  const std::string nearest = number("%g", nearest_m);
+  return (nearest_m == farthest_m ? nearest : nearest + "-" + number("%g", farthest_m)) + " m";
+}
+
+std::vector<DistanceBin> defaultBins() { return {{2.0, 3.0}, {3.0, 5.0}, {5.0, 8.0}}; }
+
+std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m) {
+  std::vector<DistanceBin> bins;
+  for (const double distance_m : distances_m) bins.push_back({distance_m, distance_m});
+  return bins;
+}
+
+std::size_t SurveySummary::binOf(double distance_m) const {
+  const auto away = [&](const DistanceBin& bin) {
+    return std::max({0.0, bin.nearest_m - distance_m, distance_m - bin.farthest_m});
+  };
+  const auto nearer = [&](const DistanceBin& a, const DistanceBin& b) { return away(a) < away(b); };
+  return static_cast<std::size_t>(std::min_element(bins_.begin(), bins_.end(), nearer) - bins_.begin());
+}
+
 void SurveySummary::add(const SurveyResult& result) {
   ++frames_;
   ++counts_[static_cast<int>(result.verdict)];
   milliseconds_.push_back(result.milliseconds);
   if (result.verdict == SurveyVerdict::kMissed) ++misses_[result.true_candidate];
   if (result.verdict != SurveyVerdict::kHit) return;
-  std::size_t bin = 0;
-  while (bin + 1 < corners_.size() && result.distance_m >= kBins_m[bin + 1]) ++bin;
-  corners_[bin].add(result.window->corners, result.truth.inner);
+  if (!bins_.empty()) corners_[binOf(result.distance_m)].add(result.window->corners, result.truth.inner);
 }
 
 double SurveySummary::part(SurveyVerdict verdict) const {

@@ -6,8 +6,6 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr int kBins = static_cast<int>(SurveySummary::kBins_m.size()) - 1;
-
 std::string number(const char* pattern, double value) {
   char text[48];
   std::snprintf(text, sizeof text, pattern, value);
@@ -21,10 +19,6 @@ std::string missesOf(const SurveySummary& summary) {
   return text;
 }
 
-std::string binName(int bin) {
-  return number("%g", SurveySummary::kBins_m[bin]) + "-" + number("%g", SurveySummary::kBins_m[bin + 1]);
-}
-
 std::string found(const std::string& name, const SurveySummary& s) {
   std::string text = "| " + name + " | " + std::to_string(s.frames());
   for (int i = 0; i < kSurveyVerdicts; ++i)
@@ -34,7 +28,7 @@ std::string found(const std::string& name, const SurveySummary& s) {
 
 std::string exactness(const std::string& name, const SurveySummary& s) {
   std::string text = "| " + name;
-  for (int bin = 0; bin < kBins; ++bin) {
+  for (std::size_t bin = 0; bin < s.bins().size(); ++bin) {
     const CornerStatistics& c = s.corners(bin);
     text += " | " + std::to_string(c.frames());
     if (c.frames() == 0) {
@@ -59,7 +53,7 @@ std::string rule(int columns) {
 void SurveyTable::add(const SurveyResult& result) {
   const auto is_same = [&](const auto& entry) { return entry.first == result.scenario; };
   auto entry = std::find_if(scenarios_.begin(), scenarios_.end(), is_same);
-  if (entry == scenarios_.end()) entry = scenarios_.insert(entry, {result.scenario, {}});
+  if (entry == scenarios_.end()) entry = scenarios_.insert(entry, {result.scenario, SurveySummary(bins_)});
   entry->second.add(result);
 }
 
@@ -68,16 +62,16 @@ std::string SurveyTable::csv() const {
   for (int i = 0; i < kSurveyVerdicts; ++i)
     text += std::string(",") + toString(static_cast<SurveyVerdict>(i));
   text += ",misses";
-  for (int bin = 0; bin < kBins; ++bin)
+  for (const DistanceBin& bin : bins_)
     for (const char* column : {"frames", "rms_x_px", "rms_y_px", "mean_x_px", "mean_y_px", "outward_px"})
-      text += "," + std::string(column) + "_" + binName(bin) + "m";
+      text += "," + std::string(column) + "_" + bin.name();
   text += ",milliseconds\n";
   for (const auto& [name, s] : scenarios_) {
     text += name + "," + std::to_string(s.frames());
     for (int i = 0; i < kSurveyVerdicts; ++i)
       text += "," + std::to_string(s.count(static_cast<SurveyVerdict>(i)));
     text += "," + missesOf(s);
-    for (int bin = 0; bin < kBins; ++bin) {
+    for (std::size_t bin = 0; bin < s.bins().size(); ++bin) {
       const CornerStatistics& c = s.corners(bin);
       text += "," + std::to_string(c.frames());
       for (const double value : {c.rms().x(), c.rms().y(), c.mean().x(), c.mean().y(), c.outward()})
@@ -95,9 +89,9 @@ std::string SurveyTable::markdown() const {
   text += " | missed: the true candidate's end | median ms |\n" + rule(kSurveyVerdicts + 4);
   for (const auto& [name, summary] : scenarios_) text += found(name, summary);
   text += "\n| scenario";
-  for (int bin = 0; bin < kBins; ++bin)
-    text += " | hits at " + binName(bin) + " m | RMS x, y px | mean x, y px | outward px";
-  text += " |\n" + rule(1 + 4 * kBins);
+  for (const DistanceBin& bin : bins_)
+    text += " | hits at " + bin.name() + " | RMS x, y px | mean x, y px | outward px";
+  text += " |\n" + rule(1 + 4 * static_cast<int>(bins_.size()));
   for (const auto& [name, summary] : scenarios_) text += exactness(name, summary);
   return text;
 }

@@ -1,4 +1,5 @@
 /// Measures the detector on random views of scenarios; see --help.
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <filesystem>
@@ -28,7 +29,7 @@ constexpr double kRadPerDegree = 0.017453292519943295;
 
 struct Options {
   std::vector<std::string> scenarios;
-  std::string output, params, save, load, distance, antialiasing;
+  std::string output, params, save, load, distance, at, antialiasing;
   int frames = 100;
   std::uint32_t seed = 1;
   double off_axis_deg = 45.0;
@@ -50,6 +51,7 @@ po::options_description describe(Options& o) {
   add("params", po::value(&o.params), "yaml file with a section 'detector'");
   add("no-reference", po::bool_switch(&o.no_reference), "without the picture of the target");
   add("distance", po::value(&o.distance)->default_value("2,8"), "NEAREST,FARTHEST [m]");
+  add("at", po::value(&o.at), "D1,D2,...: at these distances in turn, instead of --distance [m]");
   add("off-axis", po::value(&o.off_axis_deg)->default_value(o.off_axis_deg), "to either side, at most [deg]");
   add("static-camera", po::bool_switch(&o.still), "the camera does not move");
   add("without-target", po::bool_switch(&o.without_target),
@@ -60,15 +62,30 @@ po::options_description describe(Options& o) {
   return description;
 }
 
-evaluation::ViewRange rangeOf(const Options& o) {
-  const auto distance = tools::numbers("--distance", o.distance, 2);
-  if (distance[0] < 0.3 || distance[1] < distance[0] || distance[1] > 100.0)
-    throw UsageError("--distance: needs 0.3 <= NEAREST <= FARTHEST <= 100");
+void checkDistances(const std::string& option, const std::vector<double>& distances) {
+  for (const double distance : distances)
+    if (distance < 0.3 || distance > 100.0) throw UsageError(option + ": needs distances of 0.3 to 100 m");
+  if (!std::is_sorted(distances.begin(), distances.end()))
+    throw UsageError(option + ": needs rising distances");
+}
+
+std::vector<double> fixedDistances(const Options& o) {
+  if (o.at.empty()) return {};
+  const auto commas = static_cast<std::size_t>(std::count(o.at.begin(), o.at.end(), ','));
+  const std::vector<double> distances = tools::numbers("--at", o.at, commas + 1);
+  checkDistances("--at", distances);
+  return distances;
+}
+
+// Of the i-th frame.
+evaluation::ViewRange rangeOf(const Options& o, int i) {
   if (!(o.off_axis_deg >= 0.0 && o.off_axis_deg < 85.0))
     throw UsageError("--off-axis: needs 0 to 85 degrees");
+  const std::vector<double> fixed = fixedDistances(o), range_m = tools::numbers("--distance", o.distance, 2);
+  checkDistances("--distance", range_m);
   evaluation::ViewRange range;
-  range.nearest_m = distance[0];
-  range.farthest_m = distance[1];
+  range.nearest_m = fixed.empty() ? range_m[0] : fixed[i % fixed.size()];
+  range.farthest_m = fixed.empty() ? range_m[1] : range.nearest_m;
   range.off_axis_rad = o.off_axis_deg * kRadPerDegree;
   range.still = o.still;
   return range;
@@ -85,7 +102,7 @@ void check(const Options& o) {
 /// Looks for the window in one picture after the other.
 class Survey {
  public:
-  explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)) {
+  explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)), table_(binsOf(o)) {
     tools::makeFolder(o.output);
     frames_.open(fs::path(o.output) / "frames.csv");
     frames_ << evaluation::surveyColumns() << "\n";
@@ -113,6 +130,10 @@ class Survey {
   }
 
  private:
+  static std::vector<evaluation::DistanceBin> binsOf(const Options& o) {
+    return o.at.empty() ? evaluation::defaultBins() : evaluation::binsAt(fixedDistances(o));
+  }
+
   static detection::DetectorParams paramsOf(const Options& o) {
     detection::DetectorParams params;
     if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", params))
@@ -136,11 +157,10 @@ simulation::Scenario load(const std::string& file, std::uint32_t seed, const Opt
 }
 
 void draw(const Options& o, const std::function<void(const evaluation::SurveyPicture&)>& use) {
-  const evaluation::ViewRange range = rangeOf(o);
   for (const std::string& file : o.scenarios)
     for (int i = 0; i < o.frames; ++i) {
       const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(i);
-      auto picture = evaluation::takePicture(load(file, seed, o), seed, range, !o.no_reference);
+      auto picture = evaluation::takePicture(load(file, seed, o), seed, rangeOf(o, i), !o.no_reference);
       picture.scenario = fs::path(file).stem().string();
       use(picture);
     }

@@ -70,26 +70,38 @@ class CornerStatistics {
   double outward_sum_ = 0.0;
 };
 
+/// Distances whose corners are measured together, in rising order.
+struct DistanceBin {
+  double nearest_m, farthest_m;
+  std::string name() const;  ///< "2-3 m", or "2 m"
+};
+std::vector<DistanceBin> defaultBins();                                   ///< 2 to 3, 3 to 5 and 5 to 8 m
+std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m);  ///< one for each
+
 /// One scenario, or all of them.
 class SurveySummary {
  public:
-  static constexpr std::array<double, 4> kBins_m{2.0, 3.0, 5.0, 8.0};
+  explicit SurveySummary(const std::vector<DistanceBin>& bins) : bins_(bins), corners_(bins.size()) {}
 
   void add(const SurveyResult& result);
   int frames() const { return frames_; }
   int count(SurveyVerdict verdict) const { return counts_[static_cast<int>(verdict)]; }
   double part(SurveyVerdict verdict) const;  ///< 0 to 1
-  /// The i-th bin of the distance; nearer and farther ones count to the first and the last.
-  const CornerStatistics& corners(int bin) const { return corners_[bin]; }
+  /// Of the hits whose distance is nearest to the i-th bin.
+  const CornerStatistics& corners(std::size_t bin) const { return corners_.at(bin); }
+  const std::vector<DistanceBin>& bins() const { return bins_; }
   const std::map<std::string, int>& misses() const {
     return misses_;
   }  ///< by what stopped the true candidate
   double medianMilliseconds() const;
 
  private:
+  std::size_t binOf(double distance_m) const;
+
   int frames_ = 0;
   std::array<int, kSurveyVerdicts> counts_{};
-  std::array<CornerStatistics, kBins_m.size() - 1> corners_;
+  std::vector<DistanceBin> bins_;
+  std::vector<CornerStatistics> corners_;
   std::map<std::string, int> misses_;
   std::vector<double> milliseconds_;
 };
@@ -97,11 +109,13 @@ class SurveySummary {
 /// Scenarios in the order in which they came.
 class SurveyTable {
  public:
+  explicit SurveyTable(const std::vector<DistanceBin>& bins = defaultBins()) : bins_(bins) {}
   void add(const SurveyResult& result);
   std::string csv() const;       ///< one row a scenario
   std::string markdown() const;  ///< the same in two tables: what was found, and how exactly
 
  private:
+  std::vector<DistanceBin> bins_;
   std::vector<std::pair<std::string, SurveySummary>> scenarios_;
 };
 
