@@ -1,66 +1,55 @@
 #include "window_ingress/detection/robust_line.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 namespace window_ingress::detection {
 namespace {
 
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
-
-constexpr int kPasses = 6;
+constexpr int kPasses = 8;
+constexpr double kSettledPx = 1e-5;
 
 double bisquare(double x) { return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0; }
 
 // The points may all lie a little beside the start: weights about their median.
-std::vector<double> firstWeights(const std::vector<Vector2d>& points, double scale_px, const Line& line) {
-  std::vector<double> distances(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) distances[i] = line.distance(points[i]);
-  std::vector<double> sorted = distances;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double median = sorted[sorted.size() / 2];
-  for (double& value : distances) value = 1e-3 + bisquare((value - median) / (6.0 * scale_px));
-  return distances;
+void firstWeights(const OffsetPoints& points, double scale_px, const OffsetLine& line) {
+  double *rests = points.scratch, *sorted = points.scratch + points.count;
+  for (int i = 0; i < points.count; ++i) rests[i] = points.offsets[i] - line.at(points.positions[i]);
+  std::copy(rests, rests + points.count, sorted);
+  std::nth_element(sorted, sorted + points.count / 2, sorted + points.count);
+  const double median = sorted[points.count / 2];
+  for (int i = 0; i < points.count; ++i) rests[i] = 1e-3 + bisquare((rests[i] - median) / (6.0 * scale_px));
 }
 
-void solve(const std::vector<Vector2d>& points, const std::vector<double>& weights, Line& line) {
-  double sum = 0.0;
-  Vector2d mean = Vector2d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) sum += weights[i], mean += weights[i] * points[i];
-  if (sum <= 0.0) return;
-  mean /= sum;
-  Matrix2d scatter = Matrix2d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    scatter += weights[i] * (points[i] - mean) * (points[i] - mean).transpose();
-  Vector2d normal = Eigen::SelfAdjointEigenSolver<Matrix2d>(scatter).eigenvectors().col(0);
-  if (normal.dot(line.normal) < 0.0) normal = -normal;
-  line.point += normal * normal.dot(mean - line.point);
-  line.normal = normal;
+// Weighted least squares; false if the weights leave nothing to solve.
+bool solve(const OffsetPoints& points, OffsetLine& line) {
+  double w = 0, ws = 0, wd = 0, wss = 0, wsd = 0;
+  for (int i = 0; i < points.count; ++i) {
+    const double weight = points.scratch[i], s = points.positions[i], d = points.offsets[i];
+    w += weight, ws += weight * s, wd += weight * d, wss += weight * s * s, wsd += weight * s * d;
+  }
+  if (!(w > 0.0)) return false;
+  const double mean = ws / w, spread = wss - ws * mean;
+  if (!(spread > 1e-9 * w)) return false;
+  line.slope = (wsd - wd * mean) / spread;
+  line.offset = wd / w - line.slope * mean;
+  return true;
 }
 
 }  // namespace
 
-void fitRobustLine(const std::vector<Vector2d>& points, double scale_px, Line& line) {
-  if (points.size() < 2) return;
-  std::vector<double> weights = firstWeights(points, scale_px, line);
+void fitOffsets(const OffsetPoints& points, double scale_px, OffsetLine& line) {
+  if (points.count < 2) return;
+  const double reach = std::max(std::abs(points.positions[0]), std::abs(points.positions[points.count - 1]));
+  firstWeights(points, scale_px, line);
   for (int pass = 0; pass < kPasses; ++pass) {
-    solve(points, weights, line);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      weights[i] = bisquare(line.distance(points[i]) / (3.0 * scale_px));
+    const OffsetLine before = line;
+    if (!solve(points, line)) return;
+    const double moved = std::abs(line.offset - before.offset) + reach * std::abs(line.slope - before.slope);
+    if (pass > 1 && moved < kSettledPx) return;
+    for (int i = 0; i < points.count; ++i)
+      points.scratch[i] = bisquare((points.offsets[i] - line.at(points.positions[i])) / (3.0 * scale_px));
   }
-}
-
-LineSpread spreadAbout(const Line& line, const std::vector<Vector2d>& points, double scale_px) {
-  LineSpread spread;
-  for (const Vector2d& point : points) {
-    const double distance = line.distance(point);
-    if (std::abs(distance) > 2.0 * scale_px) continue;
-    ++spread.inliers;
-    spread.sum_of_squares += distance * distance;
-  }
-  return spread;
 }
 
 }  // namespace window_ingress::detection

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -57,10 +58,13 @@ struct BorderStart {
 
 /// Sub-pixel fit of the four borders on the gradient of the full image, undilated, corners by intersection.
 /// With a camera the borders are straight lines of the undistorted image: points are undistorted, not the
-/// image.
+/// image. Each side is sampled once, in narrow profiles. One object a thread: it keeps its memory.
 class BorderRefinement {
  public:
-  explicit BorderRefinement(const BorderRefinementParams& params) : params_(params) {}
+  explicit BorderRefinement(const BorderRefinementParams& params);
+  ~BorderRefinement();
+  BorderRefinement(BorderRefinement&&) noexcept;
+  BorderRefinement& operator=(BorderRefinement&&) noexcept;
 
   /// \param image CV_8UC1 or CV_8UC3
   /// \param worst_inliers where not null: part of the profiles on the line of the worst side, also on failure
@@ -68,8 +72,11 @@ class BorderRefinement {
                                     const geometry::PinholeCamera* camera,
                                     double* worst_inliers = nullptr) const;
 
+  struct Workspace;
+
  private:
   BorderRefinementParams params_;
+  std::unique_ptr<Workspace> memory_;
 };
 
 }  // namespace window_ingress::detection

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 namespace window_ingress::detection {
 
@@ -16,17 +15,24 @@ struct Line {
   double distance(const Eigen::Vector2d& p) const { return normal.dot(p - point); }
 };
 
-/// How well a line goes through points.
-struct LineSpread {
-  int inliers = 0;              ///< points within twice the scale
-  double sum_of_squares = 0.0;  ///< of their distances [px^2]
+/// A line near an axis: offset from it at a position along it.
+struct OffsetLine {
+  double offset = 0.0;  ///< at position 0 [px]
+  double slope = 0.0;   ///< [px a px]
+  double at(double position) const { return offset + slope * position; }
+};
+
+/// Points near an axis, in the caller's memory.
+struct OffsetPoints {
+  const double* positions;
+  const double* offsets;
+  double* scratch;  ///< room for two numbers a point
+  int count;
 };
 
 /// Moves the line onto the points, starting near it: reweighted least squares with Tukey's bisquare, so that
-/// points further off than a few times `scale_px` do not count. Its point stays where it was along the line.
-/// Fewer than two points leave it as it is.
-void fitRobustLine(const std::vector<Eigen::Vector2d>& points, double scale_px, Line& line);
-
-LineSpread spreadAbout(const Line& line, const std::vector<Eigen::Vector2d>& points, double scale_px);
+/// points further off than three times `scale_px` do not count in the end. Fewer than two points leave it as
+/// it is.
+void fitOffsets(const OffsetPoints& points, double scale_px, OffsetLine& line);
 
 }  // namespace window_ingress::detection

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -13,19 +15,39 @@ struct Edge {
   double sigma_px = 0.0;  ///< standard deviation of the fitted line across itself, at its middle [px]
   /// Standard deviation of the line's direction [rad].
   double sigma_rad = 0.0;
+  /// Ends of the stretch that was seen, on the fitted line, clockwise about the window; its middle is the
+  /// line's. Pixels of the image as it came (distorted). Both zero where only corners are known.
+  Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
 };
 
 /// The target window in one image: what the detector knows and nothing that it guesses.
+///
+/// A *partial* observation has borders but not all corners: near the window its sides leave the picture. A
+/// corner that was not seen is zero, its covariance too, and must not be read; its borders remain.
 struct WindowObservation {
   double stamp_sec = 0.0;  ///< exposure time of the image it was seen in
+  std::uint32_t target_id =
+      0;  ///< the same while it is certain to be the same window; from 1; 0: not tracked
   /// Inner border of the opening's front, canonical order, in pixels of the image as it came (distorted).
-  geometry::Quadrilateral corners;
+  geometry::Quadrilateral corners = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                     Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  std::array<bool, 4> corner_visible = {true, true, true, true};  ///< in the order of the corners
   /// Covariance of each corner [px^2], from the two edges that meet in it.
-  std::array<Eigen::Matrix2d, 4> corner_covariance;
+  std::array<Eigen::Matrix2d, 4> corner_covariance = {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(),
+                                                      Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
   std::array<Edge, 4> edges;    ///< top, right, bottom, left
   double score = 0.0;           ///< 0 (barely passed the gates) to 1 (certain)
   bool has_appearance = false;  ///< a reference was given and enough pixels could be compared
   double bhattacharyya = 0.0;   ///< 0 identical to 1 disjoint; only if has_appearance
+
+  /// All four corners are seen: `corners` may be read as a quadrilateral.
+  bool whole() const {
+    return std::all_of(corner_visible.begin(), corner_visible.end(), [](bool seen) { return seen; });
+  }
+  int visibleSides() const {
+    return static_cast<int>(
+        std::count_if(edges.begin(), edges.end(), [](const Edge& edge) { return edge.visible; }));
+  }
 };
 
 }  // namespace window_ingress::detection

@@ -3,66 +3,69 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <vector>
 
 namespace window_ingress::detection {
 namespace {
 
-using Eigen::Vector2d;
-
-/// Points along a line through (50, 20) at this angle, with noise across it and every n-th one far off.
-std::vector<Vector2d> pointsOn(double angle_rad, double sigma_px, int outlier_every, unsigned seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0.0, sigma_px);
-  const Vector2d along(std::cos(angle_rad), std::sin(angle_rad)), normal(-along.y(), along.x());
-  std::vector<Vector2d> points;
-  for (int i = -40; i <= 40; ++i) {
-    const bool is_outlier = outlier_every > 0 && i % outlier_every == 0;
-    points.push_back(Vector2d(50, 20) + i * along + (is_outlier ? 6.0 : noise(random)) * normal);
+/// Points along a line with noise across it and every n-th one far off.
+struct Sample {
+  Sample(const OffsetLine& truth, double sigma_px, int outlier_every, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, sigma_px);
+    for (int i = -40; i <= 40; ++i) {
+      const bool is_outlier = outlier_every > 0 && i % outlier_every == 0;
+      positions.push_back(i);
+      offsets.push_back(truth.at(i) + (is_outlier ? 6.0 : noise(random)));
+    }
   }
-  return points;
-}
+  void fit(double scale_px, OffsetLine& line) {
+    scratch.resize(2 * positions.size());
+    fitOffsets({positions.data(), offsets.data(), scratch.data(), static_cast<int>(positions.size())},
+               scale_px, line);
+  }
+  std::vector<double> positions, offsets, scratch;
+};
 
-Line startAt(const Vector2d& point, double angle_rad) {
-  Line line;
-  line.point = point;
-  line.normal = Vector2d(-std::sin(angle_rad), std::cos(angle_rad));
-  return line;
-}
-
-TEST(RobustLine, IsExactWithoutNoiseAtEveryAngle) {
-  for (double angle = -1.5; angle < 1.5; angle += 0.1) {
-    Line line = startAt({50.3, 20.5}, angle + 0.02);
-    fitRobustLine(pointsOn(angle, 0.0, 0, 1), 1.0, line);
-    EXPECT_NEAR(line.distance({50, 20}), 0.0, 1e-9);
-    EXPECT_NEAR(line.distance(Vector2d(50, 20) + 30 * Vector2d(std::cos(angle), std::sin(angle))), 0.0, 1e-9);
-    EXPECT_NEAR(line.normal.norm(), 1.0, 1e-12);
+TEST(RobustLine, IsExactWithoutNoiseAtEverySlope) {
+  for (double slope = -0.3; slope < 0.3; slope += 0.05) {
+    OffsetLine line{0.5, slope + 0.01};
+    Sample({0.3, slope}, 0.0, 0, 1).fit(1.0, line);
+    EXPECT_NEAR(line.offset, 0.3, 1e-9);
+    EXPECT_NEAR(line.slope, slope, 1e-9);
   }
 }
 
 TEST(RobustLine, OutliersOnOneSideDoNotPull) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
-    Line line = startAt({50, 20.5}, 0.03);
-    const auto points = pointsOn(0.0, 0.1, 4, seed);
-    fitRobustLine(points, 0.5, line);
-    EXPECT_NEAR(line.distance({50, 20}), 0.0, 0.06);
-    EXPECT_EQ(spreadAbout(line, points, 0.5).inliers, 60);  // of 81, 21 are outliers
+    OffsetLine line{0.5, 0.02};
+    Sample({0.0, 0.0}, 0.1, 4, seed).fit(0.5, line);
+    EXPECT_NEAR(line.offset, 0.0, 0.06);
+    EXPECT_NEAR(line.slope, 0.0, 0.003);
   }
 }
 
-TEST(RobustLine, KeepsTheSideOfItsNormal) {
-  Line line = startAt({50, 20}, 0.0);
-  line.normal = -line.normal;
-  fitRobustLine(pointsOn(0.05, 0.0, 0, 1), 1.0, line);
-  EXPECT_LT(line.normal.y(), 0.0);
+TEST(RobustLine, SpreadOfManyFitsIsThatOfLeastSquares) {
+  double squares = 0.0;
+  const int trials = 400;
+  for (int seed = 0; seed < trials; ++seed) {
+    OffsetLine line;
+    Sample({0.2, 0.01}, 0.1, 0, 100 + seed).fit(0.6, line);
+    squares += std::pow(line.offset - 0.2, 2) / trials;
+  }
+  EXPECT_NEAR(std::sqrt(squares), 0.1 / std::sqrt(81.0), 0.002);
 }
 
-TEST(RobustLine, TooFewPointsLeaveTheStart) {
-  Line line = startAt({1, 2}, 0.5);
-  fitRobustLine({}, 1.0, line);
-  fitRobustLine({Vector2d(9, 9)}, 1.0, line);
-  EXPECT_EQ(line.point, Vector2d(1, 2));
-  EXPECT_EQ(spreadAbout(line, {}, 1.0).inliers, 0);
+TEST(RobustLine, TooFewOrCoincidingPointsLeaveTheStart) {
+  OffsetLine line{3.0, 0.1};
+  fitOffsets({nullptr, nullptr, nullptr, 0}, 1.0, line);
+  Sample same({0.0, 0.0}, 0.0, 0, 1);
+  same.positions.assign(same.positions.size(), 5.0);
+  same.fit(1.0, line);
+  EXPECT_EQ(line.offset, 3.0);
+  EXPECT_EQ(line.slope, 0.1);
 }
 
 }  // namespace

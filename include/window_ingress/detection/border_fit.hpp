@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "window_ingress/detection/edge_profiles.hpp"
+#include "window_ingress/detection/robust_line.hpp"
+
+namespace window_ingress::detection {
+
+/// A border within the profiles taken across its start: offset and slope against the grid's middle line.
+struct FittedBorder {
+  OffsetLine line;
+  double from = 0.0, to = 0.0;  ///< outermost profiles on the line, positions along the grid [px]
+  double sigma_px = 0.0;        ///< across the line, in the middle between them [px]
+  double sigma_rad = 0.0;       ///< of its direction [rad]
+  int inliers = 0;              ///< profiles on the line
+
+  double middle() const { return 0.5 * (from + to); }
+  /// The line in the undistorted image, its point in the middle of what was seen.
+  Line inImage(const EdgeProfiles& profiles) const;
+};
+
+/// What a fit may take for the border.
+struct BorderFitLimits {
+  double radius_px = 2.0;        ///< reach across the line it is looked for at [px]
+  double prior_px = 1e3;         ///< scale of the preference for edges near that line [px]
+  double outlier_px = 0.6;       ///< scale of the robust fit [px]
+  double sigma_floor_px = 0.03;  ///< no border is claimed to be known better than this [px]
+};
+
+/// Sub-pixel position of one border: in each profile the steepest change of the wanted colour near a line, to
+/// a fraction of a pixel; a robust line through them; its spread by what is left over. Keeps its memory.
+class BorderFit {
+ public:
+  /// Takes the profiles along one direction in colour space, unit vector: towards it they rise outwards. Grey
+  /// profiles use its sum.
+  void project(const EdgeProfiles& profiles, const Eigen::Vector3f& colour);
+
+  /// Moves `border.line` onto the edges near it. \return false, and only the line changed, if there are fewer
+  /// than four profiles on it
+  bool run(const BorderFitLimits& limits, FittedBorder& border);
+
+ private:
+  void measure(const OffsetLine& about, const BorderFitLimits& limits);
+  void spread(const BorderFitLimits& limits, FittedBorder& border) const;
+
+  const EdgeProfiles* profiles_ = nullptr;
+  std::vector<float> slopes_;  // of the projected profiles, grey levels a pixel
+  std::vector<double> positions_, offsets_, scratch_;
+};
+
+}  // namespace window_ingress::detection

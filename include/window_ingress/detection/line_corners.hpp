@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "window_ingress/detection/robust_line.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// A point of the image and its covariance.
+struct LineCorner {
+  Eigen::Vector2d point;
+  Eigen::Matrix2d covariance;  ///< [px^2]
+};
+
+/// Where two borders meet, and how well that is known from the spreads of both. Nothing if they are nearly
+/// parallel.
+std::optional<LineCorner> meet(const Line& a, const Line& b);
+
+/// The same as a corner of the image as it came. \param lens null where that is free of distortion
+LineCorner throughLens(const LineCorner& ideal, const geometry::PinholeCamera* lens);
+
+/// A fitted line between two of its points, all of the undistorted image, as an edge of the image as it came.
+Edge edgeThroughLens(const Line& line, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                     const geometry::PinholeCamera* lens);
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,101 @@
+#include "window_ingress/detection/edge_profiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Pixels of the points middle + o * normal of the undistorted image, as a parabola in o: what a lens bends
+/// beyond that is less than a thousandth of a pixel over the reach of a profile.
+struct Path {
+  Vector2d at, slope, bend;
+
+  Path(const Vector2d& middle, const Vector2d& normal, double reach, const geometry::PinholeCamera* lens)
+      : at(middle), slope(normal), bend(Vector2d::Zero()) {
+    if (!lens) return;
+    const Vector2d low = lens->distort(middle - reach * normal),
+                   high = lens->distort(middle + reach * normal);
+    at = lens->distort(middle);
+    slope = (high - low) / (2.0 * reach);
+    bend = (0.5 * (high + low) - at) / (reach * reach);
+  }
+  Vector2d operator()(double o) const { return at + o * (slope + o * bend); }
+};
+
+bool isInside(const cv::Mat& image, const Vector2d& p, double margin) {
+  return p.x() >= margin && p.y() >= margin && p.x() < image.cols - 1 - margin &&
+         p.y() < image.rows - 1 - margin;
+}
+
+template <int kChannels>
+void readOne(const cv::Mat& image, float x, float y, float* out, int stride) {
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const float u = x - column, v = y - row;
+  const uchar* top = image.ptr<uchar>(row) + column * kChannels;
+  const uchar* bottom = top + image.step[0];
+  for (int c = 0; c < kChannels; ++c) {
+    const float upper = top[c] + u * (top[c + kChannels] - top[c]);
+    const float lower = bottom[c] + u * (bottom[c + kChannels] - bottom[c]);
+    out[c * stride] = upper + v * (lower - upper);
+  }
+}
+
+}  // namespace
+
+template <int kChannels>
+void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens) {
+  const double margin = lens ? 1.0 : 0.0;
+  for (int i = 0; i < count_; ++i) {
+    const Path path(point(position_[i], 0.0), normal_, reach_, lens);
+    inside_[i] = isInside(image, path(-reach_), margin) && isInside(image, path(reach_), margin) &&
+                 isInside(image, path.at, margin);
+    if (!inside_[i]) continue;
+    ++inside_count_;
+    float* out = values_.data() + static_cast<std::size_t>(i) * kChannels * width();
+    for (int o = -reach_; o <= reach_; ++o, ++out) {
+      const Vector2d p = path(o);
+      readOne<kChannels>(image, static_cast<float>(p.x()), static_cast<float>(p.y()), out, width());
+    }
+  }
+}
+
+void EdgeProfiles::sample(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                          const ProfileGrid& grid) {
+  const Vector2d span = grid.to - grid.from;
+  length_ = span.norm();
+  middle_ = 0.5 * (grid.from + grid.to);
+  normal_ = length_ > 0.0 ? Vector2d(span.y(), -span.x()) / length_ : Vector2d(Vector2d::UnitX());
+  channels_ = image.channels();
+  count_ = std::max(1, grid.count);
+  reach_ = std::max(1, grid.reach_px);
+  inside_count_ = 0;
+  values_.resize(static_cast<std::size_t>(count_) * channels_ * width());
+  position_.resize(count_);
+  inside_.assign(count_, 0);
+  for (int i = 0; i < count_; ++i)
+    position_[i] = length_ * (-0.5 + grid.skip + (1.0 - 2.0 * grid.skip) * (i + 0.5) / count_);
+  if (channels_ == 1)
+    fill<1>(image, lens);
+  else
+    fill<3>(image, lens);
+}
+
+int EdgeProfiles::mean(int first, int last, float* out) const {
+  const int size = channels_ * width();
+  std::fill(out, out + size, 0.0f);
+  int count = 0;
+  for (int i = first; i < last; ++i) {
+    if (!inside(i)) continue;
+    const float* in = samples(i, 0);
+    for (int k = 0; k < size; ++k) out[k] += in[k];
+    ++count;
+  }
+  const float scale = 1.0f / static_cast<float>(std::max(1, count));
+  for (int k = 0; k < size; ++k) out[k] *= scale;
+  return count;
+}
+
+}  // namespace window_ingress::detection
