@@ -17,18 +17,6 @@ constexpr double kTolerance_px = 3.0, kTolerance = 0.02;
 constexpr double kSameWindowIou = 0.5, kOnBorderIou = 0.8;
 constexpr double kDegreesPerRad = 57.29577951308232;
 
-double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
-  double sum = 0.0;
-  for (int i = 0; i < 4; ++i) sum += (a[i] - b[i]).norm();
-  return 0.25 * sum;
-}
-
-double worstCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
-  double worst = 0.0;
-  for (int i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).norm());
-  return worst;
-}
-
 std::string number(const char* pattern, double value) {
   char text[48];
   std::snprintf(text, sizeof text, pattern, value);
@@ -126,22 +114,6 @@ std::string surveyRow(const SurveyResult& result) {
   return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +
          number("%.3f", result.milliseconds);
 }
-
-void CornerStatistics::add(const Quadrilateral& found, const Quadrilateral& truth) {
-  ++frames_;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d error = found[i] - truth[i];
-    sum_ += error;
-    squares_ += error.cwiseAbs2();
-    const Eigen::Vector2d along = (truth[(i + 1) % 4] - truth[i]).normalized();
-    const Eigen::Vector2d out(along.y(), -along.x());
-    outward_sum_ += 0.5 * out.dot(error + found[(i + 1) % 4] - truth[(i + 1) % 4]);
-  }
-}
-
-Eigen::Vector2d CornerStatistics::rms() const { return (squares_ / std::max(1, 4 * frames_)).cwiseSqrt(); }
-Eigen::Vector2d CornerStatistics::mean() const { return sum_ / std::max(1, 4 * frames_); }
-double CornerStatistics::outward() const { return outward_sum_ / std::max(1, 4 * frames_); }
 
 std::string DistanceBin::name() const {
   const std::string nearest = number("%g", nearest_m);

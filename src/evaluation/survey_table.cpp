@@ -32,12 +32,12 @@ std::string exactness(const std::string& name, const SurveySummary& s) {
     const CornerStatistics& c = s.corners(bin);
     text += " | " + std::to_string(c.frames());
     if (c.frames() == 0) {
-      text += " | | |";
+      text += " | | | |";
       continue;
     }
     text += " | " + number("%.3f", c.rms().x()) + ", " + number("%.3f", c.rms().y()) + " | " +
             number("%+.3f", c.mean().x()) + ", " + number("%+.3f", c.mean().y()) + " | " +
-            number("%+.3f", c.outward());
+            number("%+.3f", c.outward()) + " | " + number("%.3f", c.median());
   }
   return text + " |\n";
 }
@@ -63,7 +63,8 @@ std::string SurveyTable::csv() const {
     text += std::string(",") + toString(static_cast<SurveyVerdict>(i));
   text += ",misses";
   for (const DistanceBin& bin : bins_)
-    for (const char* column : {"frames", "rms_x_px", "rms_y_px", "mean_x_px", "mean_y_px", "outward_px"})
+    for (const char* column :
+         {"frames", "rms_x_px", "rms_y_px", "mean_x_px", "mean_y_px", "outward_px", "median_px"})
       text += "," + std::string(column) + "_" + bin.name();
   text += ",milliseconds\n";
   for (const auto& [name, s] : scenarios_) {
@@ -74,7 +75,8 @@ std::string SurveyTable::csv() const {
     for (std::size_t bin = 0; bin < s.bins().size(); ++bin) {
       const CornerStatistics& c = s.corners(bin);
       text += "," + std::to_string(c.frames());
-      for (const double value : {c.rms().x(), c.rms().y(), c.mean().x(), c.mean().y(), c.outward()})
+      for (const double value :
+           {c.rms().x(), c.rms().y(), c.mean().x(), c.mean().y(), c.outward(), c.median()})
         text += "," + number("%.4f", value);
     }
     text += "," + number("%.3f", s.medianMilliseconds()) + "\n";
@@ -90,8 +92,8 @@ std::string SurveyTable::markdown() const {
   for (const auto& [name, summary] : scenarios_) text += found(name, summary);
   text += "\n| scenario";
   for (const DistanceBin& bin : bins_)
-    text += " | hits at " + bin.name() + " | RMS x, y px | mean x, y px | outward px";
-  text += " |\n" + rule(1 + 4 * static_cast<int>(bins_.size()));
+    text += " | hits at " + bin.name() + " | RMS x, y px | mean x, y px | outward px | median px";
+  text += " |\n" + rule(1 + 5 * static_cast<int>(bins_.size()));
   for (const auto& [name, summary] : scenarios_) text += exactness(name, summary);
   return text;
 }

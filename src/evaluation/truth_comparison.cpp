@@ -35,32 +35,43 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
   errors.true_yaw_rad = geometry::yawOf(R_flu_window);
   const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
   errors.whole = quad && showsWhole(*quad, camera);
-  if (window && errors.whole) errors.iou = geometry::intersectionOverUnion(window->corners, *quad);
+  if (quad && geometry::signedArea(*quad) > 0.0 && geometry::isConvex(*quad)) errors.truth = *quad;
+  if (window) errors.found = window->corners;
+  if (window && errors.truth) errors.iou = geometry::intersectionOverUnion(window->corners, *errors.truth);
   if (!estimate) return errors;
   errors.yaw_rad = geometry::yawOf(T_camera_window.linear().transpose() * estimate->linear());
   errors.distance_m = estimate->translation().norm() - errors.true_distance_m;
   return errors;
 }
 
-void TruthSummary::add(const TruthErrors& errors, bool detected) {
+void TruthSummary::add(const TruthErrors& errors) {
   ++images;
   whole += errors.whole;
-  const bool right = detected && errors.whole && errors.iou >= kSameWindowIou;
-  found += right;
-  others += detected && errors.whole && errors.iou < kOtherWindowIou;
-  if (!right || !errors.yaw_rad) return;
+  const bool right = errors.found && errors.iou >= kSameWindowIou;
+  const bool wrong = errors.found && errors.iou < kOtherWindowIou;
+  (errors.whole ? found : partly) += right;
+  (errors.whole ? exchanged : imagined) += wrong;
+  if (!right || !errors.whole) return;
+  corners.add(*errors.found, *errors.truth);
+  if (!errors.yaw_rad) return;
   yaw_errors_rad.push_back(std::abs(*errors.yaw_rad));
   distance_errors_m.push_back(std::abs(*errors.distance_m));
 }
 
 std::string TruthSummary::text() const {
-  char line[400];
-  std::snprintf(line, sizeof line,
-                "%d images with truth, %d show the window whole\n"
-                "found in %d of them (%.1f %%), something else taken for it in %d\n"
-                "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
-                images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, others,
-                median(yaw_errors_rad) * kDegreesPerRad, median(distance_errors_m), yaw_errors_rad.size());
+  char line[800];
+  std::snprintf(
+      line, sizeof line,
+      "%d images with truth, %d show the window whole\n"
+      "found in %d of them (%.1f %%), something else taken for it in %d\n"
+      "of the others: found in %d, something else taken for it in %d\n"
+      "corners: RMS x %.3f y %.3f px, mean x %+.3f y %+.3f px, outward %+.3f px, median distance %.3f "
+      "px, worst %.3f px (%d images)\n"
+      "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
+      images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, exchanged, partly, imagined,
+      corners.rms().x(), corners.rms().y(), corners.mean().x(), corners.mean().y(), corners.outward(),
+      corners.median(), corners.worst(), corners.frames(), median(yaw_errors_rad) * kDegreesPerRad,
+      median(distance_errors_m), yaw_errors_rad.size());
   return line;
 }
 

@@ -106,7 +106,7 @@ constexpr const char* kFilteredColumns =
     ",filtered_qx,filtered_qy,filtered_qz,filtered_qw,filtered_tx,filtered_ty,filtered_tz,filtered_sigma_x,"
     "filtered_sigma_y,filtered_sigma_z,filtered_sigma_roll,filtered_sigma_pitch,filtered_sigma_yaw";
 constexpr const char* kTruthColumns =
-    ",truth_whole,truth_iou,truth_distance_m,truth_yaw_rad,error_yaw_rad,error_distance_m";
+    ",truth_whole,truth_iou,truth_distance_m,truth_yaw_rad,error_yaw_rad,error_distance_m,error_corner_px";
 
 std::string filteredValues(const std::optional<pose::FilteredWindow>& filtered) {
   if (!filtered) return std::string(13, ',');
@@ -126,7 +126,8 @@ std::string truthValues(const evaluation::TruthErrors& errors) {
     values += "," + text("%.6f", value);
   for (const auto& value : {errors.yaw_rad, errors.distance_m})
     values += value ? "," + text("%.6f", *value) : ",";
-  return values;
+  if (!errors.found || !errors.truth) return values + ",";
+  return values + "," + text("%.4f", evaluation::worstCornerDistance(*errors.found, *errors.truth));
 }
 
 /// The time that an image took is not of the bag: its column stays empty.
@@ -157,13 +158,13 @@ class Table {
 
  private:
   std::string compare(const adapters::ReplayedFrame& frame) {
-    if (!frame.truth || !frame.camera) return std::string(6, ',');
+    if (!frame.truth || !frame.camera) return std::string(7, ',');
     std::optional<Eigen::Isometry3d> estimate;
     if (frame.row.pose) estimate = frame.row.pose->best.T_camera_window;
     const auto errors =
         evaluation::compareWithTruth(frame.row.window, estimate, *frame.truth, *frame.camera,
                                      {params_.pose.opening_width_m, params_.pose.opening_height_m});
-    summary_.add(errors, frame.row.window.has_value());
+    summary_.add(errors);
     return truthValues(errors);
   }
 

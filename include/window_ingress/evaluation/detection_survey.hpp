@@ -9,6 +9,7 @@
 
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/evaluation/corner_statistics.hpp"
 #include "window_ingress/evaluation/survey_picture.hpp"
 
 namespace window_ingress::evaluation {
@@ -52,23 +53,6 @@ SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detectio
 
 std::string surveyColumns();
 std::string surveyRow(const SurveyResult& result);  ///< no line end
-
-/// Corner errors of hits.
-class CornerStatistics {
- public:
-  void add(const geometry::Quadrilateral& found, const geometry::Quadrilateral& truth);
-  int frames() const { return frames_; }
-  Eigen::Vector2d rms() const;   ///< per axis [px]
-  Eigen::Vector2d mean() const;  ///< per axis [px]
-  /// Mean distance of the corners from the true sides, positive outwards: positive if the found border is too
-  /// large [px].
-  double outward() const;
-
- private:
-  int frames_ = 0;
-  Eigen::Vector2d sum_ = Eigen::Vector2d::Zero(), squares_ = Eigen::Vector2d::Zero();
-  double outward_sum_ = 0.0;
-};
 
 /// Distances whose corners are measured together, in rising order.
 struct DistanceBin {

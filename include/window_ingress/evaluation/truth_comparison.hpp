@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/evaluation/corner_statistics.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -13,9 +14,11 @@ namespace window_ingress::evaluation {
 
 /// One image against the truth about it.
 struct TruthErrors {
-  bool whole = false;                ///< the image shows the opening whole, from its front
-  double iou = 0.0;                  ///< of the detected with the true quadrilateral, if whole and detected
-  double true_distance_m = 0.0;      ///< camera to the opening's centre
+  bool whole = false;  ///< the image shows the opening whole, from its front
+  double iou = 0.0;    ///< of the detected with the true quadrilateral, if the opening is seen from its front
+  std::optional<geometry::Quadrilateral> truth;  ///< the opening's border, if seen from its front
+  std::optional<geometry::Quadrilateral> found;  ///< what was detected
+  double true_distance_m = 0.0;                  ///< camera to the opening's centre
   double true_yaw_rad = 0.0;         ///< of the window's axis against the camera's, positive to the left
   std::optional<double> yaw_rad;     ///< error about the window's vertical, if there is a pose
   std::optional<double> distance_m;  ///< error of the distance, if there is a pose
@@ -31,15 +34,18 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
 /// Many images.
 struct TruthSummary {
   static constexpr double kSameWindowIou = 0.7;   ///< from here on the right window was found
-  static constexpr double kOtherWindowIou = 0.1;  ///< below it something else was taken for the window
+  static constexpr double kOtherWindowIou = 0.5;  ///< below it something else was taken for the window
 
   int images = 0;
-  int whole = 0;   ///< images that show the opening whole
-  int found = 0;   ///< of those: the right window found
-  int others = 0;  ///< images in which something else was taken for the window
-  std::vector<double> yaw_errors_rad, distance_errors_m;  ///< magnitudes, of the images in which it was found
+  int whole = 0;      ///< images that show the opening whole
+  int found = 0;      ///< of those: the right window found
+  int exchanged = 0;  ///< of those: something else taken for the window
+  int partly = 0;     ///< images that do not show it whole, and in which it was found all the same
+  int imagined = 0;   ///< images that do not show it whole, and in which something else was taken for it
+  CornerStatistics corners;  ///< of the images that show the opening whole and in which it was found
+  std::vector<double> yaw_errors_rad, distance_errors_m;  ///< magnitudes, of the same images
 
-  void add(const TruthErrors& errors, bool detected);
+  void add(const TruthErrors& errors);
   std::string text() const;  ///< one line a figure, for people
 };
 

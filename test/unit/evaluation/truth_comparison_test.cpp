@@ -52,16 +52,16 @@ TEST(TruthComparison, TooCloseFromBehindOrOutOfViewIsNotWhole) {
 TEST(TruthComparison, SummaryCountsFoundMissedAndOthers) {
   TruthSummary summary;
   const Eigen::Isometry3d truth = poseAt(4.0, 0.1);
-  summary.add(compareWithTruth(seen(truth), poseAt(4.1, 0.12), truth, kCamera, kOpening), true);
-  summary.add(compareWithTruth(std::nullopt, std::nullopt, truth, kCamera, kOpening), false);
+  summary.add(compareWithTruth(seen(truth), poseAt(4.1, 0.12), truth, kCamera, kOpening));
+  summary.add(compareWithTruth(std::nullopt, std::nullopt, truth, kCamera, kOpening));
   detection::WindowObservation decoy = seen(truth);
   for (auto& corner : decoy.corners) corner.x() += 250.0;
-  summary.add(compareWithTruth(decoy, std::nullopt, truth, kCamera, kOpening), true);
-  summary.add(compareWithTruth(std::nullopt, std::nullopt, poseAt(0.5, 0.0), kCamera, kOpening), false);
+  summary.add(compareWithTruth(decoy, std::nullopt, truth, kCamera, kOpening));
+  summary.add(compareWithTruth(std::nullopt, std::nullopt, poseAt(0.5, 0.0), kCamera, kOpening));
   EXPECT_EQ(summary.images, 4);
   EXPECT_EQ(summary.whole, 3);
   EXPECT_EQ(summary.found, 1);
-  EXPECT_EQ(summary.others, 1);
+  EXPECT_EQ(summary.exchanged, 1);
   ASSERT_EQ(summary.yaw_errors_rad.size(), 1u);
   EXPECT_NEAR(summary.yaw_errors_rad[0], 0.02, 1e-9);
   EXPECT_NE(summary.text().find("found in 1 of them (33.3 %)"), std::string::npos) << summary.text();
