@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kMarginPx = 2.0;  // of a profile's middle from the border of the image
+
 /// Pixels of the points middle + o * normal of the undistorted image, as a parabola in o: what a lens bends
 /// beyond that is less than a thousandth of a pixel over the reach of a profile.
 struct Path {
@@ -30,6 +32,11 @@ bool isInside(const cv::Mat& image, const Vector2d& p, double margin) {
          p.y() < image.rows - 1 - margin;
 }
 
+// Beyond the border of the image the last pixels go on.
+Vector2d clamped(const cv::Mat& image, const Vector2d& p) {
+  return p.cwiseMax(0.0).cwiseMin(Vector2d(image.cols - 1.001, image.rows - 1.001));
+}
+
 template <int kChannels>
 void readOne(const cv::Mat& image, float x, float y, float* out, int stride) {
   const int column = static_cast<int>(x), row = static_cast<int>(y);
@@ -47,16 +54,15 @@ void readOne(const cv::Mat& image, float x, float y, float* out, int stride) {
 
 template <int kChannels>
 void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens) {
-  const double margin = lens ? 1.0 : 0.0;
   for (int i = 0; i < count_; ++i) {
     const Path path(point(position_[i], 0.0), normal_, reach_, lens);
-    inside_[i] = isInside(image, path(-reach_), margin) && isInside(image, path(reach_), margin) &&
-                 isInside(image, path.at, margin);
+    inside_[i] = isInside(image, path.at, kMarginPx);
     if (!inside_[i]) continue;
     ++inside_count_;
+    const bool whole = isInside(image, path(-reach_), kMarginPx) && isInside(image, path(reach_), kMarginPx);
     float* out = values_.data() + static_cast<std::size_t>(i) * kChannels * width();
     for (int o = -reach_; o <= reach_; ++o, ++out) {
-      const Vector2d p = path(o);
+      const Vector2d p = whole ? path(o) : clamped(image, path(o));
       readOne<kChannels>(image, static_cast<float>(p.x()), static_cast<float>(p.y()), out, width());
     }
   }

@@ -11,6 +11,7 @@
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/segment_quads.hpp"
 #include "window_ingress/detection/side_support.hpp"
+#include "window_ingress/detection/track_params.hpp"
 #include "window_ingress/detection/window_score.hpp"
 
 namespace window_ingress::detection {
@@ -29,6 +30,7 @@ struct DetectorParams {
   NestedLoopsParams nested;
   AppearanceParams appearance;
   BorderRefinementParams refinement;
+  TrackParams track;
   int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
   double min_score = 0.35;  ///< below this there is no detection
 
@@ -46,6 +48,7 @@ struct DetectorParams {
     field.group("nested", self.nested);
     field.group("appearance", self.appearance);
     field.group("refinement", self.refinement);
+    field.group("track", self.track);
     field("max_candidates", self.max_candidates, 1, 1000);
     field("min_score", self.min_score, 0.0, 1.0);
   }

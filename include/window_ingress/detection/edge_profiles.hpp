@@ -36,7 +36,8 @@ class EdgeProfiles {
   const Eigen::Vector2d& normal() const { return normal_; }
   Eigen::Vector2d along() const { return {-normal_.y(), normal_.x()}; }
 
-  bool inside(int i) const { return inside_[i] != 0; }  ///< the profile lies in the image with all samples
+  /// The middle of the profile lies in the image; samples beyond its border repeat the last pixel.
+  bool inside(int i) const { return inside_[i] != 0; }
   int insideCount() const { return inside_count_; }
   double position(int i) const { return position_[i]; }  ///< along the stretch, from its middle [px]
   /// Samples of a channel of a profile, from -reach to reach.

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// One picture and what else is known about its moment.
+struct TrackInput {
+  cv::Mat image;                                     ///< CV_8UC1 or CV_8UC3 (BGR); not kept
+  double stamp_sec = 0.0;                            ///< exposure
+  const geometry::PinholeCamera* camera = nullptr;   ///< calibration of the image if there is one
+  std::optional<Eigen::Matrix3d> R_world_camera;     ///< attitude at the exposure, if known
+  std::optional<geometry::Quadrilateral> predicted;  ///< where pose and odometry say the window is, in
+                                                     ///< pixels of the image as it came, if known
+};
+
+/// The detector over time: searches until there is a window, then follows its four borders.
+///
+/// Each frame the four corners, seen or not, are moved to where they must be by now: by the change of
+/// attitude between the two exposures where both are known, by their velocity in the image (what the attitude
+/// did not explain), and towards the prediction where one is given. Only narrow profiles across the four
+/// sides are read, as far as the prediction is uncertain. A border counts if it looks as before: change of
+/// colour, polarity, and the neighbouring edges, so that the inner border stays the inner one. The frame is
+/// followed if all borders in view (but one, while the track is certain) do and the shape changed as a
+/// window's can. Everything else is searched again at once, in the same frame.
+///
+/// Near the window its sides leave the view: then the observation is partial (`WindowObservation::whole`). At
+/// least two sides must be seen. What can be known from three and from two sides: see `QuadMotion`.
+///
+/// `target_id`: see `TargetIdentity`. While a settled track is lost, another window in view is no target
+/// until the old one is forgotten (`TrackParams::reacquire_sec`); it then gets a new number.
+///
+/// Deterministic. Keeps its memory from frame to frame: following allocates nothing. One object a thread.
+class WindowTracker {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit WindowTracker(const DetectorParams& params);
+  ~WindowTracker();
+
+  void setParams(const DetectorParams& params);  ///< \throws std::invalid_argument, and keeps the old ones
+  void setReference(const ReferenceAppearance& reference);  ///< the next frame is searched
+  void clearReference();
+  /// Forgets the track, not the reference. Happens by itself when time jumps back, when pictures are further
+  /// apart than `TrackParams::max_gap_sec`, or when size or calibration of the picture change.
+  void reset();
+
+  /// \return nothing if the target is not seen; `trace()` then says why
+  std::optional<WindowObservation> update(const TrackInput& input);
+
+  /// What happened in the last frame: the search's trace, or that of a followed window.
+  const DetectionTrace& trace() const;
+  /// There is a window that is followed from here on; the last frame may have been the search that found it.
+  bool tracking() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,39 @@
+#include "window_ingress/detection/target_identity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kSizeRatio = 1.35;
+
+double sizeOf(const geometry::Quadrilateral& quad) { return std::sqrt(std::abs(geometry::signedArea(quad))); }
+
+}  // namespace
+
+void TargetIdentity::follow(double stamp_sec) {
+  known_ = true;
+  ++followed_;
+  last_sec_ = stamp_sec;
+}
+
+void TargetIdentity::found(bool is_same, double stamp_sec) {
+  if (!is_same) ++id_, followed_ = 0;
+  known_ = true;
+  last_sec_ = stamp_sec;
+}
+
+bool TargetIdentity::remembers(double stamp_sec, bool place_given) const {
+  const double limit_sec = place_given ? params_.reacquire_given_sec : params_.reacquire_sec;
+  return known_ && stamp_sec - last_sec_ <= limit_sec;
+}
+
+bool TargetIdentity::isSame(const geometry::Quadrilateral& seen,
+                            const geometry::Quadrilateral& expected) const {
+  const double a = sizeOf(seen), b = sizeOf(expected);
+  const double off = (geometry::centroid(seen) - geometry::centroid(expected)).norm();
+  return off < params_.reacquire_gate * std::min(a, b) && std::max(a, b) < kSizeRatio * std::min(a, b);
+}
+
+}  // namespace window_ingress::detection
