@@ -1,4 +1,5 @@
-# Measurements, never part of the package or of its tests; scripts/bench installs, builds and runs them.
+# Measurements, never part of the package or of its tests; scripts/bench installs, builds and runs them (target
+# `benchmarks`). What is not installed is left out, saying so.
 #   benchmark_draw_frames  the pictures that need no recordings
 #   benchmark_detection    times, with Google Benchmark
 #   benchmark_instructions the same, counted under callgrind
@@ -9,7 +10,7 @@ set(folder ${PROJECT_SOURCE_DIR}/test/benchmark)
 add_library(benchmark_support STATIC EXCLUDE_FROM_ALL ${folder}/frame_set.cpp ${folder}/subjects.cpp ${folder}/stages.cpp
             ${folder}/marker_subjects.cpp)
 target_include_directories(benchmark_support PUBLIC ${folder} ${PROJECT_SOURCE_DIR}/test/support)
-target_link_libraries(benchmark_support PUBLIC ${PROJECT_NAME}_simulation opencv_imgcodecs nlohmann_json::nlohmann_json)
+target_link_libraries(benchmark_support PUBLIC ${PROJECT_NAME}_core opencv_imgcodecs nlohmann_json::nlohmann_json)
 
 find_path(APRILTAG_INCLUDE_DIR apriltag/apriltag.h)
 find_library(APRILTAG_LIBRARY apriltag)
@@ -33,14 +34,21 @@ else()
   message(STATUS "benchmarks: without ArUco (libopencv-contrib-dev is not installed)")
 endif()
 
+add_custom_target(benchmarks)
+
 # add_benchmark(name libraries...)
 function(add_benchmark name)
   add_executable(benchmark_${name} EXCLUDE_FROM_ALL ${folder}/${name}.cpp)
   target_link_libraries(benchmark_${name} benchmark_support ${ARGN})
   target_compile_definitions(benchmark_${name} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_dependencies(benchmarks benchmark_${name})
 endfunction()
 
-add_benchmark(draw_frames)
+add_benchmark(draw_frames ${PROJECT_NAME}_simulation)
+add_benchmark(memory)
+add_benchmark(allocations ${CMAKE_DL_LIBS})
+target_sources(benchmark_allocations PRIVATE ${folder}/allocation_recorder.cpp)
+set_target_properties(benchmark_allocations PROPERTIES ENABLE_EXPORTS ON)
 find_package(benchmark QUIET)
 if(benchmark_FOUND)
   add_benchmark(detection benchmark::benchmark)

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace window_ingress::bench {
@@ -73,10 +72,8 @@ Sequence sequenceFrom(const std::string& folder, const json& node) {
   sequence.name = node.at("name");
   sequence.kind = node.at("kind");
   sequence.period_sec = node.at("period_sec");
-  for (const std::string file : node.at("images")) {
+  for (const std::string file : node.at("images"))
     sequence.images.push_back(readPicture(folder + "/" + file));
-    cv::cvtColor(sequence.images.back(), sequence.grey_images.emplace_back(), cv::COLOR_BGR2GRAY);
-  }
   if (sequence.images.empty()) throw std::runtime_error(indexOf(folder) + ": " + sequence.name + " is empty");
   if (!node.at("camera").is_null()) sequence.camera = cameraFrom(node.at("camera"));
   if (!node.at("reference").is_null()) sequence.reference = referenceFrom(folder, node.at("reference"));
@@ -85,11 +82,13 @@ Sequence sequenceFrom(const std::string& folder, const json& node) {
 
 }  // namespace
 
-std::vector<Sequence> readFrameSet(const std::string& folder) {
+std::vector<Sequence> readFrameSet(const std::string& folder,
+                                   const std::function<bool(const std::string&)>& wanted) {
   std::vector<Sequence> sequences;
   const json index = readIndex(folder);
   try {
-    for (const json& node : index) sequences.push_back(sequenceFrom(folder, node));
+    for (const json& node : index)
+      if (wanted(node.at("name"))) sequences.push_back(sequenceFrom(folder, node));
   } catch (const json::exception& error) {
     throw std::runtime_error(indexOf(folder) + ": " + error.what());
   }

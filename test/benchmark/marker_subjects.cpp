@@ -1,6 +1,7 @@
 /// Detectors of printed markers: they look for quadrilaterals, too, and are known for being fast. Both get
 /// the grey picture ready made. Each is left out where its library is not installed.
 #include <memory>
+#include <opencv2/imgproc.hpp>
 
 #include "subjects.hpp"
 
@@ -20,6 +21,12 @@
 
 namespace window_ingress::bench {
 namespace {
+
+[[maybe_unused]] std::vector<cv::Mat> greyPictures(const Sequence& sequence) {
+  std::vector<cv::Mat> grey(sequence.images.size());
+  for (std::size_t i = 0; i < grey.size(); ++i) cv::cvtColor(sequence.images[i], grey[i], cv::COLOR_BGR2GRAY);
+  return grey;
+}
 
 #ifdef WINDOW_INGRESS_WITH_APRILTAG
 
@@ -51,8 +58,8 @@ class AprilTag {
 
 Step aprilTag(const Sequence& sequence, float decimate) {
   auto detector = std::make_shared<AprilTag>(decimate);
-  return [&sequence, detector, order = ToAndFro(sequence.images.size())]() mutable {
-    return detector->run(sequence.grey_images[order.next()]);
+  return [detector, grey = greyPictures(sequence), order = ToAndFro(sequence.images.size())]() mutable {
+    return detector->run(grey[order.next()]);
   };
 }
 
@@ -85,8 +92,8 @@ class ArUco {
 
 Step arUco(const Sequence& sequence) {
   auto detector = std::make_shared<ArUco>();
-  return [&sequence, detector, order = ToAndFro(sequence.images.size())]() mutable {
-    return detector->run(sequence.grey_images[order.next()]);
+  return [detector, grey = greyPictures(sequence), order = ToAndFro(sequence.images.size())]() mutable {
+    return detector->run(grey[order.next()]);
   };
 }
 

@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""Puts what scripts/bench measured into one json file and into tables; exits 1 if a bound does not hold."""
+import argparse
+import collections
+import glob
+import json
+import os
+import re
+import statistics
+import sys
+
+OURS = ["search", "track"]
+PEERS = {"composition": "composition", "composition_without_hough": "without Hough",
+         "apriltag_decimate_2": "AprilTag 3, decimate 2", "apriltag_decimate_1": "AprilTag 3, decimate 1",
+         "aruco": "ArUco"}
+# Ours, peer, sequences (none: all), greatest ratio of their times. Wide: a loaded machine must not cross them.
+BOUNDS = [("track", "composition", None, 1 / 20), ("search", "composition", ["brick_wall"], 1 / 4),
+          ("search", "apriltag_decimate_2", ["brick_wall"], 1 / 2)]
+BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
+
+
+def load(path, otherwise):
+    if not os.path.exists(path) or not os.path.getsize(path):
+        return otherwise
+    with open(path) as file:
+        return json.load(file)
+
+
+def read_times(folder):
+    """{"subject/sequence": {"ms", "fastest_ms", "found"}}, processor time, medians over the repetitions."""
+    runs = collections.defaultdict(list)
+    raw = load(os.path.join(folder, "times.json"), {"benchmarks": []})
+    for run in raw["benchmarks"]:
+        if run["run_type"] == "iteration" and not run.get("error_occurred"):
+            runs[run["run_name"]].append(run)
+    return {name: {"ms": statistics.median(run["cpu_time"] for run in of_name),
+                   "fastest_ms": min(run["cpu_time"] for run in of_name),
+                   "found": statistics.mean(run["found"] for run in of_name)} for name, of_name in runs.items()}
+
+
+def read_instructions(folder):
+    """{"subject/sequence": instructions a picture}"""
+    counted = os.path.join(folder, "callgrind", "counted.log")
+    if not os.path.exists(counted):
+        return {}
+    with open(counted) as file:
+        pictures = dict(re.match(r"(\S+) pictures=(\d+)", line).groups() for line in file)
+    result = {}
+    for path in glob.glob(os.path.join(folder, "callgrind", "out.*")):
+        with open(path, errors="replace") as file:
+            text = file.read()
+        name = re.search(r"Client Request: (\S+)", text)
+        total = re.search(r"^(?:totals|summary): (\d+)", text, re.M)
+        if name and total and name.group(1) in pictures:
+            result[name.group(1)] = round(int(total.group(1)) / int(pictures[name.group(1)]))
+    return result
+
+
+def ratios_of(costs):
+    """{sequence: {ours: {peer: ours over peer}}}"""
+    result = collections.defaultdict(lambda: collections.defaultdict(dict))
+    for name, cost in costs.items():
+        subject, sequence = name.split("/")
+        for peer in PEERS if subject in OURS else ():
+            if costs.get(f"{peer}/{sequence}"):
+                result[sequence][subject][peer] = cost / costs[f"{peer}/{sequence}"]
+    return result
+
+
+def sequences_of(*tables):
+    order = []
+    for table in tables:
+        for name in table:
+            sequence = name.split("/")[1]
+            if sequence not in order:
+                order.append(sequence)
+    return order
+
+
+def table(title, head, rows):
+    lines = [title, "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+
+
+def as_fraction(ratio):
+    if ratio is None:
+        return "–"
+    return f"1/{1 / ratio:.1f}" if ratio < 1 else f"{ratio:.1f}"
+
+
+def cost_table(title, costs, form):
+    columns = [name for name in OURS + list(PEERS) if any(key.startswith(name + "/") for key in costs)]
+    rows = [[sequence] + [form(costs.get(f"{name}/{sequence}")) for name in columns] for sequence in sequences_of(costs)]
+    return table(title, ["pictures"] + [PEERS.get(name, name) for name in columns], rows)
+
+
+def ratio_table(title, ratios):
+    rows, head = [], ["pictures"]
+    peers = [peer for peer in PEERS if any(peer in of_ours for s in ratios.values() for of_ours in s.values())]
+    ours = [name for name in OURS if any(name in of_sequence for of_sequence in ratios.values())]
+    head += [f"{name} / {PEERS[peer]}" for name in ours for peer in peers]
+    for sequence, of_sequence in ratios.items():
+        rows.append([sequence] + [as_fraction(of_sequence.get(name, {}).get(peer)) for name in ours for peer in peers])
+    return table(title, head, rows)
+
+
+def stage_table(times):
+    stages = [name for name in dict.fromkeys(key.split("/")[0] for key in times) if name.startswith("stage_")]
+    rows = [[sequence] + [milliseconds(times.get(f"{stage}/{sequence}", {}).get("ms")) for stage in stages]
+            for sequence in sequences_of(times)]
+    return table("Stages, ms a picture", ["pictures"] + [s[len("stage_"):].replace("_", " ") for s in stages], rows)
+
+
+def milliseconds(value):
+    return "–" if value is None else f"{value:.2f}" if value >= 0.1 else f"{value:.3f}"
+
+
+def millions(value):
+    return "–" if value is None else f"{value / 1e6:.1f}" if value >= 1e6 else f"{value / 1e6:.2f}"
+
+
+def allocation_table(allocations):
+    rows = [[name.replace("/", ", "), f"{a['ours']:.1f}", f"{a['opencv']:.1f}", f"{a['bytes'] / 1e3:.0f}"]
+            for name, a in allocations.items() if name.split("/")[0] in OURS]
+    return table("Allocations a picture in steady state", ["what", "ours", "inside OpenCV", "kB of all"], rows)
+
+
+def memory_lines(memory, node):
+    lines = []
+    for what, of in (("search and track", memory), ("detector node", node)):
+        if of:
+            lines.append(f"Memory of {what}, {of['pictures']} pictures: {of['start_mb']:.0f} MB at the start, "
+                         f"{of['tenth_mb']:.0f} MB after a tenth, {of['end_mb']:.0f} MB at the end.")
+    return lines + [""] if lines else []
+
+
+def broken_bounds(ratios, times):
+    broken = []
+    for ours, peer, sequences, limit in BOUNDS:
+        for sequence in sequences or ratios:
+            ratio = ratios.get(sequence, {}).get(ours, {}).get(peer)
+            if ratio is not None and ratio > limit and times[f"{ours}/{sequence}"]["found"] > 0.5:
+                broken.append(f"{ours} on {sequence}: {as_fraction(ratio)} of {PEERS[peer]}, more than {as_fraction(limit)}")
+    return broken
+
+
+def tables_of(result):
+    lines = []
+    if result["times"]:
+        costs = {name: of["ms"] for name, of in result["times"].items()}
+        lines += ratio_table("Ratios of processor time, same run", result["ratios"])
+        lines += cost_table("Processor time, ms a picture (medians; only their ratios carry over)", costs, milliseconds)
+        lines += stage_table(result["times"])
+    if result["instructions"]:
+        lines += ratio_table("Ratios of instructions", result["instruction_ratios"])
+        lines += cost_table("Instructions, millions a picture", result["instructions"], millions)
+    if result["allocations"]:
+        lines += allocation_table(result["allocations"])
+    return lines + memory_lines(result["memory"], result["node"])
+
+
+def write_doc(path, lines):
+    with open(path) as file:
+        text = file.read()
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    with open(path, "w") as file:
+        file.write(before + BEGIN + "\n" + "\n".join(lines) + END + after)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", help="what the measuring programs wrote")
+    parser.add_argument("--json", required=True, help="file to write")
+    parser.add_argument("--doc", help="Markdown file whose tables are replaced")
+    arguments = parser.parse_args()
+    folder = arguments.folder
+    times, instructions = read_times(folder), read_instructions(folder)
+    result = {"times": times, "ratios": ratios_of({name: of["ms"] for name, of in times.items()}),
+              "instructions": instructions, "instruction_ratios": ratios_of(instructions),
+              "allocations": load(os.path.join(folder, "allocations.json"), {}),
+              "memory": load(os.path.join(folder, "memory.json"), {}), "node": load(os.path.join(folder, "node.json"), {})}
+    result["broken_bounds"] = broken_bounds(result["ratios"], times)
+    with open(arguments.json, "w") as file:
+        json.dump(result, file, indent=1)
+    lines = tables_of(result)
+    print("\n".join(lines))
+    if arguments.doc:
+        write_doc(arguments.doc, lines)
+    for text in result["broken_bounds"]:
+        print(f"bench: bound broken: {text}", file=sys.stderr)
+    sys.exit(1 if result["broken_bounds"] else 0)
+
+
+if __name__ == "__main__":
+    main()

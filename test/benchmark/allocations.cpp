@@ -1,0 +1,74 @@
+/// Allocations a picture in steady state, by who asks for them.
+/// Usage: benchmark_allocations [--frames=FOLDER] [--sites=N] [SUBJECT...]
+/// Prints JSON: for each subject/sequence the counts a picture of "ours", "opencv" (inside a function of
+/// OpenCV that we call) and "other", and the N sites that ask most often.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "allocation_recorder.hpp"
+#include "arguments.hpp"
+#include "subjects.hpp"
+
+namespace {
+
+using namespace window_ingress::bench;
+using nlohmann::json;
+
+json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double pictures, std::size_t limit) {
+  std::vector<std::pair<std::size_t, AllocationSite>> order;
+  for (const auto& [site, count] : counts) order.emplace_back(count, site);
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  json sites = json::array();
+  for (std::size_t i = 0; i < std::min(limit, order.size()); ++i)
+    sites.push_back({{"whose", toString(order[i].second.whose)},
+                     {"where", order[i].second.where},
+                     {"per_picture", order[i].first / pictures}});
+  return sites;
+}
+
+/// Twice through the sequence for warming up, once counted.
+json count(const Subject& subject, const Sequence& sequence, std::size_t limit) {
+  const Step step = subject.start(sequence);
+  if (!step) return {};
+  const std::size_t pictures = std::max<std::size_t>(1, 2 * (sequence.images.size() - 1));
+  for (std::size_t i = 0; i < 2 * pictures; ++i) step();
+  startRecording();
+  for (std::size_t i = 0; i < pictures; ++i) step();
+  const Recording recording = stopRecording();
+  std::map<AllocationSite, std::size_t> counts;
+  std::map<Whose, std::size_t> sums;
+  for (const AllocationSite& site : recording.sites) ++counts[site], ++sums[site.whose];
+  json result;
+  for (const Whose whose : {Whose::kOurs, Whose::kOpencv, Whose::kOther})
+    result[toString(whose)] = static_cast<double>(sums[whose]) / pictures;
+  result["bytes"] = static_cast<double>(recording.bytes) / pictures;
+  result["sites"] = sitesOf(counts, static_cast<double>(pictures), limit);
+  if (recording.overflow) result["not_attributed"] = static_cast<double>(recording.overflow) / pictures;
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  try {
+    const Arguments arguments(argc, argv);
+    const std::size_t sites = std::stoul(arguments.value("sites", "10"));
+    json result;
+    for (const Sequence& sequence : readFrameSet(arguments.value("frames", "out/bench/frames")))
+      for (const Subject& subject : allSubjects()) {
+        if (!arguments.names(subject.name)) continue;
+        const json counted = count(subject, sequence, sites);
+        if (!counted.is_null()) result[subject.name + "/" + sequence.name] = counted;
+      }
+    std::cout << result.dump(1) << "\n";
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_allocations: %s\n", error.what());
+    return 2;
+  }
+}

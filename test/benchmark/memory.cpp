@@ -1,0 +1,67 @@
+/// Memory of search and track over many pictures, as fast as it goes, as JSON: resident size at the start,
+/// after a tenth and at the end. Exit code 1 if it grows or is more than what is allowed. Usage:
+/// benchmark_memory [--frames=FOLDER] [--pictures=108000] [SEQUENCE...]
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "arguments.hpp"
+#include "subjects.hpp"
+
+namespace {
+
+using namespace window_ingress::bench;
+
+constexpr double kMostMegabytes = 150.0;  ///< of the detector's process, the pictures in memory included
+constexpr double kMostGrowth = 1.0;       ///< from a tenth to the end [MB]
+
+double residentMegabytes() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0.0, resident = 0.0;
+  file >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// All pictures of a sequence go through search and through track, in turn with the other sequences.
+std::vector<Step> stepsOver(const std::vector<Sequence>& sequences) {
+  std::vector<Step> steps;
+  for (const Sequence& sequence : sequences)
+    for (const Subject& subject : ownSubjects())
+      if (Step step = subject.start(sequence)) steps.push_back(step);
+  return steps;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  try {
+    const Arguments arguments(argc, argv);
+    const std::size_t pictures = std::stoul(arguments.value("pictures", "108000"));
+    const auto sequences = readFrameSet(arguments.value("frames", "out/bench/frames"),
+                                        [&](const std::string& name) { return arguments.names(name); });
+    const std::vector<Step> steps = stepsOver(sequences);
+    if (steps.empty()) throw std::runtime_error("no such sequence");
+    std::vector<double> resident = {residentMegabytes()};
+    for (std::size_t i = 0; i < pictures; ++i) {
+      if (i == pictures / 10) resident.push_back(residentMegabytes());
+      steps[i % steps.size()]();
+    }
+    resident.push_back(residentMegabytes());
+    const double growth = resident.back() - resident[resident.size() - 2];
+    std::cout << nlohmann::json{{"pictures", pictures},
+                                {"start_mb", resident.front()},
+                                {"tenth_mb", resident[resident.size() - 2]},
+                                {"end_mb", resident.back()}}
+              << "\n";
+    return growth > kMostGrowth || resident.back() > kMostMegabytes ? 1 : 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "benchmark_memory: %s\n", error.what());
+    return 2;
+  }
+}
