@@ -16,6 +16,8 @@ PEERS = {"composition": "composition", "composition_without_hough": "without Hou
 # Ours, peer, sequences (none: all), greatest ratio of their times. Wide: a loaded machine must not cross them.
 BOUNDS = [("track", "composition", None, 1 / 20), ("search", "composition", ["brick_wall"], 1 / 4),
           ("search", "apriltag_decimate_2", ["brick_wall"], 1 / 2)]
+STAGES = ["preprocess", "edges", "lines", "closing", "contours", "segment_quads", "all_to_candidates",
+          "appearance_of_all", "borders_of_one"]
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 
@@ -59,7 +61,7 @@ def read_instructions(folder):
 def ratios_of(costs):
     """{sequence: {ours: {peer: ours over peer}}}"""
     result = collections.defaultdict(lambda: collections.defaultdict(dict))
-    for name, cost in costs.items():
+    for name, cost in sorted(costs.items()):
         subject, sequence = name.split("/")
         for peer in PEERS if subject in OURS else ():
             if costs.get(f"{peer}/{sequence}"):
@@ -67,14 +69,8 @@ def ratios_of(costs):
     return result
 
 
-def sequences_of(*tables):
-    order = []
-    for table in tables:
-        for name in table:
-            sequence = name.split("/")[1]
-            if sequence not in order:
-                order.append(sequence)
-    return order
+def sequences_of(costs):
+    return sorted({name.split("/")[1] for name in costs})
 
 
 def table(title, head, rows):
@@ -99,16 +95,15 @@ def ratio_table(title, ratios):
     peers = [peer for peer in PEERS if any(peer in of_ours for s in ratios.values() for of_ours in s.values())]
     ours = [name for name in OURS if any(name in of_sequence for of_sequence in ratios.values())]
     head += [f"{name} / {PEERS[peer]}" for name in ours for peer in peers]
-    for sequence, of_sequence in ratios.items():
+    for sequence, of_sequence in sorted(ratios.items()):
         rows.append([sequence] + [as_fraction(of_sequence.get(name, {}).get(peer)) for name in ours for peer in peers])
     return table(title, head, rows)
 
 
 def stage_table(times):
-    stages = [name for name in dict.fromkeys(key.split("/")[0] for key in times) if name.startswith("stage_")]
-    rows = [[sequence] + [milliseconds(times.get(f"{stage}/{sequence}", {}).get("ms")) for stage in stages]
+    rows = [[sequence] + [milliseconds(times.get(f"stage_{stage}/{sequence}", {}).get("ms")) for stage in STAGES]
             for sequence in sequences_of(times)]
-    return table("Stages, ms a picture", ["pictures"] + [s[len("stage_"):].replace("_", " ") for s in stages], rows)
+    return table("Stages, ms a picture", ["pictures"] + [stage.replace("_", " ") for stage in STAGES], rows)
 
 
 def milliseconds(value):

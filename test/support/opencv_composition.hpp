@@ -60,7 +60,7 @@ class OpencvComposition {
     cv::HoughLinesP(edges_, lines_, 1.0, CV_PI / 180.0, 50, 50.0, 10.0);
     edges_.setTo(0);
     for (const cv::Vec4i& line : lines_)
-      cv::line(edges_, cv::Point(line[0], line[1]), cv::Point(line[2], line[3]), cv::Scalar(255));
+      cv::line(edges_, cv::Point(line[0], line[1]), cv::Point(line[2], line[3]), cv::Scalar(255), 3);
   }
 
   static double cosine(const cv::Point& before, const cv::Point& corner, const cv::Point& after) {
