@@ -4,6 +4,7 @@
 
 #include "opencv_composition.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 
 namespace window_ingress::bench {
 namespace {
@@ -13,6 +14,20 @@ Step search(const Sequence& sequence) {
   if (sequence.reference) detector->setReference(*sequence.reference);
   return [&sequence, detector, order = ToAndFro(sequence.images.size())]() mutable {
     return detector->detect(sequence.images[order.next()], 0.0, sequence.cameraOrNull()).has_value();
+  };
+}
+
+/// A picture in which the window was followed says nothing of contours and segments: nobody looked for any.
+Step track(const Sequence& sequence) {
+  auto tracker = std::make_shared<detection::WindowTracker>(detection::DetectorParams());
+  if (sequence.reference) tracker->setReference(*sequence.reference);
+  detection::TrackInput input;
+  input.camera = sequence.cameraOrNull();
+  return [&sequence, tracker, input, order = ToAndFro(sequence.images.size())]() mutable {
+    input.image = sequence.images[order.next()];
+    input.stamp_sec += sequence.period_sec;
+    const bool seen = tracker->update(input).has_value();
+    return seen && tracker->trace().contours + tracker->trace().segments == 0;
   };
 }
 
@@ -39,7 +54,7 @@ std::size_t ToAndFro::next() {
   return now;
 }
 
-std::vector<Subject> ownSubjects() { return {{"search", search}}; }
+std::vector<Subject> ownSubjects() { return {{"search", search}, {"track", track}}; }
 
 std::vector<Subject> peerSubjects() {
   return {{"composition", [](const Sequence& s) { return composition(s, true); }},
