@@ -6,6 +6,12 @@ namespace window_ingress::evaluation {
 
 using geometry::Quadrilateral;
 
+namespace {
+
+constexpr double kTolerance_px = 3.0, kTolerance = 0.02;
+
+}  // namespace
+
 void CornerStatistics::add(const Quadrilateral& found, const Quadrilateral& truth) {
   for (int i = 0; i < 4; ++i) {
     const int next = (i + 1) % 4;
@@ -35,6 +41,11 @@ double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) sum += (a[i] - b[i]).norm();
   return 0.25 * sum;
+}
+
+double hitTolerance(const Quadrilateral& truth) {
+  const auto sides = geometry::sideLengths(truth);
+  return std::max(kTolerance_px, kTolerance * 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]));
 }
 
 }  // namespace window_ingress::evaluation

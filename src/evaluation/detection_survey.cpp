@@ -13,7 +13,6 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kTolerance_px = 3.0, kTolerance = 0.02;
 constexpr double kSameWindowIou = 0.5, kOnBorderIou = 0.8;
 constexpr double kDegreesPerRad = 57.29577951308232;
 
@@ -52,11 +51,6 @@ const char* toString(SurveyVerdict verdict) {
   return kNames[static_cast<int>(verdict)];
 }
 
-double hitTolerance(const Quadrilateral& truth) {
-  const auto sides = geometry::sideLengths(truth);
-  return std::max(kTolerance_px, kTolerance * 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]));
-}
-
 SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth& truth) {
   if (!truth.present) return found ? SurveyVerdict::kFalseAlarm : SurveyVerdict::kNothing;
   if (!found) return SurveyVerdict::kMissed;
@@ -84,7 +78,8 @@ SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detectio
   result.milliseconds = milliseconds;
   result.truth = picture.truth;
   result.window = window;
-  result.verdict = judge(window ? std::make_optional(window->corners) : std::nullopt, picture.truth);
+  const bool whole = window && window->whole();
+  result.verdict = judge(whole ? std::make_optional(window->corners) : std::nullopt, picture.truth);
   result.outcome = window ? "found" : std::string(detection::toString(trace.outcome)) + ": " + trace.detail;
   if (picture.truth.present) result.true_candidate = fateOfTrueCandidate(trace, picture.truth.inner);
   return result;

@@ -16,8 +16,11 @@ std::string windowValues(const std::optional<detection::WindowObservation>& wind
   if (!window) return "0,,,,,,,,,,";
   std::string text = "1," + number("%.4f", window->score) + ",";
   if (window->has_appearance) text += number("%.4f", window->bhattacharyya);
-  for (const Eigen::Vector2d& corner : window->corners)
-    text += "," + number("%.3f", corner.x()) + "," + number("%.3f", corner.y());
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d& corner = window->corners[i];
+    text += window->corner_visible[i] ? "," + number("%.3f", corner.x()) + "," + number("%.3f", corner.y())
+                                      : ",,";
+  }
   return text;
 }
 

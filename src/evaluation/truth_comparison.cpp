@@ -16,6 +16,19 @@ bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCame
   return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
 }
 
+// Sides are straight in the undistorted picture.
+bool liesOnSides(const detection::WindowObservation& window, const geometry::Quadrilateral& truth,
+                 const geometry::PinholeCamera& camera) {
+  for (int side = 0; side < 4; ++side) {
+    if (!window.edges[side].visible) continue;
+    const Eigen::Vector2d from = camera.undistort(truth[side]), to = camera.undistort(truth[(side + 1) % 4]);
+    const Eigen::Vector2d along = (to - from).normalized(), across(-along.y(), along.x());
+    for (const Eigen::Vector2d& end : {window.edges[side].a, window.edges[side].b})
+      if (std::abs(across.dot(camera.undistort(end) - from)) > hitTolerance(truth)) return false;
+  }
+  return true;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -36,8 +49,12 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
   const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
   errors.whole = quad && showsWhole(*quad, camera);
   if (quad && geometry::signedArea(*quad) > 0.0 && geometry::isConvex(*quad)) errors.truth = *quad;
-  if (window) errors.found = window->corners;
-  if (window && errors.truth) errors.iou = geometry::intersectionOverUnion(window->corners, *errors.truth);
+  errors.detected = window.has_value();
+  if (window && window->whole()) errors.found = window->corners;
+  if (errors.found && errors.truth)
+    errors.iou = geometry::intersectionOverUnion(*errors.found, *errors.truth);
+  if (window && !errors.found && errors.truth)
+    errors.on_true_sides = liesOnSides(*window, *errors.truth, camera);
   if (!estimate) return errors;
   errors.yaw_rad = geometry::yawOf(T_camera_window.linear().transpose() * estimate->linear());
   errors.distance_m = estimate->translation().norm() - errors.true_distance_m;
@@ -47,11 +64,11 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
 void TruthSummary::add(const TruthErrors& errors) {
   ++images;
   whole += errors.whole;
-  const bool right = errors.found && errors.iou >= kSameWindowIou;
-  const bool wrong = errors.found && errors.iou < kOtherWindowIou;
+  const bool right = (errors.found && errors.iou >= kSameWindowIou) || errors.on_true_sides;
+  const bool wrong = errors.detected && errors.iou < kOtherWindowIou && !errors.on_true_sides;
   (errors.whole ? found : partly) += right;
   (errors.whole ? exchanged : imagined) += wrong;
-  if (!right || !errors.whole) return;
+  if (!right || !errors.whole || !errors.found) return;
   corners.add(*errors.found, *errors.truth);
   if (!errors.yaw_rad) return;
   yaw_errors_rad.push_back(std::abs(*errors.yaw_rad));

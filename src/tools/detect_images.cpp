@@ -16,8 +16,9 @@
 #include "command_line.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/evaluation/detection_table.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/pose/window_pose_estimator.hpp"
 
@@ -40,6 +41,8 @@ class JobError : public std::runtime_error {
 struct Options {
   std::vector<std::string> inputs;
   std::string output, camera, reference, corners, size, params, overlay;
+  bool track = false;
+  double rate_hz = 30.0;
 };
 
 /// What is the same for all pictures.
@@ -64,6 +67,8 @@ Options parse(int argc, char** argv) {
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses")     //
       ("params", po::value(&o.params), "yaml file with a section 'detector'")                             //
+      ("track", po::bool_switch(&o.track), "the pictures are a sequence: follow the window through it")   //
+      ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: pictures a second")        //
       ("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
   po::options_description all;
   all.add(named).add_options()("input", po::value(&o.inputs), "");
@@ -82,6 +87,8 @@ Options parse(int argc, char** argv) {
   }
   if (o.output.empty()) throw UsageError("--output is missing; see --help");
   if (o.inputs.empty()) throw UsageError("no picture given; see --help");
+  if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0))
+    throw UsageError("--rate: needs pictures a second, above 0");
   if (!o.corners.empty() && o.reference.empty()) throw UsageError("--reference-corners needs --reference");
   return o;
 }
@@ -150,14 +157,54 @@ Job prepare(const Options& o) {
   return job;
 }
 
-evaluation::DetectionRow process(const cv::Mat& picture, const Job& job,
-                                 detection::WindowDetector& detector) {
+/// Looks for the window in each picture by itself, or follows it from picture to picture.
+class Finder {
+ public:
+  Finder(const Job& job, const Options& o) : frame_sec_(1.0 / o.rate_hz) {
+    if (o.track)
+      tracker_.emplace(job.params);
+    else
+      detector_.emplace(job.params);
+    if (job.reference && tracker_) tracker_->setReference(*job.reference);
+    if (job.reference && detector_) detector_->setReference(*job.reference);
+  }
+
+  std::optional<detection::WindowObservation> find(const cv::Mat& picture,
+                                                   const geometry::PinholeCamera* camera) {
+    if (detector_) return detector_->detect(picture, 0.0, camera);
+    detection::TrackInput input;
+    input.image = picture;
+    input.stamp_sec = frame_sec_ * static_cast<double>(++frames_);
+    input.camera = camera;
+    return tracker_->update(input);
+  }
+
+  void skip() { ++frames_; }
+  const detection::DetectionTrace& trace() const {
+    return detector_ ? detector_->trace() : tracker_->trace();
+  }
+
+  std::string columns() const { return tracker_ ? ",target_id,visible_sides" : ""; }
+  std::string values(const evaluation::DetectionRow& row) const {
+    if (!tracker_) return "";
+    if (!row.window) return ",,";
+    return "," + std::to_string(row.window->target_id) + "," + std::to_string(row.window->visibleSides());
+  }
+
+ private:
+  double frame_sec_;
+  long frames_ = 0;
+  std::optional<detection::WindowDetector> detector_;
+  std::optional<detection::WindowTracker> tracker_;
+};
+
+evaluation::DetectionRow process(const cv::Mat& picture, const Job& job, Finder& finder) {
   evaluation::DetectionRow row;
   const bool fits = job.camera && job.camera->width == picture.cols && job.camera->height == picture.rows;
   const auto start = Clock::now();
-  row.window = detector.detect(picture, 0.0, fits ? &*job.camera : nullptr);
-  if (!row.window) row.reject_reason = detection::toString(detector.trace().outcome);
-  if (row.window && job.estimator) {
+  row.window = finder.find(picture, fits ? &*job.camera : nullptr);
+  if (!row.window) row.reject_reason = detection::toString(finder.trace().outcome);
+  if (row.window && row.window->whole() && job.estimator) {
     if (fits) {
       const pose::PoseResult result = job.estimator->estimate(*row.window, *job.camera);
       row.pose = result.estimate;
@@ -170,10 +217,10 @@ evaluation::DetectionRow process(const cv::Mat& picture, const Job& job,
   return row;
 }
 
-void writeOverlay(const std::string& file, const cv::Mat& picture, const detection::WindowDetector& detector,
+void writeOverlay(const std::string& file, const cv::Mat& picture, const Finder& finder,
                   const evaluation::DetectionRow& row, const std::string& folder) {
   cv::Mat canvas;
-  detection::drawDetection(picture, detector.trace(), row.window ? &*row.window : nullptr, canvas);
+  detection::drawDetection(picture, finder.trace(), row.window ? &*row.window : nullptr, canvas);
   const fs::path target = fs::path(folder) / (fs::path(file).filename().string() + ".png");
   if (!cv::imwrite(target.string(), canvas))
     throw JobError(target.string() + ": cannot be written; is the disk full?");
@@ -182,13 +229,12 @@ void writeOverlay(const std::string& file, const cv::Mat& picture, const detecti
 int run(const Options& options) {
   const std::vector<std::string> pictures = listPictures(options.inputs);
   const Job job = prepare(options);
-  detection::WindowDetector detector(job.params);
-  if (job.reference) detector.setReference(*job.reference);
+  Finder finder(job, options);
   const fs::path folder = fs::path(options.output).parent_path();
   if (!folder.empty()) fs::create_directories(folder);
   std::ofstream output(options.output);
   if (!output) throw UsageError(options.output + ": cannot be written");
-  output << "file," << evaluation::detectionColumns() << "\n";
+  output << "file," << evaluation::detectionColumns() << finder.columns() << "\n";
   int unreadable = 0;
   auto next_report = Clock::now() + std::chrono::seconds(5);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -196,13 +242,15 @@ int run(const Options& options) {
     evaluation::DetectionRow row;
     if (picture.empty()) {
       ++unreadable;
+      finder.skip();
       row.reject_reason = "unreadable";
       std::cerr << "detect_images: " << pictures[i] << ": cannot be read as a picture; skipped" << std::endl;
     } else {
-      row = process(picture, job, detector);
-      if (!job.overlay.empty()) writeOverlay(pictures[i], picture, detector, row, job.overlay);
+      row = process(picture, job, finder);
+      if (!job.overlay.empty()) writeOverlay(pictures[i], picture, finder, row, job.overlay);
     }
-    output << evaluation::csvField(pictures[i]) << "," << evaluation::detectionValues(row) << "\n";
+    output << evaluation::csvField(pictures[i]) << "," << evaluation::detectionValues(row)
+           << finder.values(row) << "\n";
     if (Clock::now() < next_report) continue;
     next_report += std::chrono::seconds(5);
     std::cerr << "detect_images: " << i + 1 << " of " << pictures.size() << " pictures" << std::endl;

@@ -34,4 +34,7 @@ class CornerStatistics {
 double worstCornerDistance(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);
 double meanCornerDistance(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);  ///< [px]
 
+/// 3 px or 2 % of the true border's mean side, whichever is more [px].
+double hitTolerance(const geometry::Quadrilateral& truth);
+
 }  // namespace window_ingress::evaluation

@@ -28,9 +28,6 @@ enum class SurveyVerdict {
 constexpr int kSurveyVerdicts = static_cast<int>(SurveyVerdict::kFalseAlarm) + 1;
 const char* toString(SurveyVerdict verdict);
 
-/// 3 px or 2 % of the true border's mean side, whichever is more [px].
-double hitTolerance(const geometry::Quadrilateral& truth);
-
 /// Which of the window's borders a quadrilateral is: the one whose corners are nearest in the mean, if it
 /// covers half of their union at least.
 SurveyVerdict judge(const std::optional<geometry::Quadrilateral>& found, const SurveyTruth& truth);

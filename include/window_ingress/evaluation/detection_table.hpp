@@ -22,7 +22,8 @@ struct DetectionRow {
 /// `ambiguity` is the odds of the other planar solution against the reported one, 0 (none) to 1 (a toss-up).
 std::string detectionColumns();
 
-/// The values of those columns; empty where there is nothing to say. No line end.
+/// The values of those columns; empty where there is nothing to say, corners that are not seen included. No
+/// line end.
 std::string detectionValues(const DetectionRow& row);
 
 /// A text as one csv field: in quotes if it holds a comma, a quote or a line end.

@@ -17,8 +17,12 @@ struct TruthErrors {
   bool whole = false;  ///< the image shows the opening whole, from its front
   double iou = 0.0;    ///< of the detected with the true quadrilateral, if the opening is seen from its front
   std::optional<geometry::Quadrilateral> truth;  ///< the opening's border, if seen from its front
-  std::optional<geometry::Quadrilateral> found;  ///< what was detected
-  double true_distance_m = 0.0;                  ///< camera to the opening's centre
+  bool detected = false;
+  std::optional<geometry::Quadrilateral> found;  ///< what was detected, if all of its corners are seen
+  /// Of a detection that is not whole: its sides lie on the true ones, to 2 % of the window's mean side or 3
+  /// px.
+  bool on_true_sides = false;
+  double true_distance_m = 0.0;      ///< camera to the opening's centre
   double true_yaw_rad = 0.0;         ///< of the window's axis against the camera's, positive to the left
   std::optional<double> yaw_rad;     ///< error about the window's vertical, if there is a pose
   std::optional<double> distance_m;  ///< error of the distance, if there is a pose

@@ -20,6 +20,14 @@ TEST(DetectionTable, RowsHaveAsManyFieldsAsTheHeader) {
   EXPECT_EQ(commas(detectionValues(row)), commas(detectionColumns()));
 }
 
+TEST(DetectionTable, CornersThatAreNotSeenStayEmpty) {
+  DetectionRow row;
+  row.window.emplace();
+  for (auto& corner : row.window->corners) corner.setConstant(7.0);
+  row.window->corner_visible[2] = false;
+  EXPECT_EQ(detectionValues(row).substr(0, 55), "1,0.0000,,7.000,7.000,7.000,7.000,,,7.000,7.000,,,,,,,,");
+}
+
 TEST(DetectionTable, FieldsWithCommasAreQuoted) {
   EXPECT_EQ(csvField("plain.png"), "plain.png");
   EXPECT_EQ(csvField("a,\"b\""), "\"a,\"\"b\"\"\"");
