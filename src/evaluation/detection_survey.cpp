@@ -144,6 +144,12 @@ double SurveySummary::part(SurveyVerdict verdict) const {
   return frames_ > 0 ? static_cast<double>(count(verdict)) / frames_ : 0.0;
 }
 
+double SurveySummary::innerPart() const {
+  const int inner = count(SurveyVerdict::kHit) + count(SurveyVerdict::kInexact);
+  const int borders = inner + count(SurveyVerdict::kOuterBorder) + count(SurveyVerdict::kFarBorder);
+  return borders > 0 ? static_cast<double>(inner) / borders : 1.0;
+}
+
 double SurveySummary::medianMilliseconds() const { return quantile(milliseconds_, 0.5); }
 
 }  // namespace window_ingress::evaluation

@@ -23,6 +23,7 @@ std::string found(const std::string& name, const SurveySummary& s) {
   std::string text = "| " + name + " | " + std::to_string(s.frames());
   for (int i = 0; i < kSurveyVerdicts; ++i)
     text += " | " + number("%.1f", 100.0 * s.part(static_cast<SurveyVerdict>(i)));
+  text += " | " + number("%.1f", 100.0 * s.innerPart());
   return text + " | " + missesOf(s) + " | " + number("%.2f", s.medianMilliseconds()) + " |\n";
 }
 
@@ -88,7 +89,7 @@ std::string SurveyTable::markdown() const {
   std::string text = "| scenario | frames";
   for (int i = 0; i < kSurveyVerdicts; ++i)
     text += std::string(" | ") + toString(static_cast<SurveyVerdict>(i)) + " %";
-  text += " | missed: the true candidate's end | median ms |\n" + rule(kSurveyVerdicts + 4);
+  text += " | inner border % | missed: the true candidate's end | median ms |\n" + rule(kSurveyVerdicts + 5);
   for (const auto& [name, summary] : scenarios_) text += found(name, summary);
   text += "\n| scenario";
   for (const DistanceBin& bin : bins_)

@@ -68,6 +68,8 @@ class SurveySummary {
   int frames() const { return frames_; }
   int count(SurveyVerdict verdict) const { return counts_[static_cast<int>(verdict)]; }
   double part(SurveyVerdict verdict) const;  ///< 0 to 1
+  /// Of the frames in which any border of the window was found: those with the inner one; 1 if there are none.
+  double innerPart() const;
   /// Of the hits whose distance is nearest to the i-th bin.
   const CornerStatistics& corners(std::size_t bin) const { return corners_.at(bin); }
   const std::vector<DistanceBin>& bins() const { return bins_; }

@@ -124,6 +124,8 @@ TEST(SurveySummary, CountsVerdictsAndMeasuresHitsOnly) {
   EXPECT_EQ(summary.count(SurveyVerdict::kHit), 2);
   EXPECT_EQ(summary.count(SurveyVerdict::kOuterBorder), 1);
   EXPECT_DOUBLE_EQ(summary.part(SurveyVerdict::kMissed), 0.25);
+  EXPECT_DOUBLE_EQ(summary.innerPart(), 2.0 / 3.0);
+  EXPECT_EQ(SurveySummary(defaultBins()).innerPart(), 1.0) << "of nothing";
   EXPECT_EQ(summary.misses().at("unseen"), 1);
   EXPECT_EQ(summary.corners(0).frames(), 1);
   EXPECT_EQ(summary.corners(1).frames(), 1) << "the outer border does not count";
