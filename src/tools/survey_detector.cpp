@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kRadPerDegree = 0.017453292519943295;
 
 struct Options {
-  std::vector<std::string> scenarios;
-  std::string output, params, save, load, distance, at, antialiasing;
+  std::vector<std::string> scenarios, folders;
+  std::string output, params, save, distance, at, antialiasing;
   int frames = 100;
   std::uint32_t seed = 1;
   double off_axis_deg = 45.0;
@@ -39,7 +39,7 @@ struct Options {
 po::options_description describe(Options& o) {
   po::options_description description(
       "Usage: survey_detector --scenario FILE.yaml... --frames N --output DIR [options]\n"
-      "       survey_detector --load DIR --output DIR [options]\n"
+      "       survey_detector --load DIR... --output DIR [options]\n"
       "Draws random views of each scenario, looks for the window in each, and compares with the truth.\n"
       "Writes DIR/frames.csv and DIR/summary.csv, prints the summary as tables.\n\nOptions");
   auto add = description.add_options();
@@ -58,7 +58,8 @@ po::options_description describe(Options& o) {
       "the scenario, but the wall closed at the target");
   add("antialiasing", po::value(&o.antialiasing), "instead of the scenario's: edges or multisampling");
   add("save", po::value(&o.save), "folder for the pictures and the truth about them");
-  add("load", po::value(&o.load), "pictures from such a folder, instead of drawing them");
+  add("load", po::value(&o.folders)->composing()->multitoken(),
+      "pictures from such folders, instead of drawing them");
   return description;
 }
 
@@ -93,9 +94,9 @@ evaluation::ViewRange rangeOf(const Options& o, int i) {
 
 void check(const Options& o) {
   if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  if (o.scenarios.empty() == o.load.empty())
+  if (o.scenarios.empty() == o.folders.empty())
     throw UsageError("needs either --scenario or --load; see --help");
-  if (!o.load.empty() && !o.save.empty()) throw UsageError("--save has no use with --load");
+  if (!o.folders.empty() && !o.save.empty()) throw UsageError("--save has no use with --load");
   if (o.frames < 1) throw UsageError("--frames: needs 1 at least");
 }
 
@@ -166,21 +167,25 @@ void draw(const Options& o, const std::function<void(const evaluation::SurveyPic
     }
 }
 
+void drawAndLook(const Options& o, Survey& survey) {
+  evaluation::SurveyFolder folder(o.save);
+  if (!o.save.empty()) tools::makeFolder(o.save);
+  draw(o, [&](const evaluation::SurveyPicture& picture) {
+    if (!o.save.empty()) folder.add(picture);
+    survey.look(picture);
+  });
+  if (!o.save.empty()) folder.writeTable();
+}
+
 int run(const Options& o) {
   check(o);
   Survey survey(o);
-  evaluation::SurveyFolder folder(o.load.empty() ? o.save : o.load);
-  if (!o.load.empty()) {
+  for (const std::string& name : o.folders) {
+    evaluation::SurveyFolder folder(name);
     folder.readTable();
     for (int i = 0; i < folder.size(); ++i) survey.look(folder.load(i));
-  } else {
-    if (!o.save.empty()) tools::makeFolder(o.save);
-    draw(o, [&](const evaluation::SurveyPicture& picture) {
-      if (!o.save.empty()) folder.add(picture);
-      survey.look(picture);
-    });
-    if (!o.save.empty()) folder.writeTable();
   }
+  if (o.folders.empty()) drawAndLook(o, survey);
   survey.finish();
   return 0;
 }
