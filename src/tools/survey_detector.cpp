@@ -7,11 +7,14 @@
 #include <functional>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/evaluation/detection_survey.hpp"
 #include "window_ingress/evaluation/survey_folder.hpp"
@@ -29,7 +32,7 @@ constexpr double kRadPerDegree = 0.017453292519943295;
 
 struct Options {
   std::vector<std::string> scenarios, folders;
-  std::string output, params, save, distance, at, antialiasing;
+  std::string output, params, save, overlay, distance, at, antialiasing;
   int frames = 100;
   std::uint32_t seed = 1;
   double off_axis_deg = 45.0;
@@ -58,6 +61,7 @@ po::options_description describe(Options& o) {
       "the scenario, but the wall closed at the target");
   add("antialiasing", po::value(&o.antialiasing), "instead of the scenario's: edges or multisampling");
   add("save", po::value(&o.save), "folder for the pictures and the truth about them");
+  add("overlay", po::value(&o.overlay), "folder for pictures of the frames that went wrong; truth in white");
   add("load", po::value(&o.folders)->composing()->multitoken(),
       "pictures from such folders, instead of drawing them");
   return description;
@@ -105,6 +109,7 @@ class Survey {
  public:
   explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)), table_(binsOf(o)) {
     tools::makeFolder(o.output);
+    if (!o.overlay.empty()) tools::makeFolder(o.overlay);
     frames_.open(fs::path(o.output) / "frames.csv");
     frames_ << evaluation::surveyColumns() << "\n";
   }
@@ -120,6 +125,7 @@ class Survey {
     const auto result = evaluation::resultOf(picture, window, detector_.trace(), ms);
     frames_ << evaluation::surveyRow(result) << "\n";
     table_.add(result);
+    if (!options_.overlay.empty() && !isRight(result.verdict)) draw(picture, result);
   }
 
   void finish() {
@@ -133,6 +139,25 @@ class Survey {
  private:
   static std::vector<evaluation::DistanceBin> binsOf(const Options& o) {
     return o.at.empty() ? evaluation::defaultBins() : evaluation::binsAt(fixedDistances(o));
+  }
+
+  static bool isRight(evaluation::SurveyVerdict verdict) {
+    return verdict == evaluation::SurveyVerdict::kHit || verdict == evaluation::SurveyVerdict::kNothing;
+  }
+
+  void draw(const evaluation::SurveyPicture& picture, const evaluation::SurveyResult& result) const {
+    cv::Mat canvas;
+    detection::drawDetection(picture.image, detector_.trace(), result.window ? &*result.window : nullptr,
+                             canvas);
+    std::vector<cv::Point> corners;
+    for (const Eigen::Vector2d& corner : picture.truth.inner)
+      corners.emplace_back(cvRound(corner.x()), cvRound(corner.y()));
+    if (picture.truth.present) cv::polylines(canvas, corners, true, cv::Scalar::all(255));
+    const fs::path file =
+        fs::path(options_.overlay) / (picture.scenario + "_" + std::to_string(picture.seed) + "_" +
+                                      evaluation::toString(result.verdict) + ".png");
+    if (!cv::imwrite(file.string(), canvas))
+      throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
   }
 
   static detection::DetectorParams paramsOf(const Options& o) {
