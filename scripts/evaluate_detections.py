@@ -93,7 +93,7 @@ def evaluate(detections, annotations, meta, leave_out, min_iou):
             continue
         records.append({"file": name, "scene": info["scene"], "tier": info["tier"], "hard": name in hard,
                         "target": bool(quads[name]), "exhaustive": info["exhaustive"] == "yes",
-                        "detected": found is not None, "iou": best, "hit": best >= min_iou,
+                        "detected": found is not None, "iou": best, "hit": best >= min_iou, "found": found,
                         "score": float(row["score"] or 0), "reason": row["reject_reason"], "ms": float(row["milliseconds"] or 0)})
     return records
 
@@ -134,11 +134,15 @@ def report(records, title, per_scene):
         print(f"time: median {times[len(times) // 2]:.2f} ms, largest {times[-1]:.2f} ms")
 
 
+def wrong(records):
+    """Targets not found, and what was found where there is none."""
+    return [r for r in records if not r["hit"] and (r["target"] or r["detected"])]
+
+
 def print_misses(records):
-    for r in records:
-        if not r["hit"] and (r["target"] or r["detected"]):
-            said = f"iou {r['iou']:.2f} score {r['score']:.2f}" if r["detected"] else r["reason"]
-            print(f"{r['tier']:3s} {r['scene'][:44]:44s} {r['file']:46s} {said}")
+    for r in wrong(records):
+        said = f"iou {r['iou']:.2f} score {r['score']:.2f}" if r["detected"] else r["reason"]
+        print(f"{r['tier']:3s} {r['scene'][:44]:44s} {r['file']:46s} {said}")
 
 
 def main():

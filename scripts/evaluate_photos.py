@@ -15,6 +15,7 @@ import sys
 import evaluate_detections as rules
 
 MARGIN = 0.25  # of the references `ref_with_margin`: at each side, of the target's own width or height
+CELL, COLUMNS = (280, 210), 8  # of the sheet of what went wrong [px]
 DEFAULT_TOOL = pathlib.Path(__file__).resolve().parents[1] / "build" / "core" / "detect_images"
 
 
@@ -116,6 +117,37 @@ def print_with_reference(runs):
               f"({percent(rules.rate(r['detected'] for r in negatives))}) | {alarms([r for r in negatives if r['hard']])} |")
 
 
+def sheet(photographs, records, path):
+    """Every picture that went wrong, annotated quadrilaterals in white, what was found in red."""
+    import cv2  # needed here only
+    import numpy
+
+    annotated = {}
+    for row in photographs.annotations:
+        if row["x1"] and not row["label"].startswith("pose_only_"):
+            annotated.setdefault(row["file"], []).append(rules.corners(row))
+    cells = []
+    for r in rules.wrong(records):
+        picture = cv2.imread(str(photographs.folder / "images" / r["file"]), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
+        scale = min(CELL[0] / picture.shape[1], CELL[1] / picture.shape[0])
+        small = cv2.resize(picture, None, fx=scale, fy=scale,
+                           interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
+        for quad, colour in [(q, (255, 255, 255)) for q in annotated.get(r["file"], [])] + [(r["found"], (0, 0, 255))]:
+            if quad:
+                points = numpy.array([[(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5] for x, y in quad])
+                cv2.polylines(small, [numpy.round(points * 16).astype(numpy.int32)], True, colour, 1, cv2.LINE_AA, 4)
+        cell = numpy.zeros((CELL[1] + 16, CELL[0], 3), numpy.uint8)
+        cell[16:16 + small.shape[0], :small.shape[1]] = small
+        said = f"{r['iou']:.2f}" if r["detected"] else r["reason"]
+        cv2.putText(cell, f"{r['file'][-26:-4]} {said}", (2, 12), cv2.FONT_HERSHEY_SIMPLEX, 0.38, (255, 255, 255))
+        cells.append(cell)
+    while len(cells) % COLUMNS:
+        cells.append(numpy.zeros_like(cells[0]))
+    if cells:
+        rows = [numpy.hstack(cells[i:i + COLUMNS]) for i in range(0, len(cells), COLUMNS)]
+        cv2.imwrite(str(path), numpy.vstack(rows))
+
+
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder with meta.csv and images/")
@@ -126,6 +158,7 @@ def parse():
     parser.add_argument("--iou", type=float, default=0.7)
     parser.add_argument("--per-scene", action="store_true")
     parser.add_argument("--misses", action="store_true", help="list what was not found and what was found wrongly")
+    parser.add_argument("--sheets", action="store_true", help="draw those pictures: OUTPUT/*_wrong.png")
     parser.add_argument("--overlay", action="store_true", help="also pictures of what happened to each candidate")
     parser.add_argument("tool_arguments", nargs="*", help="after --: further options of detect_images")
     return parser.parse_args()
@@ -148,10 +181,12 @@ def main():
     print_without_reference(plain, options.per_scene)
     print("\n## With a reference\n")
     print_with_reference(runs)
-    if options.misses:
-        for title, records in [("without a reference", plain), *runs]:
+    for title, records in [("without_reference", plain), *runs]:
+        if options.misses:
             print(f"\n## Not found, or found wrongly: {title}\n")
             rules.print_misses(records)
+        if options.sheets:
+            sheet(photographs, records, options.output / f"{title}_wrong.png")
     return 0
 
 
