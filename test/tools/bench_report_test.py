@@ -1,0 +1,98 @@
+"""What the report makes of measurements whose ratios are known."""
+import json
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+REPORT = ROOT / "scripts" / "bench_report.py"
+sys.path.insert(0, str(ROOT / "scripts"))
+import bench_report as report  # noqa: E402
+
+
+def runs(name, milliseconds, found=1.0):
+    return [{"run_name": name, "run_type": "iteration", "cpu_time": ms, "found": found} for ms in milliseconds]
+
+
+def write_times(folder, track_ms=0.1, found=1.0):
+    rows = (runs("search/brick_wall", [3.0, 2.0, 90.0]) + runs("track/brick_wall", [track_ms], found)
+            + runs("composition/brick_wall", [24.0]) + runs("apriltag_decimate_2/brick_wall", [12.0])
+            + runs("stage_edges/brick_wall", [0.5]))
+    rows.append({"run_name": "aruco/brick_wall", "run_type": "iteration", "error_occurred": True})
+    rows.append({"run_name": "search/brick_wall", "run_type": "aggregate", "cpu_time": 1.0})
+    (folder / "times.json").write_text(json.dumps({"benchmarks": rows}))
+
+
+def run(folder, *more):
+    return subprocess.run([sys.executable, str(REPORT), str(folder), "--json", str(folder / "bench.json"), *more],
+                          capture_output=True, text=True, check=False)
+
+
+def test_medians_not_means_and_no_aggregates(tmp_path):
+    write_times(tmp_path)
+    times = report.read_times(str(tmp_path))
+    assert times["search/brick_wall"] == {"ms": 3.0, "fastest_ms": 2.0, "found": 1.0}
+    assert "aruco/brick_wall" not in times
+
+
+def test_ratios_are_ours_over_the_peer(tmp_path):
+    write_times(tmp_path)
+    done = run(tmp_path)
+    assert done.returncode == 0, done.stderr
+    ratios = json.loads((tmp_path / "bench.json").read_text())["ratios"]["brick_wall"]
+    assert ratios["search"]["composition"] == pytest.approx(1 / 8)
+    assert ratios["search"]["apriltag_decimate_2"] == pytest.approx(1 / 4)
+    assert ratios["track"]["composition"] == pytest.approx(1 / 240)
+    assert "1/240.0" in done.stdout
+
+
+def test_a_slow_track_breaks_the_bound(tmp_path):
+    write_times(tmp_path, track_ms=1.3)
+    done = run(tmp_path)
+    assert done.returncode == 1
+    assert "track on brick_wall" in done.stderr
+
+
+def test_a_track_that_was_lost_is_no_track(tmp_path):
+    write_times(tmp_path, track_ms=30.0, found=0.0)
+    done = run(tmp_path)
+    assert done.returncode == 1
+    assert "track on brick_wall follows 0 %" in done.stderr
+
+
+def test_instructions_are_those_of_a_picture(tmp_path):
+    folder = tmp_path / "callgrind"
+    folder.mkdir()
+    (folder / "counted.log").write_text("search/brick pictures=2\ntrack/brick pictures=1\n")
+    (folder / "out.1").write_text("desc: Trigger: Client Request: search/brick\ntotals: 3000\n")
+    (folder / "out.2").write_text("desc: Trigger: Client Request: track/brick\ntotals: 70\n")
+    (folder / "out.3").write_text("desc: Trigger: Program termination\ntotals: 5\n")
+    assert report.read_instructions(str(tmp_path)) == {"search/brick": 1500, "track/brick": 70}
+
+
+def test_document_keeps_what_is_outside_of_the_marks(tmp_path):
+    write_times(tmp_path)
+    doc = tmp_path / "doc.md"
+    doc.write_text(f"before\n{report.BEGIN}\nold\n{report.END}\nafter\n")
+    for _ in range(2):
+        assert run(tmp_path, "--doc", str(doc)).returncode == 0
+        text = doc.read_text()
+        assert text.startswith("before\n") and text.endswith("\nafter\n") and "old" not in text
+        assert text.count(report.BEGIN) == 1 and text.count("| brick_wall |") == 3
+
+
+def test_document_without_marks_is_refused_and_kept(tmp_path):
+    write_times(tmp_path)
+    doc = tmp_path / "doc.md"
+    doc.write_text("no marks\n")
+    done = run(tmp_path, "--doc", str(doc))
+    assert done.returncode == 2 and len(done.stderr.strip().splitlines()) == 1
+    assert doc.read_text() == "no marks\n"
+
+
+def test_nothing_measured_is_said(tmp_path):
+    done = run(tmp_path)
+    assert done.returncode == 2
+    assert "nothing" in done.stderr
