@@ -26,10 +26,11 @@ void count(const Subject& subject, const Sequence& sequence) {
   const std::string name = subject.name + "/" + sequence.name;
   CALLGRIND_START_INSTRUMENTATION;
   CALLGRIND_ZERO_STATS;
-  for (std::size_t i = 0; i < pictures; ++i) step();
+  int found = 0;
+  for (std::size_t i = 0; i < pictures; ++i) found += step() ? 1 : 0;
   CALLGRIND_DUMP_STATS_AT(name.c_str());
   CALLGRIND_STOP_INSTRUMENTATION;
-  std::printf("%s pictures=%zu\n", name.c_str(), pictures);
+  std::printf("%s pictures=%zu found=%d\n", name.c_str(), pictures, found);
   std::fflush(stdout);
 }
 

@@ -60,14 +60,17 @@ def test_a_track_that_was_lost_is_no_track(tmp_path):
     done = run(tmp_path)
     assert done.returncode == 1
     assert "track on brick_wall follows 0 %" in done.stderr
+    assert "track" not in json.loads((tmp_path / "bench.json").read_text())["ratios"]["brick_wall"]
 
 
 def test_instructions_are_those_of_a_picture(tmp_path):
     folder = tmp_path / "callgrind"
     folder.mkdir()
-    (folder / "counted.log").write_text("search/brick pictures=2\ntrack/brick pictures=1\n")
+    (folder / "counted.log").write_text(
+        "search/brick pictures=2 found=0\ntrack/brick pictures=1 found=1\ntrack/lens pictures=2 found=0\n")
     (folder / "out.1").write_text("desc: Trigger: Client Request: search/brick\ntotals: 3000\n")
     (folder / "out.2").write_text("desc: Trigger: Client Request: track/brick\ntotals: 70\n")
+    (folder / "out.4").write_text("desc: Trigger: Client Request: track/lens\ntotals: 900\n")
     (folder / "out.3").write_text("desc: Trigger: Program termination\ntotals: 5\n")
     assert report.read_instructions(str(tmp_path)) == {"search/brick": 1500, "track/brick": 70}
 
@@ -80,7 +83,7 @@ def test_document_keeps_what_is_outside_of_the_marks(tmp_path):
         assert run(tmp_path, "--doc", str(doc)).returncode == 0
         text = doc.read_text()
         assert text.startswith("before\n") and text.endswith("\nafter\n") and "old" not in text
-        assert text.count(report.BEGIN) == 1 and text.count("| brick_wall |") == 3
+        assert text.count(report.BEGIN) == 1 and text.count("| brick_wall |") == 4
 
 
 def test_document_without_marks_is_refused_and_kept(tmp_path):
