@@ -19,6 +19,8 @@ namespace {
 using namespace window_ingress::bench;
 using nlohmann::json;
 
+constexpr std::size_t kLeastPictures = 30;  ///< counted; what happens now and then must happen among them
+
 json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double pictures, std::size_t limit) {
   std::vector<std::pair<std::size_t, AllocationSite>> order;
   for (const auto& [site, count] : counts) order.emplace_back(count, site);
@@ -31,12 +33,13 @@ json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double picture
   return sites;
 }
 
-/// Twice through the sequence for warming up, once counted.
+/// Whole turns through the sequence: some for warming up, as many counted.
 json count(const Subject& subject, const Sequence& sequence, std::size_t limit) {
   const Step step = subject.start(sequence);
   if (!step) return {};
-  const std::size_t pictures = std::max<std::size_t>(1, 2 * (sequence.images.size() - 1));
-  for (std::size_t i = 0; i < 2 * pictures; ++i) step();
+  const std::size_t turn = std::max<std::size_t>(1, 2 * (sequence.images.size() - 1));
+  const std::size_t pictures = turn * ((kLeastPictures + turn - 1) / turn);
+  for (std::size_t i = 0; i < pictures; ++i) step();
   startRecording();
   for (std::size_t i = 0; i < pictures; ++i) step();
   const Recording recording = stopRecording();

@@ -1,7 +1,7 @@
 /// Instructions a picture: the figure that does not depend on the machine's load. Under callgrind, which
 /// writes one file for each subject and sequence, with "subject/sequence" in its head:
 ///   valgrind --tool=callgrind --instr-atstart=no benchmark_instructions --frames=FOLDER [SUBJECT...]
-/// The first pictures of each sequence are used, once for warming up and once counted; how many, it prints.
+/// The first pictures of each sequence are used, after some for warming up; how many are counted, it prints.
 #include <valgrind/callgrind.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void count(const Subject& subject, const Sequence& sequence) {
   const Step step = subject.start(sequence);
   if (!step) return;
   const std::size_t pictures = std::min(kPictures, sequence.images.size());
-  for (std::size_t i = 0; i < pictures; ++i) step();
+  for (std::size_t i = 0; i < 2 + pictures; ++i) step();
   const std::string name = subject.name + "/" + sequence.name;
   CALLGRIND_START_INSTRUMENTATION;
   CALLGRIND_ZERO_STATS;
