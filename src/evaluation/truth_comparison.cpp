@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "window_ingress/evaluation/track_survey.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
@@ -14,19 +15,6 @@ constexpr double kDegreesPerRad = 57.29577951308232;
 bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCamera& camera) {
   const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
   return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
-}
-
-// Sides are straight in the undistorted picture.
-bool liesOnSides(const detection::WindowObservation& window, const geometry::Quadrilateral& truth,
-                 const geometry::PinholeCamera& camera) {
-  for (int side = 0; side < 4; ++side) {
-    if (!window.edges[side].visible) continue;
-    const Eigen::Vector2d from = camera.undistort(truth[side]), to = camera.undistort(truth[(side + 1) % 4]);
-    const Eigen::Vector2d along = (to - from).normalized(), across(-along.y(), along.x());
-    for (const Eigen::Vector2d& end : {window.edges[side].a, window.edges[side].b})
-      if (std::abs(across.dot(camera.undistort(end) - from)) > hitTolerance(truth)) return false;
-  }
-  return true;
 }
 
 double median(std::vector<double> values) {
@@ -54,7 +42,7 @@ TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& 
   if (errors.found && errors.truth)
     errors.iou = geometry::intersectionOverUnion(*errors.found, *errors.truth);
   if (window && !errors.found && errors.truth)
-    errors.on_true_sides = liesOnSides(*window, *errors.truth, camera);
+    errors.on_true_sides = worstSideDistance(*window, *errors.truth, camera) <= hitTolerance(*errors.truth);
   if (!estimate) return errors;
   errors.yaw_rad = geometry::yawOf(T_camera_window.linear().transpose() * estimate->linear());
   errors.distance_m = estimate->translation().norm() - errors.true_distance_m;

@@ -11,7 +11,7 @@ import rosbag
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RUN = ROOT / "scripts" / "run"
 NOMINAL = ROOT / "config" / "scenarios" / "nominal.yaml"
-TOOLS = ["detect_images", "fly", "replay_bag", "survey_detector"]
+TOOLS = ["detect_images", "fly", "replay_bag", "survey_detector", "survey_tracker"]
 
 
 def run(*arguments):

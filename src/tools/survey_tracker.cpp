@@ -1,0 +1,192 @@
+/// Measures the tracker on flights towards the window; see --help.
+#include <boost/program_options.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
+#include "window_ingress/evaluation/survey_flight.hpp"
+#include "window_ingress/evaluation/survey_view.hpp"
+#include "window_ingress/evaluation/track_survey.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/simulation/camera_sensor.hpp"
+#include "window_ingress/simulation/random_stream.hpp"
+#include "window_ingress/simulation/reference_picture.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using namespace window_ingress;
+using tools::UsageError;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kAttitudeNoise_rad = 0.002, kAttitudeBias_rad = 0.01;
+
+struct Options {
+  std::vector<std::string> scenarios;
+  std::string output, params;
+  int flights = 5;
+  std::uint32_t seed = 1;
+  bool no_reference = false, no_attitude = false;
+  evaluation::FlightRange range;
+};
+
+po::options_description describe(Options& o) {
+  po::options_description description(
+      "Usage: survey_tracker --scenario FILE.yaml... --flights N --output DIR [options]\n"
+      "Follows the window on random flights towards it, without a navigator, and compares with the truth.\n"
+      "Writes DIR/<scenario>.csv with a row a frame, prints a table.\n\nOptions");
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("scenario", po::value(&o.scenarios)->composing()->multitoken(), "scenario files");
+  add("flights", po::value(&o.flights)->default_value(o.flights), "in each scenario");
+  add("seed", po::value(&o.seed)->default_value(o.seed),
+      "of the first flight; each further one has the next");
+  add("output,o", po::value(&o.output), "folder of the results");
+  add("params", po::value(&o.params), "yaml file with a section 'detector'");
+  add("speed", po::value(&o.range.speed_mps)->default_value(o.range.speed_mps), "towards the plane [m/s]");
+  add("end", po::value(&o.range.end_m)->default_value(o.range.end_m), "of the flight, before the plane [m]");
+  add("wobble", po::value(&o.range.wobble_rad)->default_value(o.range.wobble_rad), "of the attitude [rad]");
+  add("no-reference", po::bool_switch(&o.no_reference), "without the picture of the target");
+  add("no-attitude", po::bool_switch(&o.no_attitude), "the tracker does not know the attitude");
+  return description;
+}
+
+void check(const Options& o) {
+  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.scenarios.empty()) throw UsageError("--scenario is missing; see --help");
+  if (o.flights < 1) throw UsageError("--flights: needs 1 at least");
+  if (!(o.range.speed_mps >= 0.1 && o.range.speed_mps <= 10.0))
+    throw UsageError("--speed: needs 0.1 to 10 m/s");
+  if (!(o.range.end_m >= 0.2 && o.range.end_m <= 3.0)) throw UsageError("--end: needs 0.2 to 3 m");
+  if (!(o.range.wobble_rad >= 0.0 && o.range.wobble_rad <= 0.3))
+    throw UsageError("--wobble: needs 0 to 0.3 rad");
+}
+
+detection::DetectorParams paramsOf(const Options& o) {
+  detection::DetectorParams params;
+  if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", params))
+    throw UsageError(o.params + ": no section 'detector' in this file");
+  return params;
+}
+
+/// What an attitude estimate says: a constant error and noise.
+class Attitude {
+ public:
+  explicit Attitude(std::uint32_t seed) : random_(seed, "attitude"), bias_(draw(kAttitudeBias_rad)) {}
+  Eigen::Matrix3d of(const Eigen::Matrix3d& truth) { return bias_ * truth * draw(kAttitudeNoise_rad); }
+
+ private:
+  Eigen::Matrix3d draw(double sigma_rad) {
+    const double x = random_.normal(sigma_rad), y = random_.normal(sigma_rad), z = random_.normal(sigma_rad);
+    return (Eigen::AngleAxisd(x, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(y, Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(z, Eigen::Vector3d::UnitZ()))
+        .toRotationMatrix();
+  }
+  simulation::RandomStream random_;
+  Eigen::Matrix3d bias_;
+};
+
+/// One flight of one scenario and seed.
+class Flight {
+ public:
+  Flight(const std::string& file, std::uint32_t seed, const Options& o)
+      : options_(o),
+        seed_(seed),
+        scenario_(simulation::loadScenario(file, seed)),
+        camera_(scenario_.camera.model()),
+        sensor_(simulation::buildScene(scenario_), scenario_.camera, seed),
+        path_(o.range, seed),
+        attitude_(seed),
+        tracker_(paramsOf(o)) {
+    if (o.no_reference) return;
+    geometry::Quadrilateral corners;
+    const cv::Mat picture = simulation::referencePicture(scenario_, &corners);
+    tracker_.setReference(detection::ReferenceAppearance(picture, corners));
+  }
+
+  template <typename Use>
+  void fly(const Use& use) {
+    const double period_sec = 1.0 / scenario_.camera.rate_hz;
+    for (int i = 0; i * period_sec < path_.durationSec(); ++i)
+      if (const auto result = look(i, i * period_sec)) use(*result);
+  }
+
+ private:
+  std::optional<evaluation::TrackResult> look(int index, double time_sec) {
+    const simulation::CameraMotion motion = path_.motion(time_sec);
+    const double stamp_sec = kFirstStamp_sec + time_sec;
+    const auto truth =
+        evaluation::projectMoving(camera_, motion, scenario_.camera.readout_sec, scenario_.opening(), 0.0);
+    detection::TrackInput input;
+    input.image = sensor_.expose(motion, static_cast<std::uint64_t>(index), stamp_sec);
+    input.stamp_sec = stamp_sec;
+    input.camera = &camera_;
+    if (!options_.no_attitude) input.R_world_camera = attitude_.of(motion.T_window_camera.linear());
+    evaluation::TrackResult result;
+    result.searched = !tracker_.tracking();
+    const auto start = Clock::now();
+    result.window = tracker_.update(input);
+    result.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    if (!truth) return std::nullopt;
+    result.seed = seed_;
+    result.frame = index;
+    result.plane_m = -motion.T_window_camera.translation().x();
+    result.truth = *truth;
+    evaluation::judge(result, camera_);
+    return result;
+  }
+
+  static constexpr double kFirstStamp_sec = 100.0;
+  const Options& options_;
+  std::uint32_t seed_;
+  simulation::Scenario scenario_;
+  geometry::PinholeCamera camera_;
+  simulation::CameraSensor sensor_;
+  evaluation::SurveyFlight path_;
+  Attitude attitude_;
+  detection::WindowTracker tracker_;
+};
+
+int run(const Options& o) {
+  check(o);
+  tools::makeFolder(o.output);
+  std::cout << evaluation::TrackSummary::markdownHeader();
+  for (const std::string& file : o.scenarios) {
+    const std::string name = fs::path(file).stem().string();
+    std::ofstream table(fs::path(o.output) / (name + ".csv"));
+    table << evaluation::trackColumns() << "\n";
+    evaluation::TrackSummary summary;
+    for (int i = 0; i < o.flights; ++i)
+      Flight(file, o.seed + static_cast<std::uint32_t>(i), o).fly([&](const evaluation::TrackResult& result) {
+        table << evaluation::trackRow(result) << "\n";
+        summary.add(result);
+      });
+    if (!table.flush()) throw std::runtime_error(o.output + ": cannot be written; is the disk full?");
+    std::cout << summary.markdown(name) << std::flush;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  return tools::runTool("survey_tracker", [&] {
+    Options o;
+    const auto description = describe(o);
+    po::variables_map given;
+    po::store(po::command_line_parser(argc, argv).options(description).run(), given);
+    po::notify(given);
+    if (given.count("help") == 0) return run(o);
+    std::cout << description;
+    return 0;
+  });
+}
