@@ -49,6 +49,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
       nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
+  reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);
   diagnostics_.add("detection", [this] { return detectionHealth(); });
   if (!params_.lockstep) return;
   lockstep_.emplace(
@@ -87,7 +88,11 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   const double begun_sec = steadyNowSec();
   const cv::Mat& image = picture.image;
   const auto camera = camera_.cameraOf(image.cols, image.rows, header.frame_id);
-  last_window_ = detector_.detect(image, header.stamp.toSec(), camera ? &*camera.value : nullptr);
+  detection::TrackInput seen;
+  seen.image = image;
+  seen.stamp_sec = header.stamp.toSec();
+  seen.camera = camera ? &*camera.value : nullptr;
+  last_window_ = detector_.update(seen);
   last_picture_ = picture;
   window_ingress::WindowDetection message;
   if (last_window_)
@@ -123,14 +128,22 @@ void DetectorNode::receiveReference(const window_ingress::ReferencePicture& mess
 }
 
 bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& response) {
-  response.success = last_window_.has_value() && last_picture_.image.channels() == 3;
+  response.success = last_window_ && last_window_->whole() && last_picture_.image.channels() == 3;
   if (response.success) {
     detector_.setReference({last_picture_.image.clone(), last_window_->corners});
     response.message = "the window in the last image is the reference now";
   } else {
-    response.message = last_window_ ? "the pictures have no colour"
-                                    : "no window in the last image: " + detector_.trace().detail;
+    response.message = !last_window_           ? "no window in the last image: " + detector_.trace().detail
+                       : last_window_->whole() ? "the pictures have no colour"
+                                               : "the window is not whole in the last image";
   }
+  return true;
+}
+
+bool DetectorNode::reset(Trigger::Request&, Trigger::Response& response) {
+  detector_.reset();
+  response.success = true;
+  response.message = "the track is forgotten; the next image is searched";
   return true;
 }
 

@@ -19,6 +19,7 @@
 #include "adapters/reconfigure.hpp"
 #include "adapters/run_node.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 
 namespace window_ingress::adapters {
 
@@ -78,11 +79,12 @@ class DetectorNode : public Node {
   void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image);
   void receiveReference(const window_ingress::ReferencePicture& message);
   bool captureReference(Trigger::Request& request, Trigger::Response& response);
+  bool reset(Trigger::Request& request, Trigger::Response& response);
   Health detectionHealth() const;
 
   DetectorNodeParams params_;
   Diagnostics diagnostics_;
-  detection::WindowDetector detector_;
+  detection::WindowTracker detector_;
   CameraSource camera_;
   ImageSource images_;
   Tuning tuning_;
@@ -97,7 +99,7 @@ class DetectorNode : public Node {
 
   ros::Subscriber reference_subscriber_;
   ros::Publisher window_publisher_, debug_publisher_;
-  ros::ServiceServer capture_;
+  ros::ServiceServer capture_, reset_;
 };
 
 }  // namespace window_ingress::adapters

@@ -12,10 +12,13 @@
 #include <map>
 
 #include "adapters/stamps.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/pose/pose_buffer.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
+constexpr double kMaxAttitudeGapSec = 0.02;
 constexpr std::size_t kMostWaiting = 30;  // images that wait for odometry as new as themselves
 
 double nowMs() {
@@ -53,8 +56,11 @@ class Replay {
   void takeTruth(const geometry_msgs::PoseStamped& message);
   void takeTransforms(const tf2_msgs::TFMessage& message);
   void processFirst();
+  detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
+                                const Converted<geometry::PinholeCamera>& camera);
   void locate(ReplayedFrame& frame, const std::string& camera_frame);
   Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image) const;
+  Converted<Eigen::Isometry3d> mountingIfKnown(const std::string& camera_frame) const;
   std::optional<Eigen::Isometry3d> mounting(const std::string& camera_frame);
   void refuse(const std::string& what, const std::string& why) {
     ++summary_.refused;
@@ -63,7 +69,8 @@ class Replay {
 
   const ReplayParams& params_;
   const std::function<void(const ReplayedFrame&)>& each_;
-  detection::WindowDetector detector_;
+  detection::WindowTracker detector_;
+  pose::PoseBuffer attitude_;
   navigation::TargetTracker tracker_;
   Converted<geometry::PinholeCamera> camera_;
   tf2::BufferCore transforms_;
@@ -125,6 +132,7 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
     return refuse(params_.topics.imu,
                   "frame_id is '" + message.header.frame_id + "', expected '" + params_.frames.base + "'");
   tracker_.addAttitude(*stamp_sec, *attitude.value);
+  attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
 }
 
 void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {
@@ -142,14 +150,18 @@ Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const 
   return {std::nullopt, "camera_info is for pictures of another size"};
 }
 
-std::optional<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) {
+Converted<Eigen::Isometry3d> Replay::mountingIfKnown(const std::string& camera_frame) const {
   try {
-    const auto found = transforms_.lookupTransform(params_.frames.base, camera_frame, ros::Time(0));
-    return fromMsg(found.transform).value;
+    return fromMsg(transforms_.lookupTransform(params_.frames.base, camera_frame, ros::Time(0)).transform);
   } catch (const tf2::TransformException& error) {
-    refuse("mounting of the camera", error.what());
-    return std::nullopt;
+    return {std::nullopt, error.what()};
   }
+}
+
+std::optional<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) {
+  const auto found = mountingIfKnown(camera_frame);
+  if (!found) refuse("mounting of the camera", found.reason);
+  return found.value;
 }
 
 void Replay::processFirst() {
@@ -163,7 +175,7 @@ void Replay::processFirst() {
   if (!camera) refuse("camera_info", camera.reason);
   frame.camera = camera.value;
   const double begun_ms = nowMs();
-  frame.row.window = detector_.detect(picture.image, frame.stamp.toSec(), camera ? &*camera.value : nullptr);
+  frame.row.window = detector_.update(inputOf(picture.image, waiting.header, camera));
   if (!frame.row.window) frame.row.reject_reason = detection::toString(detector_.trace().outcome);
   if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
   summary_.milliseconds += nowMs() - begun_ms;
@@ -172,6 +184,20 @@ void Replay::processFirst() {
   const auto truth = truth_.find(waiting.header.stamp);
   if (truth != truth_.end()) frame.truth = truth->second;
   each_(frame);
+}
+
+// Attitude where the bag has it near the exposure, and the mounting of the camera.
+detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Header& header,
+                                      const Converted<geometry::PinholeCamera>& camera) {
+  detection::TrackInput input;
+  input.image = image;
+  input.stamp_sec = header.stamp.toSec();
+  input.camera = camera ? &*camera.value : nullptr;
+  const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
+  if (!T_odom_base) return input;
+  if (const auto T_base_camera = mountingIfKnown(header.frame_id).value)
+    input.R_world_camera = T_odom_base->linear() * T_base_camera->linear();
+  return input;
 }
 
 void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {

@@ -12,7 +12,7 @@
 #include "adapters/bag_topics.hpp"
 #include "adapters/image_guard.hpp"
 #include "adapters/msg_conversion.hpp"
-#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/evaluation/detection_table.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
 #include "window_ingress/pose/window_filter.hpp"

@@ -45,7 +45,8 @@ bool isFinite(const DetectionMsg& m) {
   const auto finite = [](double number) { return std::isfinite(number); };
   const auto all = [&](const auto& numbers) { return std::all_of(numbers.begin(), numbers.end(), finite); };
   return all(m.corner_x) && all(m.corner_y) && all(m.corner_covariance) && all(m.edge_sigma_px) &&
-         all(m.edge_sigma_rad) && finite(m.score) && finite(m.bhattacharyya);
+         all(m.edge_sigma_rad) && all(m.edge_a_x) && all(m.edge_a_y) && all(m.edge_b_x) && all(m.edge_b_y) &&
+         finite(m.score) && finite(m.bhattacharyya);
 }
 
 bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
@@ -57,19 +58,51 @@ pose::Matrix6d covarianceFromMsg(const geometry_msgs::PoseWithCovariance& messag
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data());
 }
 
+void fillCorner(DetectionMsg& message, const detection::WindowObservation& window, int i) {
+  message.corner_visible[i] = true;
+  message.corner_x[i] = window.corners[i].x();
+  message.corner_y[i] = window.corners[i].y();
+  const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> covariance = window.corner_covariance[i];
+  std::copy(covariance.data(), covariance.data() + 4, message.corner_covariance.begin() + 4 * i);
+}
+
+void fillEdge(DetectionMsg& message, const detection::Edge& edge, int i) {
+  message.edge_visible[i] = true;
+  message.edge_sigma_px[i] = edge.sigma_px;
+  message.edge_sigma_rad[i] = edge.sigma_rad;
+  message.edge_a_x[i] = edge.a.x();
+  message.edge_a_y[i] = edge.a.y();
+  message.edge_b_x[i] = edge.b.x();
+  message.edge_b_y[i] = edge.b.y();
+}
+
+// What the message does not call visible stays zero, whatever it says.
+void readCorner(const DetectionMsg& message, int i, detection::WindowObservation& window) {
+  window.corner_visible[i] = message.corner_visible[i] != 0;
+  if (!window.corner_visible[i]) return;
+  window.corners[i] = {message.corner_x[i], message.corner_y[i]};
+  window.corner_covariance[i] = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
+      message.corner_covariance.data() + 4 * i);
+}
+
+detection::Edge readEdge(const DetectionMsg& message, int i) {
+  if (message.edge_visible[i] == 0) return {};
+  return {true,
+          message.edge_sigma_px[i],
+          message.edge_sigma_rad[i],
+          {message.edge_a_x[i], message.edge_a_y[i]},
+          {message.edge_b_x[i], message.edge_b_y[i]}};
+}
+
 }  // namespace
 
 DetectionMsg toMsg(const detection::WindowObservation& window) {
   DetectionMsg message;
   message.detected = true;
+  message.target_id = window.target_id;
   for (int i = 0; i < 4; ++i) {
-    message.corner_x[i] = window.corners[i].x();
-    message.corner_y[i] = window.corners[i].y();
-    const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> covariance = window.corner_covariance[i];
-    std::copy(covariance.data(), covariance.data() + 4, message.corner_covariance.begin() + 4 * i);
-    message.edge_visible[i] = window.edges[i].visible;
-    message.edge_sigma_px[i] = window.edges[i].visible ? window.edges[i].sigma_px : 0.0;
-    message.edge_sigma_rad[i] = window.edges[i].visible ? window.edges[i].sigma_rad : 0.0;
+    if (window.corner_visible[i]) fillCorner(message, window, i);
+    if (window.edges[i].visible) fillEdge(message, window.edges[i], i);
   }
   message.score = window.score;
   message.has_appearance = window.has_appearance;
@@ -85,13 +118,10 @@ Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
   detection::WindowObservation window;
   window.stamp_sec = *stamp_sec;
   for (int i = 0; i < 4; ++i) {
-    window.corners[i] = {message.corner_x[i], message.corner_y[i]};
-    window.corner_covariance[i] = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
-        message.corner_covariance.data() + 4 * i);
-    window.edges[i].visible = message.edge_visible[i] != 0;
-    window.edges[i].sigma_px = message.edge_sigma_px[i];
-    window.edges[i].sigma_rad = message.edge_sigma_rad[i];
+    readCorner(message, i, window);
+    window.edges[i] = readEdge(message, i);
   }
+  window.target_id = message.target_id;
   window.score = message.score;
   window.has_appearance = message.has_appearance != 0;
   window.bhattacharyya = message.bhattacharyya;

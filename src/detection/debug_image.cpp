@@ -31,6 +31,16 @@ void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Sca
   cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, colour, 1, cv::LINE_AA);
 }
 
+// The borders as far as they were seen.
+void drawPartial(cv::Mat& canvas, const WindowObservation& window) {
+  for (const Edge& edge : window.edges)
+    if (edge.visible)
+      cv::line(canvas, cv::Point2d(edge.a.x(), edge.a.y()), cv::Point2d(edge.b.x(), edge.b.y()), kGreen, 2,
+               cv::LINE_AA);
+  write(canvas, cv::format("%d of 4 sides, score %.2f", window.visibleSides(), window.score),
+        {4, canvas.rows - 6}, kGreen);
+}
+
 void drawLegend(cv::Mat& canvas, const std::array<int, kRejectReasons>& counts) {
   int line = 0;
   const int step = std::max(10, canvas.cols / 50);
@@ -63,6 +73,7 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
           kYellow);
     return;
   }
+  if (!window->whole()) return drawPartial(canvas, *window);
   drawQuad(canvas, window->corners, kGreen, 2);
   const Eigen::Vector2d centre = geometry::centroid(window->corners);
   cv::circle(canvas, cv::Point2d(centre.x(), centre.y()), std::max(3, canvas.cols / 160), kYellow, cv::FILLED,

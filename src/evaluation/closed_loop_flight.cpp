@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/pose/pose_buffer.hpp"
 #include "window_ingress/simulation/world.hpp"
 
 namespace window_ingress::evaluation {
@@ -15,6 +16,7 @@ using simulation::Claim;
 using simulation::Outcome;
 
 constexpr double kTrackPeriod_sec = 0.1;
+constexpr double kMaxAttitudeGap_sec = 0.02;
 
 /// What is known of the vehicle and its target before the flight.
 FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
@@ -97,7 +99,8 @@ class Flight {
   std::vector<FlightObserver*> observers_;
   simulation::World world_;
   FlightParams params_;
-  detection::WindowDetector detector_;
+  detection::WindowTracker detector_;
+  pose::PoseBuffer attitude_;
   navigation::TargetTracker tracker_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
@@ -119,6 +122,8 @@ void Flight::sense() {
   while (const auto imu = world_.takeImu()) {
     for (auto* observer : observers_) observer->onImu(*imu);
     tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
+    attitude_.add(imu->stamp_sec,
+                  geometry::makePose(imu->R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
   }
   while (const auto calibration = world_.takeCalibration()) calibrate(*calibration);
   if (const auto frame = world_.takeFrame()) look(*frame);
@@ -134,8 +139,13 @@ void Flight::calibrate(const simulation::CalibrationSample& sample) {
 void Flight::look(const simulation::CameraFrame& frame) {
   timing_.lap(Stage::kPicture);
   timing_.countFrame();
-  const geometry::PinholeCamera* camera = camera_ ? &*camera_ : nullptr;
-  const auto window = detector_.detect(frame.image, frame.stamp_sec, camera);
+  detection::TrackInput seen;
+  seen.image = frame.image;
+  seen.stamp_sec = frame.stamp_sec;
+  seen.camera = camera_ ? &*camera_ : nullptr;
+  if (const auto T_odom_base = attitude_.at(frame.stamp_sec, kMaxAttitudeGap_sec))
+    seen.R_world_camera = T_odom_base->linear() * world_.T_base_camera().linear();
+  const auto window = detector_.update(seen);
   timing_.lap(Stage::kDetector);
   detected_ = window.has_value();
   input_.image_stamp_sec = frame.stamp_sec;

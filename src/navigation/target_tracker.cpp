@@ -1,6 +1,5 @@
 #include "window_ingress/navigation/target_tracker.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -77,8 +76,7 @@ void TargetTracker::flush() {
 void TargetTracker::process(const Pending& pending) {
   last_.used = false;
   last_.pose = estimator_.estimate(pending.window, pending.camera, gravity(pending));
-  const bool is_whole = std::all_of(pending.window.edges.begin(), pending.window.edges.end(),
-                                    [](const auto& edge) { return edge.visible; });
+  const bool is_whole = pending.window.whole() && pending.window.visibleSides() == 4;
   last_.why_not = last_.pose.detail;
   if (!last_.pose.estimate && is_whole) return;
   last_.why_not = "mounting of the camera unknown";

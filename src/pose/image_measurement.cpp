@@ -44,6 +44,7 @@ double marginalVariance(double white, double systematic, const ImageNoise& noise
 std::optional<ImageMeasurement> ImageMeasurement::make(const detection::WindowObservation& window,
                                                        const geometry::PinholeCamera& camera,
                                                        const ImageNoise& noise) {
+  if (!window.whole()) return ofPartial(window, camera, noise);
   ImageMeasurement measurement;
   std::array<Eigen::Matrix2d, 4> slopes;
   for (int i = 0; i < 4; ++i) {
@@ -56,7 +57,9 @@ std::optional<ImageMeasurement> ImageMeasurement::make(const detection::WindowOb
     for (int i = 0; i < 4; ++i) {
       const double scale =
           std::sqrt(std::sqrt(std::abs(slopes[i].determinant() * slopes[(i + 1) % 4].determinant())));
-      if (window.edges[i].visible && !measurement.addBorder(window.edges[i], i, scale, noise))
+      const Eigen::Vector2d from = measurement.corners_px_.segment<2>(2 * i),
+                            to = measurement.corners_px_.segment<2>(2 * ((i + 1) % 4));
+      if (window.edges[i].visible && !measurement.addBorder(window.edges[i], i, from, to, scale, noise))
         return std::nullopt;
     }
     return measurement;
@@ -66,10 +69,25 @@ std::optional<ImageMeasurement> ImageMeasurement::make(const detection::WindowOb
   return measurement;
 }
 
-bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, double scale,
-                                 const ImageNoise& noise) {
-  const Eigen::Vector2d from = corners_px_.segment<2>(2 * side),
-                        to = corners_px_.segment<2>(2 * ((side + 1) % 4));
+std::optional<ImageMeasurement> ImageMeasurement::ofPartial(const detection::WindowObservation& window,
+                                                            const geometry::PinholeCamera& camera,
+                                                            const ImageNoise& noise) {
+  ImageMeasurement measurement;
+  for (int i = 0; i < 4; ++i) {
+    const detection::Edge& edge = window.edges[i];
+    if (!edge.visible) continue;
+    const Eigen::Vector2d from = camera.undistort(edge.a), to = camera.undistort(edge.b);
+    const double scale = std::sqrt(std::abs(undistortionSlope(camera, 0.5 * (from + to)).determinant()));
+    if (!from.allFinite() || !to.allFinite() || !std::isfinite(scale) ||
+        !measurement.addBorder(edge, i, from, to, scale, noise))
+      return std::nullopt;
+  }
+  if (measurement.border_count_ == 0) return std::nullopt;
+  return measurement;
+}
+
+bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
+                                 const Eigen::Vector2d& to, double scale, const ImageNoise& noise) {
   const double length = (to - from).norm();
   if (!(length > 1e-3)) return false;
   const double unknown = noise.unknown_corner_sigma_px, systematic = noise.systematic_sigma_px;

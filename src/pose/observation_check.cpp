@@ -45,8 +45,24 @@ WindowObservation startedAt(const WindowObservation& window, int first) {
 
 }  // namespace
 
+std::string faultOfPartial(const WindowObservation& window) {
+  static const char* const kNames[] = {"top", "right", "bottom", "left"};
+  std::string unseen;
+  for (int i = 0; i < 4; ++i)
+    if (!window.edges[i].visible) unseen += std::string(unseen.empty() ? "" : ", ") + kNames[i];
+  return std::to_string(window.visibleSides()) +
+         " of 4 sides in view: " + (unseen.empty() ? "a corner is not seen" : unseen + " not seen") +
+         "; no pose from this picture alone";
+}
+
+bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera) {
+  if (window.whole()) return true;
+  return -up_camera.y() > up_camera.head<2>().norm() * std::sqrt(0.5);
+}
+
 std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera,
                            const PoseParams& params) {
+  if (!window.whole()) return faultOfPartial(window);
   if (!geometry::isFinite(window.corners)) return "a corner is not finite";
   if (!isNearImage(window.corners, camera))
     return "a corner lies more than an image's size outside the image";
@@ -64,6 +80,7 @@ std::string faultOfCorners(const WindowObservation& window, const geometry::Pinh
 }
 
 WindowObservation upright(const WindowObservation& window, const Eigen::Vector3d& up_camera) {
+  if (!window.whole()) return window;
   const WindowObservation clockwise = geometry::signedArea(window.corners) < 0.0 ? reversed(window) : window;
   const Eigen::Vector2d up = up_camera.head<2>();
   const auto height = [&](int first) {

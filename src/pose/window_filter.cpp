@@ -85,9 +85,10 @@ struct WindowFilter::Impl {
   bool update(const WindowPoseEstimate* estimate, const detection::WindowObservation& window,
               const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) {
     if (!geometry::isValidPose(T_odom_camera) || !camera.validate().empty() || !isInOrder(window.stamp_sec) ||
-        !geometry::isFinite(window.corners) || !geometry::isConvex(window.corners))
+        (window.whole() && (!geometry::isFinite(window.corners) || !geometry::isConvex(window.corners))))
       return false;
     const Eigen::Vector3d up_camera = T_odom_camera.linear().transpose().col(2);
+    if (!isUpright(window, up_camera)) return false;
     const auto ordered = upright(window, up_camera);
     const auto shared = ImageMeasurement::make(ordered, camera, noiseAt(T_odom_camera.translation()));
     const auto first = ImageMeasurement::make(ordered, camera, noise());

@@ -25,6 +25,7 @@ def detection(stamp, frame_id="camera_optical_frame"):
     message.header.frame_id = frame_id
     cx, cy = (support.WIDTH - 1) / 2, (support.HEIGHT - 1) / 2
     half_w, half_h = support.FOCAL * WINDOW_W / 2 / DISTANCE, support.FOCAL * WINDOW_H / 2 / DISTANCE
+    message.corner_visible = [True] * 4
     message.corner_x = [cx - half_w, cx + half_w, cx + half_w, cx - half_w]
     message.corner_y = [cy - half_h, cy - half_h, cy + half_h, cy + half_h]
     message.corner_covariance = [0.04, 0.0, 0.0, 0.04] * 4

@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/evaluation/flight_record.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/simulation/world.hpp"

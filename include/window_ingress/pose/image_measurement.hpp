@@ -35,7 +35,7 @@ struct LinearisedResidual {
 /// The likelihood of one observation. Borders are lines fitted independently of each other, so where the
 /// observation brings their spreads, the residuals are offset and direction of each *visible border* (corners
 /// that share a border are correlated; borders are not). Else they are the corners, weighted by their
-/// covariances.
+/// covariances. A partial observation has the stretches of its visible borders that were seen, and no corner.
 class ImageMeasurement {
  public:
   /// Corners must be in canonical order. Nothing if numbers are not finite or a visible border has no length.
@@ -44,7 +44,8 @@ class ImageMeasurement {
 
   LinearisedResidual evaluate(const CornerVector& predicted_px) const;
 
-  const CornerVector& cornersPx() const { return corners_px_; }  ///< measured, undistorted
+  /// Measured, undistorted; all zero of a partial observation.
+  const CornerVector& cornersPx() const { return corners_px_; }
   int size() const { return 2 * (border_count_ > 0 ? border_count_ : 4); }
   bool complete() const { return size() == 8; }
 
@@ -54,12 +55,17 @@ class ImageMeasurement {
     Eigen::Vector2d middle, along, across;
     double offset_sigma_px, slope_sigma;
   };
-  bool addBorder(const detection::Edge& edge, int side, double scale, const ImageNoise& noise);
+  static std::optional<ImageMeasurement> ofPartial(const detection::WindowObservation& window,
+                                                   const geometry::PinholeCamera& camera,
+                                                   const ImageNoise& noise);
+  /// \param from,to points of the border, undistorted \param scale undistorted pixels a pixel
+  bool addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
+                 const Eigen::Vector2d& to, double scale, const ImageNoise& noise);
   void addCorner(const Eigen::Matrix2d& covariance, int corner, const ImageNoise& noise);
   void evaluateBorder(const Border& border, const CornerVector& predicted_px, int row,
                       LinearisedResidual& out) const;
 
-  CornerVector corners_px_;
+  CornerVector corners_px_ = CornerVector::Zero();
   int border_count_ = 0;  ///< 0: corners are used instead
   std::array<Border, 4> borders_;
   std::array<Eigen::Matrix2d, 4> corner_weights_;

@@ -8,12 +8,18 @@
 
 namespace window_ingress::pose {
 
-/// What is wrong with the corners of an observation, with numbers; empty if a pose can be tried.
+/// What is wrong with the corners of an observation, with numbers; empty if a pose can be tried. A partial
+/// observation has its reason, too: one picture of it gives no pose.
 std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                            const PoseParams& params);
 
+/// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
+/// ones are put upright.
+bool isUpright(const detection::WindowObservation& window, const Eigen::Vector3d& up_camera);
+
 /// The same observation with corners, covariances and edges in canonical order: clockwise, and started so
 /// that top and bottom borders are those that lie apart along `up_camera`. Corners must be strictly convex.
+/// A partial observation stays as it is.
 detection::WindowObservation upright(const detection::WindowObservation& window,
                                      const Eigen::Vector3d& up_camera = Eigen::Vector3d(0, -1, 0));
 
