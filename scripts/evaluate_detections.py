@@ -54,7 +54,7 @@ def iou(p, q):
 
 
 def corners(row):
-    if not row["x1"]:
+    if not all(row[f"x{i}"] for i in range(1, 5)):
         return None
     return [(float(row[f"x{i}"]), float(row[f"y{i}"])) for i in range(1, 5)]
 

@@ -13,7 +13,7 @@ std::string number(const char* format, double value) {
 }
 
 std::string windowValues(const std::optional<detection::WindowObservation>& window) {
-  if (!window || !window->whole()) return "0,,,,,,,,,,";
+  if (!window) return "0,,,,,,,,,,";
   std::string text = "1," + number("%.4f", window->score) + ",";
   if (window->has_appearance) text += number("%.4f", window->bhattacharyya);
   for (int i = 0; i < 4; ++i) {
@@ -22,11 +22,6 @@ std::string windowValues(const std::optional<detection::WindowObservation>& wind
                                       : ",,";
   }
   return text;
-}
-
-std::string reasonOf(const DetectionRow& row) {
-  if (!row.reject_reason.empty() || !row.window || row.window->whole()) return row.reject_reason;
-  return "partial: " + std::to_string(row.window->visibleSides()) + " of 4 sides in view";
 }
 
 std::string poseValues(const std::optional<pose::WindowPoseEstimate>& pose) {
@@ -49,7 +44,7 @@ std::string detectionColumns() {
 }
 
 std::string detectionValues(const DetectionRow& row) {
-  return windowValues(row.window) + "," + csvField(reasonOf(row)) + "," + poseValues(row.pose) + "," +
+  return windowValues(row.window) + "," + csvField(row.reject_reason) + "," + poseValues(row.pose) + "," +
          number("%.3f", row.milliseconds);
 }
 

@@ -19,7 +19,6 @@ struct DetectionRow {
 
 /// Names of the columns after the first, comma between them:
 /// detected,score,bhattacharyya,x1,y1,...,y4,reject_reason,qx,qy,qz,qw,tx,ty,tz,yaw_sigma_rad,ambiguity,milliseconds.
-/// A partial observation has no four corners: it counts as not detected here, with its reason.
 /// `ambiguity` is the odds of the other planar solution against the reported one, 0 (none) to 1 (a toss-up).
 std::string detectionColumns();
 
