@@ -33,8 +33,8 @@ CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, do
           value,
           limit,
           rival.score,
-          rival.distance.has_value(),
-          rival.distance.value_or(0.0)};
+          rival.appearance.has_value(),
+          rival.appearance ? rival.appearance->distance : 0.0};
 }
 
 void sortByRank(std::vector<Rival>& rivals) {

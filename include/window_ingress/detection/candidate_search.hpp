@@ -7,6 +7,7 @@
 #include "window_ingress/detection/candidate.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/nested_loops.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
 
 namespace window_ingress::detection {
 
@@ -17,7 +18,7 @@ struct Rival {
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
   LoopVerdict verdict;
-  std::optional<double> distance;                ///< from the reference, where it can be compared
+  std::optional<AppearanceMatch> appearance;     ///< beside the reference, where it can be compared
   std::optional<geometry::Quadrilateral> outer;  ///< border of the frame that foretells this one
 
   double rank() const { return score * size; }

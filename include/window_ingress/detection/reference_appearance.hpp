@@ -3,7 +3,9 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "window_ingress/geometry/quadrilateral.hpp"
+#include "window_ingress/detection/ring_histogram.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 
@@ -12,7 +14,11 @@ struct AppearanceParams {
       0.05;  ///< first band of the ring round the border: the frame, in mean sides of the opening
   double far_width = 0.14;  ///< second band, its outer edge: frame and surround, in mean sides of the opening
   int min_pixels = 40;      ///< fewer pixels in a band are not compared
-  double max_distance = 0.75;  ///< Bhattacharyya distance beyond which a candidate is not the target, 0 to 1
+  double max_distance =
+      0.5;  ///< Bhattacharyya distance beyond which a candidate is not the target, at most; 0 to 1
+  double min_distance =
+      0.25;                ///< and at least, however alike the rest of the reference picture looks; 0 to 1
+  double max_drift = 0.3;  ///< slow adaptation: furthest Bhattacharyya distance from the operator's reference
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -20,16 +26,24 @@ struct AppearanceParams {
     field("far_width", self.far_width, 0.01, 1.0);
     field("min_pixels", self.min_pixels, 1, 100000);
     field("max_distance", self.max_distance, 0.0, 1.0);
+    field("min_distance", self.min_distance, 0.0, 1.0);
+    field("max_drift", self.max_drift, 0.0, 1.0);
   }
 };
 
-/// Colour histogram of the ring round an opening: chroma in two bands, the frame and its surround. What is
-/// seen through the opening, and how bright things are, does not count. \return CV_32FC1, each band summing
-/// to 1/2; nothing if the picture has no colour or a band too few pixels
-std::optional<cv::Mat> ringHistogram(const cv::Mat& image, const geometry::Quadrilateral& opening,
-                                     const AppearanceParams& params);
+/// One candidate against the reference.
+struct AppearanceMatch {
+  double distance = 0.0;  ///< Bhattacharyya, less what its number of pixels explains; 0 alike to 1 disjoint
+  double limit = 1.0;     ///< beyond it this is not the target
+  double odds = 1.0;      ///< how much likelier such a distance is for the target than for something else
+};
 
 /// How the target looks (P9): made once from a picture of it.
+///
+/// The limit on the distance comes from the reference picture: the distance of nine tenths of the other
+/// places in it lies further away. So a frame that stands out may look quite different in another light, and
+/// one that hardly differs from what is round it must match well. Where the other places look the same,
+/// colour tells nothing, and the odds stay near 1.
 class ReferenceAppearance {
  public:
   /// \param picture CV_8UC3 (a grey one gives a reference without colour, which rejects nothing)
@@ -41,19 +55,37 @@ class ReferenceAppearance {
   /// picture.
   explicit ReferenceAppearance(const cv::Mat& picture, double frame_width = 0.05);
 
-  /// Bhattacharyya distance (0 identical, 1 disjoint) of a candidate's ring; nothing if there is no colour to
-  /// compare.
+  /// Compares a candidate's ring; nothing if there is no colour to compare.
+  std::optional<AppearanceMatch> compare(const cv::Mat& image, const geometry::Quadrilateral& opening,
+                                         const AppearanceParams& params) const;
+
+  /// `distance` of the match alone.
   std::optional<double> distance(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                  const AppearanceParams& params) const;
+
+  /// Moves what the target is taken to look like towards this view of it, while a track is certain. Never
+  /// further than `max_drift` from the operator's reference, which stays valid beside it.
+  /// \param rate 0 to 1, part of the difference that is taken over
+  /// \return false, and nothing changed, if the view cannot be compared or is not like the target
+  bool adapt(const cv::Mat& image, const geometry::Quadrilateral& opening, double rate,
+             const AppearanceParams& params);
+
+  /// Distance of the adapted appearance from the operator's reference; 0 before the first adaptation.
+  double drift() const;
 
   const cv::Mat& picture() const { return picture_; }
   const geometry::Quadrilateral& opening() const { return opening_; }
 
  private:
+  void prepare(const AppearanceParams& params) const;
+
   cv::Mat picture_;
   geometry::Quadrilateral opening_;
-  mutable std::optional<cv::Mat> histogram_;
-  mutable AppearanceParams histogram_params_;
+  // Made when they are first asked for, with the parameters given then.
+  mutable std::optional<RingColours> colours_;
+  mutable double elsewhere_ = 1.0;  ///< distance that most other places of the picture exceed
+  mutable std::optional<AppearanceParams> prepared_;
+  std::optional<RingColours> adapted_;
 };
 
 }  // namespace window_ingress::detection

@@ -14,6 +14,9 @@ class UnitSquare {
 
   /// Pixel of a point of the square's plane; far outside any image for points beyond the horizon.
   Eigen::Vector2d toImage(const Eigen::Vector2d& unit) const { return apply(map_, unit); }
+  /// The map to the image in homogeneous coordinates; the third one of the result is positive before the
+  /// horizon.
+  const Eigen::Matrix3d& matrix() const { return map_; }
   /// Point of the square's plane under a pixel.
   Eigen::Vector2d fromImage(const Eigen::Vector2d& pixel) const { return apply(inverse_, pixel); }
 

@@ -66,10 +66,60 @@ TEST(ReferenceAppearance, NoAnswerForGreyTooFewPixelsAndBadQuads) {
   EXPECT_FALSE(grey.distance(image, kOpening, params));
 }
 
-TEST(ReferenceAppearance, HistogramBandsSumToOneTogether) {
-  const auto histogram = ringHistogram(window(kOrange, kBlue), kOpening, AppearanceParams());
-  ASSERT_TRUE(histogram);
-  EXPECT_NEAR(cv::sum(*histogram)[0], 1.0, 1e-4);
+// The target's frame, a little bluer.
+cv::Mat evening() { return window(cv::Scalar(75, 140, 205), cv::Scalar(60, 55, 50)); }
+
+TEST(ReferenceAppearance, WholePictureCountsItsRimForTheFrame) {
+  const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
+  const ReferenceAppearance rim(image(cv::Rect(93, 73, 134, 104)), 0.05);
+  const auto own = rim.distance(image, kOpening, {}),
+             other = rim.distance(window(kBlue, cv::Scalar()), kOpening, {});
+  ASSERT_TRUE(own && other);
+  EXPECT_LT(*own, 0.2);
+  EXPECT_GT(*other, 0.6);
+}
+
+TEST(ReferenceAppearance, LimitAndOddsFollowWhatElseIsInThePicture) {
+  const ReferenceAppearance orange(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
+  const ReferenceAppearance bare(window(test::WindowPicture().wall, cv::Scalar(60, 55, 50)), kOpening);
+  const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
+  const auto seen = orange.compare(image, kOpening, {});
+  ASSERT_TRUE(seen);
+  EXPECT_GT(seen->limit, 0.3);
+  EXPECT_GT(seen->odds, 4.0);
+  const auto blue = orange.compare(window(kBlue, cv::Scalar(60, 55, 50)), kOpening, {});
+  ASSERT_TRUE(blue);
+  EXPECT_LT(blue->odds, 1.0);
+  const auto wall = bare.compare(image, test::rectangle(20, 20, 60, 60), {});
+  ASSERT_TRUE(wall);
+  EXPECT_LT(std::abs(std::log2(wall->odds)), 1.0) << "a frame of the wall's colour tells little";
+}
+
+TEST(ReferenceAppearance, AdaptsToTheLightButNeverFurtherThanAllowed) {
+  ReferenceAppearance reference(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
+  const cv::Mat view = evening();
+  AppearanceParams params;
+  const double before = *reference.distance(view, kOpening, params);
+  EXPECT_EQ(reference.drift(), 0.0);
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(reference.adapt(view, kOpening, 0.1, params));
+  EXPECT_LT(*reference.distance(view, kOpening, params), 0.6 * before);
+  EXPECT_LE(reference.drift(), params.max_drift);
+  EXPECT_LT(*reference.distance(window(kOrange, cv::Scalar(60, 55, 50)), kOpening, params), 0.01)
+      << "the operator's picture stays valid";
+  params.max_drift = 0.5 * before;
+  ReferenceAppearance bound(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
+  for (int i = 0; i < 50; ++i) bound.adapt(view, kOpening, 0.3, params);
+  EXPECT_LE(bound.drift(), params.max_drift);
+  EXPECT_GT(bound.drift(), 0.0);
+}
+
+TEST(ReferenceAppearance, DoesNotAdaptToSomethingElse) {
+  ReferenceAppearance reference(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
+  EXPECT_FALSE(reference.adapt(window(kBlue, cv::Scalar(60, 55, 50)), kOpening, 0.5, {}));
+  EXPECT_FALSE(reference.adapt(evening(), kOpening, 0.0, {}));
+  EXPECT_FALSE(reference.adapt(evening(), kOpening, std::numeric_limits<double>::quiet_NaN(), {}));
+  EXPECT_FALSE(reference.adapt(cv::Mat(), kOpening, 0.5, {}));
+  EXPECT_EQ(reference.drift(), 0.0);
 }
 
 }  // namespace

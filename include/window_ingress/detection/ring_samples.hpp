@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// Pixels of the ring round an opening, on lines parallel to its sides in the plane of the window; at most
+/// one sample a pixel along a line.
+struct RingSamples {
+  static constexpr int kBands = 2;
+  static constexpr int kAlong = 16, kAcross = 2;  ///< most samples along a side, most lines in a band
+  static constexpr int kMost = 4 * kAlong * kAcross;
+
+  struct Band {
+    std::array<cv::Vec3b, kMost> pixels;  ///< BGR; the first `count` are filled
+    int count = 0;                        ///< samples within the picture that are not clipped
+    int asked = 0;                        ///< samples, also those outside the picture
+    double area_px = 0.0;                 ///< of the whole band [px]
+  };
+  std::array<Band, kBands> bands;
+  double darkest = 0.0;  ///< least channel, a fiftieth of ring and opening left out [grey levels]
+};
+
+/// \param image CV_8UC3, not empty
+/// \param opening convex and finite, canonical order
+/// \param near_width, far_width outer edges of the two bands, in mean sides of the opening
+void sampleRing(const cv::Mat& image, const geometry::Quadrilateral& opening, double near_width,
+                double far_width, RingSamples& samples);
+
+}  // namespace window_ingress::detection
