@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "window_ingress/evaluation/detection_survey.hpp"
 #include "window_ingress/evaluation/statistics.hpp"
 
 namespace window_ingress::evaluation {
@@ -36,16 +37,30 @@ double lengthWithin(const Vector2d& from, const Vector2d& to, const geometry::Pi
   return std::max(0.0, last - first) * way.norm();
 }
 
+TrackVerdict verdictOfWhole(const TrackResult& result) {
+  switch (judge(std::make_optional(result.window->corners), result.truth)) {
+    case SurveyVerdict::kHit:
+      return TrackVerdict::kWhole;
+    case SurveyVerdict::kOuterBorder:
+      return TrackVerdict::kOuter;
+    case SurveyVerdict::kFarBorder:
+      return TrackVerdict::kFar;
+    default:
+      return TrackVerdict::kWrong;
+  }
+}
+
 TrackVerdict verdictOf(const TrackResult& result) {
   if (!result.window) return TrackVerdict::kNothing;
-  if (result.error_px > hitTolerance(result.truth)) return TrackVerdict::kWrong;
-  return result.window->whole() ? TrackVerdict::kWhole : TrackVerdict::kPartial;
+  if (result.window->whole()) return verdictOfWhole(result);
+  return result.error_px <= hitTolerance(result.truth.inner) ? TrackVerdict::kPartial : TrackVerdict::kWrong;
 }
 
 }  // namespace
 
 const char* toString(TrackVerdict verdict) {
-  static constexpr std::array<const char*, kTrackVerdicts> kNames{"whole", "partial", "nothing", "wrong"};
+  static constexpr std::array<const char*, kTrackVerdicts> kNames{"whole",        "partial",    "nothing",
+                                                                  "outer_border", "far_border", "wrong"};
   return kNames[static_cast<int>(verdict)];
 }
 
@@ -71,11 +86,11 @@ int sidesInView(const geometry::Quadrilateral& truth, const geometry::PinholeCam
 }
 
 void judge(TrackResult& result, const geometry::PinholeCamera& camera) {
-  result.sides_in_view = sidesInView(result.truth, camera);
+  result.sides_in_view = sidesInView(result.truth.inner, camera);
   result.error_px = 0.0;
   if (result.window)
-    result.error_px = result.window->whole() ? worstCornerDistance(result.window->corners, result.truth)
-                                             : worstSideDistance(*result.window, result.truth, camera);
+    result.error_px = result.window->whole() ? worstCornerDistance(result.window->corners, result.truth.inner)
+                                             : worstSideDistance(*result.window, result.truth.inner, camera);
   result.verdict = verdictOf(result);
 }
 
@@ -107,22 +122,25 @@ void TrackSummary::add(const TrackResult& result) {
     swaps_ += target_id_ != 0 && result.window->target_id != target_id_;
     target_id_ = result.window->target_id;
   }
-  if (result.sides_in_view < kLeastSides && result.verdict != TrackVerdict::kWrong) return;
+  if (result.sides_in_view < kLeastSides && result.verdict <= TrackVerdict::kNothing) return;
   std::size_t i = 0;
   while (i + 1 < kFrom_m.size() && result.plane_m < kFrom_m[i]) ++i;
   Range& range = ranges_[i];
   ++range.frames;
   ++range.counts[static_cast<int>(result.verdict)];
   if (!result.searched) range.following_ms.push_back(result.milliseconds);
-  if (result.verdict == TrackVerdict::kWhole) range.corners.add(result.window->corners, result.truth);
+  if (result.verdict == TrackVerdict::kWhole) range.corners.add(result.window->corners, result.truth.inner);
   if (result.verdict == TrackVerdict::kPartial) range.side_errors_px.push_back(result.error_px);
 }
 
 std::string TrackSummary::markdownHeader() {
-  return "| scenario | to the plane | frames | whole % | partial % | nothing % | wrong % | corner RMS x, y "
-         "px | outward "
-         "px | worst side, median px | following, median ms | swaps "
-         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::string text = "| scenario | to the plane | frames";
+  for (int i = 0; i < kTrackVerdicts; ++i)
+    text += std::string(" | ") + toString(static_cast<TrackVerdict>(i)) + " %";
+  text +=
+      " | corner RMS x, y px | outward px | worst side, median px | following, median ms | number swaps |\n|";
+  for (int i = 0; i < kTrackVerdicts + 8; ++i) text += "---|";
+  return text + "\n";
 }
 
 std::string TrackSummary::markdown(const std::string& name) const {

@@ -12,7 +12,7 @@
 #include "command_line.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/evaluation/survey_flight.hpp"
-#include "window_ingress/evaluation/survey_view.hpp"
+#include "window_ingress/evaluation/survey_picture.hpp"
 #include "window_ingress/evaluation/track_survey.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/simulation/camera_sensor.hpp"
@@ -102,7 +102,8 @@ class Flight {
         seed_(seed),
         scenario_(simulation::loadScenario(file, seed)),
         camera_(scenario_.camera.model()),
-        sensor_(simulation::buildScene(scenario_), scenario_.camera, seed),
+        scene_(simulation::buildScene(scenario_)),
+        sensor_(scene_, scenario_.camera, seed),
         path_(o.range, seed),
         attitude_(seed),
         tracker_(paramsOf(o)) {
@@ -123,8 +124,7 @@ class Flight {
   std::optional<evaluation::TrackResult> look(int index, double time_sec) {
     const simulation::CameraMotion motion = path_.motion(time_sec);
     const double stamp_sec = kFirstStamp_sec + time_sec;
-    const auto truth =
-        evaluation::projectMoving(camera_, motion, scenario_.camera.readout_sec, scenario_.opening(), 0.0);
+    const auto truth = evaluation::surveyTruth(scenario_, scene_, camera_, motion);
     detection::TrackInput input;
     input.image = sensor_.expose(motion, static_cast<std::uint64_t>(index), stamp_sec);
     input.stamp_sec = stamp_sec;
@@ -149,6 +149,7 @@ class Flight {
   std::uint32_t seed_;
   simulation::Scenario scenario_;
   geometry::PinholeCamera camera_;
+  simulation::Scene scene_;
   simulation::CameraSensor sensor_;
   evaluation::SurveyFlight path_;
   Attitude attitude_;

@@ -21,6 +21,11 @@ struct SurveyTruth {
   geometry::Quadrilateral far;                   ///< border of the opening in the room, at the wall's back
 };
 
+/// Nothing unless all of the front inner border lies before the camera.
+std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, const simulation::Scene& scene,
+                                       const geometry::PinholeCamera& camera,
+                                       const simulation::CameraMotion& motion);
+
 /// One picture with all that is known about it.
 struct SurveyPicture {
   std::string scenario;  ///< name of its file, without folder and ending

@@ -8,6 +8,7 @@
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/evaluation/corner_statistics.hpp"
+#include "window_ingress/evaluation/survey_picture.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::evaluation {
@@ -17,7 +18,9 @@ enum class TrackVerdict {
   kWhole,    ///< all four corners, on the inner border to `hitTolerance`
   kPartial,  ///< not all corners, but every side seen lies on its true one to `hitTolerance`
   kNothing,  ///< nothing found
-  kWrong     ///< found, but not there
+  kOuter,    ///< all four corners, but on the frame's outer border
+  kFar,      ///< all four corners, but on the border in the room, at the wall's back
+  kWrong     ///< found, but on none of them
 };
 constexpr int kTrackVerdicts = static_cast<int>(TrackVerdict::kWrong) + 1;
 const char* toString(TrackVerdict verdict);
@@ -37,7 +40,7 @@ struct TrackResult {
   double milliseconds = 0.0;
   bool searched = false;  ///< by a search, not by following
   int sides_in_view = 0;
-  geometry::Quadrilateral truth;
+  SurveyTruth truth;
   std::optional<detection::WindowObservation> window;
   TrackVerdict verdict = TrackVerdict::kNothing;
   double error_px = 0.0;  ///< of the worst corner or, if partial, of the worst side; 0 with nothing found

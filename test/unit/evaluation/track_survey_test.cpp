@@ -18,6 +18,10 @@ Quadrilateral box(double left, double top, double right, double bottom) {
   return {Vector2d(left, top), Vector2d(right, top), Vector2d(right, bottom), Vector2d(left, bottom)};
 }
 
+Quadrilateral grown(const Quadrilateral& quad, double by_px) {
+  return box(quad[0].x() - by_px, quad[0].y() - by_px, quad[2].x() + by_px, quad[2].y() + by_px);
+}
+
 const Quadrilateral kInside = box(100, 80, 500, 400), kBeyond = box(-200, 80, 900, 400);
 
 detection::WindowObservation whole(const Quadrilateral& quad) {
@@ -46,7 +50,9 @@ TrackResult judged(const Quadrilateral& truth, const std::optional<detection::Wi
   TrackResult result;
   result.seed = 4;
   result.plane_m = plane_m;
-  result.truth = truth;
+  result.truth.inner = truth;
+  result.truth.outer = grown(truth, 12.0);
+  result.truth.far = grown(truth, -30.0);
   result.window = window;
   judge(result, kCamera);
   return result;
@@ -63,6 +69,8 @@ TEST(TrackSurvey, SidesInViewAreThoseThatShow) {
 TEST(TrackSurvey, VerdictsOfWholeObservations) {
   EXPECT_EQ(judged(kInside, whole(kInside)).verdict, TrackVerdict::kWhole);
   EXPECT_EQ(judged(kInside, std::nullopt).verdict, TrackVerdict::kNothing);
+  EXPECT_EQ(judged(kInside, whole(grown(kInside, 11.0))).verdict, TrackVerdict::kOuter);
+  EXPECT_EQ(judged(kInside, whole(grown(kInside, -29.0))).verdict, TrackVerdict::kFar);
   const TrackResult wrong = judged(kInside, whole(box(100, 80, 520, 400)));
   EXPECT_EQ(wrong.verdict, TrackVerdict::kWrong);
   EXPECT_NEAR(wrong.error_px, 20.0, 1e-9);
