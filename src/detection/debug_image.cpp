@@ -1,84 +1,154 @@
 #include "window_ingress/detection/debug_image.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "window_ingress/detection/lettering.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
-const cv::Scalar kGreen(0, 220, 0), kYellow(0, 255, 255), kBlack(0, 0, 0);
+const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255), kWhite(255, 255, 255);
+constexpr double kDim = 0.8;    ///< of the picture's brightness remains, so that lines stand out
+constexpr double kFaint = 0.4;  ///< strength of candidates that failed before they had a score
+constexpr int kLabels = 5;      ///< candidates that are explained in words
 
-cv::Scalar colourOf(RejectReason reason) {
-  cv::Mat3b pixel(1, 1, cv::Vec3b(static_cast<uchar>(static_cast<int>(reason) * 67 % 180), 190, 255));
-  cv::cvtColor(pixel, pixel, cv::COLOR_HSV2BGR);
-  return cv::Scalar(pixel(0, 0));
+bool hasScore(const CandidateTrace& candidate) { return candidate.score > 0.0; }
+
+// Duplicates say nothing that the better candidate does not say.
+bool isWorthWords(const CandidateTrace& candidate) {
+  return candidate.reject != RejectReason::kNone && candidate.reject != RejectReason::kDuplicate &&
+         candidate.reject != RejectReason::kCorners;
 }
 
-void drawQuad(cv::Mat& canvas, const geometry::Quadrilateral& quad, const cv::Scalar& colour, int thickness) {
-  std::vector<cv::Point> points;
-  for (const Eigen::Vector2d& p : quad) {
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 30000.0) return;
-    points.emplace_back(static_cast<int>(std::lround(p.x() * 16)), static_cast<int>(std::lround(p.y() * 16)));
-  }
-  cv::polylines(canvas, points, true, colour, thickness, cv::LINE_AA, 4);
+int lineWidth(const cv::Mat& canvas) { return std::max(1, canvas.cols / 800); }
+
+void drawCandidates(cv::Mat& canvas, const DetectionTrace& trace) {
+  const cv::Mat before = canvas.clone();
+  for (const CandidateTrace& candidate : trace.candidates)
+    if (!hasScore(candidate) && candidate.reject != RejectReason::kNone)
+      drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
+  cv::addWeighted(canvas, kFaint, before, 1.0 - kFaint, 0.0, canvas);
+  for (const CandidateTrace& candidate : trace.candidates)
+    if (hasScore(candidate) && candidate.reject != RejectReason::kNone)
+      drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
 }
 
-void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour) {
-  const double scale = std::max(0.3, canvas.cols / 1600.0);
-  cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, kBlack, 3, cv::LINE_AA);
-  cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, colour, 1, cv::LINE_AA);
-}
-
-// The borders as far as they were seen.
-void drawPartial(cv::Mat& canvas, const WindowObservation& window) {
-  for (const Edge& edge : window.edges)
-    if (edge.visible)
-      cv::line(canvas, cv::Point2d(edge.a.x(), edge.a.y()), cv::Point2d(edge.b.x(), edge.b.y()), kGreen, 2,
-               cv::LINE_AA);
-  write(canvas, cv::format("%d of 4 sides, score %.2f", window.visibleSides(), window.score),
-        {4, canvas.rows - 6}, kGreen);
-}
-
-void drawLegend(cv::Mat& canvas, const std::array<int, kRejectReasons>& counts) {
-  int line = 0;
-  const int step = std::max(10, canvas.cols / 50);
-  for (int i = 1; i < kRejectReasons; ++i) {
-    if (!counts[i]) continue;
+std::vector<Lettering::Line> legendOf(const DetectionTrace& trace) {
+  std::array<int, kRejectReasons> counts{};
+  for (const CandidateTrace& candidate : trace.candidates) ++counts[static_cast<int>(candidate.reject)];
+  std::vector<int> order;
+  for (int i = 1; i < kRejectReasons; ++i)
+    if (counts[i] > 0) order.push_back(i);
+  std::vector<Lettering::Line> lines;
+  for (int i : order) {
     const auto reason = static_cast<RejectReason>(i);
-    write(canvas, std::to_string(counts[i]) + " " + toString(reason), {4, step * ++line}, colourOf(reason));
+    lines.push_back({std::to_string(counts[i]) + "  " + toString(reason), colourOf(reason), true});
   }
+  return lines;
+}
+
+cv::Point pixel(const Eigen::Vector2d& p) {
+  const Eigen::Vector2d bounded = p.cwiseMax(-1e4).cwiseMin(1e4);
+  return {static_cast<int>(std::lround(bounded.x())), static_cast<int>(std::lround(bounded.y()))};
+}
+
+cv::Rect boxRound(const geometry::Quadrilateral& quad) {
+  const std::array<cv::Point, 4> corners = {pixel(quad[0]), pixel(quad[1]), pixel(quad[2]), pixel(quad[3])};
+  return cv::boundingRect(cv::Mat(4, 1, CV_32SC2, const_cast<cv::Point*>(corners.data())));
+}
+
+// The most promising first; among those without a score the largest.
+bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
+  if (a->score != b->score) return a->score > b->score;
+  return std::abs(geometry::signedArea(a->quad)) > std::abs(geometry::signedArea(b->quad));
+}
+
+// A few, each of another place.
+void explainBest(Lettering& lettering, const DetectionTrace& trace) {
+  constexpr double kSamePlace = 0.5;
+  std::vector<const CandidateTrace*> all, told;
+  for (const CandidateTrace& candidate : trace.candidates)
+    if (isWorthWords(candidate) && geometry::isFinite(candidate.quad)) all.push_back(&candidate);
+  std::stable_sort(all.begin(), all.end(), isMoreWorth);
+  for (const CandidateTrace* one : all) {
+    if (told.size() == kLabels) return;
+    if (std::any_of(told.begin(), told.end(), [&](const CandidateTrace* other) {
+          return geometry::intersectionOverUnion(one->quad, other->quad) > kSamePlace;
+        }))
+      continue;
+    if (lettering.label({describe(*one), colourOf(one->reject)}, pixel(one->quad[geometry::kTopLeft])))
+      told.push_back(one);
+  }
+}
+
+void drawWhole(cv::Mat& canvas, const WindowObservation& window) {
+  drawQuad(canvas, window.corners, kGreen, 2 * lineWidth(canvas));
+  cv::circle(canvas, pixel(geometry::centroid(window.corners)), std::max(3, canvas.cols / 160), kYellow,
+             cv::FILLED, cv::LINE_AA);
+}
+
+void drawSides(cv::Mat& canvas, const WindowObservation& window) {
+  for (const Edge& edge : window.edges)
+    if (edge.visible && edge.a.allFinite() && edge.b.allFinite())
+      cv::line(canvas, pixel(edge.a), pixel(edge.b), kGreen, 2 * lineWidth(canvas), cv::LINE_AA);
+  for (int i = 0; i < 4; ++i)
+    if (window.corner_visible[i])
+      cv::circle(canvas, pixel(window.corners[i]), 3 * lineWidth(canvas), kGreen, cv::FILLED, cv::LINE_AA);
+}
+
+std::string summaryOf(const DetectionTrace& trace, const WindowObservation* window,
+                      std::optional<double> milliseconds) {
+  std::string text;
+  if (window) {
+    text = cv::format("window: score %.2f", window->score);
+    if (!window->whole()) text += cv::format(", %d of 4 sides", window->visibleSides());
+    text += window->has_appearance ? cv::format(" | distance to reference %.2f", window->bhattacharyya)
+                                   : std::string(" | not compared with a reference");
+  } else {
+    text = std::string("no window: ") + (trace.detail.empty() ? toString(trace.outcome) : trace.detail);
+  }
+  text += cv::format(" | %d candidates", static_cast<int>(trace.candidates.size()));
+  if (trace.budget_exceeded) text += " (not all)";
+  if (milliseconds) text += cv::format(" | %.1f ms", *milliseconds);
+  return text;
 }
 
 }  // namespace
 
+cv::Scalar colourOf(RejectReason reason) {
+  // One hue a gate, far from its neighbours' and from the target's green; pale, to be read on dark.
+  constexpr int kFirst = 95, kStep = 47, kHues = 180, kGreenest = 36, kGreenWidth = 50;
+  const int turned = (kFirst + static_cast<int>(reason) * kStep) % (kHues - kGreenWidth);
+  const int hue = turned < kGreenest ? turned : turned + kGreenWidth;
+  cv::Mat3b colour(1, 1, cv::Vec3b(static_cast<uchar>(hue), 170, 255));
+  cv::cvtColor(colour, colour, cv::COLOR_HSV2BGR);
+  return cv::Scalar(colour(0, 0));
+}
+
 void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const WindowObservation* window,
-                   cv::Mat& canvas) {
-  if (image.empty() || image.depth() != CV_8U) return;
+                   cv::Mat& canvas, std::optional<double> milliseconds) {
+  if (image.type() != CV_8UC1 && image.type() != CV_8UC3) return;
+  if (image.empty()) return;
   if (image.channels() == 1)
     cv::cvtColor(image, canvas, cv::COLOR_GRAY2BGR);
   else
     image.copyTo(canvas);
-  std::array<int, kRejectReasons> counts{};
-  for (const CandidateTrace& candidate : trace.candidates) {
-    ++counts[static_cast<int>(candidate.reject)];
-    if (candidate.reject != RejectReason::kNone)
-      drawQuad(canvas, candidate.quad, colourOf(candidate.reject), 1);
+  canvas.convertTo(canvas, -1, kDim);
+  drawCandidates(canvas, trace);
+  if (window) window->whole() ? drawWhole(canvas, *window) : drawSides(canvas, *window);
+  Lettering lettering(canvas);
+  lettering.box(legendOf(trace));
+  lettering.footer({summaryOf(trace, window, milliseconds), window ? kGreen : kYellow});
+  if (window && window->whole()) {
+    lettering.keepFree(boxRound(window->corners));
+    lettering.label({cv::format("target, score %.2f", window->score), kGreen},
+                    pixel(window->corners[geometry::kTopLeft]));
   }
-  drawLegend(canvas, counts);
-  const int bottom = canvas.rows - 6;
-  if (!window) {
-    write(canvas, std::string("no window: ") + toString(trace.outcome) + " " + trace.detail, {4, bottom},
-          kYellow);
-    return;
-  }
-  if (!window->whole()) return drawPartial(canvas, *window);
-  drawQuad(canvas, window->corners, kGreen, 2);
-  const Eigen::Vector2d centre = geometry::centroid(window->corners);
-  cv::circle(canvas, cv::Point2d(centre.x(), centre.y()), std::max(3, canvas.cols / 160), kYellow, cv::FILLED,
-             cv::LINE_AA);
-  write(canvas, cv::format("score %.2f", window->score), {4, bottom}, kGreen);
+  explainBest(lettering, trace);
 }
 
 }  // namespace window_ingress::detection

@@ -8,7 +8,7 @@ namespace {
 struct Wording {
   const char* name;      ///< in tables
   const char* quantity;  ///< measured by the gate
-  const char* relation;  ///< of the value to the limit when the gate rejects
+  const char* relation;  ///< of the value to the limit when the gate rejects; empty: it has no measure
 };
 
 Wording wording(RejectReason reason) {
@@ -40,17 +40,17 @@ Wording wording(RejectReason reason) {
     case RejectReason::kRefinement:
       return {"refinement", "profiles on the line", "<"};
     case RejectReason::kOuterBorder:
-      return {"outer_border", "inner loop's area ratio", "<"};
+      return {"outer_border", "outer border of a frame whose inner one is seen", ""};
     case RejectReason::kDuplicate:
-      return {"duplicate", "score", "<"};
+      return {"duplicate", "same loop, rank", "<"};
     case RejectReason::kPane:
-      return {"pane", "larger loop's area ratio", ">"};
+      return {"pane", "within a larger loop that counts", ""};
     case RejectReason::kAppearance:
       return {"appearance", "Bhattacharyya distance", ">"};
     case RejectReason::kScore:
       return {"score", "score", "<"};
     case RejectReason::kOutscored:
-      return {"outscored", "score", "<"};
+      return {"outscored", "outscored,", "<"};
     case RejectReason::kBudget:
       return {"budget", "rank", ">"};
   }
@@ -80,6 +80,8 @@ std::string describe(const CandidateTrace& candidate) {
   char text[96];
   if (candidate.reject == RejectReason::kNone)
     std::snprintf(text, sizeof text, "target, score %.2f", candidate.score);
+  else if (words.relation[0] == '\0')
+    std::snprintf(text, sizeof text, "%s", words.quantity);
   else
     std::snprintf(text, sizeof text, "%s %.3g %s %.3g", words.quantity, candidate.value, relation,
                   candidate.limit);

@@ -220,7 +220,8 @@ evaluation::DetectionRow process(const cv::Mat& picture, const Job& job, Finder&
 void writeOverlay(const std::string& file, const cv::Mat& picture, const Finder& finder,
                   const evaluation::DetectionRow& row, const std::string& folder) {
   cv::Mat canvas;
-  detection::drawDetection(picture, finder.trace(), row.window ? &*row.window : nullptr, canvas);
+  detection::drawDetection(picture, finder.trace(), row.window ? &*row.window : nullptr, canvas,
+                           row.milliseconds);
   const fs::path target = fs::path(folder) / (fs::path(file).filename().string() + ".png");
   if (!cv::imwrite(target.string(), canvas))
     throw JobError(target.string() + ": cannot be written; is the disk full?");

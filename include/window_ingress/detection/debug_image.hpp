@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -8,10 +9,16 @@
 namespace window_ingress::detection {
 
 /// Draws what happened to each candidate of an image (P10): rejected ones thin, in the colour of their gate
-/// with a legend; the target as a green quadrilateral with a yellow centroid. \param image CV_8UC1 or
-/// CV_8UC3, as it went into the detector \param window the target, or null \param canvas CV_8UC3 of the same
-/// size, reused where it fits
+/// with a legend, the best of them with gate and margin in words; the target as a green quadrilateral with a
+/// yellow centroid, of a partial one the sides that are seen; below, one line with the figures.
+/// \param image CV_8UC1 or CV_8UC3, as it went into the detector
+/// \param window the target, or null
+/// \param canvas CV_8UC3 of the same size, reused where it fits
+/// \param milliseconds what the detection took, if that is known
 void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const WindowObservation* window,
-                   cv::Mat& canvas);
+                   cv::Mat& canvas, std::optional<double> milliseconds = std::nullopt);
+
+/// Colour of a gate in these pictures.
+cv::Scalar colourOf(RejectReason reason);
 
 }  // namespace window_ingress::detection

@@ -40,5 +40,47 @@ TEST(DebugImage, RejectedCandidatesAreDrawnAndBadInputIsBorne) {
   EXPECT_TRUE(untouched.empty());
 }
 
+TEST(DebugImage, OfAPartialWindowOnlyTheSidesSeenAreDrawn) {
+  WindowObservation window;
+  window.corner_visible = {false, false, false, false};
+  window.edges[geometry::kTop].visible = true;
+  window.edges[geometry::kTop].a = {60, 100};
+  window.edges[geometry::kTop].b = {250, 100};
+  cv::Mat canvas;
+  drawDetection(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(90)), DetectionTrace(), &window, canvas);
+  const auto isGreen = [&](int x, int y) {
+    const cv::Vec3b pixel = canvas.at<cv::Vec3b>(y, x);
+    return pixel[1] > pixel[0] + 60 && pixel[1] > pixel[2] + 60;
+  };
+  EXPECT_TRUE(isGreen(150, 100));
+  EXPECT_FALSE(isGreen(0, 0)) << "corners that were not seen are no corners";
+  EXPECT_FALSE(isGreen(150, 150));
+}
+
+TEST(DebugImage, GatesHaveColoursOfTheirOwnAndNoneIsTheTargetsGreen) {
+  for (int i = 1; i < kRejectReasons; ++i) {
+    const cv::Scalar colour = colourOf(static_cast<RejectReason>(i));
+    EXPECT_FALSE(colour[1] > colour[0] + 60 && colour[1] > colour[2] + 60) << i;
+    for (int k = 1; k < i; ++k)
+      EXPECT_GT(cv::norm(colour - colourOf(static_cast<RejectReason>(k))), 5.0) << i << " " << k;
+  }
+}
+
+TEST(DebugImage, AnySizeAndAnyNumberOfCandidatesIsBorne) {
+  DetectionTrace trace;
+  for (int i = 0; i < 500; ++i)
+    trace.candidates.push_back(
+        {test::rectangle(i % 50, i % 30, i % 50 + 40.0, i % 30 + 30.0), CandidateSource::kSegments,
+         static_cast<RejectReason>(1 + i % (kRejectReasons - 1)), 0.3, 0.4, 0.001 * i, false, 0.0});
+  trace.detail = std::string(500, 'x');
+  cv::Mat canvas;
+  for (const cv::Size size : {cv::Size(16, 16), cv::Size(315, 160), cv::Size(2000, 1500)}) {
+    drawDetection(cv::Mat(size, CV_8UC1, cv::Scalar(90)), trace, nullptr, canvas, 1.5);
+    EXPECT_EQ(canvas.size(), size);
+  }
+  drawDetection(cv::Mat(40, 40, CV_32FC3), trace, nullptr, canvas);
+  EXPECT_EQ(canvas.size(), cv::Size(2000, 1500)) << "left as it was";
+}
+
 }  // namespace
 }  // namespace window_ingress::detection

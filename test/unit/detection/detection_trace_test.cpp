@@ -14,6 +14,15 @@ TEST(DetectionTrace, EveryReasonHasItsOwnName) {
   EXPECT_EQ(names.count("unknown"), 0u);
 }
 
+TEST(DetectionTrace, GatesWithoutAMeasureAreDescribedInWords) {
+  CandidateTrace candidate;
+  for (RejectReason reason : {RejectReason::kPane, RejectReason::kOuterBorder}) {
+    candidate.reject = reason;
+    EXPECT_EQ(describe(candidate).find_first_of("0123456789<>"), std::string::npos);
+    EXPECT_GT(describe(candidate).size(), 10u);
+  }
+}
+
 TEST(DetectionTrace, DescribesTheGateWithNumbers) {
   CandidateTrace candidate;
   candidate.reject = RejectReason::kAspect;
