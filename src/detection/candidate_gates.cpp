@@ -36,7 +36,7 @@ std::optional<Rejection> CandidateGates::shape(const Candidate& candidate, const
     return Rejection{RejectReason::kSolidity, candidate.solidity, params_.min_solidity};
   const double angle = worstAngle(candidate.quad);
   if (angle > params_.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params_.max_angle_rad};
-  const double margin = distanceToBorder(candidate.quad, image);
+  const double margin = distanceToBorder(candidate.seen, image);
   const double limit = params_.border * std::max(image.width, image.height);
   if (margin < limit) return Rejection{RejectReason::kBorder, margin, limit};
   return std::nullopt;

@@ -14,8 +14,9 @@ constexpr double kSameLoopPx =
     1.0;  ///< corners of the same loop differ less than this on the search level [px]
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
 
-Quadrilateral scaled(const Quadrilateral& quad, double factor) {
-  return {factor * quad[0], factor * quad[1], factor * quad[2], factor * quad[3]};
+Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
+  return {toFullImage(quad[0], factor), toFullImage(quad[1], factor), toFullImage(quad[2], factor),
+          toFullImage(quad[3], factor)};
 }
 
 double cornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
@@ -46,44 +47,51 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
     : params_(params),
       preprocess_(params.preprocess),
       edges_(params.edges),
+      runs_(params.runs),
       lines_(params.lines),
       closing_(params.closing),
       contours_(params.contours),
       segment_quads_(params.segment_quads),
       gates_(params.gates) {}
 
-std::vector<Rival> CandidateSearch::run(const cv::Mat& image, DetectionTrace& trace) {
+std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                        DetectionTrace& trace) {
   const SearchLevel level = preprocess_.run(image);
   factor_ = level.factor;
   level_size_ = level.image.size();
+  lens_.set(camera, level_size_, factor_);
   const EdgeMap& map = edges_.run(level.image);
-  const std::vector<Segment> segments = lines_.run(map);
+  const std::vector<Segment>& segments = lines_.run(runs_.run(map, lens_), level_size_);
+  const SegmentQuads::Result& quads = segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
   ContourPolygons::Result outlines = contours_.run(closing_.run(map.edges), closing_.radiusPx(level_size_));
-  SegmentQuads::Result quads = segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
   trace.segments = static_cast<int>(segments.size());
   trace.contours = outlines.contours;
   trace.budget_exceeded = outlines.budget_exceeded || quads.budget_exceeded;
   for (CandidateTrace& rejected : outlines.rejected) {
-    rejected.quad = scaled(rejected.quad, factor_);
+    rejected.quad = inFullImage(rejected.quad, factor_);
     trace.candidates.push_back(rejected);
   }
+  for (Candidate& outline : outlines.candidates)
+    for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
   std::vector<Rival> rivals;
   admit(quads.candidates, map, rivals, trace);
   admit(outlines.candidates, map, rivals, trace);
   return best(rivals, trace);
 }
 
-void CandidateSearch::admit(std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
-                            DetectionTrace& trace) {
-  for (Candidate& candidate : found) {
+void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& map,
+                            std::vector<Rival>& rivals, DetectionTrace& trace) {
+  for (const Candidate& one : found) {
+    Rival rival;
+    rival.candidate = one;
+    Candidate& candidate = rival.candidate;
+    for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
     auto rejection = gates_.shape(candidate, level_size_);
     if (!rejection) {
-      candidate.sides = measureSides(map, candidate.quad, params_.side_support);
+      candidate.sides = measureSides(map, lens_, candidate.quad, params_.side_support);
       rejection = gates_.support(candidate);
     }
-    Rival rival;
-    rival.candidate = candidate;
-    rival.quad = scaled(candidate.quad, factor_);
+    rival.quad = inFullImage(candidate.seen, factor_);
     if (rejection) {
       trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
       continue;

@@ -97,7 +97,7 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
     return;
   }
   candidate.closure = params_.closure;
-  candidate.quad = grown(*quad, grow_px);
+  candidate.quad = candidate.seen = grown(*quad, grow_px);
   result.candidates.push_back(candidate);
 }
 

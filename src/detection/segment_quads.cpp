@@ -9,155 +9,179 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kMaxCombinations = 100000;
+constexpr int kMaxCombinations = 60000;
 constexpr double kSlackPx = 3.0;
-constexpr double kRoundedPx = 1.5;  ///< edges end this far before a corner
+constexpr double kRoundedPx = 1.5;    ///< edges end this far before a corner
+constexpr double kOnPart = 0.3;       ///< a segment goes on beyond a junction with this part of its length
+constexpr double kSameLoopPx = 1.0;   ///< corners of the same loop differ less than this [px]
+constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
+constexpr double kSmallestCosine = 0.25;   ///< of the angle between opposite sides
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Where two segments' lines meet; `t` counts along each segment, 0 to 1 between its ends.
-struct Junction {
-  int other = 0;
-  double t_own = 0.0, t_other = 0.0;
-  Vector2d point;
-};
-
-struct Covered {
-  double value = 0.0, closure = 0.0;
-  geometry::Quadrilateral quad;
-};
-
-// Part of [t1, t2] that lies within [0, 1].
+// Part of the stretch from t1 to t2 that the segment, 0 to 1, covers.
 double coverage(double t1, double t2) {
   const double low = std::min(t1, t2), high = std::max(t1, t2);
   return high > low ? std::max(0.0, std::min(high, 1.0) - std::max(low, 0.0)) / (high - low) : 0.0;
 }
 
-// How far a segment's ends are from the corners at t1 and t2; running beyond counts half, and edges are
-// rounded off.
-double endGap(const Segment& segment, double t1, double t2) {
+// How far the ends of a segment are from its two corners; running beyond counts half [px].
+double endGap(double length, double t1, double t2) {
   const auto gap = [&](double short_by) {
-    const double px = segment.length() * (short_by > 0.0 ? short_by : -0.5 * short_by);
+    const double px = length * (short_by > 0.0 ? short_by : -0.5 * short_by);
     return std::max(0.0, px - kRoundedPx);
   };
   return gap(-std::min(t1, t2)) + gap(std::max(t1, t2) - 1.0);
 }
 
-class Search {
- public:
-  Search(const std::vector<Segment>& segments, const SegmentQuadsParams& params, double min_area_px)
-      : segments_(segments),
-        count_(std::min<int>(segments.size(), params.max_segments)),
-        params_(params),
-        min_area_px_(min_area_px),
-        junctions_(count_) {}
+// Number of sides that are brighter inside.
+int brighterInside(const std::array<const Segment*, 4>& sides, const Vector2d& centre) {
+  int count = 0;
+  for (const Segment* side : sides) count += side->normal.dot(centre - side->a) > 0.0;
+  return count;
+}
 
-  void run(std::vector<Covered>& found) {
-    for (int i = 0; i < count_; ++i)
-      for (int j = i + 1; j < count_; ++j) meet(i, j);
-    for (int i = 0; i < count_; ++i) combineFrom(i, found);
-  }
-  bool budgetExceeded() const { return exhausted() || count_ < static_cast<int>(segments_.size()); }
-
- private:
-  bool exhausted() const { return combinations_ > kMaxCombinations || steps_ > 10 * kMaxCombinations; }
-
-  bool within(double t, double length) const {
-    const double slack = params_.extension + kSlackPx / length;
-    return t > -slack && t < 1.0 + slack;
-  }
-
-  void meet(int i, int j) {
-    const Segment &p = segments_[i], &q = segments_[j];
-    const Vector2d u = p.b - p.a, v = q.b - q.a;
-    const double sine = cross(u, v), lp = u.norm(), lq = v.norm();
-    if (std::abs(sine) < std::sin(params_.min_angle_rad) * lp * lq) return;
-    const Vector2d d = q.a - p.a;
-    const double ti = cross(d, v) / sine, tj = cross(d, u) / sine;
-    if (!within(ti, lp) || !within(tj, lq)) return;
-    const Vector2d point = p.a + ti * u;
-    junctions_[i].push_back({j, ti, tj, point});
-    junctions_[j].push_back({i, tj, ti, point});
-  }
-
-  // All rings i, j, k, l with i the smallest and j < l: each ring of four segments once.
-  void combineFrom(int i, std::vector<Covered>& found) {
-    const auto& own = junctions_[i];
-    for (std::size_t a = 0; a < own.size(); ++a)
-      for (std::size_t b = a + 1; b < own.size() && !exhausted(); ++b) {
-        if (own[a].other < i || own[b].other < i) continue;
-        if (coverage(own[a].t_own, own[b].t_own) >= params_.min_coverage) close(i, own[a], own[b], found);
-      }
-  }
-
-  void close(int i, const Junction& ij, const Junction& il, std::vector<Covered>& found) {
-    const auto &from_j = junctions_[ij.other], &from_l = junctions_[il.other];
-    std::size_t b = 0;
-    for (const Junction& jk : from_j) {
-      if (jk.other <= i) continue;
-      while (b < from_l.size() && from_l[b].other < jk.other) ++b;
-      if (b == from_l.size()) return;
-      ++steps_;
-      if (from_l[b].other == jk.other) consider(segments_[i], ij, il, jk, from_l[b], found);
-    }
-  }
-
-  double closure(const double gaps_px[4], double area_px) const {
-    const double mean = (gaps_px[0] + gaps_px[1] + gaps_px[2] + gaps_px[3]) / 8.0;
-    return std::exp(-mean / (params_.closure_px + params_.closure_side * std::sqrt(area_px)));
-  }
-
-  void consider(const Segment& first, const Junction& ij, const Junction& il, const Junction& jk,
-                const Junction& lk, std::vector<Covered>& found) {
-    ++combinations_;
-    const double sides[4] = {coverage(ij.t_own, il.t_own), coverage(ij.t_other, jk.t_own),
-                             coverage(jk.t_other, lk.t_other), coverage(lk.t_own, il.t_other)};
-    const double mean = 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
-    if (*std::min_element(sides, sides + 4) < params_.min_coverage || mean < params_.mean_coverage) return;
-    const auto quad = geometry::canonical({ij.point, jk.point, lk.point, il.point});
-    if (!quad) return;
-    const double area = geometry::signedArea(*quad);
-    if (area < min_area_px_) return;
-    const double gaps_px[4] = {endGap(first, ij.t_own, il.t_own),
-                               endGap(segments_[ij.other], ij.t_other, jk.t_own),
-                               endGap(segments_[jk.other], jk.t_other, lk.t_other),
-                               endGap(segments_[il.other], lk.t_own, il.t_other)};
-    const double closed = closure(gaps_px, area);
-    found.push_back({mean * closed * std::pow(area, 0.25), closed, *quad});
-  }
-
-  const std::vector<Segment>& segments_;
-  int count_;
-  const SegmentQuadsParams& params_;
-  double min_area_px_;
-  std::vector<std::vector<Junction>> junctions_;
-  int combinations_ = 0;
-  int steps_ = 0;
-};
+bool sameLoop(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b, double near_px) {
+  for (int i = 0; i < 4; ++i)
+    if ((a[i] - b[i]).squaredNorm() > near_px * near_px) return false;
+  return true;
+}
 
 }  // namespace
 
-SegmentQuads::Result SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px) const {
-  std::vector<Covered> found;
-  Search search(segments, params_, min_area_px);
-  search.run(found);
-  std::vector<int> order(found.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto better = [&](int a, int b) {
-    return found[a].value > found[b].value || (found[a].value == found[b].value && a < b);
-  };
-  const auto kept = order.begin() + std::min<std::size_t>(order.size(), params_.max_quads);
-  std::partial_sort(order.begin(), kept, order.end(), better);
-  Result result;
-  result.budget_exceeded = search.budgetExceeded() || static_cast<int>(found.size()) > params_.max_quads;
-  for (auto i = order.begin(); i != kept; ++i) {
-    Candidate candidate;
-    candidate.quad = found[*i].quad;
-    candidate.source = CandidateSource::kSegments;
-    candidate.closure = found[*i].closure;
-    result.candidates.push_back(candidate);
+// Where two lines meet, if both segments come near enough.
+bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const {
+  const double sine = cross(p.way, q.way);
+  if (std::abs(sine) < min_sine_ * p.length * q.length) return false;
+  const Vector2d d = q.start - p.start;
+  const double t_p = cross(d, q.way) / sine;
+  if (std::abs(t_p - 0.5) > p.reach) return false;
+  const double t_q = cross(d, p.way) / sine;
+  if (std::abs(t_q - 0.5) > q.reach) return false;
+  junction.t_own = static_cast<float>(t_p), junction.t_other = static_cast<float>(t_q);
+  const bool towards_b = 1.0 - t_q > kOnPart, towards_a = t_q > kOnPart;
+  junction.right = sine > 0.0 ? towards_b : towards_a;
+  junction.left = sine > 0.0 ? towards_a : towards_b;
+  junction.point = p.start + t_p * p.way;
+  return true;
+}
+
+void SegmentQuads::connect(const std::vector<Segment>& segments) {
+  count_ = std::min<int>(static_cast<int>(segments.size()), params_.max_segments);
+  words_ = (count_ + 63) / 64;
+  if (static_cast<int>(junctions_.size()) < count_) junctions_.resize(count_);
+  for (auto& list : junctions_) list.clear();
+  meets_.assign(static_cast<std::size_t>(count_) * words_, 0);
+  places_.resize(static_cast<std::size_t>(count_) * count_);
+  sides_.clear();
+  for (int i = 0; i < count_; ++i) {
+    const Segment& s = segments[i];
+    const double length = s.length();
+    sides_.push_back({s.a, s.b - s.a, length, 0.5 + params_.extension + kSlackPx / length});
   }
-  return result;
+  Junction junction;
+  for (int i = 0; i < count_; ++i)
+    for (int j = 0; j < count_; ++j) {
+      if (i == j || !meet(sides_[i], sides_[j], junction)) continue;
+      junction.other = j;
+      places_[i * count_ + j] = static_cast<std::int16_t>(junctions_[i].size());
+      junctions_[i].push_back(junction);
+      meets_[i * words_ + j / 64] |= std::uint64_t{1} << (j % 64);
+    }
+}
+
+// Quadrilaterals whose first segment is i: neighbours j and l on it, the fourth k meets both.
+void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i) {
+  const auto& own = junctions_[i];
+  const double length = sides_[i].length;
+  for (std::size_t a = 0; a < own.size(); ++a) {
+    if (own[a].other < i) continue;
+    const Vector2d along_a = segments[own[a].other].normal;
+    for (std::size_t b = a + 1; b < own.size() && combinations_ < kMaxCombinations; ++b) {
+      if (own[b].other < i) continue;
+      if (!((own[a].left && own[b].left) || (own[a].right && own[b].right))) continue;
+      const double stretch = std::abs(own[a].t_own - own[b].t_own) * length;
+      if (stretch * stretch < 0.1 * min_area_px_) continue;
+      if (coverage(own[a].t_own, own[b].t_own) < params_.min_coverage) continue;
+      if (std::abs(along_a.dot(segments[own[b].other].normal)) < kSmallestCosine) continue;
+      close(segments, i, own[a], own[b]);
+    }
+  }
+}
+
+void SegmentQuads::close(const std::vector<Segment>& segments, int i, const Junction& ij, const Junction& il) {
+  const std::uint64_t *of_j = &meets_[static_cast<std::size_t>(ij.other) * words_],
+                      *of_l = &meets_[static_cast<std::size_t>(il.other) * words_];
+  for (int word = i / 64; word < words_; ++word)
+    for (std::uint64_t both = of_j[word] & of_l[word]; both; both &= both - 1) {
+      const int k = 64 * word + __builtin_ctzll(both);
+      if (k > i) consider(segments, i, ij, il, between(ij.other, k), between(il.other, k));
+    }
+}
+
+void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const Junction& ij, const Junction& il,
+                            const Junction& jk, const Junction& lk) {
+  ++combinations_;
+  const double covered[4] = {coverage(ij.t_own, il.t_own), coverage(ij.t_other, jk.t_own),
+                             coverage(jk.t_other, lk.t_other), coverage(lk.t_own, il.t_other)};
+  const double mean = 0.25 * (covered[0] + covered[1] + covered[2] + covered[3]);
+  if (mean < params_.mean_coverage || *std::min_element(covered, covered + 4) < params_.min_coverage) return;
+  const std::array<const Segment*, 4> sides = {&segments[i], &segments[ij.other], &segments[jk.other],
+                                               &segments[il.other]};
+  const int bright = brighterInside(sides, 0.25 * (ij.point + jk.point + lk.point + il.point));
+  if (bright == 2) return;
+  const auto quad = geometry::canonical({ij.point, jk.point, lk.point, il.point});
+  if (!quad) return;
+  const double area = geometry::signedArea(*quad);
+  if (area < min_area_px_) return;
+  const double gap_px = endGap(sides_[i].length, ij.t_own, il.t_own) +
+                        endGap(sides_[ij.other].length, ij.t_other, jk.t_own) +
+                        endGap(sides_[jk.other].length, jk.t_other, lk.t_other) +
+                        endGap(sides_[il.other].length, lk.t_own, il.t_other);
+  const double closed =
+      std::exp(-gap_px / 8.0 / (params_.closure_px + params_.closure_side * std::sqrt(area)));
+  const double even = bright % 4 == 0 ? 1.0 : params_.odd_side;
+  found_.push_back({mean * closed * even * std::pow(area, 0.25), closed * even, *quad});
+}
+
+// The best, each loop once.
+void SegmentQuads::keepBest() {
+  order_.resize(found_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+    return found_[a].value > found_[b].value || (found_[a].value == found_[b].value && a < b);
+  });
+  result_.candidates.clear();
+  for (int i : order_) {
+    const Found& one = found_[i];
+    const double near_px = kSameLoopPx + kSameLoopPart * std::sqrt(geometry::signedArea(one.quad));
+    const bool known =
+        std::any_of(result_.candidates.begin(), result_.candidates.end(),
+                    [&](const Candidate& better) { return sameLoop(better.quad, one.quad, near_px); });
+    if (known) continue;
+    if (static_cast<int>(result_.candidates.size()) == params_.max_quads) {
+      result_.budget_exceeded = true;
+      return;
+    }
+    Candidate candidate;
+    candidate.quad = candidate.seen = one.quad;
+    candidate.source = CandidateSource::kSegments;
+    candidate.closure = one.closure;
+    result_.candidates.push_back(candidate);
+  }
+}
+
+const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px) {
+  found_.clear();
+  combinations_ = 0;
+  min_area_px_ = min_area_px;
+  min_sine_ = std::sin(params_.min_angle_rad);
+  connect(segments);
+  for (int i = 0; i < count_; ++i) combineFrom(segments, i);
+  result_.budget_exceeded =
+      combinations_ >= kMaxCombinations || count_ < static_cast<int>(segments.size());
+  keepBest();
+  return result_;
 }
 
 }  // namespace window_ingress::detection

@@ -10,6 +10,12 @@ using Eigen::Vector2d;
 
 constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
 
+/// The edges, and the lens that bends them.
+struct Level {
+  const EdgeMap& map;
+  const LevelLens& lens;
+};
+
 /// The edge pixel found beside one point of a side.
 struct Hit {
   double worth = 0.0;     ///< 1 on the side, less beside it, 0: none
@@ -24,7 +30,9 @@ struct Probe {
 };
 
 // Looks at one pixel; worth 0 if there is no edge of this direction.
-inline Hit hitAt(const EdgeMap& map, const Vector2d& p, const Probe& probe) {
+inline Hit hitAt(const Level& level, const Vector2d& ideal, const Probe& probe) {
+  const Vector2d p = level.lens.bends() ? level.lens.distort(ideal) : ideal;
+  const EdgeMap& map = level.map;
   const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
   if (p.x() < 0.0 || p.y() < 0.0 || x >= map.edges.cols || y >= map.edges.rows || !map.edges.ptr(y)[x])
     return {};
@@ -35,31 +43,31 @@ inline Hit hitAt(const EdgeMap& map, const Vector2d& p, const Probe& probe) {
 }
 
 // The nearest, first on the line, then outside and inside in turn.
-Hit hitNear(const EdgeMap& map, const Vector2d& at, const Probe& probe) {
-  Hit hit = hitAt(map, at, probe);
+Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
+  Hit hit = hitAt(level, at, probe);
   for (int offset = 1; offset <= probe.reach && hit.worth == 0.0; ++offset) {
     const Vector2d beside = offset * probe.outward;
-    hit = hitAt(map, at + beside, probe);
-    if (hit.worth == 0.0) hit = hitAt(map, at - beside, probe);
+    hit = hitAt(level, at + beside, probe);
+    if (hit.worth == 0.0) hit = hitAt(level, at - beside, probe);
     if (offset > 1) hit.worth *= 0.5;
   }
   return hit;
 }
 
 // Part of the stretch beyond `corner` where an edge goes on in the direction `way` (unit vector).
-double overshoot(const EdgeMap& map, const Vector2d& corner, const Vector2d& way, double stretch_px,
+double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
                  double square_cosine) {
   const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
   const int samples = std::clamp(static_cast<int>(stretch_px), 4, 10);
   int hits = 0;
   for (int i = 0; i < samples; ++i) {
     const double distance = kCornerPx + stretch_px * (i + 0.5) / samples;
-    hits += hitNear(map, corner + distance * way, probe).worth > 0.0;
+    hits += hitNear(level, corner + distance * way, probe).worth > 0.0;
   }
   return static_cast<double>(hits) / samples;
 }
 
-SideSupport measureSide(const EdgeMap& map, const Vector2d& a, const Vector2d& b,
+SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b,
                         const SideSupportParams& params) {
   SideSupport support;
   const Vector2d along = b - a;
@@ -68,12 +76,12 @@ SideSupport measureSide(const EdgeMap& map, const Vector2d& a, const Vector2d& b
   const double cosine = std::cos(params.direction_rad), square_cosine = cosine * cosine;
   const Probe probe = {Vector2d(along.y(), -along.x()) / length, square_cosine,
                        static_cast<int>(std::lround(params.tolerance_px))};
-  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 40);
+  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 24);
   int hits = 0, darker_outside = 0;
   double strength = 0.0, worth = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double t = params.skip + (1.0 - 2.0 * params.skip) * (i + 0.5) / samples;
-    const Hit hit = hitNear(map, a + t * along, probe);
+    const Hit hit = hitNear(level, a + t * along, probe);
     if (hit.worth <= 0.0) continue;
     ++hits;
     worth += hit.worth;
@@ -83,18 +91,19 @@ SideSupport measureSide(const EdgeMap& map, const Vector2d& a, const Vector2d& b
   support.fraction = worth / samples;
   support.contrast = hits ? strength / hits : 0.0;
   const double stretch_px = std::max(4.0, params.beyond * length);
-  support.overshoot = 0.5 * (overshoot(map, a, -along / length, stretch_px, square_cosine) +
-                             overshoot(map, b, along / length, stretch_px, square_cosine));
+  support.overshoot = 0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine) +
+                             overshoot(level, b, along / length, stretch_px, square_cosine));
   support.polarity = hits ? 2.0 * darker_outside / hits - 1.0 : 0.0;
   return support;
 }
 
 }  // namespace
 
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const geometry::Quadrilateral& quad,
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens, const geometry::Quadrilateral& quad,
                                         const SideSupportParams& params) {
+  const Level level = {map, lens};
   std::array<SideSupport, 4> sides;
-  for (int i = 0; i < 4; ++i) sides[i] = measureSide(map, quad[i], quad[(i + 1) % 4], params);
+  for (int i = 0; i < 4; ++i) sides[i] = measureSide(level, quad[i], quad[(i + 1) % 4], params);
   return sides;
 }
 

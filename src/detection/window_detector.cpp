@@ -81,7 +81,7 @@ void WindowDetector::Impl::learnFrame() {
   if (!reference || !imageFault(reference->picture()).empty()) return;
   CandidateSearch own(params);
   DetectionTrace ignored;
-  const auto loops = own.run(reference->picture(), ignored);
+  const auto loops = own.run(reference->picture(), nullptr, ignored);
   frame = borders.learn(reference->picture(), reference->opening(), loops, own.factor(), params.nested);
 }
 
@@ -254,7 +254,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     impl_->trace.detail = fault;
     return std::nullopt;
   }
-  impl_->rivals = impl_->search.run(image, impl_->trace);
+  impl_->rivals = impl_->search.run(image, camera, impl_->trace);
   if (!impl_->judgeAppearance(image)) impl_->judgeLoops(image);
   const auto window = impl_->choose(image, stamp_sec, camera);
   impl_->explain();

@@ -34,18 +34,21 @@ class CandidateSearch {
 
   /// Best first, each loop once, at most `max_candidates`. Everything else goes into the trace.
   /// \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way
-  std::vector<Rival> run(const cv::Mat& image, DetectionTrace& trace);
+  /// \param camera its calibration, or null: the image is then taken as free of distortion
+  std::vector<Rival> run(const cv::Mat& image, const geometry::PinholeCamera* camera, DetectionTrace& trace);
 
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
  private:
-  void admit(std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
+  void admit(const std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
              DetectionTrace& trace);
   std::vector<Rival> best(std::vector<Rival>& rivals, DetectionTrace& trace) const;
 
   DetectorParams params_;
   Preprocess preprocess_;
   EdgeDetector edges_;
+  LevelLens lens_;
+  EdgeRuns runs_;
   LineSupport lines_;
   Closing closing_;
   ContourPolygons contours_;

@@ -20,6 +20,7 @@ namespace window_ingress::detection {
 struct DetectorParams {
   PreprocessParams preprocess;
   EdgeMapParams edges;
+  EdgeRunsParams runs;
   LineSupportParams lines;
   ClosingParams closing;
   ContourPolygonsParams contours;
@@ -38,6 +39,7 @@ struct DetectorParams {
   static void visit(Self& self, Visitor&& field) {
     field.group("preprocess", self.preprocess);
     field.group("edges", self.edges);
+    field.group("runs", self.runs);
     field.group("lines", self.lines);
     field.group("closing", self.closing);
     field.group("contours", self.contours);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace window_ingress::detection {
 
@@ -47,11 +48,16 @@ class EdgeDetector {
 
  private:
   void gradient(const cv::Mat& image);
+  void measureStrength();
   void chooseThresholds();
+  void thin();
+  void followStrong();
 
   EdgeMapParams params_;
   EdgeMap map_;
-  cv::Mat rows_;  ///< what `gradient` keeps of one row
+  cv::Mat rows_;      ///< what `gradient` keeps of one row
+  cv::Mat strength_;  ///< CV_16SC1, |dx| + |dy|
+  std::vector<uchar*> waiting_;
 };
 
 }  // namespace window_ingress::detection

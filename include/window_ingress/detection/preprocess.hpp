@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 namespace window_ingress::detection {
@@ -22,13 +23,18 @@ struct PreprocessParams {
   }
 };
 
-/// A pyramid level: pixel (x, y) of it lies at (factor * x, factor * y) of the image as it came.
+/// A pyramid level: each pixel of it is the mean of factor x factor pixels of the image as it came.
 struct SearchLevel {
   cv::Mat image;  ///< CV_8UC1 or CV_8UC3, smoothed
   int factor = 1;
 };
 
-/// Noise removal and reduction (P2): pyramid down to the search level, Gaussian blur, histogram equalisation.
+/// Pixel of the image as it came under a pixel of the search level; both have their centres at integers.
+inline Eigen::Vector2d toFullImage(const Eigen::Vector2d& level_px, int factor) {
+  return factor * level_px + Eigen::Vector2d::Constant(0.5 * (factor - 1));
+}
+
+/// Noise removal and reduction (P2): pyramid down to the search level by means of pixels, Gaussian blur, histogram equalisation.
 class Preprocess {
  public:
   explicit Preprocess(const PreprocessParams& params) : params_(params) {}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "window_ingress/detection/candidate.hpp"
@@ -15,6 +16,7 @@ struct SegmentQuadsParams {
   double closure_px =
       1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
   double closure_side = 0.02;  ///< added to that, in mean sides of the quadrilateral
+  double odd_side = 0.7;       ///< factor for one side that is brighter inside where the others are darker, or so
   int max_segments = 250;      ///< the longest segments that are combined
   int max_quads = 300;         ///< the best covered are kept
 
@@ -26,7 +28,8 @@ struct SegmentQuadsParams {
     field("min_angle_rad", self.min_angle_rad, 0.1, 1.5);
     field("closure_px", self.closure_px, 0.1, 100.0);
     field("closure_side", self.closure_side, 0.0, 1.0);
-    field("max_segments", self.max_segments, 4, 5000);
+    field("odd_side", self.odd_side, 0.0, 1.0);
+    field("max_segments", self.max_segments, 4, 1000);
     field("max_quads", self.max_quads, 1, 100000);
   }
 };
@@ -36,16 +39,52 @@ struct SegmentQuadsParams {
 class SegmentQuads {
  public:
   struct Result {
-    std::vector<Candidate> candidates;  ///< best covered first
+    std::vector<Candidate> candidates;  ///< best covered first, each loop once
     bool budget_exceeded = false;
   };
 
   explicit SegmentQuads(const SegmentQuadsParams& params) : params_(params) {}
 
-  Result run(const std::vector<Segment>& segments, double min_area_px) const;
+  /// \param segments longest first, in pixels of the search level. Valid until the next call.
+  const Result& run(const std::vector<Segment>& segments, double min_area_px);
 
  private:
+  /// Where the line of one segment meets that of another; `t` is 0 to 1 from its end a to its end b.
+  struct Junction {
+    int other = 0;
+    float t_own = 0.0F, t_other = 0.0F;
+    bool left = false, right = false;  ///< on that side of the own segment goes enough of the other one on
+    Eigen::Vector2d point;
+  };
+  /// A segment as it is asked for junctions: `reach` from its middle a line may meet it, in its lengths.
+  struct Side {
+    Eigen::Vector2d start, way;
+    double length = 0.0, reach = 0.0;
+  };
+  struct Found {
+    double value = 0.0, closure = 0.0;
+    geometry::Quadrilateral quad;
+  };
+
+  void connect(const std::vector<Segment>& segments);
+  bool meet(const Side& p, const Side& q, Junction& junction) const;
+  void combineFrom(const std::vector<Segment>& segments, int i);
+  void close(const std::vector<Segment>& segments, int i, const Junction& ij, const Junction& il);
+  void consider(const std::vector<Segment>& segments, int i, const Junction& ij, const Junction& il,
+                const Junction& jk, const Junction& lk);
+  const Junction& between(int i, int j) const { return junctions_[i][places_[i * count_ + j]]; }
+  void keepBest();
+
   SegmentQuadsParams params_;
+  int count_ = 0, words_ = 0, combinations_ = 0;
+  double min_area_px_ = 0.0, min_sine_ = 0.0;
+  std::vector<Side> sides_;
+  std::vector<std::vector<Junction>> junctions_;
+  std::vector<std::uint64_t> meets_;  ///< a bit for each pair
+  std::vector<std::int16_t> places_;  ///< of the junction of a pair
+  std::vector<Found> found_;
+  std::vector<int> order_;
+  Result result_;
 };
 
 }  // namespace window_ingress::detection

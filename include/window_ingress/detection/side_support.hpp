@@ -4,6 +4,7 @@
 
 #include "window_ingress/detection/candidate.hpp"
 #include "window_ingress/detection/edge_map.hpp"
+#include "window_ingress/detection/level_lens.hpp"
 
 namespace window_ingress::detection {
 
@@ -23,8 +24,8 @@ struct SideSupportParams {
   }
 };
 
-/// How well the sides of a quadrilateral run along straight edges.
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const geometry::Quadrilateral& quad,
-                                        const SideSupportParams& params);
+/// How well the sides of a quadrilateral of the undistorted level run along straight edges.
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens,
+                                        const geometry::Quadrilateral& quad, const SideSupportParams& params);
 
 }  // namespace window_ingress::detection
