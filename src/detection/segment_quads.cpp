@@ -129,7 +129,6 @@ void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const J
   const std::array<const Segment*, 4> sides = {&segments[i], &segments[ij.other], &segments[jk.other],
                                                &segments[il.other]};
   const int bright = brighterInside(sides, 0.25 * (ij.point + jk.point + lk.point + il.point));
-  if (bright == 2) return;
   const auto quad = geometry::canonical({ij.point, jk.point, lk.point, il.point});
   if (!quad) return;
   const double area = geometry::signedArea(*quad);
@@ -140,7 +139,7 @@ void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const J
                         endGap(sides_[il.other].length, lk.t_own, il.t_other);
   const double closed =
       std::exp(-gap_px / 8.0 / (params_.closure_px + params_.closure_side * std::sqrt(area)));
-  const double even = bright % 4 == 0 ? 1.0 : params_.odd_side;
+  const double even = std::pow(params_.odd_side, std::min(bright, 4 - bright));
   found_.push_back({mean * closed * even * std::pow(area, 0.25), closed * even, *quad});
 }
 

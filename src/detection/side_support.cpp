@@ -54,17 +54,19 @@ Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
   return hit;
 }
 
-// Part of the stretch beyond `corner` where an edge goes on in the direction `way` (unit vector).
+// Part of the stretch beyond `corner` where an edge as strong as the side's goes on in the direction `way` (unit
+// vector); weaker ones, as the joints of a wall that run along a border, count in squares.
 double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
-                 double square_cosine) {
+                 double square_cosine, double contrast) {
   const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
   const int samples = std::clamp(static_cast<int>(stretch_px), 4, 10);
-  int hits = 0;
+  double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double distance = kCornerPx + stretch_px * (i + 0.5) / samples;
-    hits += hitNear(level, corner + distance * way, probe).worth > 0.0;
+    const Hit hit = hitNear(level, corner + distance * way, probe);
+    if (hit.worth > 0.0) sum += std::min(1.0, std::pow(hit.strength / std::max(1.0, contrast), 2));
   }
-  return static_cast<double>(hits) / samples;
+  return sum / samples;
 }
 
 SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b,
@@ -91,8 +93,8 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   support.fraction = worth / samples;
   support.contrast = hits ? strength / hits : 0.0;
   const double stretch_px = std::max(4.0, params.beyond * length);
-  support.overshoot = 0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine) +
-                             overshoot(level, b, along / length, stretch_px, square_cosine));
+  support.overshoot = 0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine, support.contrast) +
+                             overshoot(level, b, along / length, stretch_px, square_cosine, support.contrast));
   support.polarity = hits ? 2.0 * darker_outside / hits - 1.0 : 0.0;
   return support;
 }

@@ -42,9 +42,6 @@ bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& 
          !isConcentric(a, b, tolerance_px, nested) && !isConcentric(b, a, tolerance_px, nested);
 }
 
-// Bayes: a score taken for a probability, after evidence of these odds.
-double updated(double score, double odds) { return score * odds / (1.0 - score + score * odds); }
-
 }  // namespace
 
 struct WindowDetector::Impl {
@@ -105,15 +102,15 @@ bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image) {
   foretell();
   bool compared = false;
   for (Rival& rival : rivals) {
-    rival.appearance = reference->compare(image, rival.quad, params.appearance);
-    compared = compared || rival.appearance;
+    rival.distance = reference->distance(image, rival.quad, params.appearance);
+    compared = compared || rival.distance;
   }
   if (!compared) {
     rivals.resize(seen);
     return false;
   }
   for (Rival& rival : rivals) {
-    if (rival.appearance) rival.score = updated(rival.score, rival.appearance->odds);
+    if (rival.distance) rival.score = scoreWithReference(rival.score, *rival.distance, params.score);
     if (frame && !rival.outer) rival.score *= kUnframedScore;
   }
   return true;
@@ -146,8 +143,8 @@ void WindowDetector::Impl::judgeLoops(const cv::Mat& image) {
 }
 
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
-  if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
-    return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
+  if (rival.distance && *rival.distance > params.appearance.max_distance)
+    return Rejection{RejectReason::kAppearance, *rival.distance, params.appearance.max_distance};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
   if (rival.score < params.min_score) return Rejection{RejectReason::kScore, rival.score, params.min_score};
   return std::nullopt;
@@ -168,8 +165,8 @@ WindowObservation WindowDetector::Impl::observe(const Rival& rival, const Refine
   window.corner_covariance = fitted.corner_covariance;
   window.edges = fitted.edges;
   window.score = rival.score;
-  window.has_appearance = rival.appearance.has_value();
-  if (rival.appearance) window.bhattacharyya = rival.appearance->distance;
+  window.has_appearance = rival.distance.has_value();
+  window.bhattacharyya = rival.distance.value_or(0.0);
   return window;
 }
 

@@ -19,6 +19,11 @@ double windowScore(const Candidate& candidate, const WindowScoreParams& params) 
          std::pow(1.0 - overshoot, params.overshoot_weight) * std::pow(contrast, params.contrast_weight);
 }
 
+double scoreWithReference(double geometry, double distance, const WindowScoreParams& params) {
+  const double unlike = distance / params.alike;
+  return std::pow(geometry, params.geometry_weight) * std::exp(-unlike * unlike);
+}
+
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params) {
   const double area = std::abs(geometry::signedArea(quad)) / std::max(1, image.area());
   return std::pow(std::min(1.0, area / params.area_full), params.area_weight);

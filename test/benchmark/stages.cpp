@@ -15,9 +15,9 @@ struct Stages {
   explicit Stages(const Sequence& from) : sequence(from), image(from.images.front()) {
     level = preprocess.run(image);
     map = edges.run(level.image);
-    segments = lines.run(map);
+    segments = lines.run(runs.run(map, lens), map.edges.size());
     closed = closing.run(map.edges).clone();
-    rivals = search.run(image, trace);
+    rivals = search.run(image, nullptr, trace);
   }
 
   const Sequence& sequence;
@@ -25,6 +25,8 @@ struct Stages {
   DetectorParams params;
   Preprocess preprocess{params.preprocess};
   EdgeDetector edges{params.edges};
+  LevelLens lens;
+  EdgeRuns runs{params.runs};
   LineSupport lines{params.lines};
   Closing closing{params.closing};
   ContourPolygons contours{params.contours};
@@ -41,7 +43,7 @@ struct Stages {
 
 bool runPreprocess(Stages& s) { return !s.preprocess.run(s.image).image.empty(); }
 bool runEdges(Stages& s) { return !s.edges.run(s.level.image).edges.empty(); }
-bool runLines(Stages& s) { return !s.lines.run(s.map).empty(); }
+bool runLines(Stages& s) { return !s.lines.run(s.runs.run(s.map, s.lens), s.map.edges.size()).empty(); }
 bool runClosing(Stages& s) { return !s.closing.run(s.map.edges).empty(); }
 bool runContours(Stages& s) {
   return !s.contours.run(s.closed, s.closing.radiusPx(s.closed.size())).candidates.empty();
@@ -51,7 +53,7 @@ bool runSegmentQuads(Stages& s) {
 }
 bool runHalfSearch(Stages& s) {
   s.trace = DetectionTrace();
-  return !s.search.run(s.image, s.trace).empty();
+  return !s.search.run(s.image, nullptr, s.trace).empty();
 }
 bool runAppearance(Stages& s) {
   bool compared = false;

@@ -16,7 +16,7 @@ struct SegmentQuadsParams {
   double closure_px =
       1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
   double closure_side = 0.02;  ///< added to that, in mean sides of the quadrilateral
-  double odd_side = 0.7;       ///< factor for one side that is brighter inside where the others are darker, or so
+  double odd_side = 0.85;      ///< factor for each side that is brighter inside where most are darker, or so
   int max_segments = 250;      ///< the longest segments that are combined
   int max_quads = 300;         ///< the best covered are kept
 

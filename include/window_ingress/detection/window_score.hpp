@@ -13,8 +13,9 @@ struct WindowScoreParams {
   double area_full = 0.06;    ///< area from which size makes no difference to the rank, in areas of the image
   double area_weight = 0.45;  ///< exponent of the area's part in the rank
   double contrast_weight = 0.25;  ///< exponent of the contrast's part
-
-  double closure_weight = 0.5;  ///< exponent of the closure's part
+  double closure_weight = 0.5;   ///< exponent of the closure's part
+  double geometry_weight = 0.5;  ///< exponent of all of the above where there is a reference to compare with
+  double alike = 0.6;            ///< Bhattacharyya distance from it that takes e-fold off the score
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -25,6 +26,8 @@ struct WindowScoreParams {
     field("area_weight", self.area_weight, 0.0, 4.0);
     field("closure_weight", self.closure_weight, 0.0, 4.0);
     field("contrast_weight", self.contrast_weight, 0.0, 4.0);
+    field("geometry_weight", self.geometry_weight, 0.0, 4.0);
+    field("alike", self.alike, 0.01, 10.0);
   }
 };
 
@@ -32,6 +35,9 @@ struct WindowScoreParams {
 /// support of its sides, the weakest counting most, the contrast under them, and how well they end at their
 /// corners. It does not depend on its size.
 double windowScore(const Candidate& candidate, const WindowScoreParams& params);
+
+/// The same where the candidate has been compared with the reference: what it looks like counts most.
+double scoreWithReference(double geometry, double distance, const WindowScoreParams& params);
 
 /// Factor by which a larger candidate is preferred to a smaller one, up to 1.
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params);
