@@ -12,6 +12,8 @@ using geometry::Quadrilateral;
 
 constexpr double kSameLoopPx =
     1.0;  ///< corners of the same loop differ less than this on the search level [px]
+constexpr double kVariantPart = 0.2;  ///< loops whose corners differ less, in its size, belong to one window
+constexpr int kMostVariants = 6;      ///< of one window that are looked at
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
@@ -102,6 +104,14 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& 
   }
 }
 
+// How many of those kept are loops of the same window.
+int CandidateSearch::variants(const Rival& rival, const std::vector<Rival>& kept) {
+  const double near_px = kVariantPart * std::sqrt(std::abs(geometry::signedArea(rival.candidate.quad)));
+  return static_cast<int>(std::count_if(kept.begin(), kept.end(), [&](const Rival& better) {
+    return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
+  }));
+}
+
 std::vector<Rival> CandidateSearch::best(std::vector<Rival>& rivals, DetectionTrace& trace) const {
   sortByRank(rivals);
   std::vector<Rival> kept;
@@ -113,7 +123,7 @@ std::vector<Rival> CandidateSearch::best(std::vector<Rival>& rivals, DetectionTr
     });
     if (twin != kept.end())
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
-    else if (static_cast<int>(kept.size()) >= params_.max_candidates)
+    else if (static_cast<int>(kept.size()) >= params_.max_candidates || variants(rival, kept) >= kMostVariants)
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept.back().rank()));
     else
       kept.push_back(rival);

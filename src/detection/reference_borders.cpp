@@ -12,10 +12,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
-constexpr int kAlong = 24;          ///< samples along a side
 constexpr double kSkip = 0.08;      ///< left out at both ends of it
-constexpr int kMostSteps = 90;      ///< across a side
+constexpr int kMostSteps = 120;      ///< across a side
 constexpr double kClear = 0.006;    ///< nearer to a border colours are mixed [mean sides]
+constexpr double kStrongerExponent = 0.2;  ///< of a border's contrast over the strongest one's across its side
+constexpr double kFaintestFrame = 0.04;   ///< difference of frame and wall below which the reference has no frame
+constexpr double kWithinWeight = 0.3;     ///< of the colour within, where there is no frame
+constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
+constexpr double kEvenFrame = 2.2;        ///< widest over narrowest side of a frame
 constexpr double kLeastChange = 3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
 
 double meanSide(const Quadrilateral& quad) {
@@ -46,11 +50,11 @@ Vector3f features(const Vector3f& bgr) {
 
 // The profiles of all four sides.
 void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
-                               const geometry::PinholeCamera* lens, double aspect) {
+                               const geometry::PinholeCamera* lens, double aspect, const Effort& effort) {
   const UnitSquare map(ideal);
   const double side_px = meanSide(ideal);
   const double width = 2.0 * aspect / (1.0 + aspect), height = 2.0 / (1.0 + aspect);  // in mean sides
-  const int steps = std::clamp(static_cast<int>((params_.inward + params_.outward) * side_px), 12, kMostSteps);
+  const int steps = std::clamp(static_cast<int>((params_.inward + params_.outward) * side_px), 12, effort.across);
   const double right = image.cols - 0.5, bottom = image.rows - 0.5;
   for (int i = 0; i < 4; ++i) {
     SideProfile& profile = sides_[i];
@@ -61,8 +65,8 @@ void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
     for (int k = 0; k < steps; ++k) {
       Vector3f sum = Vector3f::Zero();
       int count = 0;
-      for (int n = 0; n < kAlong; ++n) {
-        const double t = kSkip + (1.0 - 2.0 * kSkip) * (n + 0.5) / kAlong;
+      for (int n = 0; n < effort.along; ++n) {
+        const double t = kSkip + (1.0 - 2.0 * kSkip) * (n + 0.5) / effort.along;
         Vector2d p = map.toImage(beside(i, t, profile.at(k) / across));
         if (lens) p = lens->distort(p);
         if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
@@ -71,31 +75,64 @@ void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
         sum += Vector3f(pixel[0], pixel[1], pixel[2]);
         ++count;
       }
-      if (count < kAlong / 3) break;
+      if (count < effort.along / 3) break;
       profile.means.push_back(sum / static_cast<float>(count));
     }
   }
 }
 
-// Features of the bands outwards from a border; false if the profile ends before the second.
-bool ReferenceBorders::bandsFrom(const SideProfile& profile, double border, Bands& bands) const {
+// Mean colour between two distances; false where the profile does not reach.
+bool ReferenceBorders::mean(const SideProfile& profile, double from, double to, Vector3f& colour) {
   const int count = static_cast<int>(profile.means.size());
+  const int first = static_cast<int>(std::ceil((from - profile.first) / profile.step - 1e-9));
+  const int last = std::max(first, static_cast<int>(std::floor((to - profile.first) / profile.step)));
+  if (first < 0 || last >= count) return false;
+  colour.setZero();
+  for (int k = first; k <= last; ++k) colour += profile.means[k];
+  colour /= static_cast<float>(last - first + 1);
+  return true;
+}
+
+// Features of the bands outwards from a border, brightness relative to the outermost; false if the profile ends
+// before the second.
+bool ReferenceBorders::bandsFrom(const SideProfile& profile, double border, Bands& bands,
+                                 Vector3f* outermost) const {
   int filled = 0;
-  for (int b = 0; b < kBands; ++b) {
-    const double from = border + b * kBandWidth + (b == 0 ? kClear : 0.0), to = border + (b + 1) * kBandWidth;
-    const int first = static_cast<int>(std::ceil((from - profile.first) / profile.step - 1e-9));
-    const int last = std::max(first, static_cast<int>(std::floor((to - profile.first) / profile.step)));
-    if (first < 0 || last >= count) break;
-    Vector3f sum = Vector3f::Zero();
-    for (int k = first; k <= last; ++k) sum += profile.means[k];
-    bands[b] = features(sum / static_cast<float>(last - first + 1));
-    ++filled;
+  for (Vector3f colour; filled < kBands; ++filled) {
+    const double from = border + filled * kBandWidth;
+    if (!mean(profile, from + (filled == 0 ? kClear : 0.0), from + kBandWidth, colour)) break;
+    bands[filled] = features(colour);
   }
   if (filled < 2) return false;
   for (int b = filled; b < kBands; ++b) bands[b] = bands[filled - 1];
-  const float far = bands[kBands - 1][2];
-  for (Vector3f& band : bands) band[2] -= far;
+  const Vector3f last = bands[kBands - 1];
+  if (outermost) *outermost = last;
+  for (Vector3f& band : bands) band[2] -= last[2];
   return true;
+}
+
+// A uniform ring just inside the borders, of even width and ended by an edge all round: a frame. What it frames is
+// the opening then, not this.
+bool ReferenceBorders::holdsFrame(const std::array<double, 4>& borders) const {
+  double least = 1.0, most = 0.0;
+  std::array<Vector3f, 4> colours;
+  for (int i = 0; i < 4; ++i) {
+    const SideProfile& profile = sides_[i];
+    double strongest = params_.contrast_full, width = 0.0;
+    for (int k = 1; k + 1 < static_cast<int>(profile.means.size()); ++k) {
+      const double depth = borders[i] - profile.at(k);
+      if (depth < kThinnestFrame || depth > params_.inward) continue;
+      const double change = (profile.means[k + 1] - profile.means[k - 1]).norm();
+      if (change > strongest) strongest = change, width = depth;
+    }
+    if (width == 0.0 || !mean(profile, borders[i] - 0.7 * width, borders[i] - 0.3 * width, colours[i])) return false;
+    colours[i] = features(colours[i]);
+    least = std::min(least, width), most = std::max(most, width);
+  }
+  if (most > kEvenFrame * least) return false;
+  double spread = 0.0;
+  for (int i = 0; i < 4; ++i) spread = std::max(spread, difference(colours[i], colours[(i + 1) % 4]));
+  return spread < params_.uniform_frame;
 }
 
 void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& opening) {
@@ -103,67 +140,77 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
   if (picture.type() != CV_8UC3 || picture.empty() || !geometry::isConvex(opening)) return;
   const auto sides = geometry::sideLengths(opening);
   aspect_ = (sides[0] + sides[2]) / (sides[1] + sides[3]);
-  measure(picture, opening, nullptr, aspect_);
-  Bands own, sum;
-  sum.fill(Vector3f::Zero());
-  int count = 0;
-  for (const SideProfile& profile : sides_) {
-    if (!bandsFrom(profile, 0.0, own)) continue;
-    for (int b = 0; b < kBands; ++b) sum[b] += own[b];
-    ++count;
+  measure(picture, opening, nullptr, aspect_, kFine);
+  double frame = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    Vector3f outermost, within;
+    if (!bandsFrom(sides_[i], 0.0, reference_[i], &outermost)) return;
+    if (!mean(sides_[i], -kBandWidth, -kClear, within)) return;
+    reference_within_[i] = features(within);
+    reference_within_[i][2] -= outermost[2];
+    frame += 0.25 * difference(reference_[i][1], reference_[i][kBands - 1]);
   }
-  if (count < 3) return;
-  for (int b = 0; b < kBands; ++b) reference_[b] = sum[b] / static_cast<float>(count);
+  frameless_ = frame < kFaintestFrame;
   known_ = true;
 }
 
-// Mean difference from the reference.
-double ReferenceBorders::unlike(const Bands& bands) const {
-  double sum = 0.0;
-  for (int b = 0; b < kBands; ++b) {
-    const Vector3f d = bands[b] - reference_[b];
-    sum += std::hypot(d[0], d[1]) + params_.brightness_weight * std::min(1.0F, std::abs(d[2]));
-  }
-  return sum / kBands;
+double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const {
+  return std::hypot(a[0] - b[0], a[1] - b[1]) +
+         params_.brightness_weight * std::min(1.0F, std::abs(a[2] - b[2]));
 }
 
-// The edge from which outwards the colours are most like those of the reference, and its worth.
-double ReferenceBorders::choose(const SideProfile& profile, double& border) const {
+// The edge from which outwards the colours are most like those of the reference, and inwards are not; its worth.
+double ReferenceBorders::choose(int side, double& border) const {
+  const SideProfile& profile = sides_[side];
+  const Bands& wanted = reference_[side];
   const int count = static_cast<int>(profile.means.size());
   const auto change = [&](int k) {
     return k < 1 || k + 1 >= count ? 0.0F : (profile.means[k + 1] - profile.means[k - 1]).norm();
   };
+  double strongest = 1.0;
+  for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(change(k)));
   double best = 0.0;
   Bands bands;
   for (int k = 1; k + 1 < count; ++k) {
     const double here = change(k);
     if (here < kLeastChange || here < change(k - 1) || here < change(k + 1)) continue;
-    if (!bandsFrom(profile, profile.at(k), bands)) continue;
-    const double worth =
-        std::exp(-unlike(bands) / params_.alike) * std::min(1.0, here / params_.contrast_full);
-    if (worth > best) best = worth, border = profile.at(k);
+    const double at = profile.at(k);
+    Vector3f within, outermost;
+    if (!bandsFrom(profile, at, bands, &outermost) || !mean(profile, at - kBandWidth, at - kClear, within)) continue;
+    double unlike = 0.0;
+    for (int b = 0; b < kBands; ++b) unlike += difference(bands[b], wanted[b]) / kBands;
+    within = features(within);
+    within[2] -= outermost[2];
+    const double goes_on = difference(within, bands[0]);
+    if (frameless_) unlike += kWithinWeight * difference(within, reference_within_[side]);
+    const double worth = std::exp(-unlike / params_.alike) * std::min(1.0, here / params_.contrast_full) *
+                         std::min(1.0, goes_on / params_.step_full) * std::pow(here / strongest, kStrongerExponent);
+    if (worth > best) best = worth, border = at;
   }
   return best;
 }
 
 std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat& image,
                                                                   const Quadrilateral& rough,
-                                                                  const geometry::PinholeCamera* camera) {
+                                                                  const geometry::PinholeCamera* camera,
+                                                                  const Effort& effort) {
   if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
   const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
   Quadrilateral ideal = rough;
   if (lens)
     for (Vector2d& corner : ideal) corner = lens->undistort(corner);
-  measure(image, ideal, lens, aspect_);
+  measure(image, ideal, lens, aspect_, effort);
   std::array<double, 4> borders{};
   Located located;
-  located.worth = 1.0;
+  double least = 1.0, mean_worth = 0.0;
   for (int i = 0; i < 4; ++i) {
-    const double worth = choose(sides_[i], borders[i]);
+    const double worth = choose(i, borders[i]);
     if (worth <= 0.0) return std::nullopt;
-    located.worth = std::min(located.worth, worth);
-    borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
+    least = std::min(least, worth), mean_worth += 0.25 * worth;
   }
+  located.worth = std::sqrt(least * mean_worth);
+  located.holds_frame = frameless_ && holdsFrame(borders);
+  for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
   const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
   const UnitSquare map(ideal);
   located.quad = {map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),

@@ -5,7 +5,8 @@
 #include <stdexcept>
 
 #include "window_ingress/detection/candidate_search.hpp"
-#include "window_ingress/detection/target_borders.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/reference_borders.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::detection {
@@ -13,7 +14,11 @@ namespace {
 
 constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
 constexpr int kRefinementTries = 6;
-constexpr double kUnframedScore = 0.75;   ///< of a candidate round which the reference's frame is not seen
+constexpr std::size_t kPlacesLocated = 16;  ///< places at which the reference's borders are looked for
+constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
+constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
+constexpr double kLocatedRadiusPx = 2.5;    ///< reach of the fit of borders that were located
+constexpr double kLocatedSigmaPx = 1.0;     ///< how well they are located
 constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
 constexpr double kVariantOverlap =
     0.6;  ///< loops that overlap more, and are not round each other, are one window
@@ -45,11 +50,13 @@ bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& 
 }  // namespace
 
 struct WindowDetector::Impl {
-  explicit Impl(const DetectorParams& p) : params(p), search(p), nested(p.nested), borders(p.refinement) {}
+  explicit Impl(const DetectorParams& p) : params(p), search(p), nested(p.nested), borders(p.borders), refinement(p.refinement) {}
 
-  void learnFrame();
-  void foretell();
-  bool judgeAppearance(const cv::Mat& image);
+  void learnReference();
+  std::vector<std::size_t> places();
+  std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
+                              const ReferenceBorders::Effort& effort);
+  bool judgeAppearance(const cv::Mat& image, const geometry::PinholeCamera* camera);
   void judgeLoops(const cv::Mat& image);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
@@ -65,54 +72,65 @@ struct WindowDetector::Impl {
   DetectorParams params;
   CandidateSearch search;
   NestedLoops nested;
-  TargetBorders borders;
+  ReferenceBorders borders;
+  BorderRefinement refinement;
   std::optional<ReferenceAppearance> reference;
-  std::optional<FrameModel> frame;
   DetectionTrace trace;
   std::vector<Rival> rivals;
 };
 
-// The frame in the reference picture, found as windows are found.
-void WindowDetector::Impl::learnFrame() {
-  frame.reset();
-  if (!reference || !imageFault(reference->picture()).empty()) return;
-  CandidateSearch own(params);
-  DetectionTrace ignored;
-  const auto loops = own.run(reference->picture(), nullptr, ignored);
-  frame = borders.learn(reference->picture(), reference->opening(), loops, own.factor(), params.nested);
+void WindowDetector::Impl::learnReference() {
+  borders.forget();
+  if (reference && imageFault(reference->picture()).empty())
+    borders.learn(reference->picture(), reference->opening());
 }
 
-// The borders that the frames' outer borders foretell, where the reference shows a frame.
-void WindowDetector::Impl::foretell() {
-  if (!frame) return;
-  const std::size_t seen = rivals.size();
-  for (std::size_t i = 0; i < seen; ++i) {
-    Rival inner = rivals[i];
-    inner.outer = rivals[i].quad;
-    inner.quad = frame->inner(rivals[i].quad);
-    inner.candidate.source = CandidateSource::kFrame;
-    if (geometry::isFinite(inner.quad) && geometry::isConvex(inner.quad)) rivals.push_back(inner);
+// Of all loops about the same place the likeliest ones; the others are variants of them.
+std::vector<std::size_t> WindowDetector::Impl::places() {
+  std::vector<std::size_t> leaders;
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    int variants = 0;
+    for (std::size_t leader : leaders)
+      variants += geometry::intersectionOverUnion(rivals[i].quad, rivals[leader].quad) > kVariantOverlap;
+    if (variants < kVariantsLocated) leaders.push_back(i);
+    if (leaders.size() == kPlacesLocated) break;
   }
+  return leaders;
+}
+
+// The rival with its borders where the reference's are, if they are found near it.
+std::optional<Rival> WindowDetector::Impl::locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                                  const Rival& rough, const ReferenceBorders::Effort& effort) {
+  const auto found = borders.locate(image, rough.quad, camera, effort);
+  if (!found) return std::nullopt;
+  Rival rival = rough;
+  rival.quad = found->quad;
+  rival.located = true;
+  rival.worth = found->worth;
+  rival.geometry = rough.located ? rough.geometry : rough.score;
+  rival.score = scoreWithReference(rival.geometry, rival.worth, std::nullopt, params.score);
+  rival.verdict.reject = found->holds_frame ? RejectReason::kOuterBorder : RejectReason::kNone;
+  return rival;
 }
 
 // Compares all with the reference; false, and nothing changed, if no colour could be compared.
-bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image) {
+bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image, const geometry::PinholeCamera* camera) {
   if (!reference || image.channels() != 3) return false;
-  const std::size_t seen = rivals.size();
-  foretell();
   bool compared = false;
-  for (Rival& rival : rivals) {
+  std::vector<Rival> located;
+  for (std::size_t i : places())
+    if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located.push_back(*rival);
+  sortByRank(located);
+  for (std::size_t i = 0; i < std::min(located.size(), kPlacesFine); ++i)
+    if (auto rival = locate(image, camera, located[i], ReferenceBorders::kFine)) located[i] = *rival;
+  for (Rival& rival : located) {
     rival.distance = reference->distance(image, rival.quad, params.appearance);
     compared = compared || rival.distance;
+    rival.score = scoreWithReference(rival.geometry, rival.worth, rival.distance, params.score);
   }
-  if (!compared) {
-    rivals.resize(seen);
-    return false;
-  }
-  for (Rival& rival : rivals) {
-    if (rival.distance) rival.score = scoreWithReference(rival.score, *rival.distance, params.score);
-    if (frame && !rival.outer) rival.score *= kUnframedScore;
-  }
+  if (!compared) return false;
+  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
+  rivals.insert(rivals.end(), located.begin(), located.end());
   return true;
 }
 
@@ -153,8 +171,11 @@ std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) con
 std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, const cv::Mat& image,
                                                            const geometry::PinholeCamera* camera,
                                                            double& inliers) const {
-  return rival.outer ? borders.foretold(image, rival, *frame, search.factor(), camera, &inliers)
-                     : borders.seen(image, rival, search.factor(), camera, &inliers);
+  BorderStart start;
+  start.quad = rival.quad;
+  start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search.factor() + 1.0;
+  if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
+  return refinement.run(image, start, camera, &inliers);
 }
 
 WindowObservation WindowDetector::Impl::observe(const Rival& rival, const RefinedBorders& fitted,
@@ -229,18 +250,18 @@ void WindowDetector::setParams(const DetectorParams& params) {
   check(params);
   auto next = std::make_unique<Impl>(params);
   next->reference = impl_->reference;
-  next->learnFrame();
+  next->learnReference();
   impl_ = std::move(next);
 }
 
 void WindowDetector::setReference(const ReferenceAppearance& reference) {
   impl_->reference = reference;
-  impl_->learnFrame();
+  impl_->learnReference();
 }
 
 void WindowDetector::clearReference() {
   impl_->reference.reset();
-  impl_->frame.reset();
+  impl_->borders.forget();
 }
 
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
@@ -252,7 +273,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     return std::nullopt;
   }
   impl_->rivals = impl_->search.run(image, camera, impl_->trace);
-  if (!impl_->judgeAppearance(image)) impl_->judgeLoops(image);
+  if (!impl_->judgeAppearance(image, camera)) impl_->judgeLoops(image);
   const auto window = impl_->choose(image, stamp_sec, camera);
   impl_->explain();
   return window;

@@ -18,8 +18,15 @@ struct Rival {
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
   LoopVerdict verdict;
+<<<<<<< HEAD
   std::optional<AppearanceMatch> appearance;     ///< beside the reference, where it can be compared
   std::optional<geometry::Quadrilateral> outer;  ///< border of the frame that foretells this one
+=======
+  std::optional<double> distance;                ///< from the reference, where it can be compared
+  bool located = false;            ///< its borders are where the reference's are
+  double geometry = 0.0;           ///< then: its score by geometry alone
+  double worth = 0.0;              ///< then: how far the colours about its borders are those of the reference, 0 to 1
+>>>>>>> 8706e55 (Target: its borders are where the colours follow each other as in the reference; frame model gone)
 
   double rank() const { return score * size; }
 };
@@ -42,6 +49,7 @@ class CandidateSearch {
  private:
   void admit(const std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
              DetectionTrace& trace);
+  static int variants(const Rival& rival, const std::vector<Rival>& kept);
   std::vector<Rival> best(std::vector<Rival>& rivals, DetectionTrace& trace) const;
 
   DetectorParams params_;

@@ -9,6 +9,7 @@
 #include "window_ingress/detection/nested_loops.hpp"
 #include "window_ingress/detection/preprocess.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/reference_borders.hpp"
 #include "window_ingress/detection/segment_quads.hpp"
 #include "window_ingress/detection/side_support.hpp"
 #include "window_ingress/detection/track_params.hpp"
@@ -29,6 +30,7 @@ struct DetectorParams {
   CandidateGatesParams gates;
   WindowScoreParams score;
   NestedLoopsParams nested;
+  ReferenceBordersParams borders;
   AppearanceParams appearance;
   BorderRefinementParams refinement;
   TrackParams track;
@@ -48,6 +50,7 @@ struct DetectorParams {
     field.group("gates", self.gates);
     field.group("score", self.score);
     field.group("nested", self.nested);
+    field.group("borders", self.borders);
     field.group("appearance", self.appearance);
     field.group("refinement", self.refinement);
     field.group("track", self.track);

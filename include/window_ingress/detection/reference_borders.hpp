@@ -12,10 +12,12 @@
 namespace window_ingress::detection {
 
 struct ReferenceBordersParams {
-  double inward = 0.12;         ///< borders are looked for so far inside a rough loop, in mean sides of it
-  double outward = 0.22;        ///< and so far outside
+  double inward = 0.14;         ///< borders are looked for so far inside a rough loop, in mean sides of it
+  double outward = 0.40;        ///< and so far outside
   double alike = 0.10;          ///< difference of colours from the reference's that takes e-fold off a border's worth
   double contrast_full = 10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
+  double step_full = 0.06;       ///< difference of the colours on both sides of a border that counts fully
+  double uniform_frame = 0.08;   ///< colours of a frame's four sides differ less than this
   double brightness_weight = 0.25;  ///< of relative brightness beside chroma
 
   template <typename Self, typename Visitor>
@@ -24,6 +26,8 @@ struct ReferenceBordersParams {
     field("outward", self.outward, 0.0, 0.6);
     field("alike", self.alike, 0.001, 10.0);
     field("contrast_full", self.contrast_full, 0.1, 255.0);
+    field("step_full", self.step_full, 0.001, 10.0);
+    field("uniform_frame", self.uniform_frame, 0.0, 10.0);
     field("brightness_weight", self.brightness_weight, 0.0, 10.0);
   }
 };
@@ -53,28 +57,42 @@ class ReferenceBorders {
   void forget() { known_ = false; }
   bool known() const { return known_; }
 
+  /// Samples along a side and across it.
+  struct Effort {
+    int along, across;
+  };
+  static constexpr Effort kCoarse = {10, 70}, kFine = {24, 140};
+
   struct Located {
     geometry::Quadrilateral quad;  ///< pixels of the image as it came; to a pixel
-    double worth = 0.0;            ///< of the least alike side: 0 unlike the reference to 1
+    double worth = 0.0;            ///< geometric mean of the least alike side and all: 0 unlike the reference to 1
+    bool holds_frame = false;      ///< a frame lies within: it is the outer border of another window
   };
   /// \param rough some loop of the window, pixels of the image as it came
   /// \return nothing if there is no colour, or a side has no edge at all
   std::optional<Located> locate(const cv::Mat& image, const geometry::Quadrilateral& rough,
-                                const geometry::PinholeCamera* camera);
+                                const geometry::PinholeCamera* camera, const Effort& effort);
 
  private:
   using Bands = std::array<Eigen::Vector3f, kBands>;
 
   void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal, const geometry::PinholeCamera* lens,
-               double aspect);
-  bool bandsFrom(const SideProfile& profile, double border, Bands& bands) const;
-  double unlike(const Bands& bands) const;
-  double choose(const SideProfile& profile, double& border) const;
+               double aspect, const Effort& effort);
+  static bool mean(const SideProfile& profile, double from, double to, Eigen::Vector3f& colour);
+  bool bandsFrom(const SideProfile& profile, double border, Bands& bands, Eigen::Vector3f* outermost = nullptr) const;
+  double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
+  double choose(int side, double& border) const;
+  bool holdsFrame(const std::array<double, 4>& borders) const;
 
   ReferenceBordersParams params_;
   bool known_ = false;
   double aspect_ = 1.0;  ///< of the opening: width over height
-  Bands reference_;      ///< red and green chromaticity, logarithm of the brightness over that of the outermost
+  /// Of each side: red and green chromaticity, logarithm of the brightness over that of the outermost band.
+  std::array<Bands, 4> reference_;
+  /// Just inside the borders, brightness likewise. Counts where no frame tells an opening from the outer border of
+  /// another window's frame.
+  std::array<Eigen::Vector3f, 4> reference_within_;
+  bool frameless_ = false;
   std::array<SideProfile, 4> sides_;
 };
 
