@@ -64,7 +64,8 @@ std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::Pi
   lens_.set(camera, level_size_, factor_);
   const EdgeMap& map = edges_.run(level.image);
   const std::vector<Segment>& segments = lines_.run(runs_.run(map, lens_), level_size_);
-  const SegmentQuads::Result& quads = segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
+  const SegmentQuads::Result& quads =
+      segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
   ContourPolygons::Result outlines = contours_.run(closing_.run(map.edges), closing_.radiusPx(level_size_));
   trace.segments = static_cast<int>(segments.size());
   trace.contours = outlines.contours;
@@ -123,7 +124,8 @@ std::vector<Rival> CandidateSearch::best(std::vector<Rival>& rivals, DetectionTr
     });
     if (twin != kept.end())
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
-    else if (static_cast<int>(kept.size()) >= params_.max_candidates || variants(rival, kept) >= kMostVariants)
+    else if (static_cast<int>(kept.size()) >= params_.max_candidates ||
+             variants(rival, kept) >= kMostVariants)
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept.back().rank()));
     else
       kept.push_back(rival);

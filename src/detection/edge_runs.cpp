@@ -120,8 +120,7 @@ void EdgeRuns::cut(const EdgeMap&, const LevelLens& lens) {
 const std::vector<EdgeRun>& EdgeRuns::run(const EdgeMap& map, const LevelLens& lens) {
   runs_.clear();
   map.edges.copyTo(free_);
-  straight_px_ = params_.straight_px *
-                 std::max(1.0, std::max(free_.cols, free_.rows) / kNominalSide);
+  straight_px_ = params_.straight_px * std::max(1.0, std::max(free_.cols, free_.rows) / kNominalSide);
   for (int y = 1; y + 1 < free_.rows; ++y) {
     uchar* row = free_.ptr(y);
     for (int x = 1; x + 1 < free_.cols; ++x) {

@@ -13,8 +13,18 @@ geometry::PinholeCamera reduced(geometry::PinholeCamera camera, const cv::Size& 
 }
 
 std::array<double, 12> keyOf(const geometry::PinholeCamera& c) {
-  return {c.fx, c.fy, c.cx, c.cy, c.distortion[0], c.distortion[1], c.distortion[2], c.distortion[3],
-          c.distortion[4], static_cast<double>(c.width), static_cast<double>(c.height), 1.0};
+  return {c.fx,
+          c.fy,
+          c.cx,
+          c.cy,
+          c.distortion[0],
+          c.distortion[1],
+          c.distortion[2],
+          c.distortion[3],
+          c.distortion[4],
+          static_cast<double>(c.width),
+          static_cast<double>(c.height),
+          1.0};
 }
 
 }  // namespace

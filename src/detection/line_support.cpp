@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kDirectionPx = 1.5;     ///< the ends of a run tell its direction to this over its length [px]
+constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
 constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
@@ -34,7 +34,8 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
       const double gap = along.dot(q.a - p.b);
       if (gap < 0.0 || gap > max_gap * (p_length + q.length())) continue;
       const Vector2d joint = (q.b - p.a).normalized(), normal = right(joint);
-      if (std::abs(normal.dot(p.b - p.a)) > off_line_px || std::abs(normal.dot(q.a - p.a)) > off_line_px) continue;
+      if (std::abs(normal.dot(p.b - p.a)) > off_line_px || std::abs(normal.dot(q.a - p.a)) > off_line_px)
+        continue;
       const double pixels = p.pixels + q.pixels;
       const double contrast = (p.contrast * p.pixels + q.contrast * q.pixels) / pixels;
       segments.push_back({p.a, q.b, normal, pixels, contrast});
@@ -95,17 +96,19 @@ void LineSupport::collect(const std::vector<EdgeRun>& runs, int seed) {
   members_.clear();
   const EdgeRun& own = runs[seed];
   const Vector2d along = (own.b - own.a).normalized(), mean = own.moments.mean();
-  const int angle = (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2;
-  const int cell = cellOf(own, angle), row = cell / rhos_ * rhos_;
-  for (int c = std::max(row, cell - 1); c <= std::min(row + rhos_ - 1, cell + 1); ++c)
-    for (int v = starts_[c]; v < starts_[c + 1]; ++v) {
-      const int i = voters_[v];
-      if (used_[i] || asked_[i] == seed) continue;
-      asked_[i] = seed;
-      if (i != seed) members_.push_back({along.dot(runs[i].a - mean), along.dot(runs[i].b - mean), i});
-    }
-  std::sort(members_.begin(), members_.end(),
-            [](const Member& p, const Member& q) { return p.from < q.from || (p.from == q.from && p.run < q.run); });
+  for (int angle = ballots_[seed].first_angle; angle <= ballots_[seed].last_angle; ++angle) {
+    const int cell = cellOf(own, angle), row = cell / rhos_ * rhos_;
+    for (int c = std::max(row, cell - 1); c <= std::min(row + rhos_ - 1, cell + 1); ++c)
+      for (int v = starts_[c]; v < starts_[c + 1]; ++v) {
+        const int i = voters_[v];
+        if (used_[i] || asked_[i] == seed) continue;
+        asked_[i] = seed;
+        if (i != seed) members_.push_back({along.dot(runs[i].a - mean), along.dot(runs[i].b - mean), i});
+      }
+  }
+  std::sort(members_.begin(), members_.end(), [](const Member& p, const Member& q) {
+    return p.from < q.from || (p.from == q.from && p.run < q.run);
+  });
 }
 
 // Takes what lies on the line up to the first gap; `way` 1 towards b, -1 towards a.
@@ -118,7 +121,8 @@ void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments&
     if (way * (far - end) <= 0.0) continue;
     if (way * (near - end) > max_gap_px_) break;
     const EdgeRun& other = runs[m.run];
-    if (std::abs(normal.dot(other.a - mean)) > off_line_px_ || std::abs(normal.dot(other.b - mean)) > off_line_px_)
+    if (std::abs(normal.dot(other.a - mean)) > off_line_px_ ||
+        std::abs(normal.dot(other.b - mean)) > off_line_px_)
       continue;
     moments.add(other.moments);
     mean = moments.mean(), normal = right(moments.along());
@@ -162,7 +166,8 @@ const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, c
   const double enough = params_.vote_fraction * min_length_px_;
   for (const auto& [pixels, seed] : order_) {
     if (used_[seed]) continue;
-    if (votes_[cellOf(runs[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough) continue;
+    if (votes_[cellOf(runs[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough)
+      continue;
     Segment segment;
     if (!grow(runs, seed, segment)) continue;
     for (int i : taken_) used_[i] = 1;

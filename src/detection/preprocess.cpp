@@ -10,7 +10,8 @@ SearchLevel Preprocess::run(const cv::Mat& image) {
   cv::Mat current = image;
   for (int i = 0; std::max(current.cols, current.rows) > params_.search_side_px; i ^= 1) {
     const cv::Size half(current.cols / 2, current.rows / 2);
-    cv::resize(current(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[i], half, 0, 0, cv::INTER_AREA);
+    cv::resize(current(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[i], half, 0, 0,
+               cv::INTER_AREA);
     current = levels_[i];
     level.factor *= 2;
   }

@@ -12,15 +12,18 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
-constexpr double kSkip = 0.08;      ///< left out at both ends of it
-constexpr int kMostSteps = 120;      ///< across a side
-constexpr double kClear = 0.006;    ///< nearer to a border colours are mixed [mean sides]
-constexpr double kStrongerExponent = 0.2;  ///< of a border's contrast over the strongest one's across its side
-constexpr double kFaintestFrame = 0.04;   ///< difference of frame and wall below which the reference has no frame
+constexpr double kSkip = 0.08;    ///< left out at both ends of it
+constexpr int kMostSteps = 120;   ///< across a side
+constexpr double kClear = 0.006;  ///< nearer to a border colours are mixed [mean sides]
+constexpr double kStrongerExponent =
+    0.2;  ///< of a border's contrast over the strongest one's across its side
+constexpr double kFaintestFrame =
+    0.04;  ///< difference of frame and wall below which the reference has no frame
 constexpr double kWithinWeight = 0.3;     ///< of the colour within, where there is no frame
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
 constexpr double kEvenFrame = 2.2;        ///< widest over narrowest side of a frame
-constexpr double kLeastChange = 3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
+constexpr double kLeastChange =
+    3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
 
 double meanSide(const Quadrilateral& quad) {
   const auto sides = geometry::sideLengths(quad);
@@ -54,7 +57,8 @@ void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
   const UnitSquare map(ideal);
   const double side_px = meanSide(ideal);
   const double width = 2.0 * aspect / (1.0 + aspect), height = 2.0 / (1.0 + aspect);  // in mean sides
-  const int steps = std::clamp(static_cast<int>((params_.inward + params_.outward) * side_px), 12, effort.across);
+  const int steps =
+      std::clamp(static_cast<int>((params_.inward + params_.outward) * side_px), 12, effort.across);
   const double right = image.cols - 0.5, bottom = image.rows - 0.5;
   for (int i = 0; i < 4; ++i) {
     SideProfile& profile = sides_[i];
@@ -93,8 +97,8 @@ bool ReferenceBorders::mean(const SideProfile& profile, double from, double to, 
   return true;
 }
 
-// Features of the bands outwards from a border, brightness relative to the outermost; false if the profile ends
-// before the second.
+// Features of the bands outwards from a border, brightness relative to the outermost; false if the profile
+// ends before the second.
 bool ReferenceBorders::bandsFrom(const SideProfile& profile, double border, Bands& bands,
                                  Vector3f* outermost) const {
   int filled = 0;
@@ -111,8 +115,8 @@ bool ReferenceBorders::bandsFrom(const SideProfile& profile, double border, Band
   return true;
 }
 
-// A uniform ring just inside the borders, of even width and ended by an edge all round: a frame. What it frames is
-// the opening then, not this.
+// A uniform ring just inside the borders, of even width and ended by an edge all round: a frame. What it
+// frames is the opening then, not this.
 bool ReferenceBorders::holdsFrame(const std::array<double, 4>& borders) const {
   double least = 1.0, most = 0.0;
   std::array<Vector3f, 4> colours;
@@ -125,7 +129,8 @@ bool ReferenceBorders::holdsFrame(const std::array<double, 4>& borders) const {
       const double change = (profile.means[k + 1] - profile.means[k - 1]).norm();
       if (change > strongest) strongest = change, width = depth;
     }
-    if (width == 0.0 || !mean(profile, borders[i] - 0.7 * width, borders[i] - 0.3 * width, colours[i])) return false;
+    if (width == 0.0 || !mean(profile, borders[i] - 0.7 * width, borders[i] - 0.3 * width, colours[i]))
+      return false;
     colours[i] = features(colours[i]);
     least = std::min(least, width), most = std::max(most, width);
   }
@@ -159,7 +164,8 @@ double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const 
          params_.brightness_weight * std::min(1.0F, std::abs(a[2] - b[2]));
 }
 
-// The edge from which outwards the colours are most like those of the reference, and inwards are not; its worth.
+// The edge from which outwards the colours are most like those of the reference, and inwards are not; its
+// worth.
 double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
   const Bands& wanted = reference_[side];
@@ -176,7 +182,8 @@ double ReferenceBorders::choose(int side, double& border) const {
     if (here < kLeastChange || here < change(k - 1) || here < change(k + 1)) continue;
     const double at = profile.at(k);
     Vector3f within, outermost;
-    if (!bandsFrom(profile, at, bands, &outermost) || !mean(profile, at - kBandWidth, at - kClear, within)) continue;
+    if (!bandsFrom(profile, at, bands, &outermost) || !mean(profile, at - kBandWidth, at - kClear, within))
+      continue;
     double unlike = 0.0;
     for (int b = 0; b < kBands; ++b) unlike += difference(bands[b], wanted[b]) / kBands;
     within = features(within);
@@ -184,7 +191,8 @@ double ReferenceBorders::choose(int side, double& border) const {
     const double goes_on = difference(within, bands[0]);
     if (frameless_) unlike += kWithinWeight * difference(within, reference_within_[side]);
     const double worth = std::exp(-unlike / params_.alike) * std::min(1.0, here / params_.contrast_full) *
-                         std::min(1.0, goes_on / params_.step_full) * std::pow(here / strongest, kStrongerExponent);
+                         std::min(1.0, goes_on / params_.step_full) *
+                         std::pow(here / strongest, kStrongerExponent);
     if (worth > best) best = worth, border = at;
   }
   return best;

@@ -11,11 +11,11 @@ using Eigen::Vector2d;
 
 constexpr int kMaxCombinations = 60000;
 constexpr double kSlackPx = 3.0;
-constexpr double kRoundedPx = 1.5;    ///< edges end this far before a corner
-constexpr double kOnPart = 0.3;       ///< a segment goes on beyond a junction with this part of its length
-constexpr double kSameLoopPx = 1.0;   ///< corners of the same loop differ less than this [px]
+constexpr double kRoundedPx = 1.5;       ///< edges end this far before a corner
+constexpr double kOnPart = 0.3;          ///< a segment goes on beyond a junction with this part of its length
+constexpr double kSameLoopPx = 1.0;      ///< corners of the same loop differ less than this [px]
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
-constexpr double kSmallestCosine = 0.25;   ///< of the angle between opposite sides
+constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -109,7 +109,8 @@ void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i) {
   }
 }
 
-void SegmentQuads::close(const std::vector<Segment>& segments, int i, const Junction& ij, const Junction& il) {
+void SegmentQuads::close(const std::vector<Segment>& segments, int i, const Junction& ij,
+                         const Junction& il) {
   const std::uint64_t *of_j = &meets_[static_cast<std::size_t>(ij.other) * words_],
                       *of_l = &meets_[static_cast<std::size_t>(il.other) * words_];
   for (int word = i / 64; word < words_; ++word)
@@ -119,8 +120,8 @@ void SegmentQuads::close(const std::vector<Segment>& segments, int i, const Junc
     }
 }
 
-void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const Junction& ij, const Junction& il,
-                            const Junction& jk, const Junction& lk) {
+void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const Junction& ij,
+                            const Junction& il, const Junction& jk, const Junction& lk) {
   ++combinations_;
   const double covered[4] = {coverage(ij.t_own, il.t_own), coverage(ij.t_other, jk.t_own),
                              coverage(jk.t_other, lk.t_other), coverage(lk.t_own, il.t_other)};
@@ -177,8 +178,7 @@ const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segmen
   min_sine_ = std::sin(params_.min_angle_rad);
   connect(segments);
   for (int i = 0; i < count_; ++i) combineFrom(segments, i);
-  result_.budget_exceeded =
-      combinations_ >= kMaxCombinations || count_ < static_cast<int>(segments.size());
+  result_.budget_exceeded = combinations_ >= kMaxCombinations || count_ < static_cast<int>(segments.size());
   keepBest();
   return result_;
 }

@@ -54,8 +54,8 @@ Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
   return hit;
 }
 
-// Part of the stretch beyond `corner` where an edge as strong as the side's goes on in the direction `way` (unit
-// vector); weaker ones, as the joints of a wall that run along a border, count in squares.
+// Part of the stretch beyond `corner` where an edge as strong as the side's goes on in the direction `way`
+// (unit vector); weaker ones, as the joints of a wall that run along a border, count in squares.
 double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
                  double square_cosine, double contrast) {
   const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
@@ -93,15 +93,17 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   support.fraction = worth / samples;
   support.contrast = hits ? strength / hits : 0.0;
   const double stretch_px = std::max(4.0, params.beyond * length);
-  support.overshoot = 0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine, support.contrast) +
-                             overshoot(level, b, along / length, stretch_px, square_cosine, support.contrast));
+  support.overshoot =
+      0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine, support.contrast) +
+             overshoot(level, b, along / length, stretch_px, square_cosine, support.contrast));
   support.polarity = hits ? 2.0 * darker_outside / hits - 1.0 : 0.0;
   return support;
 }
 
 }  // namespace
 
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens, const geometry::Quadrilateral& quad,
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens,
+                                        const geometry::Quadrilateral& quad,
                                         const SideSupportParams& params) {
   const Level level = {map, lens};
   std::array<SideSupport, 4> sides;

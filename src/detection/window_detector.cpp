@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "window_ingress/detection/candidate_search.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/candidate_search.hpp"
 #include "window_ingress/detection/reference_borders.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
@@ -19,7 +19,7 @@ constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kLocatedRadiusPx = 2.5;    ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;     ///< how well they are located
-constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
+constexpr double kLoopTolerancePx = 0.6;    ///< uncertainty of a loop's position on the search level [px]
 constexpr double kVariantOverlap =
     0.6;  ///< loops that overlap more, and are not round each other, are one window
 
@@ -50,7 +50,8 @@ bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& 
 }  // namespace
 
 struct WindowDetector::Impl {
-  explicit Impl(const DetectorParams& p) : params(p), search(p), nested(p.nested), borders(p.borders), refinement(p.refinement) {}
+  explicit Impl(const DetectorParams& p)
+      : params(p), search(p), nested(p.nested), borders(p.borders), refinement(p.refinement) {}
 
   void learnReference();
   std::vector<std::size_t> places();
@@ -100,7 +101,8 @@ std::vector<std::size_t> WindowDetector::Impl::places() {
 
 // The rival with its borders where the reference's are, if they are found near it.
 std::optional<Rival> WindowDetector::Impl::locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                                  const Rival& rough, const ReferenceBorders::Effort& effort) {
+                                                  const Rival& rough,
+                                                  const ReferenceBorders::Effort& effort) {
   const auto found = borders.locate(image, rough.quad, camera, effort);
   if (!found) return std::nullopt;
   Rival rival = rough;

@@ -2,8 +2,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "subjects.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/candidate_search.hpp"
-#include "window_ingress/detection/target_borders.hpp"
 
 namespace window_ingress::bench {
 namespace {
@@ -32,7 +32,7 @@ struct Stages {
   ContourPolygons contours{params.contours};
   SegmentQuads quads{params.segment_quads};
   CandidateSearch search{params};
-  TargetBorders borders{params.refinement};
+  BorderRefinement borders{params.refinement};
   SearchLevel level;
   EdgeMap map;
   std::vector<Segment> segments;
@@ -63,7 +63,7 @@ bool runAppearance(Stages& s) {
 }
 bool runBorders(Stages& s) {
   double inliers = 0.0;
-  return s.borders.seen(s.image, s.rivals.front(), s.search.factor(), s.sequence.cameraOrNull(), &inliers)
+  return s.borders.run(s.image, {s.rivals.front().quad, 2.5}, s.sequence.cameraOrNull(), &inliers)
       .has_value();
 }
 

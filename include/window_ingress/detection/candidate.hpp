@@ -17,8 +17,9 @@ struct SideSupport {
 
 /// A quadrilateral that may be the window, in pixels of the search level, canonical order.
 struct Candidate {
-  geometry::Quadrilateral quad = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-                                  Eigen::Vector2d::Zero()};  ///< of the undistorted level, where its sides are straight
+  geometry::Quadrilateral quad = {
+      Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+      Eigen::Vector2d::Zero()};  ///< of the undistorted level, where its sides are straight
   geometry::Quadrilateral seen = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
                                   Eigen::Vector2d::Zero()};  ///< of the level as it came
   CandidateSource source = CandidateSource::kContour;

@@ -10,9 +10,9 @@
 namespace window_ingress::detection {
 
 struct EdgeRunsParams {
-  double turn_rad = 0.7;       ///< a pixel follows another if their gradients differ less than this [rad]
-  double straight_px = 0.9;    ///< a run leaves its chord by less than this, at a level side of 320 [px]
-  int min_pixels = 4;          ///< of a run; shorter ones are dropped
+  double turn_rad = 0.7;     ///< a pixel follows another if their gradients differ less than this [rad]
+  double straight_px = 0.9;  ///< a run leaves its chord by less than this, at a level side of 320 [px]
+  int min_pixels = 4;        ///< of a run; shorter ones are dropped
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -42,8 +42,8 @@ struct EdgeRun {
   double length() const { return (b - a).norm(); }
 };
 
-/// Links neighbouring edge pixels of like gradient direction and cuts the chains where they bend: each pixel is
-/// looked at once. The runs are what the Hough transform votes with.
+/// Links neighbouring edge pixels of like gradient direction and cuts the chains where they bend: each pixel
+/// is looked at once. The runs are what the Hough transform votes with.
 class EdgeRuns {
  public:
   explicit EdgeRuns(const EdgeRunsParams& params);

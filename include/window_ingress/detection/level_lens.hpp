@@ -9,8 +9,8 @@
 
 namespace window_ingress::detection {
 
-/// The lens as it shows on the search level: straight borders are straight lines of the undistorted level only.
-/// Points are undistorted, never the image. Without a camera, or without distortion, nothing changes.
+/// The lens as it shows on the search level: straight borders are straight lines of the undistorted level
+/// only. Points are undistorted, never the image. Without a camera, or without distortion, nothing changes.
 class LevelLens {
  public:
   /// For pictures of this camera, reduced by this factor. Costs something only when camera or factor change.

@@ -13,8 +13,9 @@ struct LineSupportParams {
   double min_length = 0.03;    ///< of a segment, in longer sides of the level
   double max_gap = 0.02;       ///< within a segment, in longer sides of the level
   double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
-  double off_line = 0.004;     ///< ends of the runs of one line lie this close to it, in longer sides of the level
-  double min_density = 0.55;   ///< edge pixels on a segment over its length
+  double off_line =
+      0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
+  double min_density = 0.55;  ///< edge pixels on a segment over its length
   double join_gap =
       0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
   int max_segments = 300;  ///< the longest are kept
@@ -42,14 +43,16 @@ struct Segment {
 };
 
 /// Adds the segments that two pieces of one line make together; the pieces stay.
-/// \param max_gap between them, in lengths of both \param off_line_px how far their ends may lie off the joint line
+/// \param max_gap between them, in lengths of both \param off_line_px how far their ends may lie off the
+/// joint line
 void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px);
 
 /// Hough transform (P4) that selects straight segments: votes, minimum length, maximum gap. Where the
-/// probabilistic transform saves votes by drawing pixels at random, here each straight run of connected pixels
-/// votes once, with the weight of its pixels, for the lines that its gradient direction allows: some hundred
-/// voters in place of ten thousand, and the same result each time. A line takes the runs that voted for it, from
-/// its longest outwards, up to the first gap that is too wide. The edge map itself is not redrawn.
+/// probabilistic transform saves votes by drawing pixels at random, here each straight run of connected
+/// pixels votes once, with the weight of its pixels, for the lines that its gradient direction allows: some
+/// hundred voters in place of ten thousand, and the same result each time. A line takes the runs that voted
+/// for it, from its longest outwards, up to the first gap that is too wide. The edge map itself is not
+/// redrawn.
 class LineSupport {
  public:
   explicit LineSupport(const LineSupportParams& params) : params_(params) {}
@@ -58,7 +61,7 @@ class LineSupport {
   const std::vector<Segment>& run(const std::vector<EdgeRun>& runs, const cv::Size& level);
 
  private:
-  static constexpr int kAngles = 64;        ///< of the full circle: polarity tells the two edges of a bar apart
+  static constexpr int kAngles = 128;  ///< of the full circle: polarity tells the two edges of a bar apart
   static constexpr double kRhoStepPx = 3.0;
 
   struct Ballot {

@@ -34,7 +34,8 @@ inline Eigen::Vector2d toFullImage(const Eigen::Vector2d& level_px, int factor) 
   return factor * level_px + Eigen::Vector2d::Constant(0.5 * (factor - 1));
 }
 
-/// Noise removal and reduction (P2): pyramid down to the search level by means of pixels, Gaussian blur, histogram equalisation.
+/// Noise removal and reduction (P2): pyramid down to the search level by means of pixels, Gaussian blur,
+/// histogram equalisation.
 class Preprocess {
  public:
   explicit Preprocess(const PreprocessParams& params) : params_(params) {}

@@ -12,12 +12,12 @@
 namespace window_ingress::detection {
 
 struct ReferenceBordersParams {
-  double inward = 0.14;         ///< borders are looked for so far inside a rough loop, in mean sides of it
-  double outward = 0.40;        ///< and so far outside
-  double alike = 0.10;          ///< difference of colours from the reference's that takes e-fold off a border's worth
+  double inward = 0.14;   ///< borders are looked for so far inside a rough loop, in mean sides of it
+  double outward = 0.40;  ///< and so far outside
+  double alike = 0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
   double contrast_full = 10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
-  double step_full = 0.06;       ///< difference of the colours on both sides of a border that counts fully
-  double uniform_frame = 0.08;   ///< colours of a frame's four sides differ less than this
+  double step_full = 0.06;      ///< difference of the colours on both sides of a border that counts fully
+  double uniform_frame = 0.08;  ///< colours of a frame's four sides differ less than this
   double brightness_weight = 0.25;  ///< of relative brightness beside chroma
 
   template <typename Self, typename Visitor>
@@ -34,20 +34,22 @@ struct ReferenceBordersParams {
 
 /// Colours across one side of a loop, from the inside outwards: means along the side.
 struct SideProfile {
-  double first = 0.0;  ///< distance of the first mean from the loop, outwards positive [mean sides of the opening]
-  double step = 0.0;   ///< between two means
+  double first =
+      0.0;  ///< distance of the first mean from the loop, outwards positive [mean sides of the opening]
+  double step = 0.0;                   ///< between two means
   std::vector<Eigen::Vector3f> means;  ///< BGR
 
   double at(int i) const { return first + i * step; }
 };
 
-/// Which of the borders that lie in each other, frame's outer and inner one, far edge of the reveal, panes, is the
-/// front inner border of the opening: side by side the one from which outwards the colours follow each other as
-/// they do in the reference picture. Frame and wall lie in the plane of the opening, so that the order and the
-/// widths of their colours are the same from any direction; what is seen through the opening is not looked at.
+/// Which of the borders that lie in each other, frame's outer and inner one, far edge of the reveal, panes,
+/// is the front inner border of the opening: side by side the one from which outwards the colours follow each
+/// other as they do in the reference picture. Frame and wall lie in the plane of the opening, so that the
+/// order and the widths of their colours are the same from any direction; what is seen through the opening is
+/// not looked at.
 class ReferenceBorders {
  public:
-  static constexpr int kBands = 7;  ///< outwards from the border
+  static constexpr int kBands = 7;            ///< outwards from the border
   static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
 
   explicit ReferenceBorders(const ReferenceBordersParams& params) : params_(params) {}
@@ -65,8 +67,8 @@ class ReferenceBorders {
 
   struct Located {
     geometry::Quadrilateral quad;  ///< pixels of the image as it came; to a pixel
-    double worth = 0.0;            ///< geometric mean of the least alike side and all: 0 unlike the reference to 1
-    bool holds_frame = false;      ///< a frame lies within: it is the outer border of another window
+    double worth = 0.0;  ///< geometric mean of the least alike side and all: 0 unlike the reference to 1
+    bool holds_frame = false;  ///< a frame lies within: it is the outer border of another window
   };
   /// \param rough some loop of the window, pixels of the image as it came
   /// \return nothing if there is no colour, or a side has no edge at all
@@ -76,10 +78,11 @@ class ReferenceBorders {
  private:
   using Bands = std::array<Eigen::Vector3f, kBands>;
 
-  void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal, const geometry::PinholeCamera* lens,
-               double aspect, const Effort& effort);
+  void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal,
+               const geometry::PinholeCamera* lens, double aspect, const Effort& effort);
   static bool mean(const SideProfile& profile, double from, double to, Eigen::Vector3f& colour);
-  bool bandsFrom(const SideProfile& profile, double border, Bands& bands, Eigen::Vector3f* outermost = nullptr) const;
+  bool bandsFrom(const SideProfile& profile, double border, Bands& bands,
+                 Eigen::Vector3f* outermost = nullptr) const;
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
   bool holdsFrame(const std::array<double, 4>& borders) const;
@@ -89,8 +92,8 @@ class ReferenceBorders {
   double aspect_ = 1.0;  ///< of the opening: width over height
   /// Of each side: red and green chromaticity, logarithm of the brightness over that of the outermost band.
   std::array<Bands, 4> reference_;
-  /// Just inside the borders, brightness likewise. Counts where no frame tells an opening from the outer border of
-  /// another window's frame.
+  /// Just inside the borders, brightness likewise. Counts where no frame tells an opening from the outer
+  /// border of another window's frame.
   std::array<Eigen::Vector3f, 4> reference_within_;
   bool frameless_ = false;
   std::array<SideProfile, 4> sides_;

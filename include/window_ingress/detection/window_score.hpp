@@ -14,10 +14,10 @@ struct WindowScoreParams {
   double area_full = 0.06;    ///< area from which size makes no difference to the rank, in areas of the image
   double area_weight = 0.45;  ///< exponent of the area's part in the rank
   double contrast_weight = 0.25;  ///< exponent of the contrast's part
-  double closure_weight = 0.5;   ///< exponent of the closure's part
+  double closure_weight = 0.5;    ///< exponent of the closure's part
   double geometry_weight = 0.25;  ///< exponent of all of the above where there is a reference to compare with
-  double worth_weight = 0.7;     ///< exponent of the worth of its borders, beside the reference's
-  double alike = 1.2;            ///< Bhattacharyya distance from it that takes e-fold off the score
+  double worth_weight = 0.7;      ///< exponent of the worth of its borders, beside the reference's
+  double alike = 1.2;             ///< Bhattacharyya distance from it that takes e-fold off the score
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -40,7 +40,8 @@ struct WindowScoreParams {
 double windowScore(const Candidate& candidate, const WindowScoreParams& params);
 
 /// The same where the candidate has been compared with the reference: what it looks like counts most.
-/// \param worth of its borders, see ReferenceBorders \param distance Bhattacharyya, if there was enough to compare
+/// \param worth of its borders, see ReferenceBorders \param distance Bhattacharyya, if there was enough to
+/// compare
 double scoreWithReference(double geometry, double worth, const std::optional<double>& distance,
                           const WindowScoreParams& params);
 

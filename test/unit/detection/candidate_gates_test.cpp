@@ -15,7 +15,7 @@ const cv::Size kImage(320, 240);
 
 Candidate good() {
   Candidate candidate;
-  candidate.quad = test::rectangle(100, 80, 200, 160);
+  candidate.quad = candidate.seen = test::rectangle(100, 80, 200, 160);
   for (SideSupport& side : candidate.sides) side = {1.0, 20.0, 0.0, -1.0};
   return candidate;
 }
@@ -38,21 +38,21 @@ TEST(CandidateGates, EachShapeGateNamesItself) {
   expectShape(c, RejectReason::kCorners);
   c = good(), c.quad[2].x() = std::numeric_limits<double>::quiet_NaN();
   expectShape(c, RejectReason::kCorners);
-  c = good(), c.quad = test::rectangle(100, 80, 110, 90);
+  c = good(), c.quad = c.seen = test::rectangle(100, 80, 110, 90);
   expectShape(c, RejectReason::kAreaSmall);
-  c = good(), c.quad = test::rectangle(1, 1, 318, 238);
+  c = good(), c.quad = c.seen = test::rectangle(1, 1, 318, 238);
   expectShape(c, RejectReason::kAreaLarge);
-  c = good(), c.quad = test::rectangle(20, 100, 300, 130);
+  c = good(), c.quad = c.seen = test::rectangle(20, 100, 300, 130);
   expectShape(c, RejectReason::kAspect);
-  c = good(), c.quad = test::rectangle(150, 10, 170, 230);
+  c = good(), c.quad = c.seen = test::rectangle(150, 10, 170, 230);
   expectShape(c, RejectReason::kAspect);
   c = good(), c.solidity = 0.3;
   expectShape(c, RejectReason::kSolidity);
   c = good(), c.quad[0].x() += 60, c.quad[3].x() -= 60;
   expectShape(c, RejectReason::kAngle);
-  c = good(), c.quad = test::rectangle(0, 80, 100, 160);
+  c = good(), c.quad = c.seen = test::rectangle(0, 80, 100, 160);
   expectShape(c, RejectReason::kBorder);
-  c = good(), c.quad = test::rectangle(100, 150, 200, 239.5);
+  c = good(), c.quad = c.seen = test::rectangle(100, 150, 200, 239.5);
   expectShape(c, RejectReason::kBorder);
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "drawn_window.hpp"
-#include "window_ingress/detection/target_borders.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -28,7 +27,7 @@ TEST(CandidateSearch, OneSetOfParametersServesAllImageSizes) {
   for (double scale : {0.5, 1.0, 2.0, 3.0}) {
     DetectionTrace trace;
     const auto picture = framed(scale);
-    const auto rivals = search.run(picture.draw(), trace);
+    const auto rivals = search.run(picture.draw(), nullptr, trace);
     EXPECT_TRUE(holds(rivals, picture.opening, 3.0 * search.factor())) << "inner, scale " << scale;
     EXPECT_TRUE(holds(rivals, test::grown(picture.opening, picture.frame_px), 3.0 * search.factor()))
         << scale;
@@ -40,7 +39,7 @@ TEST(CandidateSearch, BestFirstAndNoMoreThanAsked) {
   DetectorParams params;
   params.max_candidates = 3;
   DetectionTrace trace;
-  const auto rivals = CandidateSearch(params).run(framed().draw(), trace);
+  const auto rivals = CandidateSearch(params).run(framed().draw(), nullptr, trace);
   ASSERT_EQ(rivals.size(), 3u);
   EXPECT_GE(rivals[0].rank(), rivals[1].rank());
   EXPECT_GE(rivals[1].rank(), rivals[2].rank());
@@ -52,37 +51,8 @@ TEST(CandidateSearch, AFineGratingStaysWithinItsBudget) {
   for (int y = 0; y < grating.rows; ++y)
     for (int x = 0; x < grating.cols; ++x) grating.at<uchar>(y, x) = (x / 8 + y / 8) % 2 ? 230 : 20;
   DetectionTrace trace;
-  const auto rivals = CandidateSearch(DetectorParams()).run(grating, trace);
+  const auto rivals = CandidateSearch(DetectorParams()).run(grating, nullptr, trace);
   EXPECT_LE(static_cast<int>(rivals.size()), DetectorParams().max_candidates);
-}
-
-TEST(TargetBorders, TheFrameForetellsABorderThatDoesNotShow) {
-  auto picture = framed();
-  const auto outer = test::grown(picture.opening, picture.frame_px);
-  const FrameModel frame(outer, picture.opening);
-  cv::Mat image = picture.draw();
-  test::fillQuad(image, test::rectangle(204, 326, 417, 334),
-                 picture.frame);  // a sill in the colour of the frame
-  Rival rival;
-  rival.outer = test::grown(outer, 0.8);
-  const auto borders =
-      TargetBorders(BorderRefinementParams()).foretold(image, rival, frame, 2, nullptr, nullptr);
-  ASSERT_TRUE(borders);
-  EXPECT_LT(test::worstCorner(borders->corners, picture.opening), 0.6);
-  EXPECT_GT(borders->edges[geometry::kBottom].sigma_px, 2.0 * borders->edges[geometry::kTop].sigma_px);
-}
-
-TEST(TargetBorders, LearnsTheFrameOfAReferencePicture) {
-  const auto picture = framed();
-  CandidateSearch search{DetectorParams()};
-  DetectionTrace trace;
-  const auto loops = search.run(picture.draw(), trace);
-  const auto frame = TargetBorders(BorderRefinementParams())
-                         .learn(picture.draw(), picture.opening, loops, search.factor(), NestedLoopsParams());
-  ASSERT_TRUE(frame);
-  EXPECT_LT(test::worstCorner(frame->outer, test::grown(picture.opening, picture.frame_px)), 0.2);
-  EXPECT_FALSE(TargetBorders(BorderRefinementParams())
-                   .learn(picture.draw(), picture.opening, {}, 1, NestedLoopsParams()));
 }
 
 }  // namespace

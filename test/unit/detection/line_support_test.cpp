@@ -12,6 +12,13 @@
 namespace window_ingress::detection {
 namespace {
 
+/// Edges to segments, as the search does it.
+std::vector<Segment> segmentsOf(const EdgeMap& map) {
+  EdgeRuns runs{EdgeRunsParams()};
+  LineSupport lines{LineSupportParams()};
+  return lines.run(runs.run(map, LevelLens()), map.edges.size());
+}
+
 cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
   test::WindowPicture picture;
   picture.width = 320, picture.height = 240, picture.type = CV_8UC1;
@@ -21,10 +28,9 @@ cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
 
 TEST(LineSupport, FindsTheFourSidesOfAWindowFromAnyAngle) {
   EdgeDetector edges{EdgeMapParams()};
-  LineSupport lines{LineSupportParams()};
   for (double angle : {0.0, 0.1, 0.35, -0.6, 1.3}) {
     const auto opening = test::turned(test::rectangle(100, 70, 220, 170), angle, 0.1);
-    const auto segments = lines.run(edges.run(window(opening)));
+    const auto segments = segmentsOf(edges.run(window(opening)));
     for (int i = 0; i < 4; ++i) {
       const Eigen::Vector2d a = opening[i], along = (opening[(i + 1) % 4] - a).normalized();
       const double length = (opening[(i + 1) % 4] - a).norm();
@@ -42,7 +48,7 @@ TEST(LineSupport, BrighterSideLiesOnTheRight) {
   cv::Mat image(100, 100, CV_8UC1, cv::Scalar(50));
   image(cv::Rect(50, 0, 50, 100)).setTo(200);
   EdgeDetector edges{EdgeMapParams()};
-  const auto segments = LineSupport(LineSupportParams()).run(edges.run(image));
+  const auto segments = segmentsOf(edges.run(image));
   ASSERT_EQ(segments.size(), 1u);
   EXPECT_GT(segments[0].normal.x(), 0.99);
   EXPECT_LT(segments[0].b.y(), segments[0].a.y()) << "upwards, with the bright half on the right";
@@ -52,25 +58,23 @@ TEST(LineSupport, TheTwoEdgesOfABarStayApart) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(60));
   image(cv::Rect(78, 0, 4, 120)).setTo(200);
   EdgeDetector edges{EdgeMapParams()};
-  const auto segments = LineSupport(LineSupportParams()).run(edges.run(image));
+  const auto segments = segmentsOf(edges.run(image));
   ASSERT_EQ(segments.size(), 2u);
   EXPECT_LT(segments[0].normal.dot(segments[1].normal), -0.9);
 }
 
 TEST(LineSupport, NoiseAndEmptyImagesGiveNoLongSegments) {
   EdgeDetector edges{EdgeMapParams()};
-  LineSupport lines{LineSupportParams()};
-  EXPECT_TRUE(lines.run(edges.run(cv::Mat(64, 64, CV_8UC1, cv::Scalar(5)))).empty());
+  EXPECT_TRUE(segmentsOf(edges.run(cv::Mat(64, 64, CV_8UC1, cv::Scalar(5)))).empty());
   cv::Mat noise(240, 320, CV_8UC1, cv::Scalar(128));
   test::addNoise(noise, 40.0, 3);
-  for (const Segment& segment : lines.run(edges.run(noise))) EXPECT_LT(segment.length(), 60.0);
+  for (const Segment& segment : segmentsOf(edges.run(noise))) EXPECT_LT(segment.length(), 60.0);
 }
 
 TEST(LineSupport, IsDeterministic) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(90, 60, 200, 170), 4.0));
-  const auto first = LineSupport(LineSupportParams()).run(map),
-             second = LineSupport(LineSupportParams()).run(map);
+  const auto first = segmentsOf(map), second = segmentsOf(map);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].a, second[i].a);
 }
@@ -80,8 +84,9 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
   image(cv::Rect(140, 55, 12, 12)).setTo(image.at<uchar>(5, 5));
   image(cv::Rect(84, 54, 12, 12)).setTo(image.at<uchar>(5, 5));
   EdgeDetector edges{EdgeMapParams()};
-  const auto segments = LineSupport(LineSupportParams()).run(edges.run(image));
-  const auto result = SegmentQuads(SegmentQuadsParams()).run(segments, 1000.0);
+  const auto segments = segmentsOf(edges.run(image));
+  SegmentQuads quads{SegmentQuadsParams()};
+  const auto result = quads.run(segments, 1000.0);
   ASSERT_FALSE(result.candidates.empty());
   const bool found = std::any_of(result.candidates.begin(), result.candidates.end(), [](const Candidate& c) {
     return test::worstCorner(c.quad, test::rectangle(90, 60, 230, 170)) < 2.0;
@@ -91,7 +96,7 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
 
 TEST(SegmentQuads, NothingFromNothing) {
   EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({}, 1.0).candidates.empty());
-  const Segment one{{0, 0}, {10, 0}, {0, 1}, 10};
+  const Segment one{{0, 0}, {10, 0}, {0, 1}, 10, 20.0};
   EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({one, one, one, one}, 1.0).candidates.empty());
 }
 
@@ -99,12 +104,13 @@ TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
   EdgeDetector edges{EdgeMapParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
   const EdgeMap& map = edges.run(window(opening));
-  for (const SideSupport& side : measureSides(map, opening, SideSupportParams())) {
+  for (const SideSupport& side : measureSides(map, LevelLens(), opening, SideSupportParams())) {
     EXPECT_GT(side.fraction, 0.9);
     EXPECT_LT(side.overshoot, 0.1);
     EXPECT_LT(side.polarity, -0.9) << "the hole is darker than the wall";
   }
-  for (const SideSupport& side : measureSides(map, test::rectangle(110, 80, 210, 160), SideSupportParams()))
+  for (const SideSupport& side :
+       measureSides(map, LevelLens(), test::rectangle(110, 80, 210, 160), SideSupportParams()))
     EXPECT_LT(side.fraction, 0.1);
 }
 
@@ -115,8 +121,10 @@ TEST(SideSupport, ACellOfAGridOvershoots) {
     cv::line(image, {60, 30 + 40 * i}, {220, 30 + 40 * i}, cv::Scalar(20), 2);
   }
   EdgeDetector edges{EdgeMapParams()};
-  const auto cell = measureSides(edges.run(image), test::rectangle(102, 72, 138, 108), SideSupportParams());
-  const auto grid = measureSides(edges.run(image), test::rectangle(58, 28, 222, 192), SideSupportParams());
+  const auto cell =
+      measureSides(edges.run(image), LevelLens(), test::rectangle(102, 72, 138, 108), SideSupportParams());
+  const auto grid =
+      measureSides(edges.run(image), LevelLens(), test::rectangle(58, 28, 222, 192), SideSupportParams());
   for (int i = 0; i < 4; ++i) EXPECT_GT(cell[i].overshoot, grid[i].overshoot + 0.2);
 }
 
@@ -124,9 +132,10 @@ TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(100, 70, 220, 170)));
   for (const SideSupport& side :
-       measureSides(map, test::rectangle(-500, -400, 900, 800), SideSupportParams()))
+       measureSides(map, LevelLens(), test::rectangle(-500, -400, 900, 800), SideSupportParams()))
     EXPECT_EQ(side.fraction, 0.0);
-  for (const SideSupport& side : measureSides(map, test::rectangle(5, 5, 5, 5), SideSupportParams()))
+  for (const SideSupport& side :
+       measureSides(map, LevelLens(), test::rectangle(5, 5, 5, 5), SideSupportParams()))
     EXPECT_EQ(side.fraction, 0.0);
 }
 

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 
 #include "drawn_window.hpp"
-#include "window_ingress/detection/frame_model.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -76,28 +75,6 @@ TEST(NestedLoops, ConcentricMeansABorderAllRound) {
   EXPECT_FALSE(isConcentric(test::rectangle(80, 80, 220, 170), kOpening, 0.6, params)) << "one side only";
   EXPECT_FALSE(isConcentric(test::rectangle(10, 10, 310, 230), kOpening, 0.6, params))
       << "too wide for a frame";
-}
-
-TEST(FrameModel, ForetellsTheOpeningFromAnotherView) {
-  const FrameModel model(test::grown(kOpening, 10), kOpening);
-  EXPECT_LT(test::worstCorner(model.inner(test::grown(kOpening, 10)), kOpening), 1e-9);
-  Eigen::Matrix3d view;
-  view << 0.8, 0.1, 12, -0.05, 0.9, 20, 4e-4, -2e-4, 1;
-  const auto seen = [&](const geometry::Quadrilateral& quad) {
-    geometry::Quadrilateral result;
-    for (int i = 0; i < 4; ++i) result[i] = (view * quad[i].homogeneous()).hnormalized();
-    return result;
-  };
-  EXPECT_LT(test::worstCorner(model.inner(seen(test::grown(kOpening, 10))), seen(kOpening)), 1e-6);
-}
-
-TEST(FrameModel, IsFoundAsTheSmallestUniformRing) {
-  const auto outer = test::grown(kOpening, 10);
-  const auto model =
-      findFrame(framed(), kOpening, {test::grown(kOpening, 20), outer, kOpening}, NestedLoopsParams());
-  ASSERT_TRUE(model);
-  EXPECT_LT(test::worstCorner(model->outer, outer), 1e-9);
-  EXPECT_FALSE(findFrame(framed(), kOpening, {}, NestedLoopsParams()));
 }
 
 }  // namespace

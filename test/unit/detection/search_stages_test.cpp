@@ -23,13 +23,14 @@ TEST(Preprocess, ReducesByPowersOfTwoUntilItFits) {
   }
 }
 
-TEST(Preprocess, APixelOfTheLevelLiesAtFactorTimesItsPlace) {
+TEST(Preprocess, APixelOfTheLevelIsTheMeanOfThoseUnderIt) {
   cv::Mat image(480, 640, CV_8UC1, cv::Scalar(0));
   cv::circle(image, {200, 300}, 6, cv::Scalar(255), cv::FILLED);
   const SearchLevel level = Preprocess(PreprocessParams()).run(image);
   const cv::Moments m = cv::moments(level.image);
-  EXPECT_NEAR(level.factor * m.m10 / m.m00, 200.0, 0.1);
-  EXPECT_NEAR(level.factor * m.m01 / m.m00, 300.0, 0.1);
+  const Eigen::Vector2d full = toFullImage({m.m10 / m.m00, m.m01 / m.m00}, level.factor);
+  EXPECT_NEAR(full.x(), 200.0, 0.1);
+  EXPECT_NEAR(full.y(), 300.0, 0.1);
 }
 
 TEST(Preprocess, EqualisationRaisesContrastAndTakesBothTypes) {
