@@ -47,6 +47,9 @@ bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& 
          !isConcentric(a, b, tolerance_px, nested) && !isConcentric(b, a, tolerance_px, nested);
 }
 
+// Bayes: a score taken for a probability, after evidence of these odds.
+double updated(double score, double odds) { return score * odds / (1.0 - score + score * odds); }
+
 }  // namespace
 
 struct WindowDetector::Impl {
@@ -57,6 +60,7 @@ struct WindowDetector::Impl {
   std::vector<std::size_t> places();
   std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
                               const ReferenceBorders::Effort& effort);
+  std::vector<Rival> locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera);
   bool judgeAppearance(const cv::Mat& image, const geometry::PinholeCamera* camera);
   void judgeLoops(const cv::Mat& image);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
@@ -110,29 +114,40 @@ std::optional<Rival> WindowDetector::Impl::locate(const cv::Mat& image, const ge
   rival.located = true;
   rival.worth = found->worth;
   rival.geometry = rough.located ? rough.geometry : rough.score;
-  rival.score = scoreWithReference(rival.geometry, rival.worth, std::nullopt, params.score);
+  rival.score = scoreWithReference(rival.geometry, rival.worth, params.score);
   rival.verdict.reject = found->holds_frame ? RejectReason::kOuterBorder : RejectReason::kNone;
   return rival;
 }
 
-// Compares all with the reference; false, and nothing changed, if no colour could be compared.
-bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image, const geometry::PinholeCamera* camera) {
-  if (!reference || image.channels() != 3) return false;
-  bool compared = false;
+// The borders of the reference at all places where they are found; the best are looked at closely.
+std::vector<Rival> WindowDetector::Impl::locateAll(const cv::Mat& image,
+                                                   const geometry::PinholeCamera* camera) {
   std::vector<Rival> located;
   for (std::size_t i : places())
     if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located.push_back(*rival);
   sortByRank(located);
   for (std::size_t i = 0; i < std::min(located.size(), kPlacesFine); ++i)
     if (auto rival = locate(image, camera, located[i], ReferenceBorders::kFine)) located[i] = *rival;
-  for (Rival& rival : located) {
-    rival.distance = reference->distance(image, rival.quad, params.appearance);
-    compared = compared || rival.distance;
-    rival.score = scoreWithReference(rival.geometry, rival.worth, rival.distance, params.score);
+  return located;
+}
+
+// Compares with the reference; false, and nothing changed, if no colour could be compared.
+bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image, const geometry::PinholeCamera* camera) {
+  if (!reference || image.channels() != 3) return false;
+  std::vector<Rival> compared = borders.known() ? locateAll(image, camera) : rivals;
+  bool any = false;
+  for (Rival& rival : compared) {
+    rival.appearance = reference->compare(image, rival.quad, params.appearance);
+    any = any || rival.appearance;
+    if (rival.appearance) rival.score = updated(rival.score, rival.appearance->odds);
   }
-  if (!compared) return false;
+  if (!any && !borders.known()) return false;
+  if (!borders.known()) {
+    rivals.swap(compared);
+    return true;
+  }
   for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
-  rivals.insert(rivals.end(), located.begin(), located.end());
+  rivals.insert(rivals.end(), compared.begin(), compared.end());
   return true;
 }
 
@@ -163,8 +178,8 @@ void WindowDetector::Impl::judgeLoops(const cv::Mat& image) {
 }
 
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
-  if (rival.distance && *rival.distance > params.appearance.max_distance)
-    return Rejection{RejectReason::kAppearance, *rival.distance, params.appearance.max_distance};
+  if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
+    return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
   if (rival.score < params.min_score) return Rejection{RejectReason::kScore, rival.score, params.min_score};
   return std::nullopt;
@@ -188,8 +203,8 @@ WindowObservation WindowDetector::Impl::observe(const Rival& rival, const Refine
   window.corner_covariance = fitted.corner_covariance;
   window.edges = fitted.edges;
   window.score = rival.score;
-  window.has_appearance = rival.distance.has_value();
-  window.bhattacharyya = rival.distance.value_or(0.0);
+  window.has_appearance = rival.appearance.has_value();
+  if (rival.appearance) window.bhattacharyya = rival.appearance->distance;
   return window;
 }
 

@@ -19,11 +19,8 @@ double windowScore(const Candidate& candidate, const WindowScoreParams& params) 
          std::pow(1.0 - overshoot, params.overshoot_weight) * std::pow(contrast, params.contrast_weight);
 }
 
-double scoreWithReference(double geometry, double worth, const std::optional<double>& distance,
-                          const WindowScoreParams& params) {
-  const double unlike = distance.value_or(0.0) / params.alike;
-  return std::pow(geometry, params.geometry_weight) * std::pow(worth, params.worth_weight) *
-         std::exp(-unlike * unlike);
+double scoreWithReference(double geometry, double worth, const WindowScoreParams& params) {
+  return std::pow(geometry, params.geometry_weight) * std::pow(worth, params.worth_weight);
 }
 
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params) {

@@ -18,22 +18,10 @@ struct Rival {
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
   LoopVerdict verdict;
-<<<<<<< HEAD
-<<<<<<< HEAD
-  std::optional<AppearanceMatch> appearance;     ///< beside the reference, where it can be compared
-  std::optional<geometry::Quadrilateral> outer;  ///< border of the frame that foretells this one
-=======
-  std::optional<double> distance;                ///< from the reference, where it can be compared
-  bool located = false;            ///< its borders are where the reference's are
-  double geometry = 0.0;           ///< then: its score by geometry alone
-  double worth = 0.0;              ///< then: how far the colours about its borders are those of the reference, 0 to 1
->>>>>>> 8706e55 (Target: its borders are where the colours follow each other as in the reference; frame model gone)
-=======
-  std::optional<double> distance;  ///< from the reference, where it can be compared
-  bool located = false;            ///< its borders are where the reference's are
-  double geometry = 0.0;           ///< then: its score by geometry alone
+  std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
+  bool located = false;                       ///< its borders are where the reference's are
+  double geometry = 0.0;                      ///< then: its score by geometry alone
   double worth = 0.0;  ///< then: how far the colours about its borders are those of the reference, 0 to 1
->>>>>>> 99a90b9 (Tests follow the search; lines vote in finer angles)
 
   double rank() const { return score * size; }
 };

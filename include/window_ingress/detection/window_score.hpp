@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <optional>
 
 #include "window_ingress/detection/candidate.hpp"
 
@@ -17,7 +16,6 @@ struct WindowScoreParams {
   double closure_weight = 0.5;    ///< exponent of the closure's part
   double geometry_weight = 0.25;  ///< exponent of all of the above where there is a reference to compare with
   double worth_weight = 0.7;      ///< exponent of the worth of its borders, beside the reference's
-  double alike = 1.2;             ///< Bhattacharyya distance from it that takes e-fold off the score
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -30,7 +28,6 @@ struct WindowScoreParams {
     field("contrast_weight", self.contrast_weight, 0.0, 4.0);
     field("geometry_weight", self.geometry_weight, 0.0, 4.0);
     field("worth_weight", self.worth_weight, 0.0, 4.0);
-    field("alike", self.alike, 0.01, 10.0);
   }
 };
 
@@ -39,11 +36,9 @@ struct WindowScoreParams {
 /// corners. It does not depend on its size.
 double windowScore(const Candidate& candidate, const WindowScoreParams& params);
 
-/// The same where the candidate has been compared with the reference: what it looks like counts most.
-/// \param worth of its borders, see ReferenceBorders \param distance Bhattacharyya, if there was enough to
-/// compare
-double scoreWithReference(double geometry, double worth, const std::optional<double>& distance,
-                          const WindowScoreParams& params);
+/// The same where the borders of the reference were looked for: what they look like counts most.
+/// \param worth of its borders, see ReferenceBorders
+double scoreWithReference(double geometry, double worth, const WindowScoreParams& params);
 
 /// Factor by which a larger candidate is preferred to a smaller one, up to 1.
 double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params);
