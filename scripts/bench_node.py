@@ -123,7 +123,7 @@ def watch(folder, pictures, node):
 
 
 def main():
-    folder, pictures = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 18000
+    folder, pictures = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 108000
     started = []
 
     def start(*command):

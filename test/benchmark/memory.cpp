@@ -1,6 +1,8 @@
 /// Memory of search and track over many pictures, as fast as it goes, as JSON: resident size at the start,
-/// after a tenth and at the end. Exit code 1 if it grows or is more than what is allowed. Usage:
-/// benchmark_memory [--frames=FOLDER] [--pictures=108000] [SEQUENCE...]
+/// after a tenth and at the end. Every picture goes through track, every tenth through search, the sequences
+/// in turn. Exit code 1 if it grows or is more than what is allowed.
+///
+/// Usage: benchmark_memory [--frames=FOLDER] [--pictures=108000] [SEQUENCE...]
 #include <unistd.h>
 
 #include <cstdio>
@@ -19,6 +21,7 @@ using namespace window_ingress::bench;
 
 constexpr double kMostMegabytes = 150.0;  ///< of the detector's process, the pictures in memory included
 constexpr double kMostGrowth = 1.0;       ///< from a tenth to the end [MB]
+constexpr std::size_t kSearchEvery = 10;
 
 double residentMegabytes() {
   std::ifstream file("/proc/self/statm");
@@ -27,12 +30,13 @@ double residentMegabytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// All pictures of a sequence go through search and through track, in turn with the other sequences.
-std::vector<Step> stepsOver(const std::vector<Sequence>& sequences) {
+/// Those of our subjects that apply, one step a sequence.
+std::vector<Step> stepsOf(const std::string& subject, const std::vector<Sequence>& sequences) {
   std::vector<Step> steps;
-  for (const Sequence& sequence : sequences)
-    for (const Subject& subject : ownSubjects())
-      if (Step step = subject.start(sequence)) steps.push_back(step);
+  for (const Subject& own : ownSubjects())
+    for (const Sequence& sequence : sequences)
+      if (own.name == subject)
+        if (Step step = own.start(sequence)) steps.push_back(step);
   return steps;
 }
 
@@ -45,12 +49,13 @@ int main(int argc, char** argv) {
     const std::size_t pictures = std::stoul(arguments.value("pictures", "108000"));
     const auto sequences = readFrameSet(arguments.value("frames", "out/bench/frames"),
                                         [&](const std::string& name) { return arguments.names(name); });
-    const std::vector<Step> steps = stepsOver(sequences);
-    if (steps.empty()) throw std::runtime_error("no such sequence");
+    const std::vector<Step> track = stepsOf("track", sequences), search = stepsOf("search", sequences);
+    if (track.empty() || search.empty()) throw std::runtime_error("no such sequence");
     std::vector<double> resident = {residentMegabytes()};
     for (std::size_t i = 0; i < pictures; ++i) {
       if (i == pictures / 10) resident.push_back(residentMegabytes());
-      steps[i % steps.size()]();
+      track[i % track.size()]();
+      if (i % kSearchEvery == 0) search[i / kSearchEvery % search.size()]();
     }
     resident.push_back(residentMegabytes());
     const double growth = resident.back() - resident[resident.size() - 2];
