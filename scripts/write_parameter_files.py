@@ -139,26 +139,38 @@ def yaml_file(structs, kind, title):
 CFG_TYPES = {"double": "double_t", "int": "int_t", "bool": "bool_t"}
 
 
-def cfg_lines(structs, struct, prefix):
+def cfg_text(kind, comment, minimum, maximum):
+    """Meaning, unit and range: what rqt_reconfigure shows of a parameter."""
+    text = comment.replace('"', "'").replace(";", ",")
+    if kind == "double" and "[" not in text:
+        text += " [-]"
+    return f"{text} ({minimum} .. {maximum})" if minimum else text
+
+
+def cfg_lines(structs, struct, prefix, group):
+    """Parameters of one struct, each struct below it in a group (a tab) of its own."""
     for visit in struct.visits:
         if visit[0] == "group":
             child = find(structs, struct.space, struct.members[visit[2]][0])
-            yield from cfg_lines(structs, child, f"{prefix}{visit[1]}_")
+            yield f'\n{visit[1]} = {group}.add_group("{visit[1]}", type="tab")'
+            yield from cfg_lines(structs, child, f"{prefix}{visit[1]}_", visit[1])
             continue
+        if visit[0] != "field":
+            sys.exit(f"WindowDetector.cfg: no rule for a {visit[0]} ({prefix}{visit[1]})")
         _, name, member, minimum, maximum = visit
         kind, default, comment = struct.members[member]
         value = default.capitalize() if kind == "bool" else default
         limits = f", {minimum}, {maximum}" if minimum else ""
-        text = comment.replace('"', "'").replace(";", ",")
-        yield f'gen.add("{prefix}{name}", {CFG_TYPES[kind]}, 0,\n        "{text}",\n        {value}{limits})'
+        yield (f'{group}.add("{prefix}{name}", {CFG_TYPES[kind]}, 0,\n'
+               f'        "{cfg_text(kind, comment, minimum, maximum)}",\n        {value}{limits})')
 
 
 def cfg_file(structs):
-    head = ["#!/usr/bin/env python3", "# Live tuning of the detector. Written by scripts/write_parameter_files.py.",
+    head = ["#!/usr/bin/env python3", "# Live tuning of the detector, a tab for each stage. Written by scripts/write_parameter_files.py.",
             "from dynamic_reconfigure.parameter_generator_catkin import ParameterGenerator, bool_t, double_t, int_t", "",
             "gen = ParameterGenerator()", ""]
     tail = ["", 'exit(gen.generate("window_ingress", "window_ingress", "WindowDetector"))']
-    return "\n".join([*head, *cfg_lines(structs, find(structs, "detection", "DetectorParams"), ""), *tail]) + "\n"
+    return "\n".join([*head, *cfg_lines(structs, find(structs, "detection", "DetectorParams"), "", "gen"), *tail]) + "\n"
 
 
 def doc_row(struct, visit):

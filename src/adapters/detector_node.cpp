@@ -3,7 +3,6 @@
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 
 #include "adapters/guarded.hpp"
 #include "adapters/image_message.hpp"
@@ -11,27 +10,6 @@
 #include "window_ingress/detection/debug_image.hpp"
 
 namespace window_ingress::adapters {
-
-detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
-                                             const detection::DetectorParams& params) {
-  if (corners.empty()) return detection::referenceFromPicture(picture, params);
-  if (corners.size() != 8)
-    throw ParameterError("reference/corners holds " + std::to_string(corners.size()) +
-                         " numbers instead of 8");
-  geometry::Quadrilateral quad;
-  for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
-  const auto canonical = geometry::canonical(quad);
-  if (!canonical) throw ParameterError("reference/corners are no convex quadrilateral in cyclic order");
-  return {picture, *canonical};
-}
-
-detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
-                                             const detection::DetectorParams& params) {
-  const cv::Mat picture = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (picture.empty())
-    throw ParameterError("reference/picture: cannot read '" + reference.picture + "' as an image");
-  return makeReference(picture, reference.corners, params);
-}
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<DetectorNodeParams>(pnh, {"tuning"})),
@@ -43,7 +21,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
               [this](const auto& header, const auto& picture) { receive(header, picture); }),
       tuning_(pnh, params_.detector, [this](const auto& params) { detector_.setParams(params); }) {
   if (!params_.reference.picture.empty())
-    detector_.setReference(loadReference(params_.reference, params_.detector));
+    use(loadReference(params_.reference, params_.detector), "photograph " + params_.reference.picture);
   window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);
   debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
   reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
@@ -51,6 +29,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
   reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);
   diagnostics_.add("detection", [this] { return detectionHealth(); });
+  diagnostics_.add("reference", [this] { return referenceHealth(); });
   if (!params_.lockstep) return;
   lockstep_.emplace(
       nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -105,11 +84,13 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   message.milliseconds = (steadyNowSec() - begun_sec) * 1e3;
   slowest_ms_ = std::max(slowest_ms_, message.milliseconds);
   window_publisher_.publish(message);
-  if (debug_publisher_.getNumSubscribers() > 0) publishDebugImage(header, image);
+  if (debug_publisher_.getNumSubscribers() > 0) publishDebugImage(header, image, message.milliseconds);
 }
 
-void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::Mat& image) {
-  detection::drawDetection(image, detector_.trace(), last_window_ ? &*last_window_ : nullptr, canvas_);
+void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::Mat& image,
+                                     double milliseconds) {
+  detection::drawDetection(image, detector_.trace(), last_window_ ? &*last_window_ : nullptr, canvas_,
+                           milliseconds);
   debug_publisher_.publish(toImageMsg(canvas_, header));
 }
 
@@ -120,22 +101,39 @@ void DetectorNode::receiveReference(const window_ingress::ReferencePicture& mess
   for (std::size_t i = 0; i < 4; ++i)
     corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
   const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
-  detector_.setReference(
-      makeReference(picture.image.clone(), whole ? std::vector<double>() : corners, params_.detector));
+  use(makeReference(picture.image, whole ? std::vector<double>() : corners, params_.detector), "topic");
   ROS_INFO("reference taken from %s", reference_subscriber_.getTopic().c_str());
   reference_stamp_ = message.picture.header.stamp;
   if (lockstep_) lockstep_->check();
 }
 
+void DetectorNode::use(const detection::ReferenceAppearance& reference, const std::string& source) {
+  detector_.setReference(reference);
+  reference_from_ = source + (detection::isGrey(reference.picture()) ? ", which has no colour" : "");
+}
+
+// Why there is nothing to capture, or nothing.
+std::string DetectorNode::captureFault() const {
+  if (last_picture_.image.empty()) return "no image so far";
+  if (!last_window_) return "no window in the last image: " + detector_.trace().detail;
+  if (!last_window_->whole()) return "the window is not whole in the last image";
+  return detection::isGrey(last_picture_.image) ? "the pictures have no colour" : "";
+}
+
 bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& response) {
-  response.success = last_window_ && last_window_->whole() && last_picture_.image.channels() == 3;
-  if (response.success) {
-    detector_.setReference({last_picture_.image.clone(), last_window_->corners});
-    response.message = "the window in the last image is the reference now";
-  } else {
-    response.message = !last_window_           ? "no window in the last image: " + detector_.trace().detail
-                       : last_window_->whole() ? "the pictures have no colour"
-                                               : "the window is not whole in the last image";
+  response.message = captureFault();
+  response.success = response.message.empty();
+  if (!response.success) return true;
+  const geometry::Quadrilateral corners = last_window_->corners;
+  use({last_picture_.image, corners}, "live image");
+  response.message = "the window in the last image is the reference now";
+  if (params_.reference.capture_file.empty()) return true;
+  try {
+    saveReference(params_.reference.capture_file, last_picture_.image, corners);
+    response.message += "; written to " + params_.reference.capture_file;
+  } catch (const ParameterError& error) {
+    response.success = false;
+    response.message += std::string(", but it is not kept: ") + error.what();
   }
   return true;
 }
@@ -152,6 +150,15 @@ Health DetectorNode::detectionHealth() const {
   if (last_picture_.image.empty()) return {Health::kOk, "no image so far"};
   return {Health::kOk,
           (last_window_ ? "window in view; " : "no window: " + detector_.trace().detail + "; ") + slowest};
+}
+
+Health DetectorNode::referenceHealth() const {
+  if (reference_from_.empty()) return {Health::kOk, "none: windows are told by their geometry alone"};
+  std::string text = "from " + reference_from_;
+  if (last_window_)
+    text += last_window_->has_appearance ? "; distance " + std::to_string(last_window_->bhattacharyya)
+                                         : "; not compared in the last image: geometry alone";
+  return {Health::kOk, text};
 }
 
 }  // namespace window_ingress::adapters

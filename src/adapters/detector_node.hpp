@@ -17,23 +17,12 @@
 #include "adapters/image_source.hpp"
 #include "adapters/lockstep.hpp"
 #include "adapters/reconfigure.hpp"
+#include "adapters/reference_source.hpp"
 #include "adapters/run_node.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
 namespace window_ingress::adapters {
-
-/// The operator's picture of the target.
-struct ReferenceParams {
-  std::string picture;          ///< file; empty: no reference
-  std::vector<double> corners;  ///< of the opening's inner border in it, x1 y1 .. x4 y4 from top left,
-                                ///< clockwise [px]; empty: the whole picture is the target with its frame
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("picture", self.picture);
-    field("corners", self.corners);
-  }
-};
 
 struct DetectorNodeParams {
   std::string image_transport = "raw";  ///< raw, compressed, or a plugin of image_transport
@@ -55,14 +44,6 @@ struct DetectorNodeParams {
   }
 };
 
-/// A reference from a picture and eight numbers, or none for the whole picture. \throws ParameterError
-detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
-                                             const detection::DetectorParams& params);
-
-/// Reads the operator's picture. \throws ParameterError that says what is wrong with it
-detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
-                                             const detection::DetectorParams& params);
-
 /// The detector between topics: images in, corners out, with or without calibration.
 class DetectorNode : public Node {
  public:
@@ -76,11 +57,14 @@ class DetectorNode : public Node {
   void look(const std_msgs::Header& header, const GuardedImage& picture);
   bool isComplete(const Lockstep::Step& step) const;
   void lookInStep(const Lockstep::Step& step);
-  void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image);
+  void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image, double milliseconds);
   void receiveReference(const window_ingress::ReferencePicture& message);
+  void use(const detection::ReferenceAppearance& reference, const std::string& source);
+  std::string captureFault() const;
   bool captureReference(Trigger::Request& request, Trigger::Response& response);
   bool reset(Trigger::Request& request, Trigger::Response& response);
   Health detectionHealth() const;
+  Health referenceHealth() const;
 
   DetectorNodeParams params_;
   Diagnostics diagnostics_;
@@ -91,6 +75,7 @@ class DetectorNode : public Node {
   cv::Mat canvas_;
   GuardedImage last_picture_;
   std::optional<detection::WindowObservation> last_window_;
+  std::string reference_from_;  // empty: there is no reference
   double slowest_ms_ = 0.0;
   std::optional<Lockstep> lockstep_;
   std_msgs::Header waiting_header_;  // in lockstep: of the picture that waits for its step

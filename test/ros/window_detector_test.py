@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Image in, corners out: with and without calibration, and whatever else comes on the topic."""
+import os
 import sys
 import time
 import unittest
@@ -7,12 +8,15 @@ import unittest
 import numpy
 import rospy
 import rostest
+import yaml
 from dynamic_reconfigure.client import Client
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Trigger
 from window_ingress.msg import WindowDetection
 
 import support
+
+CAPTURE_FILE = "/tmp/window_detector_test_reference.png"  # as in window_detector.test
 
 
 class WindowDetectorTest(unittest.TestCase):
@@ -90,12 +94,32 @@ class WindowDetectorTest(unittest.TestCase):
     def test_reference_is_captured_from_the_window_in_view(self):
         rospy.wait_for_service("window_detector/capture_reference", support.DEADLINE_S)
         capture = rospy.ServiceProxy("window_detector/capture_reference", Trigger)
+        wall = numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8)
+        stream = self.stream(lambda stamp: support.image_message(wall, stamp))
+        self.windows.wait(lambda w: not w.detected, "a message without window")
+        refused = capture()
+        self.assertFalse(refused.success)
+        self.assertIn("no window in the last image", refused.message)
         pixels = support.picture()
-        self.stream(lambda stamp: support.image_message(pixels, stamp))
+        stream.make = lambda stamp: support.image_message(pixels, stamp)
         self.windows.wait(lambda w: w.detected, "a window")
-        support.wait_for(lambda: capture().success, "the reference captured")
+        answers = []
+
+        def is_taken():
+            answers.append(capture())
+            return answers[-1].success
+        support.wait_for(is_taken, "the reference captured")
+        self.assertIn(CAPTURE_FILE, answers[-1].message)
         window = self.windows.wait(lambda w: w.detected and w.has_appearance, "a window compared with the reference")
         self.assertLess(window.bhattacharyya, 0.2)
+        support.Diagnostics().wait("window_detector: reference", "live image", "distance")
+        with open(os.path.splitext(CAPTURE_FILE)[0] + ".yaml") as file:
+            kept = yaml.safe_load(file)["reference"]
+        self.assertEqual(kept["picture"], CAPTURE_FILE)
+        self.assertGreater(os.path.getsize(CAPTURE_FILE), 1000)
+        for (x, y), wanted in zip(zip(kept["corners"][::2], kept["corners"][1::2]), support.CORNERS):
+            self.assertAlmostEqual(x, wanted[0], delta=1.5)
+            self.assertAlmostEqual(y, wanted[1], delta=1.5)
 
     def test_tuning_is_taken_or_clamped_and_reaches_the_detector(self):
         client = Client("window_detector/tuning", timeout=support.DEADLINE_S)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include "adapters/detector_node.hpp"
 #include "adapters/guard_node.hpp"
@@ -135,6 +136,51 @@ TEST(Reconfigure, SchemaHasTheRangesOfTheStruct) {
   const auto low = numbers(message(Config::__getMin__())), high = numbers(message(Config::__getMax__()));
   for (const auto& [name, value] : ranges.lowest) EXPECT_DOUBLE_EQ(low.at(name), value) << name;
   for (const auto& [name, value] : ranges.highest) EXPECT_DOUBLE_EQ(high.at(name), value) << name;
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+TEST(Reconfigure, DescriptionsHaveUnitAndRange) {
+  for (const auto& parameter : Config::__getParamDescriptions__()) {
+    const std::string& text = parameter->description;
+    if (parameter->type == "bool") continue;
+    EXPECT_NE(text.find(" .. "), std::string::npos) << parameter->name;
+    if (parameter->type == "int") continue;
+    EXPECT_NE(text.find('['), std::string::npos) << parameter->name << ": " << text;
+    for (const auto& [suffix, unit] : {std::pair{"_px", "px"}, {"_rad", "[rad"}, {"_sec", "[s"}}) {
+      const bool wanted = endsWith(parameter->name, suffix);
+      EXPECT_TRUE(!wanted || text.find(unit) != std::string::npos) << parameter->name;
+    }
+  }
+}
+
+// Visitor that collects the names of the groups.
+struct GroupNames {
+  template <typename... Rest>
+  void operator()(const std::string&, Rest&&...) {}
+  template <typename Params>
+  void group(const std::string& name, const Params&) {
+    names.insert(name);
+  }
+  std::set<std::string> names;
+};
+
+TEST(Reconfigure, EveryStageHasAGroupWithItsParameters) {
+  GroupNames stages;
+  const detection::DetectorParams params;
+  detection::DetectorParams::visit(params, stages);
+  ASSERT_GT(stages.names.size(), 8u);
+  std::set<std::string> found;
+  for (const auto& group : Config::__getGroupDescriptions__()) {
+    if (group->id == 0) continue;
+    found.insert(group->name);
+    EXPECT_FALSE(group->parameters.empty()) << group->name;
+    for (const auto& parameter : group->parameters)
+      EXPECT_EQ(parameter.name.rfind(group->name + "_", 0), 0u) << parameter.name;
+  }
+  EXPECT_EQ(found, stages.names);
 }
 
 TEST(Reconfigure, StructGoesThereAndBack) {

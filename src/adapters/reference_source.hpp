@@ -1,0 +1,41 @@
+/// Where the reference of the target comes from: a photograph, or the live image.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::adapters {
+
+/// The operator's picture of the target.
+struct ReferenceParams {
+  std::string picture;          ///< file; empty: no reference
+  std::vector<double> corners;  ///< of the opening's inner border in it, x1 y1 .. x4 y4 from top left,
+                                ///< clockwise [px]; empty: the whole picture is the target with its frame
+  std::string capture_file;  ///< picture that ~capture_reference writes; beside it, .yaml, these parameters
+                             ///< for it; empty: nothing is written
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("picture", self.picture);
+    field("corners", self.corners);
+    field("capture_file", self.capture_file);
+  }
+};
+
+/// A reference from a picture and eight numbers, or none for the whole picture. \throws ParameterError
+detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+                                             const detection::DetectorParams& params);
+
+/// Reads the operator's picture. \throws ParameterError that says what is wrong with it
+detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
+                                             const detection::DetectorParams& params);
+
+/// Writes a captured reference: the picture, and in a file of the same name that ends in .yaml the parameters
+/// `reference` that load it. \throws ParameterError that says which file could not be written
+void saveReference(const std::string& file, const cv::Mat& picture, const geometry::Quadrilateral& opening);
+
+}  // namespace window_ingress::adapters

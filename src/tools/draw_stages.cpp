@@ -1,0 +1,111 @@
+/// Draws the stages of the detector on one picture, as the paper's figures 1 and 2, on one sheet.
+#include <boost/program_options.hpp>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "command_line.hpp"
+#include "window_ingress/evaluation/stage_sheet.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/simulation/world.hpp"
+
+namespace {
+
+namespace options = boost::program_options;
+using namespace window_ingress;
+using tools::UsageError;
+
+constexpr double kSettling_sec = 0.4;  // until the camera has seen the scene
+constexpr int kQuality = 75;           // of a jpg
+
+struct Job {
+  std::string scenario, image, output, params;
+  std::uint32_t seed = 1;
+  int cell_width_px = 480;
+  double distance_m = 0.0, off_axis_rad = 0.0;  // 0 m: as the scenario has it
+};
+
+struct Subject {
+  cv::Mat picture;
+  std::optional<detection::ReferenceAppearance> reference;
+};
+
+options::options_description describe(Job& job) {
+  options::options_description description(
+      "draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | PICTURE");
+  description.add_options()("help", "print this text")                                                  //
+      ("output", options::value(&job.output), "the sheet")                                              //
+      ("scenario", options::value(&job.scenario), "scenario file; the view is from its start")          //
+      ("seed", options::value(&job.seed)->default_value(1), "of the scenario")                          //
+      ("distance", options::value(&job.distance_m), "instead of the start's [m]")                       //
+      ("off-axis", options::value(&job.off_axis_rad), "with --distance: instead of the start's [rad]")  //
+      ("image", options::value(&job.image), "a picture instead of a scenario; without a reference")     //
+      ("params", options::value(&job.params), "yaml file with a section 'detector'")                    //
+      ("width", options::value(&job.cell_width_px)->default_value(480), "of each picture on the sheet [px]");
+  return description;
+}
+
+// From the start, but looking at the window.
+Subject photograph(const Job& job) {
+  auto scenario = simulation::loadScenario(job.scenario, job.seed);
+  scenario.start.heading_rad = 0.0;
+  if (job.distance_m > 0.0) {
+    scenario.start.distance_m = job.distance_m;
+    scenario.start.off_axis_rad = job.off_axis_rad;
+    scenario.start.height_offset_m = 0.0;
+  }
+  simulation::World world(scenario, job.seed);
+  Subject subject;
+  while (subject.picture.empty() || world.timeSec() < kSettling_sec) {
+    world.advance();
+    if (const auto frame = world.takeFrame()) subject.picture = frame->image.clone();
+  }
+  geometry::Quadrilateral corners;
+  const cv::Mat picture = world.referencePicture(&corners);
+  subject.reference.emplace(picture, corners);
+  return subject;
+}
+
+Subject read(const Job& job) {
+  Subject subject;
+  subject.picture = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (subject.picture.empty()) throw UsageError(job.image + ": cannot be read as a picture");
+  return subject;
+}
+
+int run(const Job& job) {
+  if (job.output.empty()) throw UsageError("--output is missing; see --help");
+  if (job.scenario.empty() == job.image.empty())
+    throw UsageError("give either a scenario or a picture; see --help");
+  detection::DetectorParams params;
+  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", params))
+    throw UsageError(job.params + ": no section 'detector' in this file");
+  const Subject subject = job.image.empty() ? photograph(job) : read(job);
+  const cv::Mat sheet = evaluation::stageSheet(
+      subject.picture, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);
+  if (!cv::imwrite(job.output, sheet, {cv::IMWRITE_JPEG_QUALITY, kQuality}))
+    throw std::runtime_error(job.output + ": cannot write");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  return tools::runTool("draw_stages", [&] {
+    Job job;
+    const auto description = describe(job);
+    options::positional_options_description rest;
+    rest.add("image", 1);
+    options::variables_map given;
+    options::store(options::command_line_parser(argc, argv).options(description).positional(rest).run(),
+                   given);
+    options::notify(given);
+    if (given.count("help") == 0) return run(job);
+    std::cout << description;
+    return 0;
+  });
+}
