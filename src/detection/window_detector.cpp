@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
 constexpr int kRefinementTries = 6;
+constexpr double kMostCertain = 0.99;  ///< of a score before the reference is asked
 constexpr std::size_t kPlacesLocated = 16;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
@@ -47,8 +48,11 @@ bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& 
          !isConcentric(a, b, tolerance_px, nested) && !isConcentric(b, a, tolerance_px, nested);
 }
 
-// Bayes: a score taken for a probability, after evidence of these odds.
-double updated(double score, double odds) { return score * odds / (1.0 - score + score * odds); }
+// Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
+double updated(double score, double odds) {
+  const double prior = std::min(score, kMostCertain);
+  return prior * odds / (1.0 - prior + prior * odds);
+}
 
 }  // namespace
 
