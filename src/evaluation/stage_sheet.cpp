@@ -142,14 +142,17 @@ void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const d
 void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet) {
   detection::Preprocess preprocess(params.preprocess);
   detection::EdgeDetector edges(params.edges);
+  detection::EdgeRuns runs(params.runs);
   detection::LineSupport lines(params.lines);
+  detection::LevelLens lens;  // no calibration: the picture is taken as free of distortion
   detection::Closing closing(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);
   const detection::SearchLevel level = preprocess.run(image);
   const detection::EdgeMap& map = edges.run(level.image);
   addEdges(image, level, map, params, sheet);
-  const auto& segments = lines.run(map);
+  lens.set(nullptr, level.image.size(), level.factor);
+  const auto& segments = lines.run(runs.run(map, lens), level.image.size());
   sheet.add(drawSegments(level.image, segments),
             cv::format("P4 straight segments, colour: direction (%d)", static_cast<int>(segments.size())));
   const cv::Mat closed = closing.run(map.edges);
