@@ -1,12 +1,17 @@
 #include "window_ingress/detection/border_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "window_ingress/detection/double_edge.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
-constexpr float kFaintest = 0.5f;          // slope that may be an edge [grey levels a pixel]
+constexpr float kFaintest = 0.5f;     // slope that may be an edge [grey levels a pixel]
+constexpr double kPartedSigma = 0.5;  // of the distance between the edges of a reveal that look like one
+constexpr int kNoPeak = 1 << 20;
 constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
 constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
 
@@ -35,6 +40,8 @@ void BorderFit::project(const EdgeProfiles& profiles, const Eigen::Vector3f& col
   const int width = profiles.width(), channels = profiles.channels();
   const Eigen::Vector3f weights = 0.5f * (channels == 1 ? Eigen::Vector3f(colour.sum(), 0, 0) : colour);
   slopes_.assign(static_cast<std::size_t>(profiles.count()) * width, 0.0f);
+  peak_at_.assign(profiles.count(), kNoPeak);
+  peak_.resize(profiles.count());
   for (int i = 0; i < profiles.count(); ++i) {
     if (!profiles.inside(i)) continue;
     float* out = slopes_.data() + static_cast<std::size_t>(i) * width;
@@ -45,28 +52,41 @@ void BorderFit::project(const EdgeProfiles& profiles, const Eigen::Vector3f& col
   }
 }
 
+// Where a profile has its edge near an offset, to a pixel.
+std::optional<int> BorderFit::steepest(int i, double centre, const BorderFitLimits& limits) const {
+  const int reach = profiles_->reach() - 2;
+  const int first = std::max(-reach, static_cast<int>(std::lround(centre - limits.radius_px)));
+  const int last = std::min(reach, static_cast<int>(std::lround(centre + limits.radius_px)));
+  const float* slope = slopesOf(i);
+  const float falloff = static_cast<float>(0.5 / (limits.prior_px * limits.prior_px));
+  float best = 0.0f;
+  int at = first;
+  for (int o = first; o <= last; ++o) {
+    const float off = static_cast<float>(o - centre), damped = 1.0f + falloff * off * off;
+    const float weight = slope[o] / (damped * damped);
+    if (weight > best) best = weight, at = o;
+  }
+  if (best < kFaintest) return std::nullopt;
+  while (at > first && slope[at - 1] > slope[at]) --at;
+  while (at < last && slope[at + 1] > slope[at]) ++at;
+  if (at <= first || at >= last) return std::nullopt;
+  return at;
+}
+
 void BorderFit::measure(const OffsetLine& about, const BorderFitLimits& limits) {
   positions_.clear();
   offsets_.clear();
-  const int reach = profiles_->reach() - 2;
   for (int i = 0; i < profiles_->count(); ++i) {
     if (!profiles_->inside(i)) continue;
-    const double centre = about.at(profiles_->position(i));
-    const int first = std::max(-reach, static_cast<int>(std::lround(centre - limits.radius_px)));
-    const int last = std::min(reach, static_cast<int>(std::lround(centre + limits.radius_px)));
-    const float* slope =
-        slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();
-    const double falloff = -0.5 / (limits.prior_px * limits.prior_px);
-    double best = 0.0;
-    int at = first;
-    for (int o = first; o <= last; ++o) {
-      const double weight =
-          limits.prior_px < 100.0 ? slope[o] * std::exp(falloff * (o - centre) * (o - centre)) : slope[o];
-      if (weight > best) best = weight, at = o;
+    const auto at = steepest(i, about.at(profiles_->position(i)), limits);
+    if (!at) continue;
+    if (peak_at_[i] != *at) {
+      const float* slope = slopesOf(i);
+      peak_at_[i] = *at;
+      peak_[i] = *at + peak(slope[*at - 1], slope[*at], slope[*at + 1]);
     }
-    if (best < kFaintest || at <= first || at >= last) continue;
     positions_.push_back(profiles_->position(i));
-    offsets_.push_back(at + peak(slope[at - 1], slope[at], slope[at + 1]));
+    offsets_.push_back(peak_[i]);
   }
 }
 
@@ -85,7 +105,19 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
   const double independent = std::max(2.0, border.inliers * std::min(1.0, spacing_px / kCorrelationPx) - 2.0);
   border.sigma_px =
       std::hypot(limits.sigma_floor_px, std::sqrt(squares / std::max(1, border.inliers) / independent));
+  border.sigma_px = std::hypot(border.sigma_px, kPartedSigma * parted(border.line));
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
+}
+
+// How far the edges of a reveal that look like one are apart.
+double BorderFit::parted(const OffsetLine& line) const {
+  constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
+  std::array<float, 3 * kSize> mean;
+  if (profiles_->channels() != 3 || profiles_->meanAlong(line, kHalf, mean.data()) < 4) return 0.0;
+  std::array<Eigen::Vector3f, kSize - 2> changes;
+  for (int k = 0; k < kSize - 2; ++k)
+    for (int c = 0; c < 3; ++c) changes[k][c] = mean[c * kSize + k + 2] - mean[c * kSize + k];
+  return partedBy(changes.data(), kSize - 2, kHalf - 1);
 }
 
 bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {

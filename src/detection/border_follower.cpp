@@ -13,6 +13,7 @@ constexpr double kMostOfASide = 0.8;    // of a short side must be in the pictur
 constexpr double kSigmas = 3.0;
 constexpr double kLeastReachPx = 2.5;
 constexpr double kLearningRate = 0.15;  // a picture
+constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
 constexpr int kLeastProfiles = 6;
 
@@ -33,7 +34,7 @@ FollowedBorder BorderFollower::follow(const cv::Mat& image, const geometry::Pinh
   const double most = std::max(kLeastReachPx, track_.reach * longerSide(image));
   const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kLeastReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kLeastProfiles, track_.profiles);
-  coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2});
+  coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px);
   border.similarity = match ? match->similarity : 0.0;
   border.fitted =
@@ -46,13 +47,13 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
                radius_px = scale * refinement_.final_radius_px;
   const int count =
-      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kLeastProfiles, refinement_.samples);
+      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kLeastProfiles, track_.fine_profiles);
   fine_.sample(image, lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
                 static_cast<int>(std::ceil(radius_px)) + 3});
   fit_.project(fine_, memory_.colour());
   FittedBorder fitted;
-  BorderFitLimits limits{radius_px, radius_px, std::max(kRoughPx, refinement_.outlier_px) * scale,
+  BorderFitLimits limits{radius_px, kPriorPx * scale, std::max(kRoughPx, refinement_.outlier_px) * scale,
                          refinement_.sigma_floor_px};
   if (!fit_.run(limits, fitted)) return false;
   limits.outlier_px = refinement_.outlier_px * scale;
@@ -65,15 +66,24 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   return border.inliers >= track_.min_inliers;
 }
 
-void BorderFollower::keep(double size_px) { memory_.learn(coarse_, seen_, half_px_, size_px, kLearningRate); }
+void BorderFollower::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px) {
+  const auto out_px = front_.look(coarse_, seen_, half_px_);
+  if (!out_px) return memory_.learn(coarse_, seen_, half_px_, size_px, kLearningRate);
+  const double half = 0.5 * coarse_.length();
+  learn(image, lens,
+        {coarse_.point(-half, seen_.at(-half) + *out_px), coarse_.point(half, seen_.at(half) + *out_px)},
+        size_px);
+}
 
 void BorderFollower::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
                            double size_px) {
   half_px_ =
       std::clamp(static_cast<int>(std::lround(track_.reach * longerSide(image))), 4, BorderMemory::kMostHalf);
-  coarse_.sample(image, lens, {border.from, border.to, track_.profiles, kSkip, half_px_ + 3});
+  coarse_.sample(image, lens, {border.from, border.to, track_.profiles, kSkip, half_px_ + 3, true});
   memory_.clear();
   memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
+  front_.forget();
+  front_.look(coarse_, {}, half_px_);
 }
 
 }  // namespace window_ingress::detection

@@ -112,27 +112,17 @@ std::optional<BorderMemory::Match> BorderMemory::match(const EdgeProfiles& profi
 void BorderMemory::learn(const EdgeProfiles& profiles, const OffsetLine& border, int half_px, double size_px,
                          double rate) {
   const int half = std::min(half_px, kMostHalf), size = 2 * half + 1, channels = profiles.channels();
-  Pattern seen{};
-  int count = 0;
-  for (int i = 0; i < profiles.count(); ++i) {
-    const double offset = border.at(profiles.position(i));
-    const int whole = static_cast<int>(std::floor(offset));
-    if (!profiles.inside(i) || profiles.reach() + whole - half - 1 < 0 || whole + half + 2 > profiles.reach())
-      continue;
-    const float part = static_cast<float>(offset - whole);
-    for (int c = 0; c < channels; ++c) {
-      const float* v = profiles.samples(i, c) + profiles.reach() + whole - half;
-      for (int k = 0; k < size; ++k)
-        seen[c * size + k] += (1.0f - part) * (v[k + 1] - v[k - 1]) + part * (v[k + 2] - v[k]);
-    }
-    ++count;
-  }
-  if (count == 0) return;
+  std::array<float, 3 * (2 * kMostHalf + 3)> mean;
+  if (profiles.meanAlong(border, half + 1, mean.data()) == 0) return;
   const bool fresh = !known_ || half != half_ || channels != channels_;
   if (!fresh) slopes_ = zoomed(size_px / size_px_);
   const float keep = fresh ? 0.0f : static_cast<float>(1.0 - rate);
-  for (int k = 0; k < channels * size; ++k)
-    slopes_[k] = keep * slopes_[k] + (1.0f - keep) * 0.5f * seen[k] / static_cast<float>(count);
+  for (int c = 0; c < channels; ++c)
+    for (int k = 0; k < size; ++k) {
+      const float* v = mean.data() + c * (size + 2) + k;
+      float& slope = slopes_[c * size + k];
+      slope = keep * slope + (1.0f - keep) * 0.5f * (v[2] - v[0]);
+    }
   known_ = true, channels_ = channels, half_ = half, size_px_ = size_px;
   summarise();
 }

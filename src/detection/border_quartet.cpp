@@ -123,9 +123,10 @@ void BorderQuartet::describe(const cv::Mat& image, const geometry::PinholeCamera
   }
 }
 
-void BorderQuartet::keep(const Quadrilateral& quad) {
+void BorderQuartet::keep(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                         const Quadrilateral& quad) {
   for (int i = 0; i < 4; ++i)
-    if (borders_[i].fitted) followers_[i].keep(sizeOf(quad));
+    if (borders_[i].fitted) followers_[i].keep(image, lens, sizeOf(quad));
 }
 
 double BorderQuartet::quality() const {

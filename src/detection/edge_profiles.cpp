@@ -37,23 +37,40 @@ Vector2d clamped(const cv::Mat& image, const Vector2d& p) {
   return p.cwiseMax(0.0).cwiseMin(Vector2d(image.cols - 1.001, image.rows - 1.001));
 }
 
-template <int kChannels>
-void readOne(const cv::Mat& image, float x, float y, float* out, int stride) {
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const float u = x - column, v = y - row;
-  const uchar* top = image.ptr<uchar>(row) + column * kChannels;
-  const uchar* bottom = top + image.step[0];
-  for (int c = 0; c < kChannels; ++c) {
-    const float upper = top[c] + u * (top[c + kChannels] - top[c]);
-    const float lower = bottom[c] + u * (bottom[c + kChannels] - bottom[c]);
-    out[c * stride] = upper + v * (lower - upper);
+/// One pixel after another, by bilinear interpolation or the nearest one.
+template <int kChannels, bool kRough>
+class Reader {
+ public:
+  Reader(const cv::Mat& image, int stride) : data_(image.data), row_(image.step[0]), stride_(stride) {}
+
+  void operator()(const Vector2d& p, float* out) const {
+    const float x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
+    if (kRough) {
+      const uchar* at = pixel(static_cast<int>(x + 0.5f), static_cast<int>(y + 0.5f));
+      for (int c = 0; c < kChannels; ++c) out[c * stride_] = at[c];
+      return;
+    }
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row), uv = u * v;
+    const uchar *top = pixel(column, row), *bottom = top + row_;
+    for (int c = 0; c < kChannels; ++c)
+      out[c * stride_] = (1.0f - u - v + uv) * top[c] + (u - uv) * top[c + kChannels] + (v - uv) * bottom[c] +
+                         uv * bottom[c + kChannels];
   }
-}
+
+ private:
+  const uchar* pixel(int column, int row) const { return data_ + row * row_ + column * kChannels; }
+
+  const uchar* data_;
+  std::size_t row_;
+  int stride_;
+};
 
 }  // namespace
 
-template <int kChannels>
+template <int kChannels, bool kRough>
 void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens) {
+  const Reader<kChannels, kRough> read(image, width());
   for (int i = 0; i < count_; ++i) {
     const Path path(point(position_[i], 0.0), normal_, reach_, lens);
     inside_[i] = isInside(image, path.at, kMarginPx);
@@ -61,10 +78,10 @@ void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* len
     ++inside_count_;
     const bool whole = isInside(image, path(-reach_), kMarginPx) && isInside(image, path(reach_), kMarginPx);
     float* out = values_.data() + static_cast<std::size_t>(i) * kChannels * width();
-    for (int o = -reach_; o <= reach_; ++o, ++out) {
-      const Vector2d p = whole ? path(o) : clamped(image, path(o));
-      readOne<kChannels>(image, static_cast<float>(p.x()), static_cast<float>(p.y()), out, width());
-    }
+    if (whole && !lens)
+      for (int o = -reach_; o <= reach_; ++o, ++out) read(path.at + o * path.slope, out);
+    else
+      for (int o = -reach_; o <= reach_; ++o, ++out) read(clamped(image, path(o)), out);
   }
 }
 
@@ -84,9 +101,9 @@ void EdgeProfiles::sample(const cv::Mat& image, const geometry::PinholeCamera* l
   for (int i = 0; i < count_; ++i)
     position_[i] = length_ * (-0.5 + grid.skip + (1.0 - 2.0 * grid.skip) * (i + 0.5) / count_);
   if (channels_ == 1)
-    fill<1>(image, lens);
+    grid.rough ? fill<1, true>(image, lens) : fill<1, false>(image, lens);
   else
-    fill<3>(image, lens);
+    grid.rough ? fill<3, true>(image, lens) : fill<3, false>(image, lens);
 }
 
 int EdgeProfiles::mean(int first, int last, float* out) const {
@@ -101,6 +118,26 @@ int EdgeProfiles::mean(int first, int last, float* out) const {
   }
   const float scale = 1.0f / static_cast<float>(std::max(1, count));
   for (int k = 0; k < size; ++k) out[k] *= scale;
+  return count;
+}
+
+int EdgeProfiles::meanAlong(const OffsetLine& line, int half, float* out) const {
+  const int size = 2 * half + 1;
+  std::fill(out, out + channels_ * size, 0.0f);
+  int count = 0;
+  for (int i = 0; i < count_; ++i) {
+    const double offset = line.at(position_[i]);
+    const int whole = static_cast<int>(std::floor(offset));
+    if (!inside(i) || reach_ + whole - half < 0 || whole + half + 1 > reach_) continue;
+    const float part = static_cast<float>(offset - whole);
+    for (int c = 0; c < channels_; ++c) {
+      const float* v = samples(i, c) + reach_ + whole - half;
+      for (int k = 0; k < size; ++k) out[c * size + k] += v[k] + part * (v[k + 1] - v[k]);
+    }
+    ++count;
+  }
+  const float scale = 1.0f / static_cast<float>(std::max(1, count));
+  for (int k = 0; k < channels_ * size; ++k) out[k] *= scale;
   return count;
 }
 

@@ -147,7 +147,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   certainty += kQualityRate * (quality - certainty);
   if (!found || certainty < params.track.min_certainty) return false;
   motion.settle(elapsed_sec);
-  quartet.keep(motion.quad());
+  quartet.keep(input.image, lens, motion.quad());
   quartet.describe(input.image, lens, motion, window);
   identity.follow(input.stamp_sec);
   window.stamp_sec = input.stamp_sec;

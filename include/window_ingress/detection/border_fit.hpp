@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "window_ingress/detection/edge_profiles.hpp"
@@ -12,9 +13,10 @@ namespace window_ingress::detection {
 struct FittedBorder {
   OffsetLine line;
   double from = 0.0, to = 0.0;  ///< outermost profiles on the line, positions along the grid [px]
-  double sigma_px = 0.0;        ///< across the line, in the middle between them [px]
-  double sigma_rad = 0.0;       ///< of its direction [rad]
-  int inliers = 0;              ///< profiles on the line
+  /// Across the line, in the middle between them; the larger where a reveal's two edges look like one [px].
+  double sigma_px = 0.0;
+  double sigma_rad = 0.0;  ///< of its direction [rad]
+  int inliers = 0;         ///< profiles on the line
 
   double middle() const { return 0.5 * (from + to); }
   /// The line in the undistorted image, its point in the middle of what was seen.
@@ -42,12 +44,18 @@ class BorderFit {
   bool run(const BorderFitLimits& limits, FittedBorder& border);
 
  private:
+  std::optional<int> steepest(int i, double centre, const BorderFitLimits& limits) const;
+  const float* slopesOf(int i) const {  // its middle: from -reach to reach
+    return slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();
+  }
   void measure(const OffsetLine& about, const BorderFitLimits& limits);
+  double parted(const OffsetLine& line) const;
   void spread(const BorderFitLimits& limits, FittedBorder& border) const;
 
   const EdgeProfiles* profiles_ = nullptr;
   std::vector<float> slopes_;  // of the projected profiles, grey levels a pixel
-  std::vector<double> positions_, offsets_, scratch_;
+  std::vector<int> peak_at_;   // by profile: sample of the edge, and its offset
+  std::vector<double> peak_, positions_, offsets_, scratch_;
 };
 
 }  // namespace window_ingress::detection

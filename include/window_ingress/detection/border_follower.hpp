@@ -5,6 +5,7 @@
 #include "window_ingress/detection/border_fit.hpp"
 #include "window_ingress/detection/border_memory.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/front_border.hpp"
 #include "window_ingress/detection/stretch_in_view.hpp"
 #include "window_ingress/detection/track_params.hpp"
 
@@ -27,13 +28,13 @@ class BorderFollower {
   BorderFollower(const TrackParams& track, const BorderRefinementParams& refinement)
       : track_(track), refinement_(refinement) {}
 
-  void forget() { memory_.clear(); }
   /// \param predicted the whole side, undistorted \param size_px of the window: mean side
   /// \param sigma_px of the prediction across the side
   FollowedBorder follow(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& predicted,
                         double size_px, double sigma_px);
-  /// Takes the border as followed last into memory.
-  void keep(double size_px);
+  /// Takes the border as followed last into memory; or, where it turned out not to be the front one, the
+  /// front one, which is then found in the next picture.
+  void keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px);
   /// Takes a border that is known to lie there into memory, in place of everything else.
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
              double size_px);
@@ -47,6 +48,7 @@ class BorderFollower {
   TrackParams track_;
   BorderRefinementParams refinement_;
   BorderMemory memory_;
+  FrontBorder front_;
   EdgeProfiles coarse_, fine_;
   BorderFit fit_;
   OffsetLine seen_;  // as followed last, in the coarse profiles' axes

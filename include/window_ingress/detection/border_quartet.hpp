@@ -25,7 +25,7 @@ class BorderQuartet {
   void describe(const cv::Mat& image, const geometry::PinholeCamera* lens, const QuadMotion& motion,
                 WindowObservation& window) const;
   /// Takes them into memory.
-  void keep(const geometry::Quadrilateral& quad);
+  void keep(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
 
   int inView() const { return in_view_; }
   int fitted() const { return fitted_; }

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "window_ingress/detection/robust_line.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
@@ -14,6 +15,7 @@ struct ProfileGrid {
   int count = 80;            ///< profiles, evenly spaced
   double skip = 0.06;        ///< left out at both ends, in lengths of the stretch
   int reach_px = 6;          ///< samples on either side, one pixel apart
+  bool rough = false;        ///< the nearest pixel instead of interpolation
 };
 
 /// Colours across a line: narrow profiles, sampled once and then read from many times. Keeps its memory.
@@ -52,9 +54,12 @@ class EdgeProfiles {
   /// Mean of the profiles first <= i < last that lie in the image, channel by channel, `width()` each.
   /// \return how many there are
   int mean(int first, int last, float* out) const;
+  /// Mean of all profiles along a line across them, from `half` inside to `half` outside of it, channel by
+  /// channel, 2 half + 1 each. \return how many reach that far and lie in the image
+  int meanAlong(const OffsetLine& line, int half, float* out) const;
 
  private:
-  template <int kChannels>
+  template <int kChannels, bool kRough>
   void fill(const cv::Mat& image, const geometry::PinholeCamera* lens);
 
   int count_ = 0, reach_ = 0, channels_ = 1, inside_count_ = 0;

@@ -4,7 +4,8 @@ namespace window_ingress::detection {
 
 struct TrackParams {
   double reach = 0.0094;        ///< furthest a border may lie from where it is predicted [longer image sides]
-  int profiles = 24;            ///< across each side to find the border again
+  int profiles = 18;            ///< across each side to find the border again
+  int fine_profiles = 40;       ///< across each side to fit its line
   double min_similarity = 0.5;  ///< correlation of a side's profile with the remembered one, 0 to 1
   double min_inliers = 0.4;     ///< part of a side's profiles that must lie on its line
   double min_stretch =
@@ -28,6 +29,7 @@ struct TrackParams {
   static void visit(Self& self, Visitor&& field) {
     field("reach", self.reach, 0.002, 0.1);
     field("profiles", self.profiles, 6, 200);
+    field("fine_profiles", self.fine_profiles, 6, 400);
     field("min_similarity", self.min_similarity, 0.0, 1.0);
     field("min_inliers", self.min_inliers, 0.0, 1.0);
     field("min_stretch", self.min_stretch, 0.01, 0.5);
