@@ -13,6 +13,7 @@ constexpr int kNextTo = 2;            // offset of the colour next to a border, 
 constexpr float kLeastChange = 6.0f;  // of colour that is an edge, over all channels [grey levels]
 constexpr float kAlike = 0.4f;        // of the change across an edge: colours nearer than this are the same
 constexpr float kAdaption = 0.05f;    // of the colour outside, a picture
+constexpr float kRisesAgain = 1.4f;   // an edge is so much steeper than what lies before it
 constexpr int kTimes = 3;
 
 Vector3f colourAt(const float* mean, int channels, int half, int offset) {
@@ -28,18 +29,20 @@ std::optional<int> FrontBorder::partedAt(const float* mean, int channels, int ha
   const auto strangeness = [&](int o) { return (colourAt(mean, channels, half, o) - outside_).norm(); };
   const float change = strangeness(1);
   if (change < kLeastChange || strangeness(kNextTo) < kAlike * change) return std::nullopt;
-  for (int o = kNextTo + 1; o <= half; ++o)
-    if (strangeness(o) < kAlike * change) {
-      int best = o - 1;
-      float steepest = 0.0f;
-      for (int k = 1; k <= o; ++k) {
-        if (k + 1 > half) break;
-        const float fall = strangeness(k - 1) - strangeness(k + 1);
-        if (k >= 2 && fall > steepest) steepest = fall, best = k;
-      }
-      return best;
-    }
-  return std::nullopt;
+  int reached = kNextTo + 1;
+  while (reached <= half && strangeness(reached) >= kAlike * change) ++reached;
+  if (reached >= half) return std::nullopt;
+  // A wide blur ends gently, an edge of its own rises again.
+  float least = std::numeric_limits<float>::infinity(), steepest = 0.0f;
+  int best = 0;
+  for (int o = 1; o <= reached; ++o) {
+    const float fall = strangeness(o - 1) - strangeness(o + 1);
+    if (o >= kNextTo && fall > kRisesAgain * std::max(0.0f, least) && fall > steepest)
+      steepest = fall, best = o;
+    least = std::min(least, fall);
+  }
+  if (best == 0) return std::nullopt;
+  return best;
 }
 
 // The light changes; reveals do not become frames.

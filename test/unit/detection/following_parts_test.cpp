@@ -79,7 +79,7 @@ TEST(BorderFit, SpreadIsHonestForNoise) {
     BorderFit fit;
     fit.project(profiles, Eigen::Vector3f(90, 110, 125).normalized());
     FittedBorder border;
-    ASSERT_TRUE(fit.run({2.5, 1e3, 0.6, 1e-3}, border));
+    ASSERT_TRUE(fit.run({2.5, 1e3, 0.6, 0.03}, border));
     squares += std::pow((border.line.at(border.middle()) + row - 100.0) / border.sigma_px, 2) / trials;
   }
   EXPECT_GT(squares, 0.3);
@@ -120,6 +120,15 @@ TEST(FrontBorder, StaysAtABorderThatIsTheFrontWhateverIsBeyond) {
   for (int i = 0; i < 10; ++i) {
     const double frame = 92 - 0.3 * i;  // its outer border moves away as it comes nearer
     EXPECT_FALSE(front.look(across(bands({{0, kWall}, {frame, kFrame}, {100, kHole}}), 100), {}, 8)) << i;
+  }
+}
+
+TEST(FrontBorder, StaysAtABlurredBorder) {
+  FrontBorder front;
+  for (int i = 0; i < 10; ++i) {
+    cv::Mat image = bands({{0, kFrame}, {100, kHole}});
+    if (i > 0) cv::GaussianBlur(image, image, cv::Size(), 0.35 * i);
+    EXPECT_FALSE(front.look(across(image, 100), {}, 8)) << i;
   }
 }
 
