@@ -228,6 +228,29 @@ TEST(WindowFilter, UsesABorderCutWindow) {
   EXPECT_LT((after.T_odom_window.translation() - flight.T_world_window.translation()).norm(), 0.03);
 }
 
+TEST(WindowFilter, UsesAPartialViewByItsEdgesAndReadsNoCorner) {
+  Flight flight(4);
+  for (int i = 0; i < 60; ++i) flight.step({-3.0 + 0.02 * i, 0.2, 1.5}, 1.0 + i / 30.0);
+  for (int i = 60; i < 90; ++i) {
+    const auto T = Flight::cameraAt({-3.0 + 0.02 * i, 0.2, 1.5}, 0.0);
+    auto window = flight.see(T, 1.0 + i / 30.0);
+    for (int k = 0; k < 4; ++k) {
+      window.edges[k].a = 0.8 * window.corners[k] + 0.2 * window.corners[(k + 1) % 4];
+      window.edges[k].b = 0.3 * window.corners[k] + 0.7 * window.corners[(k + 1) % 4];
+    }
+    window.edges[geometry::kBottom] = window.edges[geometry::kTop] = detection::Edge();
+    window.corner_visible.fill(false);
+    window.corners.fill(Eigen::Vector2d::Zero());
+    window.corner_covariance.fill(Eigen::Matrix2d::Zero());
+    EXPECT_TRUE(flight.filter.update(window, camera(), T)) << i;
+    window.stamp_sec += 0.01;
+    for (auto& edge : window.edges) edge.visible = false;
+    EXPECT_FALSE(flight.filter.update(window, camera(), T)) << "nothing is seen";
+  }
+  const auto after = flight.filter.state(4.0).value();
+  EXPECT_LT((after.T_odom_window.translation() - flight.T_world_window.translation()).norm(), 0.03);
+}
+
 TEST(WindowFilter, PredictsTheCornersOfTheNextImage) {
   Flight flight(5);
   for (int i = 0; i < 60; ++i) flight.step({-3.0, 0.02 * i, 1.5}, 1.0 + i / 30.0);

@@ -247,5 +247,18 @@ TEST(WindowPoseEstimator, ParametersOutOfRangeAreAllNamed) {
   }
 }
 
+TEST(WindowPoseEstimator, APartialViewGivesNoPoseAndSaysWhichSidesAreMissing) {
+  const WindowPoseEstimator estimator{PoseParams{}};
+  auto window = cornersSeen(camera(), view(3.0, 0.2), 0.1);
+  for (auto& edge : window.edges) edge.visible = true;
+  window.edges[geometry::kRight].visible = false;
+  window.corner_visible = {true, false, false, true};
+  window.corners[1] = window.corners[2] = Eigen::Vector2d::Zero();
+  const auto result = estimator.estimate(window, camera());
+  EXPECT_FALSE(result.estimate);
+  EXPECT_EQ(result.reject, PoseReject::kBadCorners);
+  EXPECT_NE(result.detail.find("3 of 4 sides in view: right not seen"), std::string::npos) << result.detail;
+}
+
 }  // namespace
 }  // namespace window_ingress::pose
