@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "window_ingress/detection/border_quartet.hpp"
 #include "window_ingress/detection/target_identity.hpp"
+#include "window_ingress/detection/track_trace.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
@@ -33,15 +33,10 @@ bool sameCamera(const geometry::PinholeCamera& a, const geometry::PinholeCamera&
 
 double sizeOf(const Quadrilateral& quad) { return std::sqrt(std::abs(geometry::signedArea(quad))); }
 
-template <typename Change>
-Quadrilateral changed(Quadrilateral quad, const geometry::PinholeCamera* lens, Change change) {
+Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera* lens) {
   if (lens)
-    for (auto& corner : quad) corner = change(*lens, corner);
+    for (auto& corner : quad) corner = lens->undistort(corner);
   return quad;
-}
-
-Quadrilateral undistorted(const Quadrilateral& quad, const geometry::PinholeCamera* lens) {
-  return changed(quad, lens, [](const auto& camera, const auto& p) { return camera.undistort(p); });
 }
 
 }  // namespace
@@ -65,8 +60,10 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> search(const TrackInput& input);
   std::optional<WindowObservation> amongOthers(const TrackInput& input);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);
-  void traceFollowed();
-  void refuse(RejectReason reason, const std::string& detail);
+  void refuse(RejectReason reason, const std::string& detail) {
+    has_own_trace = true;
+    traceRefused(detector.trace(), reason, detail, own_trace);
+  }
   std::optional<WindowObservation> complete(const TrackInput& input);
   bool surrounds(const TrackInput& input);
   void forget() {
@@ -167,24 +164,6 @@ void WindowTracker::Impl::compareRing(const TrackInput& input) {
   unlike = distance && *distance > params.appearance.max_distance;
 }
 
-void WindowTracker::Impl::traceFollowed() {
-  has_own_trace = true;
-  own_trace.outcome = RejectReason::kNone;
-  own_trace.detail.clear();
-  own_trace.candidates.clear();
-  own_trace.target = -1;
-  own_trace.contours = own_trace.segments = 0;
-  own_trace.budget_exceeded = false;
-  if (!window.whole()) return;
-  CandidateTrace candidate;
-  candidate.quad = window.corners;
-  candidate.score = window.score;
-  candidate.has_appearance = window.has_appearance;
-  candidate.bhattacharyya = window.bhattacharyya;
-  own_trace.candidates.push_back(candidate);
-  own_trace.target = 0;
-}
-
 // The search's window becomes the one that is own_trace.
 void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
   const Quadrilateral quad = undistorted(found.corners, lens);
@@ -235,15 +214,6 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   }
   take(input, *found, is_same);
   return found;
-}
-
-// The search's trace, but without a target.
-void WindowTracker::Impl::refuse(RejectReason reason, const std::string& detail) {
-  has_own_trace = true;
-  own_trace = detector.trace();
-  own_trace.target = -1;
-  own_trace.outcome = reason;
-  own_trace.detail = detail;
 }
 
 // Three of four borders in view: a search may tell the fourth. Its answer counts if it is the same border.
@@ -311,7 +281,8 @@ std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) 
   }
   impl_->begin(input);
   if (impl_->tracking && impl_->follow(input)) {
-    impl_->traceFollowed();
+    impl_->has_own_trace = true;
+    traceFollowed(impl_->window, impl_->own_trace);
     auto whole = impl_->complete(input);
     return whole ? whole : impl_->window;
   }
