@@ -63,10 +63,11 @@ std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::Pi
   level_size_ = level.image.size();
   lens_.set(camera, level_size_, factor_);
   const EdgeMap& map = edges_.run(level.image);
-  const std::vector<Segment>& segments = lines_.run(runs_.run(map, lens_), level_size_);
+  const std::vector<EdgeRun>& runs = runs_.run(map, lens_);
+  const std::vector<Segment>& segments = lines_.run(runs, level_size_);
   const SegmentQuads::Result& quads =
       segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
-  ContourPolygons::Result outlines = contours_.run(closing_.run(map.edges), closing_.radiusPx(level_size_));
+  ContourPolygons::Result outlines = contours_.run(closing_.run(straightEdges(runs)), closing_.radiusPx(level_size_));
   trace.segments = static_cast<int>(segments.size());
   trace.contours = outlines.contours;
   trace.budget_exceeded = outlines.budget_exceeded || quads.budget_exceeded;
@@ -80,6 +81,18 @@ std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::Pi
   admit(quads.candidates, map, rivals, trace);
   admit(outlines.candidates, map, rivals, trace);
   return best(rivals, trace);
+}
+
+// Of the edge map what lies on a segment: Hough selects (P4), it does not draw.
+const cv::Mat& CandidateSearch::straightEdges(const std::vector<EdgeRun>& runs) {
+  straight_.create(level_size_, CV_8UC1);
+  straight_.setTo(0);
+  const auto& pixels = runs_.pixels();
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (lines_.onSegment()[i])
+      for (int k = runs[i].first; k < runs[i].first + runs[i].count; ++k)
+        straight_.ptr(pixels[k].y)[pixels[k].x] = 255;
+  return straight_;
 }
 
 void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& map,

@@ -76,6 +76,9 @@ void EdgeRuns::emit(std::size_t first, std::size_t last) {
     gradient += own;
     run.contrast += own.norm();
   }
+  run.first = static_cast<int>(pixels_.size());
+  run.count = static_cast<int>(last - first + 1);
+  for (std::size_t i = first; i <= last; ++i) pixels_.emplace_back(forward_[i].x, forward_[i].y);
   run.contrast /= run.moments.n * EdgeMap::kSobelGain;
   Vector2d along = run.moments.along();
   // On the screen, y down, the right of `along` is (-y, x).
@@ -92,7 +95,7 @@ void EdgeRuns::emit(std::size_t first, std::size_t last) {
 }
 
 // Cuts the chain where it is furthest from its chord until all parts are straight (Douglas and Peucker).
-void EdgeRuns::cut(const EdgeMap&, const LevelLens& lens) {
+void EdgeRuns::cut(const LevelLens& lens) {
   points_.clear();
   for (const Pixel& p : forward_) points_.push_back(lens.undistort(p.x, p.y));
   parts_.assign(1, {0, points_.size() - 1});
@@ -119,6 +122,7 @@ void EdgeRuns::cut(const EdgeMap&, const LevelLens& lens) {
 
 const std::vector<EdgeRun>& EdgeRuns::run(const EdgeMap& map, const LevelLens& lens) {
   runs_.clear();
+  pixels_.clear();
   map.edges.copyTo(free_);
   straight_px_ = params_.straight_px * std::max(1.0, std::max(free_.cols, free_.rows) / kNominalSide);
   for (int y = 1; y + 1 < free_.rows; ++y) {
@@ -134,7 +138,7 @@ const std::vector<EdgeRun>& EdgeRuns::run(const EdgeMap& map, const LevelLens& l
       follow(map, start, 1, forward_);
       backward_.insert(backward_.end(), forward_.begin(), forward_.end());
       forward_.swap(backward_);
-      if (forward_.size() >= static_cast<std::size_t>(params_.min_pixels)) cut(map, lens);
+      if (forward_.size() >= static_cast<std::size_t>(params_.min_pixels)) cut(lens);
     }
   }
   return runs_;

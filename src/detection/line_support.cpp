@@ -10,6 +10,8 @@ using Eigen::Vector2d;
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
+constexpr double kLeastSeed = 0.6;       ///< part of the shortest segment that one run of it must cover
+constexpr double kSpread = 0.05;         ///< the direction of a short seed is this uncertain
 constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
@@ -55,17 +57,19 @@ void LineSupport::prepare(const cv::Size& level) {
       normals_.emplace_back(std::cos(k * kTwoPi / kAngles), std::sin(k * kTwoPi / kAngles));
 }
 
-// Cell of the line of this angle through the middle of the run.
-int LineSupport::cellOf(const EdgeRun& run, int angle) const {
+// Cell of the line of this angle through the middle of a run.
+int LineSupport::cellOf(const Vector2d& middle, int angle) const {
   const int a = (angle + kAngles) % kAngles;
-  const double rho = normals_[a].dot(run.moments.mean() - centre_) / kRhoStepPx + 0.5 * rhos_;
+  const double rho = normals_[a].dot(middle - centre_) / kRhoStepPx + 0.5 * rhos_;
   return a * rhos_ + std::clamp(static_cast<int>(rho), 0, rhos_ - 1);
 }
 
 // Each run votes for the angles that its length leaves open.
 void LineSupport::vote(const std::vector<EdgeRun>& runs) {
   ballots_.resize(runs.size());
+  middles_.resize(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    middles_[i] = runs[i].moments.mean();
     const double angle = std::atan2(runs[i].normal.y(), runs[i].normal.x()) * kAngles / kTwoPi;
     const double open = kDirectionPx / runs[i].moments.n * kAngles / kTwoPi;
     ballots_[i] = {static_cast<int>(std::lround(angle - open)), static_cast<int>(std::lround(angle + open))};
@@ -80,7 +84,7 @@ void LineSupport::countVotes(const std::vector<EdgeRun>& runs) {
   starts_.assign(cells + 2, 0);
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k) {
-      const int cell = cellOf(runs[i], k);
+      const int cell = cellOf(middles_[i], k);
       votes_[cell] += static_cast<float>(runs[i].moments.n);
       ++starts_[cell + 2];
     }
@@ -88,22 +92,26 @@ void LineSupport::countVotes(const std::vector<EdgeRun>& runs) {
   voters_.resize(starts_.back());
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k)
-      voters_[starts_[cellOf(runs[i], k) + 1]++] = static_cast<int>(i);
+      voters_[starts_[cellOf(middles_[i], k) + 1]++] = static_cast<int>(i);
 }
 
 // The runs that voted for the seed's line or one beside it, as they lie along it.
 void LineSupport::collect(const std::vector<EdgeRun>& runs, int seed) {
   members_.clear();
   const EdgeRun& own = runs[seed];
-  const Vector2d along = (own.b - own.a).normalized(), mean = own.moments.mean();
+  const Vector2d along = (own.b - own.a).normalized(), across = right(along), mean = middles_[seed];
   for (int angle = ballots_[seed].first_angle; angle <= ballots_[seed].last_angle; ++angle) {
-    const int cell = cellOf(own, angle), row = cell / rhos_ * rhos_;
+    const int cell = cellOf(mean, angle), row = cell / rhos_ * rhos_;
     for (int c = std::max(row, cell - 1); c <= std::min(row + rhos_ - 1, cell + 1); ++c)
       for (int v = starts_[c]; v < starts_[c + 1]; ++v) {
         const int i = voters_[v];
         if (used_[i] || asked_[i] == seed) continue;
         asked_[i] = seed;
-        if (i != seed) members_.push_back({along.dot(runs[i].a - mean), along.dot(runs[i].b - mean), i});
+        const Vector2d apart = middles_[i] - mean;
+        const double ahead = along.dot(apart), off = std::abs(across.dot(apart));
+        if (i == seed || off > 2.0 * off_line_px_ + kSpread * std::abs(ahead)) continue;
+        const double half = 0.5 * runs[i].moments.n;
+        members_.push_back({ahead - half, ahead + half, i});
       }
   }
   std::sort(members_.begin(), members_.end(), [](const Member& p, const Member& q) {
@@ -165,21 +173,22 @@ const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, c
   std::sort(order_.begin(), order_.end());
   const double enough = params_.vote_fraction * min_length_px_;
   for (const auto& [pixels, seed] : order_) {
+    if (runs[seed].moments.n < kLeastSeed * min_length_px_) break;
     if (used_[seed]) continue;
-    if (votes_[cellOf(runs[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough)
+    if (votes_[cellOf(middles_[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough)
       continue;
     Segment segment;
     if (!grow(runs, seed, segment)) continue;
     for (int i : taken_) used_[i] = 1;
     segments_.push_back(segment);
   }
-  const auto longer = [](const Segment& p, const Segment& q) {
-    return (p.b - p.a).squaredNorm() > (q.b - q.a).squaredNorm();
+  const auto stronger = [](const Segment& p, const Segment& q) {
+    return (p.b - p.a).squaredNorm() * p.contrast > (q.b - q.a).squaredNorm() * q.contrast;
   };
-  std::stable_sort(segments_.begin(), segments_.end(), longer);
+  std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
   joinCollinear(segments_, params_.join_gap, off_line_px_);
-  std::stable_sort(segments_.begin(), segments_.end(), longer);
+  std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
   return segments_;
 }

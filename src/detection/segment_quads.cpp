@@ -9,9 +9,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kMaxCombinations = 60000;
+constexpr int kMaxCombinations = 40000;
 constexpr double kSlackPx = 3.0;
 constexpr double kRoundedPx = 1.5;       ///< edges end this far before a corner
+constexpr std::size_t kVariants = 4;  ///< of each loop that is kept so many are compared
 constexpr double kOnPart = 0.3;          ///< a segment goes on beyond a junction with this part of its length
 constexpr double kSameLoopPx = 1.0;      ///< corners of the same loop differ less than this [px]
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
@@ -140,17 +141,22 @@ void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const J
                         endGap(sides_[il.other].length, lk.t_own, il.t_other);
   const double closed =
       std::exp(-gap_px / 8.0 / (params_.closure_px + params_.closure_side * std::sqrt(area)));
-  const double even = std::pow(params_.odd_side, std::min(bright, 4 - bright));
-  found_.push_back({mean * closed * even * std::pow(area, 0.25), closed * even, *quad});
+  const int odd = std::min(bright, 4 - bright);
+  const double even = odd == 0 ? 1.0 : odd == 1 ? params_.odd_side : params_.odd_side * params_.odd_side;
+  found_.push_back({mean * closed * even * std::sqrt(std::sqrt(area)), closed * even, *quad});
 }
 
 // The best, each loop once.
 void SegmentQuads::keepBest() {
   order_.resize(found_.size());
   std::iota(order_.begin(), order_.end(), 0);
-  std::sort(order_.begin(), order_.end(), [&](int a, int b) {
+  const auto better = [&](int a, int b) {
     return found_[a].value > found_[b].value || (found_[a].value == found_[b].value && a < b);
-  });
+  };
+  const std::size_t looked_at = std::min(order_.size(), kVariants * static_cast<std::size_t>(params_.max_quads));
+  result_.budget_exceeded = result_.budget_exceeded || looked_at < order_.size();
+  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(looked_at), order_.end(), better);
+  order_.resize(looked_at);
   result_.candidates.clear();
   for (int i : order_) {
     const Found& one = found_[i];

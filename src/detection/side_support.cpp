@@ -59,7 +59,7 @@ Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
 double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
                  double square_cosine, double contrast) {
   const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
-  const int samples = std::clamp(static_cast<int>(stretch_px), 4, 10);
+  const int samples = std::clamp(static_cast<int>(stretch_px), 4, 6);
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double distance = kCornerPx + stretch_px * (i + 0.5) / samples;
@@ -78,7 +78,7 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   const double cosine = std::cos(params.direction_rad), square_cosine = cosine * cosine;
   const Probe probe = {Vector2d(along.y(), -along.x()) / length, square_cosine,
                        static_cast<int>(std::lround(params.tolerance_px))};
-  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 24);
+  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 16);
   int hits = 0, darker_outside = 0;
   double strength = 0.0, worth = 0.0;
   for (int i = 0; i < samples; ++i) {

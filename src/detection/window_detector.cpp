@@ -15,7 +15,7 @@ namespace {
 constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
 constexpr int kRefinementTries = 6;
 constexpr double kMostCertain = 0.99;       ///< of a score before the reference is asked
-constexpr std::size_t kPlacesLocated = 16;  ///< places at which the reference's borders are looked for
+constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kLocatedRadiusPx = 2.5;    ///< reach of the fit of borders that were located

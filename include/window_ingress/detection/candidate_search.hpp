@@ -42,6 +42,7 @@ class CandidateSearch {
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
  private:
+  const cv::Mat& straightEdges(const std::vector<EdgeRun>& runs);
   void admit(const std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
              DetectionTrace& trace);
   static int variants(const Rival& rival, const std::vector<Rival>& kept);
@@ -57,6 +58,7 @@ class CandidateSearch {
   ContourPolygons contours_;
   SegmentQuads segment_quads_;
   CandidateGates gates_;
+  cv::Mat straight_;
   int factor_ = 1;
   cv::Size level_size_;
 };

@@ -8,8 +8,8 @@ namespace window_ingress::detection {
 struct EdgeMapParams {
   bool automatic = true;  ///< thresholds from the image's own gradients; else the two fixed ones
   double high_quantile =
-      0.80;  ///< automatic: this part of all pixels has a smaller gradient than the upper threshold
-  double low_ratio = 0.4;  ///< automatic: lower threshold over upper one
+      0.85;  ///< automatic: this part of all pixels has a smaller gradient than the upper threshold
+  double low_ratio = 0.5;  ///< automatic: lower threshold over upper one
   double floor = 6.0;      ///< automatic: the upper threshold is never below this [grey levels a pixel]
   double ceiling = 16.0;   ///< automatic: nor above this [grey levels a pixel]
   double low = 8.0;        ///< fixed lower threshold [grey levels a pixel]

@@ -38,6 +38,7 @@ struct EdgeRun {
   Eigen::Vector2d normal;  ///< unit vector towards the brighter side
   LineMoments moments;     ///< of its pixels
   double contrast = 0.0;   ///< mean gradient [grey levels a pixel]
+  int first = 0, count = 0;  ///< of its pixels, see EdgeRuns::pixels
 
   double length() const { return (b - a).norm(); }
 };
@@ -51,6 +52,9 @@ class EdgeRuns {
   /// In the order of the image, from top to bottom. Valid until the next call.
   const std::vector<EdgeRun>& run(const EdgeMap& map, const LevelLens& lens);
 
+  /// Pixels of all runs of the last map, in pixels of the level as it came.
+  const std::vector<cv::Point_<short>>& pixels() const { return pixels_; }
+
  private:
   struct Pixel {
     short x, y, dx, dy;
@@ -58,7 +62,7 @@ class EdgeRuns {
 
   bool next(const EdgeMap& map, int sense, Pixel& at);
   void follow(const EdgeMap& map, Pixel start, int sense, std::vector<Pixel>& pixels);
-  void cut(const EdgeMap& map, const LevelLens& lens);
+  void cut(const LevelLens& lens);
   void emit(std::size_t first, std::size_t last);
 
   EdgeRunsParams params_;
@@ -69,6 +73,7 @@ class EdgeRuns {
   std::vector<std::pair<std::size_t, std::size_t>> parts_;
   double straight_px_ = 1.0;
   std::vector<EdgeRun> runs_;
+  std::vector<cv::Point_<short>> pixels_;
 };
 
 }  // namespace window_ingress::detection

@@ -18,7 +18,7 @@ struct LineSupportParams {
   double min_density = 0.55;  ///< edge pixels on a segment over its length
   double join_gap =
       0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
-  int max_segments = 300;  ///< the longest are kept
+  int max_segments = 300;  ///< the strongest are kept
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -57,8 +57,11 @@ class LineSupport {
  public:
   explicit LineSupport(const LineSupportParams& params) : params_(params) {}
 
-  /// Longest first; at most `max_segments`. Deterministic. Valid until the next call.
+  /// Strongest first, by length and the root of the contrast; at most `max_segments`. Deterministic. Valid until the next call.
   const std::vector<Segment>& run(const std::vector<EdgeRun>& runs, const cv::Size& level);
+
+  /// 1 for each run of the last call that lies on a segment.
+  const std::vector<std::uint8_t>& onSegment() const { return used_; }
 
  private:
   static constexpr int kAngles = 128;  ///< of the full circle: polarity tells the two edges of a bar apart
@@ -68,14 +71,14 @@ class LineSupport {
     int first_angle = 0, last_angle = 0;  ///< angles it votes for, modulo kAngles
   };
   struct Member {
-    double from = 0.0, to = 0.0;  ///< along the line that takes it
+    double from = 0.0, to = 0.0;  ///< along the line that may take it
     int run = 0;
   };
 
   void prepare(const cv::Size& level);
   void vote(const std::vector<EdgeRun>& runs);
   void countVotes(const std::vector<EdgeRun>& runs);
-  int cellOf(const EdgeRun& run, int angle) const;
+  int cellOf(const Eigen::Vector2d& middle, int angle) const;
   void collect(const std::vector<EdgeRun>& runs, int seed);
   bool grow(const std::vector<EdgeRun>& runs, int seed, Segment& segment);
   void extend(const std::vector<EdgeRun>& runs, int way, LineMoments& moments, double& end);
@@ -85,6 +88,7 @@ class LineSupport {
   int rhos_ = 0;
   double min_length_px_ = 0.0, max_gap_px_ = 0.0, off_line_px_ = 0.0;
   std::vector<Eigen::Vector2d> normals_;  ///< of the angles
+  std::vector<Eigen::Vector2d> middles_;  ///< of the runs
   std::vector<Ballot> ballots_;           ///< one a run
   std::vector<float> votes_;              ///< of the cells [px]
   std::vector<int> starts_, voters_;      ///< voters of cell c: from starts_[c] to starts_[c + 1]

@@ -63,7 +63,7 @@ class ReferenceBorders {
   struct Effort {
     int along, across;
   };
-  static constexpr Effort kCoarse = {10, 70}, kFine = {24, 140};
+  static constexpr Effort kCoarse = {8, 64}, kFine = {24, 140};
 
   struct Located {
     geometry::Quadrilateral quad;  ///< pixels of the image as it came; to a pixel

@@ -17,8 +17,8 @@ struct SegmentQuadsParams {
       1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
   double closure_side = 0.02;  ///< added to that, in mean sides of the quadrilateral
   double odd_side = 0.85;      ///< factor for each side that is brighter inside where most are darker, or so
-  int max_segments = 250;      ///< the longest segments that are combined
-  int max_quads = 300;         ///< the best covered are kept
+  int max_segments = 180;      ///< the strongest segments that are combined
+  int max_quads = 100;         ///< the best covered are kept
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -45,7 +45,7 @@ class SegmentQuads {
 
   explicit SegmentQuads(const SegmentQuadsParams& params) : params_(params) {}
 
-  /// \param segments longest first, in pixels of the search level. Valid until the next call.
+  /// \param segments strongest first, in pixels of the search level. Valid until the next call.
   const Result& run(const std::vector<Segment>& segments, double min_area_px);
 
  private:
