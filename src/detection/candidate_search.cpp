@@ -62,24 +62,31 @@ std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::Pi
   factor_ = level.factor;
   level_size_ = level.image.size();
   lens_.set(camera, level_size_, factor_);
-  const EdgeMap& map = edges_.run(level.image);
-  const std::vector<EdgeRun>& runs = runs_.run(map, lens_);
-  const std::vector<Segment>& segments = lines_.run(runs, level_size_);
-  const SegmentQuads::Result& quads =
-      segment_quads_.run(segments, params_.gates.min_area * level_size_.area());
-  ContourPolygons::Result outlines = contours_.run(closing_.run(straightEdges(runs)), closing_.radiusPx(level_size_));
-  trace.segments = static_cast<int>(segments.size());
-  trace.contours = outlines.contours;
-  trace.budget_exceeded = outlines.budget_exceeded || quads.budget_exceeded;
-  for (CandidateTrace& rejected : outlines.rejected) {
-    rejected.quad = inFullImage(rejected.quad, factor_);
-    trace.candidates.push_back(rejected);
-  }
-  for (Candidate& outline : outlines.candidates)
+  map_ = &edges_.run(level.image);
+  const std::vector<EdgeRun>& runs = runs_.run(*map_, lens_);
+  segments_ = &lines_.run(runs, level_size_);
+  outlines_ = contours_.run(closing_.run(straightEdges(runs)), closing_.radiusPx(level_size_));
+  for (CandidateTrace& rejected : outlines_.rejected) rejected.quad = inFullImage(rejected.quad, factor_);
+  for (Candidate& outline : outlines_.candidates)
     for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
+  return combine(SegmentQuads::kQuick, trace);
+}
+
+std::vector<Rival> CandidateSearch::runAgain(DetectionTrace& trace) {
+  return combine(SegmentQuads::kThorough, trace);
+}
+
+// Quadrilaterals from segments and contours, through the gates.
+std::vector<Rival> CandidateSearch::combine(const SegmentQuads::Effort& effort, DetectionTrace& trace) {
+  const SegmentQuads::Result& quads =
+      segment_quads_.run(*segments_, params_.gates.min_area * level_size_.area(), effort);
+  trace.segments = static_cast<int>(segments_->size());
+  trace.contours = outlines_.contours;
+  trace.budget_exceeded = outlines_.budget_exceeded || quads.budget_exceeded;
+  trace.candidates.insert(trace.candidates.end(), outlines_.rejected.begin(), outlines_.rejected.end());
   std::vector<Rival> rivals;
-  admit(quads.candidates, map, rivals, trace);
-  admit(outlines.candidates, map, rivals, trace);
+  admit(quads.candidates, *map_, rivals, trace);
+  admit(outlines_.candidates, *map_, rivals, trace);
   return best(rivals, trace);
 }
 

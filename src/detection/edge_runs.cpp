@@ -111,7 +111,7 @@ void EdgeRuns::cut(const LevelLens& lens) {
       const double off = std::abs(chord.x() * d.y() - chord.y() * d.x());
       if (off > furthest) furthest = off, at = i;
     }
-    if (furthest > straight_px_ * length) {
+    if (furthest > (straight_px_ + params_.bow * length) * length) {
       parts_.emplace_back(at, last);
       parts_.emplace_back(first, at);
     } else {

@@ -24,7 +24,8 @@ Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
 
 }  // namespace
 
-void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px) {
+void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px,
+                   double bow) {
   const std::size_t count = segments.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Segment p = segments[i];
@@ -36,8 +37,8 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
       const double gap = along.dot(q.a - p.b);
       if (gap < 0.0 || gap > max_gap * (p_length + q.length())) continue;
       const Vector2d joint = (q.b - p.a).normalized(), normal = right(joint);
-      if (std::abs(normal.dot(p.b - p.a)) > off_line_px || std::abs(normal.dot(q.a - p.a)) > off_line_px)
-        continue;
+      const double off_px = off_line_px + bow * (p.pixels + q.pixels);
+      if (std::abs(normal.dot(p.b - p.a)) > off_px || std::abs(normal.dot(q.a - p.a)) > off_px) continue;
       const double pixels = p.pixels + q.pixels;
       const double contrast = (p.contrast * p.pixels + q.contrast * q.pixels) / pixels;
       segments.push_back({p.a, q.b, normal, pixels, contrast});
@@ -109,7 +110,7 @@ void LineSupport::collect(const std::vector<EdgeRun>& runs, int seed) {
         asked_[i] = seed;
         const Vector2d apart = middles_[i] - mean;
         const double ahead = along.dot(apart), off = std::abs(across.dot(apart));
-        if (i == seed || off > 2.0 * off_line_px_ + kSpread * std::abs(ahead)) continue;
+        if (i == seed || off > 2.0 * off_line_px_ + (kSpread + params_.bow) * std::abs(ahead)) continue;
         const double half = 0.5 * runs[i].moments.n;
         members_.push_back({ahead - half, ahead + half, i});
       }
@@ -129,9 +130,8 @@ void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments&
     if (way * (far - end) <= 0.0) continue;
     if (way * (near - end) > max_gap_px_) break;
     const EdgeRun& other = runs[m.run];
-    if (std::abs(normal.dot(other.a - mean)) > off_line_px_ ||
-        std::abs(normal.dot(other.b - mean)) > off_line_px_)
-      continue;
+    const double off_px = off_line_px_ + params_.bow * moments.n;
+    if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px) continue;
     moments.add(other.moments);
     mean = moments.mean(), normal = right(moments.along());
     end = far;
@@ -187,7 +187,7 @@ const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, c
   };
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
-  joinCollinear(segments_, params_.join_gap, off_line_px_);
+  joinCollinear(segments_, params_.join_gap, off_line_px_, params_.bow);
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
   return segments_;

@@ -9,7 +9,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kMaxCombinations = 40000;
 constexpr double kSlackPx = 3.0;
 constexpr double kRoundedPx = 1.5;       ///< edges end this far before a corner
 constexpr std::size_t kVariants = 4;  ///< of each loop that is kept so many are compared
@@ -68,7 +67,7 @@ bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const 
 }
 
 void SegmentQuads::connect(const std::vector<Segment>& segments) {
-  count_ = std::min<int>(static_cast<int>(segments.size()), params_.max_segments);
+  count_ = std::min<int>(static_cast<int>(segments.size()), effort_.segments);
   words_ = (count_ + 63) / 64;
   if (static_cast<int>(junctions_.size()) < count_) junctions_.resize(count_);
   for (auto& list : junctions_) list.clear();
@@ -98,7 +97,7 @@ void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i) {
   for (std::size_t a = 0; a < own.size(); ++a) {
     if (own[a].other < i) continue;
     const Vector2d along_a = segments[own[a].other].normal;
-    for (std::size_t b = a + 1; b < own.size() && combinations_ < kMaxCombinations; ++b) {
+    for (std::size_t b = a + 1; b < own.size() && combinations_ < effort_.combinations; ++b) {
       if (own[b].other < i) continue;
       if (!((own[a].left && own[b].left) || (own[a].right && own[b].right))) continue;
       const double stretch = std::abs(own[a].t_own - own[b].t_own) * length;
@@ -153,7 +152,7 @@ void SegmentQuads::keepBest() {
   const auto better = [&](int a, int b) {
     return found_[a].value > found_[b].value || (found_[a].value == found_[b].value && a < b);
   };
-  const std::size_t looked_at = std::min(order_.size(), kVariants * static_cast<std::size_t>(params_.max_quads));
+  const std::size_t looked_at = std::min(order_.size(), kVariants * static_cast<std::size_t>(effort_.quads));
   result_.budget_exceeded = result_.budget_exceeded || looked_at < order_.size();
   std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(looked_at), order_.end(), better);
   order_.resize(looked_at);
@@ -165,7 +164,7 @@ void SegmentQuads::keepBest() {
         std::any_of(result_.candidates.begin(), result_.candidates.end(),
                     [&](const Candidate& better) { return sameLoop(better.quad, one.quad, near_px); });
     if (known) continue;
-    if (static_cast<int>(result_.candidates.size()) == params_.max_quads) {
+    if (static_cast<int>(result_.candidates.size()) == effort_.quads) {
       result_.budget_exceeded = true;
       return;
     }
@@ -177,14 +176,16 @@ void SegmentQuads::keepBest() {
   }
 }
 
-const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px) {
+const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px,
+                                            const Effort& effort) {
+  effort_ = effort;
   found_.clear();
   combinations_ = 0;
   min_area_px_ = min_area_px;
   min_sine_ = std::sin(params_.min_angle_rad);
   connect(segments);
   for (int i = 0; i < count_; ++i) combineFrom(segments, i);
-  result_.budget_exceeded = combinations_ >= kMaxCombinations || count_ < static_cast<int>(segments.size());
+  result_.budget_exceeded = combinations_ >= effort_.combinations || count_ < static_cast<int>(segments.size());
   keepBest();
   return result_;
 }

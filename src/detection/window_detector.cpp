@@ -295,7 +295,13 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   }
   impl_->rivals = impl_->search.run(image, camera, impl_->trace);
   if (!impl_->judgeAppearance(image, camera)) impl_->judgeLoops(image);
-  const auto window = impl_->choose(image, stamp_sec, camera);
+  auto window = impl_->choose(image, stamp_sec, camera);
+  if (!window && impl_->borders.known() && impl_->trace.budget_exceeded) {
+    impl_->trace = DetectionTrace();
+    impl_->rivals = impl_->search.runAgain(impl_->trace);
+    impl_->judgeAppearance(image, camera);
+    window = impl_->choose(image, stamp_sec, camera);
+  }
   impl_->explain();
   return window;
 }

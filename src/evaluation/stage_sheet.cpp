@@ -161,7 +161,8 @@ void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet)
   sheet.add(drawOutlines(closed, outlines.candidates),
             cv::format("P7 contours (%d), polygons with four sides (%d)", outlines.contours,
                        static_cast<int>(outlines.candidates.size())));
-  const auto& found = quads.run(segments, params.gates.min_area * level.image.size().area());
+  const auto& found = quads.run(segments, params.gates.min_area * level.image.size().area(),
+                                 detection::SegmentQuads::kQuick);
   sheet.add(drawQuads(level.image, found.candidates),
             cv::format("P4, P7 quadrilaterals of segments (%d)", static_cast<int>(found.candidates.size())));
 }

@@ -49,7 +49,8 @@ bool runContours(Stages& s) {
   return !s.contours.run(s.closed, s.closing.radiusPx(s.closed.size())).candidates.empty();
 }
 bool runSegmentQuads(Stages& s) {
-  return !s.quads.run(s.segments, s.params.gates.min_area * s.level.image.size().area()).candidates.empty();
+  return !s.quads.run(s.segments, s.params.gates.min_area * s.level.image.size().area(), SegmentQuads::kQuick)
+              .candidates.empty();
 }
 bool runHalfSearch(Stages& s) {
   s.trace = DetectionTrace();

@@ -12,12 +12,14 @@ namespace window_ingress::detection {
 struct EdgeRunsParams {
   double turn_rad = 0.7;     ///< a pixel follows another if their gradients differ less than this [rad]
   double straight_px = 0.9;  ///< a run leaves its chord by less than this, at a level side of 320 [px]
+  double bow = 0.02;          ///< and by this part of the chord: lenses bend
   int min_pixels = 4;        ///< of a run; shorter ones are dropped
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("turn_rad", self.turn_rad, 0.05, 1.5);
     field("straight_px", self.straight_px, 0.3, 10.0);
+    field("bow", self.bow, 0.0, 0.1);
     field("min_pixels", self.min_pixels, 2, 1000);
   }
 };

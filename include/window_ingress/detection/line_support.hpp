@@ -15,6 +15,7 @@ struct LineSupportParams {
   double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
   double off_line =
       0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
+  double bow = 0.02;          ///< and further by this part of the line's pixels: lenses bend
   double min_density = 0.55;  ///< edge pixels on a segment over its length
   double join_gap =
       0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
@@ -26,6 +27,7 @@ struct LineSupportParams {
     field("max_gap", self.max_gap, 0.0, 0.5);
     field("vote_fraction", self.vote_fraction, 0.1, 1.0);
     field("off_line", self.off_line, 0.001, 0.05);
+    field("bow", self.bow, 0.0, 0.1);
     field("min_density", self.min_density, 0.0, 1.0);
     field("join_gap", self.join_gap, 0.0, 5.0);
     field("max_segments", self.max_segments, 4, 100000);
@@ -45,7 +47,8 @@ struct Segment {
 /// Adds the segments that two pieces of one line make together; the pieces stay.
 /// \param max_gap between them, in lengths of both \param off_line_px how far their ends may lie off the
 /// joint line
-void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px);
+void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px,
+                   double bow);
 
 /// Hough transform (P4) that selects straight segments: votes, minimum length, maximum gap. Where the
 /// probabilistic transform saves votes by drawing pixels at random, here each straight run of connected

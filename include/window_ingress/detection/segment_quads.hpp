@@ -16,9 +16,7 @@ struct SegmentQuadsParams {
   double closure_px =
       1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
   double closure_side = 0.02;  ///< added to that, in mean sides of the quadrilateral
-  double odd_side = 0.85;      ///< factor for each side that is brighter inside where most are darker, or so
-  int max_segments = 180;      ///< the strongest segments that are combined
-  int max_quads = 100;         ///< the best covered are kept
+  double odd_side = 0.95;      ///< factor for each side that is brighter inside where most are darker, or so
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -29,8 +27,6 @@ struct SegmentQuadsParams {
     field("closure_px", self.closure_px, 0.1, 100.0);
     field("closure_side", self.closure_side, 0.0, 1.0);
     field("odd_side", self.odd_side, 0.0, 1.0);
-    field("max_segments", self.max_segments, 4, 1000);
-    field("max_quads", self.max_quads, 1, 100000);
   }
 };
 
@@ -45,8 +41,14 @@ class SegmentQuads {
 
   explicit SegmentQuads(const SegmentQuadsParams& params) : params_(params) {}
 
+  /// Where the search stops: the strongest segments are combined, the best covered quadrilaterals kept.
+  struct Effort {
+    int segments, combinations, quads;
+  };
+  static constexpr Effort kQuick = {180, 30000, 100}, kThorough = {260, 150000, 250};
+
   /// \param segments strongest first, in pixels of the search level. Valid until the next call.
-  const Result& run(const std::vector<Segment>& segments, double min_area_px);
+  const Result& run(const std::vector<Segment>& segments, double min_area_px, const Effort& effort);
 
  private:
   /// Where the line of one segment meets that of another; `t` is 0 to 1 from its end a to its end b.
@@ -76,6 +78,7 @@ class SegmentQuads {
   void keepBest();
 
   SegmentQuadsParams params_;
+  Effort effort_ = kQuick;
   int count_ = 0, words_ = 0, combinations_ = 0;
   double min_area_px_ = 0.0, min_sine_ = 0.0;
   std::vector<Side> sides_;

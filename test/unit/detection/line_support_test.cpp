@@ -86,7 +86,7 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
   EdgeDetector edges{EdgeMapParams()};
   const auto segments = segmentsOf(edges.run(image));
   SegmentQuads quads{SegmentQuadsParams()};
-  const auto result = quads.run(segments, 1000.0);
+  const auto result = quads.run(segments, 1000.0, SegmentQuads::kQuick);
   ASSERT_FALSE(result.candidates.empty());
   const bool found = std::any_of(result.candidates.begin(), result.candidates.end(), [](const Candidate& c) {
     return test::worstCorner(c.quad, test::rectangle(90, 60, 230, 170)) < 2.0;
@@ -95,9 +95,9 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
 }
 
 TEST(SegmentQuads, NothingFromNothing) {
-  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({}, 1.0).candidates.empty());
+  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({}, 1.0, SegmentQuads::kQuick).candidates.empty());
   const Segment one{{0, 0}, {10, 0}, {0, 1}, 10, 20.0};
-  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({one, one, one, one}, 1.0).candidates.empty());
+  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({one, one, one, one}, 1.0, SegmentQuads::kQuick).candidates.empty());
 }
 
 TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
