@@ -63,9 +63,9 @@ std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::Pi
   level_size_ = level.image.size();
   lens_.set(camera, level_size_, factor_);
   map_ = &edges_.run(level.image);
-  const std::vector<EdgeRun>& runs = runs_.run(*map_, lens_);
-  segments_ = &lines_.run(runs, level_size_);
-  outlines_ = contours_.run(closing_.run(straightEdges(runs)), closing_.radiusPx(level_size_));
+  segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
+  keepOnSegments(runs_, lines_, level_size_, straight_);
+  outlines_ = contours_.run(closing_.run(straight_), closing_.radiusPx(level_size_));
   for (CandidateTrace& rejected : outlines_.rejected) rejected.quad = inFullImage(rejected.quad, factor_);
   for (Candidate& outline : outlines_.candidates)
     for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
@@ -88,18 +88,6 @@ std::vector<Rival> CandidateSearch::combine(const SegmentQuads::Effort& effort, 
   admit(quads.candidates, *map_, rivals, trace);
   admit(outlines_.candidates, *map_, rivals, trace);
   return best(rivals, trace);
-}
-
-// Of the edge map what lies on a segment: Hough selects (P4), it does not draw.
-const cv::Mat& CandidateSearch::straightEdges(const std::vector<EdgeRun>& runs) {
-  straight_.create(level_size_, CV_8UC1);
-  straight_.setTo(0);
-  const auto& pixels = runs_.pixels();
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if (lines_.onSegment()[i])
-      for (int k = runs[i].first; k < runs[i].first + runs[i].count; ++k)
-        straight_.ptr(pixels[k].y)[pixels[k].x] = 255;
-  return straight_;
 }
 
 void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& map,

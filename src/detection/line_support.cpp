@@ -10,8 +10,8 @@ using Eigen::Vector2d;
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
-constexpr double kLeastSeed = 0.6;       ///< part of the shortest segment that one run of it must cover
-constexpr double kSpread = 0.05;         ///< the direction of a short seed is this uncertain
+constexpr double kLeastSeed = 0.6;    ///< part of the shortest segment that one run of it must cover
+constexpr double kSpread = 0.05;      ///< the direction of a short seed is this uncertain
 constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
@@ -24,8 +24,7 @@ Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
 
 }  // namespace
 
-void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px,
-                   double bow) {
+void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow) {
   const std::size_t count = segments.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Segment p = segments[i];
@@ -131,7 +130,8 @@ void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments&
     if (way * (near - end) > max_gap_px_) break;
     const EdgeRun& other = runs[m.run];
     const double off_px = off_line_px_ + params_.bow * moments.n;
-    if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px) continue;
+    if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px)
+      continue;
     moments.add(other.moments);
     mean = moments.mean(), normal = right(moments.along());
     end = far;
@@ -191,6 +191,17 @@ const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, c
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
   return segments_;
+}
+
+void keepOnSegments(const EdgeRuns& runs, const LineSupport& lines, const cv::Size& level, cv::Mat& edges) {
+  edges.create(level, CV_8UC1);
+  edges.setTo(0);
+  for (std::size_t i = 0; i < runs.runs().size(); ++i) {
+    if (!lines.onSegment()[i]) continue;
+    const EdgeRun& run = runs.runs()[i];
+    for (int k = run.first; k < run.first + run.count; ++k)
+      edges.ptr(runs.pixels()[k].y)[runs.pixels()[k].x] = 255;
+  }
 }
 
 }  // namespace window_ingress::detection

@@ -19,7 +19,12 @@ constexpr double kStrongerExponent =
     0.2;  ///< of a border's contrast over the strongest one's across its side
 constexpr double kFaintestFrame =
     0.04;  ///< difference of frame and wall below which the reference has no frame
-constexpr double kWithinWeight = 0.3;     ///< of the colour within, where there is no frame
+constexpr double kWithinWeight = 0.3;  ///< of the colour within, where there is no frame
+constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
+constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
+constexpr double kWithoutEnd = 0.35;      ///< worth of a border whose frame does not end there
+constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
+constexpr double kForetold = 0.8;         ///< worth of such a border
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
 constexpr double kEvenFrame = 2.2;        ///< widest over narrowest side of a frame
 constexpr double kLeastChange =
@@ -153,6 +158,9 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
     if (!mean(sides_[i], -kBandWidth, -kClear, within)) return;
     reference_within_[i] = features(within);
     reference_within_[i][2] -= outermost[2];
+    double end = 0.0;
+    const double contrast = largestChange(sides_[i], kThinnestFrame, kBands * kBandWidth, &end);
+    frame_widths_[i] = contrast > params_.contrast_full ? end : 0.0;
     frame += 0.25 * difference(reference_[i][1], reference_[i][kBands - 1]);
   }
   frameless_ = frame < kFaintestFrame;
@@ -162,6 +170,34 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
 double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const {
   return std::hypot(a[0] - b[0], a[1] - b[1]) +
          params_.brightness_weight * std::min(1.0F, std::abs(a[2] - b[2]));
+}
+
+// Largest change of colour within a stretch of a profile, and where.
+double ReferenceBorders::largestChange(const SideProfile& profile, double from, double to, double* place) {
+  const int count = static_cast<int>(profile.means.size());
+  const int first = std::max(1, static_cast<int>(std::floor((from - profile.first) / profile.step)));
+  const int last = std::min(count - 2, static_cast<int>(std::ceil((to - profile.first) / profile.step)));
+  double most = 0.0;
+  for (int k = first; k <= last; ++k) {
+    const double change = (profile.means[k + 1] - profile.means[k - 1]).norm();
+    if (change > most) {
+      most = change;
+      if (place) *place = profile.at(k);
+    }
+  }
+  return most;
+}
+
+// How far the frame ends as far outside as in the reference: 1 it does; where the reference shows no end,
+// always.
+double ReferenceBorders::frameEnds(int side, double border) const {
+  if (frame_widths_[side] <= 0.0) return 1.0;
+  const SideProfile& profile = sides_[side];
+  const double end = border + frame_widths_[side];
+  const double there = largestChange(profile, end - 0.5 * profile.step, end + 0.5 * profile.step, nullptr);
+  const double near = largestChange(profile, end - kEndReach, end + kEndReach, nullptr);
+  return kWithoutEnd +
+         (1.0 - kWithoutEnd) * (near > kLeastChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
 }
 
 // The edge from which outwards the colours are most like those of the reference, and inwards are not; its
@@ -175,12 +211,15 @@ double ReferenceBorders::choose(int side, double& border) const {
   };
   double strongest = 1.0;
   for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(change(k)));
+  const bool framed = !frameless_ && frame_widths_[side] > 0.0;
   double best = 0.0;
   Bands bands;
   for (int k = 1; k + 1 < count; ++k) {
     const double here = change(k);
-    if (here < kLeastChange || here < change(k - 1) || here < change(k + 1)) continue;
     const double at = profile.at(k);
+    const bool peak = here >= kLeastChange && here >= change(k - 1) && here >= change(k + 1);
+    const double ends = framed ? frameEnds(side, at) : 1.0;
+    if (!peak && !(framed && ends > kSureEnd)) continue;
     Vector3f within, outermost;
     if (!bandsFrom(profile, at, bands, &outermost) || !mean(profile, at - kBandWidth, at - kClear, within))
       continue;
@@ -190,9 +229,12 @@ double ReferenceBorders::choose(int side, double& border) const {
     within[2] -= outermost[2];
     const double goes_on = difference(within, bands[0]);
     if (frameless_) unlike += kWithinWeight * difference(within, reference_within_[side]);
-    const double worth = std::exp(-unlike / params_.alike) * std::min(1.0, here / params_.contrast_full) *
-                         std::min(1.0, goes_on / params_.step_full) *
-                         std::pow(here / strongest, kStrongerExponent);
+    // Where the end of the frame tells the place, a faint border will do.
+    const double visible = framed ? ends * (peak ? 1.0 : kForetold)
+                                  : std::min(1.0, here / params_.contrast_full) *
+                                        std::min(1.0, goes_on / params_.step_full) *
+                                        std::pow(here / strongest, kStrongerExponent);
+    const double worth = std::exp(-unlike / params_.alike) * visible;
     if (worth > best) best = worth, border = at;
   }
   return best;

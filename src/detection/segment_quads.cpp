@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 
 constexpr double kSlackPx = 3.0;
 constexpr double kRoundedPx = 1.5;       ///< edges end this far before a corner
-constexpr std::size_t kVariants = 4;  ///< of each loop that is kept so many are compared
+constexpr std::size_t kVariants = 4;     ///< of each loop that is kept so many are compared
 constexpr double kOnPart = 0.3;          ///< a segment goes on beyond a junction with this part of its length
 constexpr double kSameLoopPx = 1.0;      ///< corners of the same loop differ less than this [px]
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
@@ -154,7 +154,8 @@ void SegmentQuads::keepBest() {
   };
   const std::size_t looked_at = std::min(order_.size(), kVariants * static_cast<std::size_t>(effort_.quads));
   result_.budget_exceeded = result_.budget_exceeded || looked_at < order_.size();
-  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(looked_at), order_.end(), better);
+  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(looked_at), order_.end(),
+                    better);
   order_.resize(looked_at);
   result_.candidates.clear();
   for (int i : order_) {
@@ -177,7 +178,7 @@ void SegmentQuads::keepBest() {
 }
 
 const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px,
-                                            const Effort& effort) {
+                                              const Effort& effort) {
   effort_ = effort;
   found_.clear();
   combinations_ = 0;
@@ -185,7 +186,8 @@ const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segmen
   min_sine_ = std::sin(params_.min_angle_rad);
   connect(segments);
   for (int i = 0; i < count_; ++i) combineFrom(segments, i);
-  result_.budget_exceeded = combinations_ >= effort_.combinations || count_ < static_cast<int>(segments.size());
+  result_.budget_exceeded =
+      combinations_ >= effort_.combinations || count_ < static_cast<int>(segments.size());
   keepBest();
   return result_;
 }

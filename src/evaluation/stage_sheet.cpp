@@ -155,14 +155,16 @@ void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet)
   const auto& segments = lines.run(runs.run(map, lens), level.image.size());
   sheet.add(drawSegments(level.image, segments),
             cv::format("P4 straight segments, colour: direction (%d)", static_cast<int>(segments.size())));
-  const cv::Mat closed = closing.run(map.edges);
+  cv::Mat straight;
+  keepOnSegments(runs, lines, level.image.size(), straight);
+  const cv::Mat closed = closing.run(straight);
   sheet.add(closed, cv::format("P6 closed, %d px", closing.radiusPx(level.image.size())));
   const auto outlines = contours.run(closed, closing.radiusPx(level.image.size()));
   sheet.add(drawOutlines(closed, outlines.candidates),
             cv::format("P7 contours (%d), polygons with four sides (%d)", outlines.contours,
                        static_cast<int>(outlines.candidates.size())));
-  const auto& found = quads.run(segments, params.gates.min_area * level.image.size().area(),
-                                 detection::SegmentQuads::kQuick);
+  const auto& found =
+      quads.run(segments, params.gates.min_area * level.image.size().area(), detection::SegmentQuads::kQuick);
   sheet.add(drawQuads(level.image, found.candidates),
             cv::format("P4, P7 quadrilaterals of segments (%d)", static_cast<int>(found.candidates.size())));
 }

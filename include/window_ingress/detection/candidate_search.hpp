@@ -39,15 +39,14 @@ class CandidateSearch {
   /// \param camera its calibration, or null: the image is then taken as free of distortion
   std::vector<Rival> run(const cv::Mat& image, const geometry::PinholeCamera* camera, DetectionTrace& trace);
 
-  /// The last image once more, with more segments and more of their combinations: for when none of the candidates
-  /// was the target.
+  /// The last image once more, with more segments and more of their combinations: for when none of the
+  /// candidates was the target.
   std::vector<Rival> runAgain(DetectionTrace& trace);
 
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
  private:
   std::vector<Rival> combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
-  const cv::Mat& straightEdges(const std::vector<EdgeRun>& runs);
   void admit(const std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
              DetectionTrace& trace);
   static int variants(const Rival& rival, const std::vector<Rival>& kept);

@@ -12,7 +12,7 @@ namespace window_ingress::detection {
 struct EdgeRunsParams {
   double turn_rad = 0.7;     ///< a pixel follows another if their gradients differ less than this [rad]
   double straight_px = 0.9;  ///< a run leaves its chord by less than this, at a level side of 320 [px]
-  double bow = 0.02;          ///< and by this part of the chord: lenses bend
+  double bow = 0.02;         ///< and by this part of the chord: lenses bend
   int min_pixels = 4;        ///< of a run; shorter ones are dropped
 
   template <typename Self, typename Visitor>
@@ -36,10 +36,10 @@ struct LineMoments {
 
 /// A straight run of connected edge pixels, in pixels of the undistorted search level.
 struct EdgeRun {
-  Eigen::Vector2d a, b;    ///< ends; seen from a to b the brighter side lies on the right of the screen
-  Eigen::Vector2d normal;  ///< unit vector towards the brighter side
-  LineMoments moments;     ///< of its pixels
-  double contrast = 0.0;   ///< mean gradient [grey levels a pixel]
+  Eigen::Vector2d a, b;      ///< ends; seen from a to b the brighter side lies on the right of the screen
+  Eigen::Vector2d normal;    ///< unit vector towards the brighter side
+  LineMoments moments;       ///< of its pixels
+  double contrast = 0.0;     ///< mean gradient [grey levels a pixel]
   int first = 0, count = 0;  ///< of its pixels, see EdgeRuns::pixels
 
   double length() const { return (b - a).norm(); }
@@ -53,6 +53,9 @@ class EdgeRuns {
 
   /// In the order of the image, from top to bottom. Valid until the next call.
   const std::vector<EdgeRun>& run(const EdgeMap& map, const LevelLens& lens);
+
+  /// Those of the last map.
+  const std::vector<EdgeRun>& runs() const { return runs_; }
 
   /// Pixels of all runs of the last map, in pixels of the level as it came.
   const std::vector<cv::Point_<short>>& pixels() const { return pixels_; }

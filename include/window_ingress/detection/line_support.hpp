@@ -14,8 +14,8 @@ struct LineSupportParams {
   double max_gap = 0.02;       ///< within a segment, in longer sides of the level
   double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
   double off_line =
-      0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
-  double bow = 0.02;          ///< and further by this part of the line's pixels: lenses bend
+      0.004;          ///< ends of the runs of one line lie this close to it, in longer sides of the level
+  double bow = 0.02;  ///< and further by this part of the line's pixels: lenses bend
   double min_density = 0.55;  ///< edge pixels on a segment over its length
   double join_gap =
       0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
@@ -47,8 +47,7 @@ struct Segment {
 /// Adds the segments that two pieces of one line make together; the pieces stay.
 /// \param max_gap between them, in lengths of both \param off_line_px how far their ends may lie off the
 /// joint line
-void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px,
-                   double bow);
+void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow);
 
 /// Hough transform (P4) that selects straight segments: votes, minimum length, maximum gap. Where the
 /// probabilistic transform saves votes by drawing pixels at random, here each straight run of connected
@@ -60,7 +59,8 @@ class LineSupport {
  public:
   explicit LineSupport(const LineSupportParams& params) : params_(params) {}
 
-  /// Strongest first, by length and the root of the contrast; at most `max_segments`. Deterministic. Valid until the next call.
+  /// Strongest first, by length and the root of the contrast; at most `max_segments`. Deterministic. Valid
+  /// until the next call.
   const std::vector<Segment>& run(const std::vector<EdgeRun>& runs, const cv::Size& level);
 
   /// 1 for each run of the last call that lies on a segment.
@@ -102,5 +102,9 @@ class LineSupport {
   std::vector<int> taken_;
   std::vector<Segment> segments_;
 };
+
+/// Of an edge map what lies on the segments that were found: Hough selects (P4), it does not draw.
+/// \param runs and \param lines after their last call \param edges CV_8UC1, result, 0 or 255
+void keepOnSegments(const EdgeRuns& runs, const LineSupport& lines, const cv::Size& level, cv::Mat& edges);
 
 }  // namespace window_ingress::detection

@@ -66,7 +66,8 @@ class ReferenceBorders {
   static constexpr Effort kCoarse = {8, 64}, kFine = {24, 140};
 
   struct Located {
-    geometry::Quadrilateral quad;  ///< pixels of the image as it came; to a pixel
+    geometry::Quadrilateral
+        quad;  ///< pixels of the image as it came; each side to two pixels or so, for the fit to start from
     double worth = 0.0;  ///< geometric mean of the least alike side and all: 0 unlike the reference to 1
     bool holds_frame = false;  ///< a frame lies within: it is the outer border of another window
   };
@@ -85,6 +86,8 @@ class ReferenceBorders {
                  Eigen::Vector3f* outermost = nullptr) const;
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
+  static double largestChange(const SideProfile& profile, double from, double to, double* place);
+  double frameEnds(int side, double border) const;
   bool holdsFrame(const std::array<double, 4>& borders) const;
 
   ReferenceBordersParams params_;
@@ -95,6 +98,7 @@ class ReferenceBorders {
   /// Just inside the borders, brightness likewise. Counts where no frame tells an opening from the outer
   /// border of another window's frame.
   std::array<Eigen::Vector3f, 4> reference_within_;
+  std::array<double, 4> frame_widths_{};  ///< [mean sides of the opening]; 0: no end seen
   bool frameless_ = false;
   std::array<SideProfile, 4> sides_;
 };

@@ -71,6 +71,40 @@ TEST(LineSupport, NoiseAndEmptyImagesGiveNoLongSegments) {
   for (const Segment& segment : segmentsOf(edges.run(noise))) EXPECT_LT(segment.length(), 60.0);
 }
 
+TEST(LineSupport, OnlyWhatLiesOnSegmentsIsKept) {
+  EdgeDetector edges{EdgeMapParams()};
+  cv::Mat image = window(test::rectangle(90, 60, 200, 170), 0.0);
+  cv::circle(image, {270, 40}, 4, cv::Scalar(0), 1);
+  const EdgeMap& map = edges.run(image);
+  EdgeRuns runs{EdgeRunsParams()};
+  LineSupport lines{LineSupportParams()};
+  lines.run(runs.run(map, LevelLens()), map.edges.size());
+  cv::Mat kept;
+  keepOnSegments(runs, lines, map.edges.size(), kept);
+  EXPECT_GT(cv::countNonZero(kept), 380);
+  EXPECT_EQ(cv::countNonZero(kept & ~map.edges), 0) << "nothing is drawn";
+  EXPECT_EQ(cv::countNonZero(kept(cv::Rect(260, 30, 20, 20))), 0) << "a small ring has no straight side";
+}
+
+TEST(LineSupport, ABorderBentByALensIsStraightAfterIt) {
+  auto camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.4);
+  camera.distortion = {-0.25, 0.06, 0.0, 0.0, 0.0};
+  cv::Mat image(240, 320, CV_8UC1, cv::Scalar(200));
+  LevelLens lens;
+  lens.set(&camera, image.size(), 2);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      if (lens.undistort(x, y).x() > 285.0) image.at<uchar>(y, x) = 50;
+  EdgeDetector edges{EdgeMapParams()};
+  EdgeRuns runs{EdgeRunsParams()};
+  LineSupport lines{LineSupportParams()};
+  const auto& segments = lines.run(runs.run(edges.run(image), lens), image.size());
+  ASSERT_FALSE(segments.empty());
+  EXPECT_GT(segments[0].length(), 220.0);
+  EXPECT_NEAR(segments[0].a.x(), 285.0, 1.0);
+  EXPECT_NEAR(segments[0].b.x(), 285.0, 1.0);
+}
+
 TEST(LineSupport, IsDeterministic) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(90, 60, 200, 170), 4.0));
@@ -97,7 +131,9 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
 TEST(SegmentQuads, NothingFromNothing) {
   EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({}, 1.0, SegmentQuads::kQuick).candidates.empty());
   const Segment one{{0, 0}, {10, 0}, {0, 1}, 10, 20.0};
-  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({one, one, one, one}, 1.0, SegmentQuads::kQuick).candidates.empty());
+  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams())
+                  .run({one, one, one, one}, 1.0, SegmentQuads::kQuick)
+                  .candidates.empty());
 }
 
 TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {

@@ -142,7 +142,8 @@ TEST(WindowTracker, SidesThatLeaveTheViewRemainEdgesAndNoCornerIsInvented) {
     last_m = -from.position_m.z();
     EXPECT_EQ(window->target_id, 1u);
     EXPECT_GE(window->visibleSides(), 2);
-    const double limit_px = 0.2 + 0.003 * camera().fx / last_m;  // the wall is painted in blurred pixels of 5 mm
+    const double limit_px =
+        0.2 + 0.003 * camera().fx / last_m;  // the wall is painted in blurred pixels of 5 mm
     EXPECT_LT(worstEdge(*window, truth), limit_px) << i;
     partial += !window->whole();
     for (int k = 0; k < 4; ++k) {
