@@ -67,8 +67,8 @@ const char* toString(CandidateSource source) {
       return "contour";
     case CandidateSource::kSegments:
       return "segments";
-    case CandidateSource::kFrame:
-      return "frame";
+    case CandidateSource::kReference:
+      return "reference";
   }
   return "unknown";
 }

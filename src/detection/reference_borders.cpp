@@ -23,6 +23,7 @@ constexpr double kWithinWeight = 0.3;  ///< of the colour within, where there is
 constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
 constexpr double kWithoutEnd = 0.35;      ///< worth of a border whose frame does not end there
+constexpr double kFarAway = 1.5;          ///< standard deviation of a border from the rough loop, in `inward`
 constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
 constexpr double kForetold = 0.8;         ///< worth of such a border
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
@@ -234,7 +235,8 @@ double ReferenceBorders::choose(int side, double& border) const {
                                   : std::min(1.0, here / params_.contrast_full) *
                                         std::min(1.0, goes_on / params_.step_full) *
                                         std::pow(here / strongest, kStrongerExponent);
-    const double worth = std::exp(-unlike / params_.alike) * visible;
+    const double away = at / params_.inward / kFarAway;
+    const double worth = std::exp(-unlike / params_.alike - 0.5 * away * away) * visible;
     if (worth > best) best = worth, border = at;
   }
   return best;

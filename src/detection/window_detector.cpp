@@ -18,9 +18,12 @@ constexpr double kMostCertain = 0.99;       ///< of a score before the reference
 constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
-constexpr double kLocatedRadiusPx = 2.5;    ///< reach of the fit of borders that were located
-constexpr double kLocatedSigmaPx = 1.0;     ///< how well they are located
-constexpr double kLoopTolerancePx = 0.6;    ///< uncertainty of a loop's position on the search level [px]
+constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
+constexpr double kUnlocatedPart =
+    0.7;  ///< of its score keeps a loop whose borders are not those of the reference
+constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
+constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
+constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
 constexpr double kVariantOverlap =
     0.6;  ///< loops that overlap more, and are not round each other, are one window
 
@@ -115,6 +118,7 @@ std::optional<Rival> WindowDetector::Impl::locate(const cv::Mat& image, const ge
   if (!found) return std::nullopt;
   Rival rival = rough;
   rival.quad = found->quad;
+  rival.candidate.source = CandidateSource::kReference;
   rival.located = true;
   rival.worth = found->worth;
   rival.geometry = rough.located ? rough.geometry : rough.score;
@@ -150,7 +154,17 @@ bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image, const geometry:
     rivals.swap(compared);
     return true;
   }
-  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
+  for (Rival& rival : rivals) {
+    const bool sure = std::any_of(compared.begin(), compared.end(), [&](const Rival& place) {
+      return place.worth > kSureWorth &&
+             geometry::intersectionOverUnion(rival.quad, place.quad) > kVariantOverlap;
+    });
+    rival.appearance = sure ? std::nullopt : reference->compare(image, rival.quad, params.appearance);
+    if (rival.appearance)
+      rival.score = updated(kUnlocatedPart * rival.score, rival.appearance->odds);
+    else
+      rival.verdict.reject = RejectReason::kDuplicate;
+  }
   rivals.insert(rivals.end(), compared.begin(), compared.end());
   return true;
 }

@@ -38,7 +38,7 @@ const char* toString(RejectReason reason);
 enum class CandidateSource {
   kContour,   ///< a closed contour
   kSegments,  ///< four straight segments that meet
-  kFrame      ///< foretold by the outer border of the frame and the reference
+  kReference  ///< borders located beside a candidate, by the colours of the reference
 };
 
 const char* toString(CandidateSource source);
