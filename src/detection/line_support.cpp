@@ -11,8 +11,9 @@ using Eigen::Vector2d;
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
 constexpr double kLeastSeed = 0.6;    ///< part of the shortest segment that one run of it must cover
-constexpr double kSpread = 0.05;      ///< the direction of a short seed is this uncertain
-constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
+constexpr std::size_t kMostJoined = 180;  ///< of the first segments, that are tried with each other
+constexpr double kSpread = 0.05;          ///< the direction of a short seed is this uncertain
+constexpr double kSameDirection = 0.99;   ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
 
@@ -25,7 +26,7 @@ Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
 }  // namespace
 
 void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow) {
-  const std::size_t count = segments.size();
+  const std::size_t count = std::min(segments.size(), kMostJoined);
   for (std::size_t i = 0; i < count; ++i) {
     const Segment p = segments[i];
     const double p_length = p.length();

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
 constexpr int kRefinementTries = 6;
-constexpr double kMostCertain = 0.99;       ///< of a score before the reference is asked
+constexpr double kMostCertain = 0.99;  ///< of a score before the reference is asked
+constexpr double kSameWindow = 0.22;   ///< loops whose corners differ less, in its size, are of one window
 constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
@@ -49,6 +50,14 @@ bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& 
   if ((geometry::centroid(a) - geometry::centroid(b)).squaredNorm() > size) return false;
   return geometry::intersectionOverUnion(a, b) > kVariantOverlap &&
          !isConcentric(a, b, tolerance_px, nested) && !isConcentric(b, a, tolerance_px, nested);
+}
+
+// Loops of one window: no corner is further off than a part of its size.
+bool isAbout(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
+  const double reach = kSameWindow * kSameWindow * std::abs(geometry::signedArea(b));
+  for (int i = 0; i < 4; ++i)
+    if ((a[i] - b[i]).squaredNorm() > reach) return false;
+  return true;
 }
 
 // Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
@@ -102,8 +111,7 @@ std::vector<std::size_t> WindowDetector::Impl::places() {
   std::vector<std::size_t> leaders;
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     int variants = 0;
-    for (std::size_t leader : leaders)
-      variants += geometry::intersectionOverUnion(rivals[i].quad, rivals[leader].quad) > kVariantOverlap;
+    for (std::size_t leader : leaders) variants += isAbout(rivals[i].quad, rivals[leader].quad);
     if (variants < kVariantsLocated) leaders.push_back(i);
     if (leaders.size() == kPlacesLocated) break;
   }
@@ -156,8 +164,7 @@ bool WindowDetector::Impl::judgeAppearance(const cv::Mat& image, const geometry:
   }
   for (Rival& rival : rivals) {
     const bool sure = std::any_of(compared.begin(), compared.end(), [&](const Rival& place) {
-      return place.worth > kSureWorth &&
-             geometry::intersectionOverUnion(rival.quad, place.quad) > kVariantOverlap;
+      return place.worth > kSureWorth && isAbout(rival.quad, place.quad);
     });
     rival.appearance = sure ? std::nullopt : reference->compare(image, rival.quad, params.appearance);
     if (rival.appearance)
