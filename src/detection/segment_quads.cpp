@@ -15,6 +15,9 @@ constexpr std::size_t kVariants = 4;     ///< of each loop that is kept so many 
 constexpr double kOnPart = 0.3;          ///< a segment goes on beyond a junction with this part of its length
 constexpr double kSameLoopPx = 1.0;      ///< corners of the same loop differ less than this [px]
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
+constexpr double kLongest = 2.0;         ///< mean side of the largest quadrilateral on a side, in its lengths
+constexpr double kLargest = 2.0;         ///< the same at a corner, in the mean lengths of its segments
+constexpr float kNoWay = 1e9F;
 constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -25,13 +28,14 @@ double coverage(double t1, double t2) {
   return high > low ? std::max(0.0, std::min(high, 1.0) - std::max(low, 0.0)) / (high - low) : 0.0;
 }
 
-// How far the ends of a segment are from its two corners; running beyond counts half [px].
-double endGap(double length, double t1, double t2) {
-  const auto gap = [&](double short_by) {
+// How far the ends of a segment are off a corner at t, if a side goes on from there to a, or to b; running
+// beyond counts half. Nothing where too little of it goes on.
+std::array<float, 2> gapsPx(double length, double t) {
+  const auto gap = [length](double short_by) {
     const double px = length * (short_by > 0.0 ? short_by : -0.5 * short_by);
-    return std::max(0.0, px - kRoundedPx);
+    return static_cast<float>(std::max(0.0, px - kRoundedPx));
   };
-  return gap(-std::min(t1, t2)) + gap(std::max(t1, t2) - 1.0);
+  return {t > kOnPart ? gap(t - 1.0) : kNoWay, 1.0 - t > kOnPart ? gap(-t) : kNoWay};
 }
 
 // Number of sides that are brighter inside.
@@ -59,11 +63,26 @@ bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const 
   const double t_q = cross(d, p.way) / sine;
   if (std::abs(t_q - 0.5) > q.reach) return false;
   junction.t_own = static_cast<float>(t_p), junction.t_other = static_cast<float>(t_q);
-  const bool towards_b = 1.0 - t_q > kOnPart, towards_a = t_q > kOnPart;
-  junction.right = sine > 0.0 ? towards_b : towards_a;
-  junction.left = sine > 0.0 ? towards_a : towards_b;
+  junction.from_left = sine > 0.0;
+  junction.own_gap_px = gapsPx(p.length, t_p), junction.other_gap_px = gapsPx(q.length, t_q);
   junction.point = p.start + t_p * p.way;
   return true;
+}
+
+// Notes for which ways and sides the junction may be a corner.
+void SegmentQuads::enter(int i, const Junction& junction) {
+  const double size_px = kLargest * std::sqrt(sides_[i].length * sides_[junction.other].length);
+  const double most_px = mostGap(size_px);
+  bool any = false;
+  for (int way : {kToA, kToB})
+    for (int side : {kLeft, kRight}) {
+      if (junction.gapPx(way, side) > most_px) continue;
+      corners(i, way, side)[junction.other / 64] |= std::uint64_t{1} << (junction.other % 64);
+      any = true;
+    }
+  if (!any) return;
+  places_[i * count_ + junction.other] = static_cast<std::int16_t>(junctions_[i].size());
+  junctions_[i].push_back(junction);
 }
 
 void SegmentQuads::connect(const std::vector<Segment>& segments) {
@@ -71,7 +90,7 @@ void SegmentQuads::connect(const std::vector<Segment>& segments) {
   words_ = (count_ + 63) / 64;
   if (static_cast<int>(junctions_.size()) < count_) junctions_.resize(count_);
   for (auto& list : junctions_) list.clear();
-  meets_.assign(static_cast<std::size_t>(count_) * words_, 0);
+  corners_.assign(static_cast<std::size_t>(count_) * 4 * words_, 0);
   places_.resize(static_cast<std::size_t>(count_) * count_);
   sides_.clear();
   for (int i = 0; i < count_; ++i) {
@@ -84,65 +103,66 @@ void SegmentQuads::connect(const std::vector<Segment>& segments) {
     for (int j = 0; j < count_; ++j) {
       if (i == j || !meet(sides_[i], sides_[j], junction)) continue;
       junction.other = j;
-      places_[i * count_ + j] = static_cast<std::int16_t>(junctions_[i].size());
-      junctions_[i].push_back(junction);
-      meets_[i * words_ + j / 64] |= std::uint64_t{1} << (j % 64);
+      enter(i, junction);
     }
 }
 
-// Quadrilaterals whose first segment is i: neighbours j and l on it, the fourth k meets both.
-void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i) {
-  const auto& own = junctions_[i];
+// Quadrilaterals on one side of segment i, which is the first of their four.
+void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i, int side) {
   const double length = sides_[i].length;
-  for (std::size_t a = 0; a < own.size(); ++a) {
-    if (own[a].other < i) continue;
-    const Vector2d along_a = segments[own[a].other].normal;
-    for (std::size_t b = a + 1; b < own.size() && combinations_ < effort_.combinations; ++b) {
-      if (own[b].other < i) continue;
-      if (!((own[a].left && own[b].left) || (own[a].right && own[b].right))) continue;
-      const double stretch = std::abs(own[a].t_own - own[b].t_own) * length;
+  for (const Junction& first : junctions_[i]) {
+    if (first.other < i || first.gapPx(kToB, side) >= kNoWay) continue;
+    for (const Junction& second : junctions_[i]) {
+      if (second.other < i || second.t_own <= first.t_own || second.gapPx(kToA, side) >= kNoWay) continue;
+      const double stretch = (second.t_own - first.t_own) * length;
       if (stretch * stretch < 0.1 * min_area_px_) continue;
-      if (coverage(own[a].t_own, own[b].t_own) < params_.min_coverage) continue;
-      if (std::abs(along_a.dot(segments[own[b].other].normal)) < kSmallestCosine) continue;
-      close(segments, i, own[a], own[b]);
+      const double gap_px = first.gapPx(kToB, side) + second.gapPx(kToA, side);
+      const double most_px = mostGap(kLongest * stretch);
+      if (gap_px > most_px || coverage(first.t_own, second.t_own) < params_.min_coverage) continue;
+      if (std::abs(segments[first.other].normal.dot(segments[second.other].normal)) < kSmallestCosine)
+        continue;
+      close(segments, {i, side, &first, &second, gap_px, most_px});
+      if (combinations_ >= effort_.combinations) return;
     }
   }
 }
 
-void SegmentQuads::close(const std::vector<Segment>& segments, int i, const Junction& ij,
-                         const Junction& il) {
-  const std::uint64_t *of_j = &meets_[static_cast<std::size_t>(ij.other) * words_],
-                      *of_l = &meets_[static_cast<std::size_t>(il.other) * words_];
-  for (int word = i / 64; word < words_; ++word)
+// The fourth segments k: each makes a corner with both neighbours j and l of the first one, i.
+void SegmentQuads::close(const std::vector<Segment>& segments, const Base& base) {
+  const Junction &ij = *base.first, &il = *base.second;
+  const Way back_j = ij.otherTowards(1 - base.side), back_l = il.otherTowards(1 - base.side);
+  // On which side of j and l the first segment goes on.
+  const int side_j = ij.from_left ? kLeft : kRight, side_l = il.from_left ? kRight : kLeft;
+  const std::uint64_t *of_j = corners(ij.other, back_j, side_j), *of_l = corners(il.other, back_l, side_l);
+  for (int word = base.own / 64; word < words_; ++word)
     for (std::uint64_t both = of_j[word] & of_l[word]; both; both &= both - 1) {
       const int k = 64 * word + __builtin_ctzll(both);
-      if (k > i) consider(segments, i, ij, il, between(ij.other, k), between(il.other, k));
+      if (k <= base.own) continue;
+      const Junction &jk = between(ij.other, k), &lk = between(il.other, k);
+      const double gap_px = base.gap_px + jk.gapPx(back_j, side_j) + lk.gapPx(back_l, side_l);
+      if (gap_px <= base.most_gap_px) consider(segments, base, jk, lk, gap_px);
     }
 }
 
-void SegmentQuads::consider(const std::vector<Segment>& segments, int i, const Junction& ij,
-                            const Junction& il, const Junction& jk, const Junction& lk) {
+void SegmentQuads::consider(const std::vector<Segment>& segments, const Base& base, const Junction& jk,
+                            const Junction& lk, double gap_px) {
   ++combinations_;
+  const Junction &ij = *base.first, &il = *base.second;
   const double covered[4] = {coverage(ij.t_own, il.t_own), coverage(ij.t_other, jk.t_own),
                              coverage(jk.t_other, lk.t_other), coverage(lk.t_own, il.t_other)};
   const double mean = 0.25 * (covered[0] + covered[1] + covered[2] + covered[3]);
   if (mean < params_.mean_coverage || *std::min_element(covered, covered + 4) < params_.min_coverage) return;
-  const std::array<const Segment*, 4> sides = {&segments[i], &segments[ij.other], &segments[jk.other],
-                                               &segments[il.other]};
-  const int bright = brighterInside(sides, 0.25 * (ij.point + jk.point + lk.point + il.point));
   const auto quad = geometry::canonical({ij.point, jk.point, lk.point, il.point});
   if (!quad) return;
-  const double area = geometry::signedArea(*quad);
-  if (area < min_area_px_) return;
-  const double gap_px = endGap(sides_[i].length, ij.t_own, il.t_own) +
-                        endGap(sides_[ij.other].length, ij.t_other, jk.t_own) +
-                        endGap(sides_[jk.other].length, jk.t_other, lk.t_other) +
-                        endGap(sides_[il.other].length, lk.t_own, il.t_other);
-  const double closed =
-      std::exp(-gap_px / 8.0 / (params_.closure_px + params_.closure_side * std::sqrt(area)));
+  const double area = geometry::signedArea(*quad), size_px = std::sqrt(area);
+  if (area < min_area_px_ || gap_px > mostGap(size_px)) return;
+  const double closed = std::exp(-gap_px / closurePx(size_px));
+  const std::array<const Segment*, 4> sides = {&segments[base.own], &segments[ij.other], &segments[jk.other],
+                                               &segments[il.other]};
+  const int bright = brighterInside(sides, 0.25 * (ij.point + jk.point + lk.point + il.point));
   const int odd = std::min(bright, 4 - bright);
   const double even = odd == 0 ? 1.0 : odd == 1 ? params_.odd_side : params_.odd_side * params_.odd_side;
-  found_.push_back({mean * closed * even * std::sqrt(std::sqrt(area)), closed * even, *quad});
+  found_.push_back({mean * closed * even * std::sqrt(size_px), closed * even, *quad});
 }
 
 // The best, each loop once.
@@ -183,9 +203,11 @@ const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segmen
   found_.clear();
   combinations_ = 0;
   min_area_px_ = min_area_px;
+  tolerance_ = -std::log(effort.min_closure);
   min_sine_ = std::sin(params_.min_angle_rad);
   connect(segments);
-  for (int i = 0; i < count_; ++i) combineFrom(segments, i);
+  for (int i = 0; i < count_; ++i)
+    for (int side : {kLeft, kRight}) combineFrom(segments, i, side);
   result_.budget_exceeded =
       combinations_ >= effort_.combinations || count_ < static_cast<int>(segments.size());
   keepBest();
