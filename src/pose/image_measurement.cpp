@@ -7,7 +7,7 @@
 namespace window_ingress::pose {
 namespace {
 
-constexpr double kMinWhiteSigmaPx = 0.005;
+constexpr double kMinWhiteSigmaPx = 0.0005;
 
 bool isUsable(double sigma) { return std::isfinite(sigma) && sigma > 0.0; }
 
@@ -73,6 +73,7 @@ std::optional<ImageMeasurement> ImageMeasurement::ofPartial(const detection::Win
                                                             const geometry::PinholeCamera& camera,
                                                             const ImageNoise& noise) {
   ImageMeasurement measurement;
+  measurement.has_corners_ = false;
   for (int i = 0; i < 4; ++i) {
     const detection::Edge& edge = window.edges[i];
     if (!edge.visible) continue;
@@ -83,7 +84,19 @@ std::optional<ImageMeasurement> ImageMeasurement::ofPartial(const detection::Win
       return std::nullopt;
   }
   if (measurement.border_count_ == 0) return std::nullopt;
+  measurement.has_corners_ = measurement.border_count_ == 4 && measurement.cross();
   return measurement;
+}
+
+bool ImageMeasurement::cross() {
+  for (int i = 0; i < 4; ++i) {
+    const Border &before = borders_[(i + 3) % 4], &after = borders_[i];
+    const double sine = before.across.dot(after.along);
+    if (std::abs(sine) < 1e-3) return false;
+    const double along = before.across.dot(before.middle - after.middle) / sine;
+    corners_px_.segment<2>(2 * i) = after.middle + along * after.along;
+  }
+  return corners_px_.allFinite();
 }
 
 bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
@@ -97,6 +110,7 @@ bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Ei
                white_slope = std::max(turn, kMinWhiteSigmaPx / length);
   Border& border = borders_[border_count_++];
   border.side = side;
+  border.length_px = length;
   border.middle = 0.5 * (from + to);
   border.along = (to - from) / length;
   border.across = {-border.along.y(), border.along.x()};
@@ -122,6 +136,18 @@ void ImageMeasurement::addCorner(const Eigen::Matrix2d& covariance, int corner, 
   for (int axis = 0; axis < 2; ++axis)
     corner_weights_[corner].row(axis) =
         axes.col(axis).transpose() / std::sqrt(marginalVariance(white(axis), systematic, noise));
+}
+
+double ImageMeasurement::rmsPx(const CornerVector& predicted_px) const {
+  if (has_corners_) return (predicted_px - corners_px_).norm() / std::sqrt(8.0);
+  const LinearisedResidual weighted = evaluate(predicted_px);
+  double squares = 0.0;
+  for (int i = 0; i < border_count_; ++i) {
+    const double offset = weighted.residual(2 * i) * borders_[i].offset_sigma_px;
+    const double turn = 0.5 * borders_[i].length_px * weighted.residual(2 * i + 1) * borders_[i].slope_sigma;
+    squares += offset * offset + turn * turn;
+  }
+  return std::sqrt(squares / border_count_);
 }
 
 LinearisedResidual ImageMeasurement::evaluate(const CornerVector& predicted_px) const {

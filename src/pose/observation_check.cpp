@@ -43,17 +43,31 @@ WindowObservation startedAt(const WindowObservation& window, int first) {
   return out;
 }
 
-}  // namespace
-
-std::string faultOfPartial(const WindowObservation& window) {
+std::string missingSides(const WindowObservation& window, int sides) {
   static const char* const kNames[] = {"top", "right", "bottom", "left"};
   std::string unseen;
   for (int i = 0; i < 4; ++i)
     if (!window.edges[i].visible) unseen += std::string(unseen.empty() ? "" : ", ") + kNames[i];
-  return std::to_string(window.visibleSides()) +
-         " of 4 sides in view: " + (unseen.empty() ? "a corner is not seen" : unseen + " not seen") +
-         "; no pose from this picture alone";
+  return std::to_string(window.visibleSides()) + " of 4 sides in view: " + unseen + " not seen; " +
+         (sides == 4 ? "no pose from this picture alone" : "too few even with a prior pose");
 }
+
+std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera,
+                           const PoseParams& params, int sides) {
+  if (window.visibleSides() < sides) return missingSides(window, sides);
+  const double margin = std::max(camera.width, camera.height);
+  for (const auto& edge : window.edges) {
+    if (!edge.visible) continue;
+    if (!edge.a.allFinite() || !edge.b.allFinite()) return "a border's end is not finite";
+    if (!camera.contains(edge.a, -margin) || !camera.contains(edge.b, -margin))
+      return "a border's end lies more than an image's size outside the image";
+    const double length = (edge.b - edge.a).norm();
+    if (length < params.min_side_px) return text("border of %.2f px < %.2f px", length, params.min_side_px);
+  }
+  return "";
+}
+
+}  // namespace
 
 bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera) {
   if (window.whole()) return true;
@@ -61,14 +75,14 @@ bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera
 }
 
 std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           const PoseParams& params) {
-  if (!window.whole()) return faultOfPartial(window);
+                           const PoseParams& params, int sides) {
+  if (!window.whole()) return faultOfPartial(window, camera, params, sides);
   if (!geometry::isFinite(window.corners)) return "a corner is not finite";
   if (!isNearImage(window.corners, camera))
     return "a corner lies more than an image's size outside the image";
   if (!geometry::isConvex(window.corners)) return "corners coincide, cross or are not convex";
-  const auto sides = geometry::sideLengths(window.corners);
-  const double shortest = *std::min_element(sides.begin(), sides.end());
+  const auto lengths = geometry::sideLengths(window.corners);
+  const double shortest = *std::min_element(lengths.begin(), lengths.end());
   if (shortest < params.min_side_px) return text("side of %.2f px < %.2f px", shortest, params.min_side_px);
   for (const double angle : geometry::interiorAngles(window.corners))
     if (angle < params.min_corner_angle_rad || angle > M_PI - params.min_corner_angle_rad)

@@ -3,26 +3,22 @@
 #include <utility>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/pose/homography.hpp"
+#include "window_ingress/pose/opening_aspect.hpp"
 
 namespace window_ingress::pose {
 namespace {
 
 constexpr double kSameRotationRad = 1e-3;
 
-geometry::Quadrilateral normalisedCorners(const RefinementProblem& problem) {
-  geometry::Quadrilateral corners;
-  const auto& camera = problem.camera;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d pixel = problem.image.cornersPx().segment<2>(2 * i);
-    corners[i] = {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy};
-  }
-  return corners;
-}
-
 bool areSame(const PlanarSolution& a, const PlanarSolution& b) {
   const Eigen::Quaterniond qa(a.T_camera_window.linear()), qb(b.T_camera_window.linear());
   return qa.angularDistance(qb) < kSameRotationRad;
+}
+
+std::optional<FitPoint> startOf(const RefinementProblem& problem) {
+  if (problem.image.hasCorners()) return startFromHomography(problem);
+  if (!problem.prior) return std::nullopt;
+  return FitPoint{problem.prior->T_camera_window, Eigen::Vector2d::Zero()};
 }
 
 }  // namespace
@@ -36,14 +32,15 @@ Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) {
 }
 
 std::optional<PlanarSolutions> planarSolutions(const RefinementProblem& problem) {
-  const auto homography = windowHomography(normalisedCorners(problem), problem.opening);
-  if (!homography) return std::nullopt;
-  const auto start = poseFromHomography(*homography);
+  const auto start = startOf(problem);
   if (!start) return std::nullopt;
+  const auto mirroredStart = [&](const Eigen::Isometry3d& T) {
+    return FitPoint{mirrored(T), start->size_deviation};
+  };
   auto first = refine(problem, *start);
-  if (!first) first = refine(problem, mirrored(*start));
+  if (!first) first = refine(problem, mirroredStart(start->T_camera_window));
   if (!first) return std::nullopt;
-  auto second = refine(problem, mirrored(first->T_camera_window));
+  auto second = refine(problem, mirroredStart(first->T_camera_window));
   if (second && areSame(*first, *second)) second.reset();
   if (second && second->cost < first->cost) std::swap(*first, *second);
   return PlanarSolutions{*first, second};

@@ -6,80 +6,110 @@
 namespace window_ingress::pose {
 namespace {
 
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
+using Vector8d = Eigen::Matrix<double, 8, 1>;
+
 constexpr int kMaxIterations = 60;
 
-double reprojectionRms(const RefinementProblem& problem, const CornerVector& predicted_px) {
-  return (predicted_px - problem.image.cornersPx()).norm() / std::sqrt(8.0);
+FitPoint movedBy(const FitPoint& point, const Vector8d& step) {
+  return {moved(point.T_camera_window, step.head<6>()), point.size_deviation + step.tail<2>()};
 }
 
-Eigen::Matrix<double, 6, 1> dampedStep(const NormalEquations& equations, double damping) {
-  Matrix6d damped = equations.information;
+Vector8d dampedStep(const NormalEquations& equations, double damping) {
+  Matrix8d damped = equations.information;
   damped.diagonal() *= 1.0 + damping;
   return -damped.ldlt().solve(equations.gradient);
 }
 
 // Step and decrease below which nothing is left to gain: a millionth of the spread that the information
 // allows.
-bool hasConverged(const NormalEquations& equations, const Eigen::Matrix<double, 6, 1>& step) {
+bool hasConverged(const NormalEquations& equations, const Vector8d& step) {
   return step.dot(equations.information * step) < 1e-12 * (1.0 + equations.cost);
 }
 
+void addGravity(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window, NormalEquations& out) {
+  const GravityResidual gravity = gravityResidual(prior, R_camera_window);
+  out.cost += 0.5 * gravity.residual.squaredNorm();
+  out.information.block<3, 3>(3, 3) += gravity.by_rotation.transpose() * gravity.by_rotation;
+  out.gradient.segment<3>(3) += gravity.by_rotation.transpose() * gravity.residual;
+}
+
+double addPrior(const PosePrior& prior, const Eigen::Isometry3d& T_camera_window, NormalEquations& out) {
+  const PriorResidual off = priorResidual(prior, T_camera_window);
+  out.information.topLeftCorner<6, 6>() += off.by_pose.transpose() * off.by_pose;
+  out.gradient.head<6>() += off.by_pose.transpose() * off.residual;
+  return 0.5 * off.residual.squaredNorm();
+}
+
+std::optional<PlanarSolution> solutionAt(const RefinementProblem& problem, const FitPoint& point,
+                                         const NormalEquations& equations) {
+  const Eigen::LLT<Matrix8d> information(equations.information);
+  if (information.info() != Eigen::Success) return std::nullopt;
+  const Matrix8d covariance = information.solve(Matrix8d::Identity());
+  if (!covariance.allFinite() || !point.T_camera_window.matrix().allFinite()) return std::nullopt;
+  PlanarSolution solution;
+  solution.T_camera_window = point.T_camera_window;
+  solution.covariance = covariance.topLeftCorner<6, 6>();
+  solution.opening = openingAt(problem, point);
+  solution.opening_log_covariance =
+      problem.size_root * covariance.bottomRightCorner<2, 2>() * problem.size_root.transpose();
+  const auto predicted = predictOpening(problem.camera, point.T_camera_window, solution.opening);
+  solution.reprojection_rms_px = problem.image.rmsPx(predicted->corners_px);
+  solution.cost = equations.cost_without_gravity;
+  return solution;
+}
+
 }  // namespace
+
+geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point) {
+  return scaled(problem.opening, problem.size_root * point.size_deviation);
+}
 
 GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window) {
   const Eigen::Vector3d up = prior.up_camera.normalized(), window_up = R_camera_window.col(2);
   return {window_up.cross(up) / prior.sigma_rad, skew(up) * skew(window_up) / prior.sigma_rad};
 }
 
-std::optional<NormalEquations> linearise(const RefinementProblem& problem,
-                                         const Eigen::Isometry3d& T_camera_window) {
-  const auto predicted = predictOpening(problem.camera, T_camera_window, problem.opening);
+std::optional<NormalEquations> linearise(const RefinementProblem& problem, const FitPoint& point) {
+  const auto predicted = predictOpening(problem.camera, point.T_camera_window, openingAt(problem, point));
   if (!predicted) return std::nullopt;
   const LinearisedResidual image = problem.image.evaluate(predicted->corners_px);
-  const ResidualJacobian<6> by_pose = image.by_corners.lazyProduct(predicted->by_pose);
+  Matrix8d by_parameters;
+  by_parameters << predicted->by_pose, predicted->by_log_size * problem.size_root;
+  const ResidualJacobian<8> jacobian = image.by_corners.lazyProduct(by_parameters);
   NormalEquations equations;
-  equations.image_cost = equations.cost = 0.5 * image.residual.squaredNorm();
-  equations.information = by_pose.transpose().lazyProduct(by_pose);
-  equations.gradient = by_pose.transpose().lazyProduct(image.residual);
-  if (problem.gravity) {
-    const GravityResidual gravity = gravityResidual(*problem.gravity, T_camera_window.linear());
-    equations.cost += 0.5 * gravity.residual.squaredNorm();
-    equations.information.bottomRightCorner<3, 3>() += gravity.by_rotation.transpose() * gravity.by_rotation;
-    equations.gradient.tail<3>() += gravity.by_rotation.transpose() * gravity.residual;
-  }
+  equations.information = jacobian.transpose().lazyProduct(jacobian);
+  equations.gradient = jacobian.transpose().lazyProduct(image.residual);
+  equations.information.diagonal().tail<2>().array() += 1.0;
+  equations.gradient.tail<2>() += point.size_deviation;
+  equations.cost = 0.5 * (image.residual.squaredNorm() + point.size_deviation.squaredNorm());
+  if (problem.prior) equations.cost += addPrior(*problem.prior, point.T_camera_window, equations);
+  equations.cost_without_gravity = equations.cost;
+  if (problem.gravity) addGravity(*problem.gravity, point.T_camera_window.linear(), equations);
   if (!equations.information.allFinite() || !equations.gradient.allFinite()) return std::nullopt;
   return equations;
 }
 
-std::optional<PlanarSolution> refine(const RefinementProblem& problem, const Eigen::Isometry3d& start) {
-  Eigen::Isometry3d pose = start;
-  auto equations = linearise(problem, pose);
+std::optional<PlanarSolution> refine(const RefinementProblem& problem, const FitPoint& start) {
+  FitPoint point = start;
+  auto equations = linearise(problem, point);
   if (!equations) return std::nullopt;
   double damping = 1e-4;
   for (int iteration = 0; iteration < kMaxIterations && damping < 1e12; ++iteration) {
-    const Eigen::Matrix<double, 6, 1> step = dampedStep(*equations, damping);
+    const Vector8d step = dampedStep(*equations, damping);
     if (!step.allFinite()) return std::nullopt;
     if (hasConverged(*equations, step)) break;
-    const Eigen::Isometry3d tried = moved(pose, step);
+    const FitPoint tried = movedBy(point, step);
     const auto tried_equations = linearise(problem, tried);
     if (tried_equations && tried_equations->cost < equations->cost) {
-      pose = tried;
+      point = tried;
       equations = tried_equations;
       damping = std::max(0.1 * damping, 1e-12);
     } else {
       damping *= 10.0;
     }
   }
-  const Eigen::LLT<Matrix6d> information(equations->information);
-  if (information.info() != Eigen::Success) return std::nullopt;
-  PlanarSolution solution;
-  solution.T_camera_window = pose;
-  solution.covariance = information.solve(Matrix6d::Identity());
-  solution.reprojection_rms_px =
-      reprojectionRms(problem, predictOpening(problem.camera, pose, problem.opening)->corners_px);
-  solution.cost = equations->image_cost;
-  if (!solution.covariance.allFinite() || !pose.matrix().allFinite()) return std::nullopt;
-  return solution;
+  return solutionAt(problem, point, *equations);
 }
 
 }  // namespace window_ingress::pose

@@ -44,16 +44,22 @@ class ImageMeasurement {
 
   LinearisedResidual evaluate(const CornerVector& predicted_px) const;
 
-  /// Measured, undistorted; all zero of a partial observation.
+  /// Distance of the prediction, root mean square [px]: per coordinate of the corners; of a partial
+  /// observation, across the borders at the ends of what was seen of them.
+  double rmsPx(const CornerVector& predicted_px) const;
+
+  /// Measured, undistorted; of a partial observation where its four borders cross.
   const CornerVector& cornersPx() const { return corners_px_; }
+  bool hasCorners() const { return has_corners_; }  ///< false: a border is missing, the corners are zero
   int size() const { return 2 * (border_count_ > 0 ? border_count_ : 4); }
+  int borders() const { return border_count_; }  ///< 0: corners are used instead
   bool complete() const { return size() == 8; }
 
  private:
   struct Border {
     int side;
     Eigen::Vector2d middle, along, across;
-    double offset_sigma_px, slope_sigma;
+    double length_px, offset_sigma_px, slope_sigma;
   };
   static std::optional<ImageMeasurement> ofPartial(const detection::WindowObservation& window,
                                                    const geometry::PinholeCamera& camera,
@@ -61,11 +67,13 @@ class ImageMeasurement {
   /// \param from,to points of the border, undistorted \param scale undistorted pixels a pixel
   bool addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
                  const Eigen::Vector2d& to, double scale, const ImageNoise& noise);
+  bool cross();
   void addCorner(const Eigen::Matrix2d& covariance, int corner, const ImageNoise& noise);
   void evaluateBorder(const Border& border, const CornerVector& predicted_px, int row,
                       LinearisedResidual& out) const;
 
   CornerVector corners_px_ = CornerVector::Zero();
+  bool has_corners_ = true;
   int border_count_ = 0;  ///< 0: corners are used instead
   std::array<Border, 4> borders_;
   std::array<Eigen::Matrix2d, 4> corner_weights_;

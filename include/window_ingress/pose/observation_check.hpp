@@ -9,9 +9,10 @@
 namespace window_ingress::pose {
 
 /// What is wrong with the corners of an observation, with numbers; empty if a pose can be tried. A partial
-/// observation has its reason, too: one picture of it gives no pose.
+/// observation with less than four borders has its reason, too: alone it gives no pose.
+/// \param sides least number of visible borders of a partial observation: 4, or 2 with a prior pose
 std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                           const PoseParams& params);
+                           const PoseParams& params, int sides = 4);
 
 /// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
 /// ones are put upright.

@@ -4,8 +4,10 @@ namespace window_ingress::pose {
 
 /// Parameters of `WindowPoseEstimator`. Sizes are those of the opening's front inner border.
 struct PoseParams {
-  double opening_width_m = 1.2;       ///< known inner width of the opening [m]
-  double opening_height_m = 1.0;      ///< known inner height of the opening [m]
+  double opening_width_m = 1.2;       ///< inner width of the opening [m]
+  double opening_height_m = 1.0;      ///< inner height of the opening [m]
+  double scale_sigma = 0.0;           ///< relative spread of both together; 0: their scale is known [-]
+  double aspect_sigma = 0.0;          ///< relative spread of width over height; 0: it is known [-]
   double systematic_sigma_px = 0.15;  ///< error of a corner that does not average out: lens, sill, blur [px]
   double unknown_corner_sigma_px = 1.0;  ///< taken where an observation brings no usable covariance [px]
   double max_reprojection_rms_px = 3.0;  ///< worst fit that is believed, root mean square per coordinate [px]
@@ -22,6 +24,8 @@ struct PoseParams {
   static void visit(Self& self, Visitor&& field) {
     field("opening_width_m", self.opening_width_m, 0.1, 10.0);
     field("opening_height_m", self.opening_height_m, 0.1, 10.0);
+    field("scale_sigma", self.scale_sigma, 0.0, 2.0);
+    field("aspect_sigma", self.aspect_sigma, 0.0, 2.0);
     field("systematic_sigma_px", self.systematic_sigma_px, 0.001, 10.0);
     field("unknown_corner_sigma_px", self.unknown_corner_sigma_px, 0.01, 20.0);
     field("max_reprojection_rms_px", self.max_reprojection_rms_px, 0.1, 50.0);

@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/pose/gravity_prior.hpp"
 #include "window_ingress/pose/image_measurement.hpp"
+#include "window_ingress/pose/pose_prior.hpp"
+#include "window_ingress/pose/size_belief.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
 
 namespace window_ingress::pose {
@@ -15,25 +16,37 @@ namespace window_ingress::pose {
 struct RefinementProblem {
   const ImageMeasurement& image;
   const geometry::PinholeCamera& camera;
-  geometry::OpeningSize opening;
-  std::optional<GravityPrior> gravity;
+  geometry::OpeningSize opening;  ///< the size that is known, or believed
+  std::optional<GravityPrior> gravity = std::nullopt;
+  std::optional<PosePrior> prior = std::nullopt;
+  Eigen::Matrix2d size_root = Eigen::Matrix2d::Zero();  ///< `rootOf` what is believed of it; zero: known
 };
 
-/// Cost of a pose with the normal equations at it; 6 parameters as in `moved`.
+/// What is fitted: a pose, and the opening's size in spreads of what is believed of it (unit variance each;
+/// without effect where the size is known).
+struct FitPoint {
+  Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();
+  Eigen::Vector2d size_deviation = Eigen::Vector2d::Zero();
+};
+
+geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint& point);
+
+/// Cost of a point with the normal equations at it: six parameters of the pose as in `moved`, two of the
+/// size.
 struct NormalEquations {
-  double cost = 0.0;        ///< half the sum of squared residuals, gravity included
-  double image_cost = 0.0;  ///< without gravity
-  Matrix6d information = Matrix6d::Zero();
-  Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+  double cost = 0.0;                  ///< half the sum of squared residuals, gravity included
+  double cost_without_gravity = 0.0;  ///< that of the image, the prior and the size
+  Eigen::Matrix<double, 8, 8> information = Eigen::Matrix<double, 8, 8>::Zero();
+  Eigen::Matrix<double, 8, 1> gradient = Eigen::Matrix<double, 8, 1>::Zero();
 };
 
 /// Nothing if a corner does not lie in front of the camera.
-std::optional<NormalEquations> linearise(const RefinementProblem& problem,
-                                         const Eigen::Isometry3d& T_camera_window);
+std::optional<NormalEquations> linearise(const RefinementProblem& problem, const FitPoint& point);
 
 /// The local maximum of the likelihood next to `start`, by Levenberg-Marquardt; covariance by the inverse of
-/// the information matrix. Nothing if the start is behind the camera or the information is singular.
-std::optional<PlanarSolution> refine(const RefinementProblem& problem, const Eigen::Isometry3d& start);
+/// the information matrix, the size's part of it marginalised. Nothing if the start is behind the camera or
+/// the information is singular.
+std::optional<PlanarSolution> refine(const RefinementProblem& problem, const FitPoint& start);
 
 /// Cross product of the window's up with gravity's, weighted; and by rotation about the camera's axes.
 struct GravityResidual {

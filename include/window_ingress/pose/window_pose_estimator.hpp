@@ -7,6 +7,8 @@
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/pose/gravity_prior.hpp"
 #include "window_ingress/pose/pose_params.hpp"
+#include "window_ingress/pose/pose_prior.hpp"
+#include "window_ingress/pose/size_belief.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
 
 namespace window_ingress::pose {
@@ -31,15 +33,26 @@ struct PoseResult {
   std::string detail;  ///< with numbers, for people: "reprojection 4.2 px > 3.0 px"
 };
 
+/// What else may be known of the window when an image of it is taken. What is not usable is ignored.
+struct PoseHints {
+  std::optional<GravityPrior> gravity = std::nullopt;
+  /// Where it is expected; with it two or three visible sides give a pose. Its own errors must not come from
+  /// this image.
+  std::optional<PosePrior> prior = std::nullopt;
+  std::optional<SizeBelief> size = std::nullopt;  ///< instead of the parameters' size
+};
+
 /// One observation and a calibration to the relative pose (P11, P12). Stateless.
 class WindowPoseEstimator {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
   explicit WindowPoseEstimator(const PoseParams& params);
 
-  /// \param window all four borders seen; corners in any cyclic order (they are put upright: by gravity,
-  /// without it by
-  ///        the camera's own up)
+  /// \param window its corners in any cyclic order (they are put upright: by gravity, without it by the
+  ///        camera's own up); or, of a partial view, four visible borders, or two with a prior pose
+  PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                      const PoseHints& hints) const;
+
   /// \param gravity ignored if it is not usable (not finite, no direction, no spread)
   PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                       const std::optional<GravityPrior>& gravity = std::nullopt) const;

@@ -111,11 +111,13 @@ TEST(Jacobians, CostByPose) {
     const auto lens = camera();
     const RefinementProblem problem{image, lens, kOpening, GravityPrior{}};
     const auto off = moved(T, 0.01 * Vector6d::Random());
-    const auto equations = linearise(problem, off).value();
+    const FitPoint at{off, Eigen::Vector2d::Zero()};
+    const auto equations = linearise(problem, at).value();
     for (int k = 0; k < 6; ++k) {
       const Vector6d h = kStep * Vector6d::Unit(k);
-      const double numeric =
-          (linearise(problem, moved(off, h))->cost - linearise(problem, moved(off, -h))->cost) / (2 * kStep);
+      const double numeric = (linearise(problem, {moved(off, h), at.size_deviation})->cost -
+                              linearise(problem, {moved(off, -h), at.size_deviation})->cost) /
+                             (2 * kStep);
       EXPECT_NEAR(numeric, equations.gradient(k), 1e-4 * (1.0 + std::abs(numeric))) << k;
     }
   }

@@ -65,7 +65,7 @@ TEST(PlanarSolutions, TheBestIsTheGlobalMinimum) {
     ASSERT_TRUE(solutions);
     auto start = T;
     for (int k = 0; k < 4; ++k) {
-      const auto other = refine(problem, start);
+      const auto other = refine(problem, FitPoint{start, Eigen::Vector2d::Zero()});
       if (other && other->cost < solutions->best.cost - 1e-6) ++beaten;
       start.linear() = T.linear() * geometry::rotationFromEuler({0, tilt(random), angle(random)});
     }
