@@ -1,6 +1,7 @@
 #include "window_ingress/detection/detection_trace.hpp"
 
 #include <cstdio>
+#include <cstring>
 
 namespace window_ingress::detection {
 namespace {
@@ -47,6 +48,10 @@ Wording wording(RejectReason reason) {
       return {"pane", "within a larger loop that counts", ""};
     case RejectReason::kAppearance:
       return {"appearance", "Bhattacharyya distance", ">"};
+    case RejectReason::kOtherAspect:
+      return {"other_aspect", "misfit of the reference's aspect [sigma]", ">"};
+    case RejectReason::kOtherFrame:
+      return {"other_frame", "width of the frame over the reference's", "outside"};
     case RejectReason::kScore:
       return {"score", "score", "<"};
     case RejectReason::kOutscored:
@@ -76,7 +81,7 @@ const char* toString(CandidateSource source) {
 std::string describe(const CandidateTrace& candidate) {
   const Wording words = wording(candidate.reject);
   const char* relation = words.relation;
-  if (candidate.reject == RejectReason::kAspect) relation = candidate.value > candidate.limit ? ">" : "<";
+  if (std::strcmp(relation, "outside") == 0) relation = candidate.value > candidate.limit ? ">" : "<";
   char text[96];
   if (candidate.reject == RejectReason::kNone)
     std::snprintf(text, sizeof text, "target, score %.2f", candidate.score);

@@ -12,8 +12,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
-constexpr double kSkip = 0.08;    ///< left out at both ends of it
-constexpr int kMostSteps = 120;   ///< across a side
 constexpr double kClear = 0.006;  ///< nearer to a border colours are mixed [mean sides]
 constexpr double kStrongerExponent =
     0.2;  ///< of a border's contrast over the strongest one's across its side
@@ -31,25 +29,6 @@ constexpr double kEvenFrame = 2.2;        ///< widest over narrowest side of a f
 constexpr double kLeastChange =
     3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
 
-double meanSide(const Quadrilateral& quad) {
-  const auto sides = geometry::sideLengths(quad);
-  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
-}
-
-// Point of the unit square's plane beside side `i`, t along it, `out` from it in sides across.
-Vector2d beside(int i, double t, double out) {
-  switch (i) {
-    case geometry::kTop:
-      return {t, -out};
-    case geometry::kRight:
-      return {1.0 + out, t};
-    case geometry::kBottom:
-      return {1.0 - t, 1.0 + out};
-    default:
-      return {-out, 1.0 - t};
-  }
-}
-
 Vector3f features(const Vector3f& bgr) {
   const float sum = bgr.sum() + 12.0F;
   return {(bgr[2] + 4.0F) / sum, (bgr[1] + 4.0F) / sum, std::log(sum)};
@@ -60,47 +39,8 @@ Vector3f features(const Vector3f& bgr) {
 // The profiles of all four sides.
 void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
                                const geometry::PinholeCamera* lens, double aspect, const Effort& effort) {
-  const UnitSquare map(ideal);
-  const double side_px = meanSide(ideal);
-  const double width = 2.0 * aspect / (1.0 + aspect), height = 2.0 / (1.0 + aspect);  // in mean sides
-  const int steps =
-      std::clamp(static_cast<int>((params_.inward + params_.outward) * side_px), 12, effort.across);
-  const double right = image.cols - 0.5, bottom = image.rows - 0.5;
-  for (int i = 0; i < 4; ++i) {
-    SideProfile& profile = sides_[i];
-    profile.first = -params_.inward;
-    profile.step = (params_.inward + params_.outward) / steps;
-    profile.means.clear();
-    const double across = i % 2 ? width : height;
-    for (int k = 0; k < steps; ++k) {
-      Vector3f sum = Vector3f::Zero();
-      int count = 0;
-      for (int n = 0; n < effort.along; ++n) {
-        const double t = kSkip + (1.0 - 2.0 * kSkip) * (n + 0.5) / effort.along;
-        Vector2d p = map.toImage(beside(i, t, profile.at(k) / across));
-        if (lens) p = lens->distort(p);
-        if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
-        const cv::Vec3b& pixel =
-            image.ptr<cv::Vec3b>(static_cast<int>(p.y() + 0.5))[static_cast<int>(p.x() + 0.5)];
-        sum += Vector3f(pixel[0], pixel[1], pixel[2]);
-        ++count;
-      }
-      if (count < effort.along / 3) break;
-      profile.means.push_back(sum / static_cast<float>(count));
-    }
-  }
-}
-
-// Mean colour between two distances; false where the profile does not reach.
-bool ReferenceBorders::mean(const SideProfile& profile, double from, double to, Vector3f& colour) {
-  const int count = static_cast<int>(profile.means.size());
-  const int first = static_cast<int>(std::ceil((from - profile.first) / profile.step - 1e-9));
-  const int last = std::max(first, static_cast<int>(std::floor((to - profile.first) / profile.step)));
-  if (first < 0 || last >= count) return false;
-  colour.setZero();
-  for (int k = first; k <= last; ++k) colour += profile.means[k];
-  colour /= static_cast<float>(last - first + 1);
-  return true;
+  const ProfileReach reach{params_.inward, params_.outward, aspect, effort.along, effort.across};
+  measureSides(image, ideal, lens, reach, sides_);
 }
 
 // Features of the bands outwards from a border, brightness relative to the outermost; false if the profile
@@ -110,7 +50,7 @@ bool ReferenceBorders::bandsFrom(const SideProfile& profile, double border, Band
   int filled = 0;
   for (Vector3f colour; filled < kBands; ++filled) {
     const double from = border + filled * kBandWidth;
-    if (!mean(profile, from + (filled == 0 ? kClear : 0.0), from + kBandWidth, colour)) break;
+    if (!profile.mean(from + (filled == 0 ? kClear : 0.0), from + kBandWidth, colour)) break;
     bands[filled] = features(colour);
   }
   if (filled < 2) return false;
@@ -135,7 +75,7 @@ bool ReferenceBorders::holdsFrame(const std::array<double, 4>& borders) const {
       const double change = (profile.means[k + 1] - profile.means[k - 1]).norm();
       if (change > strongest) strongest = change, width = depth;
     }
-    if (width == 0.0 || !mean(profile, borders[i] - 0.7 * width, borders[i] - 0.3 * width, colours[i]))
+    if (width == 0.0 || !profile.mean(borders[i] - 0.7 * width, borders[i] - 0.3 * width, colours[i]))
       return false;
     colours[i] = features(colours[i]);
     least = std::min(least, width), most = std::max(most, width);
@@ -156,11 +96,11 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
   for (int i = 0; i < 4; ++i) {
     Vector3f outermost, within;
     if (!bandsFrom(sides_[i], 0.0, reference_[i], &outermost)) return;
-    if (!mean(sides_[i], -kBandWidth, -kClear, within)) return;
+    if (!sides_[i].mean(-kBandWidth, -kClear, within)) return;
     reference_within_[i] = features(within);
     reference_within_[i][2] -= outermost[2];
     double end = 0.0;
-    const double contrast = largestChange(sides_[i], kThinnestFrame, kBands * kBandWidth, &end);
+    const double contrast = sides_[i].largestChange(kThinnestFrame, kBands * kBandWidth, &end);
     frame_widths_[i] = contrast > params_.contrast_full ? end : 0.0;
     frame += 0.25 * difference(reference_[i][1], reference_[i][kBands - 1]);
   }
@@ -173,30 +113,14 @@ double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const 
          params_.brightness_weight * std::min(1.0F, std::abs(a[2] - b[2]));
 }
 
-// Largest change of colour within a stretch of a profile, and where.
-double ReferenceBorders::largestChange(const SideProfile& profile, double from, double to, double* place) {
-  const int count = static_cast<int>(profile.means.size());
-  const int first = std::max(1, static_cast<int>(std::floor((from - profile.first) / profile.step)));
-  const int last = std::min(count - 2, static_cast<int>(std::ceil((to - profile.first) / profile.step)));
-  double most = 0.0;
-  for (int k = first; k <= last; ++k) {
-    const double change = (profile.means[k + 1] - profile.means[k - 1]).norm();
-    if (change > most) {
-      most = change;
-      if (place) *place = profile.at(k);
-    }
-  }
-  return most;
-}
-
 // How far the frame ends as far outside as in the reference: 1 it does; where the reference shows no end,
 // always.
 double ReferenceBorders::frameEnds(int side, double border) const {
   if (frame_widths_[side] <= 0.0) return 1.0;
   const SideProfile& profile = sides_[side];
   const double end = border + frame_widths_[side];
-  const double there = largestChange(profile, end - 0.5 * profile.step, end + 0.5 * profile.step, nullptr);
-  const double near = largestChange(profile, end - kEndReach, end + kEndReach, nullptr);
+  const double there = profile.largestChange(end - 0.5 * profile.step, end + 0.5 * profile.step);
+  const double near = profile.largestChange(end - kEndReach, end + kEndReach);
   return kWithoutEnd +
          (1.0 - kWithoutEnd) * (near > kLeastChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
 }
@@ -207,22 +131,19 @@ double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
   const Bands& wanted = reference_[side];
   const int count = static_cast<int>(profile.means.size());
-  const auto change = [&](int k) {
-    return k < 1 || k + 1 >= count ? 0.0F : (profile.means[k + 1] - profile.means[k - 1]).norm();
-  };
   double strongest = 1.0;
-  for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(change(k)));
+  for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(profile.change(k)));
   const bool framed = !frameless_ && frame_widths_[side] > 0.0;
   double best = 0.0;
   Bands bands;
   for (int k = 1; k + 1 < count; ++k) {
-    const double here = change(k);
+    const double here = profile.change(k);
     const double at = profile.at(k);
-    const bool peak = here >= kLeastChange && here >= change(k - 1) && here >= change(k + 1);
+    const bool peak = here >= kLeastChange && here >= profile.change(k - 1) && here >= profile.change(k + 1);
     const double ends = framed ? frameEnds(side, at) : 1.0;
     if (!peak && !(framed && ends > kSureEnd)) continue;
     Vector3f within, outermost;
-    if (!bandsFrom(profile, at, bands, &outermost) || !mean(profile, at - kBandWidth, at - kClear, within))
+    if (!bandsFrom(profile, at, bands, &outermost) || !profile.mean(at - kBandWidth, at - kClear, within))
       continue;
     double unlike = 0.0;
     for (int b = 0; b < kBands; ++b) unlike += difference(bands[b], wanted[b]) / kBands;

@@ -7,6 +7,7 @@
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/candidate_search.hpp"
 #include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/reference_shape.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::detection {
@@ -70,7 +71,12 @@ double updated(double score, double odds) {
 
 struct WindowDetector::Impl {
   explicit Impl(const DetectorParams& p)
-      : params(p), search(p), nested(p.nested), borders(p.borders), refinement(p.refinement) {}
+      : params(p),
+        search(p),
+        nested(p.nested),
+        borders(p.borders),
+        shape(p.shape),
+        refinement(p.refinement) {}
 
   void learnReference();
   std::vector<std::size_t> places();
@@ -82,6 +88,8 @@ struct WindowDetector::Impl {
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
   std::optional<Rejection> objection(const Rival& rival) const;
+  std::optional<Rejection> objectionToShape(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                            const RefinedBorders& fitted);
   std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
   WindowObservation observe(const Rival& rival, const RefinedBorders& fitted, double stamp_sec) const;
@@ -94,6 +102,7 @@ struct WindowDetector::Impl {
   CandidateSearch search;
   NestedLoops nested;
   ReferenceBorders borders;
+  ReferenceShape shape;
   BorderRefinement refinement;
   std::optional<ReferenceAppearance> reference;
   DetectionTrace trace;
@@ -102,8 +111,10 @@ struct WindowDetector::Impl {
 
 void WindowDetector::Impl::learnReference() {
   borders.forget();
-  if (reference && imageFault(reference->picture()).empty())
-    borders.learn(reference->picture(), reference->opening());
+  shape.forget();
+  if (!reference || !imageFault(reference->picture()).empty()) return;
+  borders.learn(reference->picture(), reference->opening());
+  shape.learn(reference->picture(), reference->opening());
 }
 
 // Of all loops about the same place the likeliest ones; the others are variants of them.
@@ -210,6 +221,16 @@ std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) con
   return std::nullopt;
 }
 
+std::optional<Rejection> WindowDetector::Impl::objectionToShape(const cv::Mat& image,
+                                                                const geometry::PinholeCamera* camera,
+                                                                const RefinedBorders& fitted) {
+  if (const auto off = shape.inAspect(fitted.corners, fitted.corner_covariance, camera))
+    return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
+  if (const auto off = shape.inFrame(image, fitted.corners, camera))
+    return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
+  return std::nullopt;
+}
+
 std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, const cv::Mat& image,
                                                            const geometry::PinholeCamera* camera,
                                                            double& inliers) const {
@@ -251,6 +272,10 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
       const auto fitted = refine(rival, image, camera, inliers);
       if (!fitted) {
         record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        continue;
+      }
+      if (const auto fault = objectionToShape(image, camera, *fitted)) {
+        record(rival, fault->reason, fault->value, fault->limit);
         continue;
       }
       window = observe(rival, *fitted, stamp_sec);
@@ -303,7 +328,7 @@ void WindowDetector::setReference(const ReferenceAppearance& reference) {
 
 void WindowDetector::clearReference() {
   impl_->reference.reset();
-  impl_->borders.forget();
+  impl_->learnReference();
 }
 
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,

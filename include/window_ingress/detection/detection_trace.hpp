@@ -26,6 +26,8 @@ enum class RejectReason {
   kDuplicate,    ///< the same loop as a better candidate
   kPane,         ///< a part of a larger window: pane between mullions, border behind the opening
   kAppearance,   ///< its frame does not look like the reference
+  kOtherAspect,  ///< of another aspect than the reference
+  kOtherFrame,   ///< its frame is wider or narrower than the reference's
   kScore,        ///< score below the limit
   kOutscored,    ///< a fair window, but another one is better
   kBudget        ///< not looked at: too many candidates in one image

@@ -10,6 +10,7 @@
 #include "window_ingress/detection/preprocess.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/reference_shape.hpp"
 #include "window_ingress/detection/segment_quads.hpp"
 #include "window_ingress/detection/side_support.hpp"
 #include "window_ingress/detection/track_params.hpp"
@@ -31,6 +32,7 @@ struct DetectorParams {
   WindowScoreParams score;
   NestedLoopsParams nested;
   ReferenceBordersParams borders;
+  ReferenceShapeParams shape;
   AppearanceParams appearance;
   BorderRefinementParams refinement;
   TrackParams track;
@@ -51,6 +53,7 @@ struct DetectorParams {
     field.group("score", self.score);
     field.group("nested", self.nested);
     field.group("borders", self.borders);
+    field.group("shape", self.shape);
     field.group("appearance", self.appearance);
     field.group("refinement", self.refinement);
     field.group("track", self.track);

@@ -4,8 +4,8 @@
 #include <array>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <vector>
 
+#include "window_ingress/detection/side_profile.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -30,16 +30,6 @@ struct ReferenceBordersParams {
     field("uniform_frame", self.uniform_frame, 0.0, 10.0);
     field("brightness_weight", self.brightness_weight, 0.0, 10.0);
   }
-};
-
-/// Colours across one side of a loop, from the inside outwards: means along the side.
-struct SideProfile {
-  double first =
-      0.0;  ///< distance of the first mean from the loop, outwards positive [mean sides of the opening]
-  double step = 0.0;                   ///< between two means
-  std::vector<Eigen::Vector3f> means;  ///< BGR
-
-  double at(int i) const { return first + i * step; }
 };
 
 /// Which of the borders that lie in each other, frame's outer and inner one, far edge of the reveal, panes,
@@ -81,12 +71,10 @@ class ReferenceBorders {
 
   void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal,
                const geometry::PinholeCamera* lens, double aspect, const Effort& effort);
-  static bool mean(const SideProfile& profile, double from, double to, Eigen::Vector3f& colour);
   bool bandsFrom(const SideProfile& profile, double border, Bands& bands,
                  Eigen::Vector3f* outermost = nullptr) const;
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
-  static double largestChange(const SideProfile& profile, double from, double to, double* place);
   double frameEnds(int side, double border) const;
   bool holdsFrame(const std::array<double, 4>& borders) const;
 

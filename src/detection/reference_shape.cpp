@@ -1,0 +1,143 @@
+#include "window_ingress/detection/reference_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "window_ingress/detection/rectangle_misfit.hpp"
+#include "window_ingress/detection/unit_square.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3f;
+using geometry::PinholeCamera;
+using geometry::Quadrilateral;
+
+constexpr double kInward = 0.02, kOutward = 0.36;         ///< of the profiles [mean sides of the opening]
+constexpr double kThinnest = 0.015, kWidest = 0.14;       ///< frame [mean sides of the opening]
+constexpr double kBlur_px = 3.0;  ///< nearer to the border its own edge shows
+constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;  ///< where the wall is, in widths of the frame
+constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;          ///< and the frame's own colour
+constexpr float kLeastContrast = 20.0F;                   ///< of frame and wall [grey levels]
+constexpr std::size_t kFewestSides = 3;
+constexpr double kScatter = 0.1;                               ///< of the difference of the middle two widths
+constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the picture
+
+// NaN for what is no rectangle's picture.
+double aspectOf(const Quadrilateral& ideal, const PinholeCamera& camera) {
+  Quadrilateral rays = ideal;
+  for (Vector2d& p : rays) p = {(p.x() - camera.cx) / camera.fx, (p.y() - camera.cy) / camera.fy};
+  const Eigen::Matrix3d map = UnitSquare(rays).matrix();
+  return map.col(0).norm() / map.col(1).norm();
+}
+
+double meanSide(const Quadrilateral& quad) {
+  const auto sides = geometry::sideLengths(quad);
+  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
+}
+
+Quadrilateral undistorted(Quadrilateral quad, const PinholeCamera* lens) {
+  if (lens)
+    for (Vector2d& corner : quad) corner = lens->undistort(corner);
+  return quad;
+}
+
+// Width of the frame beside the border at 0, edge to edge whatever the blur: colours between frame and wall
+// count by their part of frame. 0 where frame and wall cannot be told apart.
+double paintedWidth(const SideProfile& side, double expected) {
+  Vector3f wall;
+  if (!side.mean(kSurroundFrom * expected, kSurroundTo * expected, wall)) return 0.0;
+  float contrast = 0.0F;
+  int core = -1;
+  const int count = static_cast<int>(side.means.size());
+  for (int k = 0; k < count && side.at(k) <= kCoreTo * expected; ++k)
+    if (side.at(k) >= kCoreFrom * expected && (side.means[k] - wall).norm() > contrast)
+      contrast = (side.means[k] - wall).norm(), core = k;
+  if (contrast < kLeastContrast) return 0.0;
+  const Vector3f direction = (side.means[core] - wall) / (contrast * contrast);
+  double width = side.at(core) - 0.5 * side.step;
+  for (int k = core; k < count && side.at(k) < kSurroundFrom * expected; ++k)
+    width += side.step * std::clamp(direction.dot(side.means[k] - wall), 0.0F, 1.0F);
+  return width;
+}
+
+// Mean of the two middle ones, whose difference is part of its spread.
+Measured middleOf(std::vector<double>& values, double least_sigma) {
+  std::sort(values.begin(), values.end());
+  const double low = values[(values.size() - 1) / 2], high = values[values.size() / 2];
+  return {0.5 * (low + high), std::hypot(least_sigma, kScatter * (high - low))};
+}
+
+}  // namespace
+
+void ReferenceShape::learn(const cv::Mat& picture, const Quadrilateral& opening) {
+  forget();
+  if (picture.empty() || !geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
+  double least = 1e9, most = 0.0;
+  for (double focal : kFocalLengths) {
+    PinholeCamera camera;
+    camera.fx = camera.fy = focal * std::max(picture.cols, picture.rows);
+    camera.cx = 0.5 * (picture.cols - 1), camera.cy = 0.5 * (picture.rows - 1);
+    const double aspect = aspectOf(opening, camera);
+    least = std::min(least, aspect), most = std::max(most, aspect);
+  }
+  if (!(most > 0.0 && most < 1e9)) return;
+  aspect_ = Measured{std::sqrt(least * most), 0.5 * (most - least)};
+  seen_aspect_ = geometry::aspectRatio(opening);
+  if (picture.type() != CV_8UC3) return;
+  measureSides(picture, opening, nullptr, {kInward, kOutward, seen_aspect_}, sides_);
+  const double thinnest = std::max(kThinnest, kBlur_px / meanSide(opening));
+  for (int i = 0; i < 4; ++i) {
+    double end = 0.0;
+    if (sides_[i].largestChange(thinnest, kWidest, &end) < kLeastContrast) continue;
+    frame_[i] = paintedWidth(sides_[i], end);
+  }
+}
+
+std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
+    const Quadrilateral& corners, const std::array<Eigen::Matrix2d, 4>& covariance,
+    const PinholeCamera* camera) const {
+  if (!params_.compare || !aspect_ || !camera) return std::nullopt;
+  RectangleMisfit misfit;
+  misfit.aspect = aspect_->value;
+  misfit.log_aspect_sigma = std::max(params_.aspect_sigma, aspect_->sigma / aspect_->value);
+  misfit.least_px = params_.corner_px;
+  const auto seen =
+      misfit.of(undistorted(corners, camera->hasDistortion() ? camera : nullptr), covariance, *camera);
+  if (!seen || *seen <= params_.sigmas) return std::nullopt;
+  return Difference{*seen, params_.sigmas};
+}
+
+std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Quadrilateral& corners,
+                                                   const PinholeCamera* camera) {
+  if (image.type() != CV_8UC3 || !geometry::isFinite(corners) || !geometry::isConvex(corners))
+    return std::nullopt;
+  if (*std::max_element(frame_.begin(), frame_.end()) <= 0.0) return std::nullopt;
+  const PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  const Quadrilateral ideal = undistorted(corners, lens);
+  measureSides(image, ideal, lens, {kInward, kOutward, seen_aspect_}, sides_);
+  std::vector<double> ratios;
+  double widths = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    if (frame_[i] <= 0.0) continue;
+    const double width = paintedWidth(sides_[i], frame_[i]);
+    if (width > 0.0) ratios.push_back(width / frame_[i]), widths += frame_[i];
+  }
+  if (ratios.size() < kFewestSides) return std::nullopt;
+  return middleOf(ratios, params_.frame_px * static_cast<double>(ratios.size()) / (widths * meanSide(ideal)));
+}
+
+std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat& image,
+                                                                  const Quadrilateral& corners,
+                                                                  const PinholeCamera* camera) {
+  if (!params_.compare) return std::nullopt;
+  const auto seen = frameRatio(image, corners, camera);
+  if (!seen) return std::nullopt;
+  const double spread = params_.frame_slack + params_.sigmas * seen->sigma;
+  if (std::abs(seen->value - 1.0) <= spread) return std::nullopt;
+  return Difference{seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};
+}
+
+}  // namespace window_ingress::detection
