@@ -9,8 +9,9 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr float kFaintest = 0.5f;     // slope that may be an edge [grey levels a pixel]
-constexpr double kPartedSigma = 0.5;  // of the distance between the edges of a reveal that look like one
+constexpr float kFaintest = 0.5f;  // slope that may be an edge [grey levels a pixel]
+constexpr int kLeastProfiles = 4;
+constexpr double kSigmas = 2.0;  // of a difference between the halves of a side
 constexpr int kNoPeak = 1 << 20;
 constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
 constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
@@ -105,19 +106,37 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
   const double independent = std::max(2.0, border.inliers * std::min(1.0, spacing_px / kCorrelationPx) - 2.0);
   border.sigma_px =
       std::hypot(limits.sigma_floor_px, std::sqrt(squares / std::max(1, border.inliers) / independent));
-  border.sigma_px = std::hypot(border.sigma_px, kPartedSigma * parted(border.line));
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
 }
 
-// How far the edges of a reveal that look like one are apart.
-double BorderFit::parted(const OffsetLine& line) const {
+// Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
+// part along it; as a whole where a half alone does not tell.
+bool BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
+  const int count = profiles_->count(), middle = count / 2;
+  const DoubleEdge edge = frontOf(limits, border.line, 0, count);
+  border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
+  border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
+  if (!(edge.apart > 0.0)) return false;
+  const DoubleEdge first = frontOf(limits, border.line, 0, middle),
+                   last = frontOf(limits, border.line, middle, count);
+  const double apart = std::abs(last.front - first.front);
+  if (first.apart > 0.0 && last.apart > 0.0 && apart > kSigmas * std::hypot(first.sigma_px, last.sigma_px)) {
+    const double at = profiles_->position(middle / 2), to = profiles_->position((middle + count) / 2);
+    const double slope = (last.front - first.front) / std::max(1.0, to - at);
+    border.line.slope += slope;
+    border.line.offset += first.front - slope * at;
+  } else {
+    border.line.offset += edge.front;
+  }
+  return true;
+}
+
+DoubleEdge BorderFit::frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first,
+                              int last) const {
   constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
   std::array<float, 3 * kSize> mean;
-  if (profiles_->channels() != 3 || profiles_->meanAlong(line, kHalf, mean.data()) < 4) return 0.0;
-  std::array<Eigen::Vector3f, kSize - 2> changes;
-  for (int k = 0; k < kSize - 2; ++k)
-    for (int c = 0; c < 3; ++c) changes[k][c] = mean[c * kSize + k + 2] - mean[c * kSize + k];
-  return partedBy(changes.data(), kSize - 2, kHalf - 1);
+  if (profiles_->meanAlong(line, kHalf, first, last, mean.data()) < kLeastProfiles) return {};
+  return fitDoubleEdge(mean.data(), profiles_->channels(), kHalf, limits);
 }
 
 bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {

@@ -15,6 +15,7 @@ constexpr double kLeastReachPx = 2.5;
 constexpr double kLearningRate = 0.15;  // a picture
 constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
+constexpr double kFrontReachPx = 3.2;   // of the front edge of a reveal from what was fitted
 constexpr int kLeastProfiles = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
@@ -50,7 +51,7 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
       std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kLeastProfiles, track_.fine_profiles);
   fine_.sample(image, lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
-                static_cast<int>(std::ceil(radius_px)) + 3});
+                static_cast<int>(std::ceil(radius_px)) + 5});
   fit_.project(fine_, memory_.colour());
   FittedBorder fitted;
   BorderFitLimits limits{radius_px, kPriorPx * scale, std::max(kRoughPx, refinement_.outlier_px) * scale,
@@ -58,6 +59,7 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   if (!fit_.run(limits, fitted)) return false;
   limits.outlier_px = refinement_.outlier_px * scale;
   if (!fit_.run(limits, fitted)) return false;
+  fit_.toFront({-kFrontReachPx, kFrontReachPx, front_.outside()}, fitted);
   border.inliers = static_cast<double>(fitted.inliers) / std::max(1, fine_.insideCount());
   border.line = fitted.inImage(fine_);
   border.a = fine_.point(fitted.from, fitted.line.at(fitted.from));

@@ -22,6 +22,10 @@ constexpr double kFaintestChange =
 constexpr double kNarrowPx = 0.8;    ///< prior of an edge beside stronger ones
 constexpr double kWidePx = 1e3;      ///< no prior
 constexpr double kShortestPx = 4.0;  ///< a side that can be fitted [px]
+constexpr double kBesidePx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
+constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
+constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
+constexpr double kMostInliers = 0.7;
 constexpr double kFaintPart = 0.05;  ///< or this part of the largest one near it
 
 }  // namespace
@@ -44,24 +48,15 @@ class Side {
       : memory_(memory), params_(params), start_(start) {}
 
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
-    const bool nearest = start_.choice == EdgeChoice::kNearest;
-    const int choice = static_cast<int>(std::ceil(start_.radius_px));
-    const int reach =
-        choice + static_cast<int>(std::ceil((nearest ? 1.0 : 2.0) * params_.final_radius_px)) + 2;
-    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * params_.skip)), 4, params_.samples);
-    memory_.profiles.sample(image, lens, {a, b, count_, params_.skip, reach});
-    chooseEdge(choice);
-    memory_.fit.project(memory_.profiles, colour_);
-    const double reach_px = nearest ? start_.radius_px : params_.final_radius_px;
-    const double chosen_px = border_.line.offset;
-    if (!fit({reach_px, nearest ? 0.6 * reach_px : kNarrowPx, std::max(params_.outlier_px, 0.35 * reach_px)}))
-      return false;
-    if (!fit({params_.final_radius_px, nearest ? kWidePx : kNarrowPx, params_.outlier_px}) ||
-        strays(nearest ? 0.0 : chosen_px) > reach_px)
-      return false;
-    stray_px_ = strays(0.0);
-    fitted_ = stray_px_ <= start_.max_stray_px;
-    return fitted_;
+    return run(image, lens, a, b, start_.radius_px);
+  }
+  // Again, where nothing lies near the start: for a border further away that shows over most of its length.
+  void runWider(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a,
+                const Vector2d& b) {
+    if (showsEdge()) return;
+    border_ = FittedBorder();
+    const bool found = run(image, lens, a, b, kWider * start_.radius_px);
+    fitted_ = found && inliers_ > kMostInliers;
   }
   bool fitted() const { return fitted_; }
   double inliers() const { return inliers_; }
@@ -84,6 +79,45 @@ class Side {
   }
 
  private:
+  bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b,
+           double radius_px) {
+    const bool nearest = start_.choice == EdgeChoice::kNearest;
+    const int choice = static_cast<int>(std::ceil(radius_px));
+    const int reach =
+        choice + static_cast<int>(std::ceil((nearest ? 1.0 : 2.0) * params_.final_radius_px)) + 2;
+    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * params_.skip)), 4, params_.samples);
+    memory_.profiles.sample(image, lens, {a, b, count_, params_.skip, reach});
+    chooseEdge(choice);
+    memory_.fit.project(memory_.profiles, colour_);
+    const double reach_px = nearest ? radius_px : params_.final_radius_px;
+    const double chosen_px = border_.line.offset;
+    if (!fit({reach_px, nearest ? 0.6 * reach_px : kNarrowPx, std::max(params_.outlier_px, 0.35 * reach_px)}))
+      return false;
+    if (!fit({params_.final_radius_px, nearest ? kWidePx : kNarrowPx, params_.outlier_px}) ||
+        strays(nearest ? 0.0 : chosen_px) > reach_px)
+      return false;
+    if (nearest) toFront();
+    stray_px_ = strays(0.0);
+    fitted_ = stray_px_ <= start_.max_stray_px;
+    return fitted_;
+  }
+
+  // Something that may be a border lies near the start, only that no line fits it.
+  bool showsEdge() const {
+    const auto& sizes = memory_.sizes;
+    for (std::size_t k = 1; k + 1 < sizes.size(); ++k)
+      if (sizes[k] > kFaintestChange && sizes[k] >= sizes[k - 1] && sizes[k] >= sizes[k + 1]) return true;
+    return false;
+  }
+
+  // A start that was located says where the front edge is, any other one but what is beside it.
+  void toFront() {
+    const double from = border_.line.at(border_.middle());
+    const bool located = start_.fallback_sigma_px > 0.0;
+    const double near = kBesidePx, wide = kLocatedWithinPx;
+    memory_.fit.toFront({located ? -wide - from : -near, located ? wide - from : near, nullptr}, border_);
+  }
+
   // How far an end of the fitted line is from the start, moved by `offset`.
   double strays(double offset) const {
     const double half = 0.5 * memory_.profiles.length();
@@ -107,7 +141,7 @@ class Side {
       memory_.sizes.push_back(change.norm());
     }
     const int at = start_.choice == EdgeChoice::kNearest
-                       ? strongest(memory_.sizes, start_.radius_px)
+                       ? strongest(memory_.sizes, radius)
                        : first(memory_.sizes, start_.choice == EdgeChoice::kFirstInward);
     if (memory_.sizes[at] > 0.0f) colour_ = memory_.changes[at] / memory_.sizes[at];
     if (start_.choice != EdgeChoice::kNearest) border_.line.offset = at - radius;
@@ -209,6 +243,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     if (!good) break;
     Side side(*memory_, params, start);
     good = side.run(image, lens, a, b) || start.fallback_sigma_px > 0.0;
+    if (good && !side.fitted()) side.runWider(image, lens, a, b);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
     lines[i] = side.fitted() ? side.line() : side.start();
     const auto [begin, end] = side.ends();

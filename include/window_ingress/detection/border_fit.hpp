@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "window_ingress/detection/double_edge.hpp"
 #include "window_ingress/detection/edge_profiles.hpp"
 #include "window_ingress/detection/robust_line.hpp"
 
@@ -43,13 +44,17 @@ class BorderFit {
   /// than four profiles on it
   bool run(const BorderFitLimits& limits, FittedBorder& border);
 
+  /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
+  /// (`DoubleEdge`), and enlarges its spread by what is not known of it. \return true if it was moved
+  bool toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const;
+
  private:
+  DoubleEdge frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
   std::optional<int> steepest(int i, double centre, const BorderFitLimits& limits) const;
   const float* slopesOf(int i) const {  // its middle: from -reach to reach
     return slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();
   }
   void measure(const OffsetLine& about, const BorderFitLimits& limits);
-  double parted(const OffsetLine& line) const;
   void spread(const BorderFitLimits& limits, FittedBorder& border) const;
 
   const EdgeProfiles* profiles_ = nullptr;

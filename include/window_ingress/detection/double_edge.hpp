@@ -4,16 +4,34 @@
 
 namespace window_ingress::detection {
 
-/// A reveal seen at a narrow angle is a strip of a pixel or two: its front edge (frame or wall to reveal) and
-/// its back edge (reveal to what is behind) blur into one, and the steepest change lies somewhere between
-/// them. Where the two change in different colours, that can be told from one blurred edge: the change on the
-/// outer flank has a part at right angles, in colour space, to that on the inner flank, and this part has a
-/// maximum of its own.
+/// Where a border lies within the blur of what is next to it.
+struct DoubleEdge {
+  double front = 0.0;     ///< offset of the outermost change [px]
+  double apart = 0.0;     ///< of the change behind it, inwards [px]; 0: there is one change alone
+  double sigma_px = 0.0;  ///< what is not known of `front` for the sake of the second change [px]
+};
+
+/// What may be taken for the front edge.
+struct DoubleEdgeLimits {
+  double nearest_px = -1.2, farthest_px = 1.2;  ///< offsets, outwards positive [px]
+  /// Colour that lies outside of the front edge, BGR, if known: tells a reveal (another colour, then this
+  /// one) from a frame (this colour, then another one).
+  const Eigen::Vector3f* outside = nullptr;
+};
+
+/// A reveal seen at a narrow angle is a strip of a few pixels or a part of one: its front edge (frame or wall
+/// to reveal) and its back edge (reveal to what is behind) blur into each other, and the steepest change lies
+/// somewhere between them, or is the back edge alone. The front edge is the border.
 ///
-/// \param changes of the mean colour across the border, by offset, outwards; one pixel apart
-/// \param at the largest change
-/// \return distance of that maximum from the largest change [px]: how far the front edge may lie from what is
-/// measured; 0 for a single edge
-double partedBy(const Eigen::Vector3f* changes, int count, int at);
+/// Fits one step of unknown blur to the colours across the border; where that does not explain them, two of
+/// the same blur, whose three colours are free in each channel (variable projection, Golub and Pereyra 1973),
+/// by Levenberg's and Marquardt's method. Two steps are believed if they explain what one does not, and if
+/// the front one is then well known.
+///
+/// \param mean colours across the border, inside to outside, one pixel apart, channel by channel, 2 half + 1
+/// each, the steepest change near the middle
+/// \param channels 1 or 3 \param half 4 to `kMostHalfOfEdge`
+DoubleEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits);
+constexpr int kMostHalfOfEdge = 8;
 
 }  // namespace window_ingress::detection

@@ -20,6 +20,8 @@ class FrontBorder {
   static constexpr int kHalf = 10;  ///< offsets that are looked at [px]
 
   void forget() { known_ = false; }
+  /// Colour next to the border, BGR; null while nothing is known.
+  const Eigen::Vector3f* outside() const { return known_ ? &outside_ : nullptr; }
 
   /// The border lies along this line.
   /// \return how far out the front border is from it, if it is another one; after it was so several times

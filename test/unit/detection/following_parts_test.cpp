@@ -9,7 +9,6 @@
 #include "drawn_window.hpp"
 #include "window_ingress/detection/border_fit.hpp"
 #include "window_ingress/detection/border_memory.hpp"
-#include "window_ingress/detection/double_edge.hpp"
 #include "window_ingress/detection/front_border.hpp"
 #include "window_ingress/detection/line_corners.hpp"
 #include "window_ingress/detection/quad_motion.hpp"
@@ -130,18 +129,6 @@ TEST(FrontBorder, StaysAtABlurredBorder) {
     if (i > 0) cv::GaussianBlur(image, image, cv::Size(), 0.35 * i);
     EXPECT_FALSE(front.look(across(image, 100), {}, 8)) << i;
   }
-}
-
-TEST(DoubleEdge, TellsTwoColoursFromOne) {
-  std::vector<Eigen::Vector3f> single, parted;
-  for (int o = -4; o <= 4; ++o) {
-    const auto bell = [&](double at) { return static_cast<float>(std::exp(-0.5 * (o - at) * (o - at))); };
-    single.push_back(bell(0.2) * Eigen::Vector3f(60, -20, 30));
-    parted.push_back(bell(0.8) * Eigen::Vector3f(-50, 10, 5) + bell(-0.8) * Eigen::Vector3f(50, 60, 70));
-  }
-  EXPECT_EQ(partedBy(single.data(), 9, 4), 0.0);
-  EXPECT_GT(partedBy(parted.data(), 9, 3), 0.5);
-  EXPECT_EQ(partedBy(single.data(), 9, 0), 0.0) << "no room";
 }
 
 TEST(StretchInView, IsCutByThePicture) {
