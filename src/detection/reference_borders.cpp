@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "window_ingress/detection/unit_square.hpp"
+#include "window_ingress/detection/veil.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -20,7 +21,9 @@ constexpr double kFaintestFrame =
 constexpr double kWithinWeight = 0.3;  ///< of the colour within, where there is no frame
 constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
-constexpr double kWithoutEnd = 0.35;      ///< worth of a border whose frame does not end there
+constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
+constexpr float kVeilFrom = 40.0F;    ///< the darkest place about is brighter than this [grey levels]
+constexpr double kNoVeil = 1e3;
 constexpr double kFarAway = 1.5;          ///< standard deviation of a border from the rough loop, in `inward`
 constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
 constexpr double kForetold = 0.8;         ///< worth of such a border
@@ -43,22 +46,48 @@ void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
   measureSides(image, ideal, lens, reach, sides_);
 }
 
-// Features of the bands outwards from a border, brightness relative to the outermost; false if the profile
-// ends before the second.
-bool ReferenceBorders::bandsFrom(const SideProfile& profile, double border, Bands& bands,
-                                 Vector3f* outermost) const {
+// Colours of the bands outwards from a border; false if the profile ends before the second.
+bool ReferenceBorders::coloursFrom(const SideProfile& profile, double border, Bands& colours) {
   int filled = 0;
-  for (Vector3f colour; filled < kBands; ++filled) {
+  for (; filled < kBands; ++filled) {
     const double from = border + filled * kBandWidth;
-    if (!profile.mean(from + (filled == 0 ? kClear : 0.0), from + kBandWidth, colour)) break;
-    bands[filled] = features(colour);
+    if (!profile.mean(from + (filled == 0 ? kClear : 0.0), from + kBandWidth, colours[filled])) break;
   }
   if (filled < 2) return false;
-  for (int b = filled; b < kBands; ++b) bands[b] = bands[filled - 1];
-  const Vector3f last = bands[kBands - 1];
-  if (outermost) *outermost = last;
-  for (Vector3f& band : bands) band[2] -= last[2];
+  for (int b = filled; b < kBands; ++b) colours[b] = colours[filled - 1];
   return true;
+}
+
+// Their features, brightness relative to the outermost.
+ReferenceBorders::Bands ReferenceBorders::featuresOf(const Bands& colours) {
+  Bands bands;
+  for (int b = 0; b < kBands; ++b) bands[b] = features(colours[b]);
+  const float outermost = bands[kBands - 1][2];
+  for (Vector3f& band : bands) band[2] -= outermost;
+  return bands;
+}
+
+double ReferenceBorders::unlike(const Bands& colours, int side) const {
+  const Bands bands = featuresOf(colours);
+  double sum = 0.0;
+  for (int b = 0; b < kBands; ++b) sum += difference(bands[b], reference_[side][b]);
+  return sum / kBands;
+}
+
+// The same through the veil that fits best, if there may be one.
+double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const {
+  const Bands& wanted = reference_colours_[side];
+  const Vector3f &wall = colours[kBands - 1], &wanted_wall = wanted[kBands - 1];
+  float along = 0.0F, square = 1.0F;
+  for (int b = 0; b < kBands; ++b) {
+    along += (colours[b] - wall).dot(wanted[b] - wanted_wall);
+    square += (wanted[b] - wanted_wall).squaredNorm();
+  }
+  const auto veil = veilThatLeaves(along / square, wanted_wall, wall, darkest_);
+  if (!veil) return kNoVeil;
+  Bands clear;
+  for (int b = 0; b < kBands; ++b) clear[b] = veil->off(colours[b]).cwiseMax(0.0F);
+  return unlike(clear, side);
 }
 
 // A uniform ring just inside the borders, of even width and ended by an edge all round: a frame. What it
@@ -94,11 +123,12 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
   measure(picture, opening, nullptr, aspect_, kFine);
   double frame = 0.0;
   for (int i = 0; i < 4; ++i) {
-    Vector3f outermost, within;
-    if (!bandsFrom(sides_[i], 0.0, reference_[i], &outermost)) return;
+    Vector3f within;
+    if (!coloursFrom(sides_[i], 0.0, reference_colours_[i])) return;
     if (!sides_[i].mean(-kBandWidth, -kClear, within)) return;
+    reference_[i] = featuresOf(reference_colours_[i]);
     reference_within_[i] = features(within);
-    reference_within_[i][2] -= outermost[2];
+    reference_within_[i][2] -= features(reference_colours_[i][kBands - 1])[2];
     double end = 0.0;
     const double contrast = sides_[i].largestChange(kThinnestFrame, kBands * kBandWidth, &end);
     frame_widths_[i] = contrast > params_.contrast_full ? end : 0.0;
@@ -129,7 +159,6 @@ double ReferenceBorders::frameEnds(int side, double border) const {
 // worth.
 double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
-  const Bands& wanted = reference_[side];
   const int count = static_cast<int>(profile.means.size());
   double strongest = 1.0;
   for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(profile.change(k)));
@@ -142,22 +171,23 @@ double ReferenceBorders::choose(int side, double& border) const {
     const bool peak = here >= kLeastChange && here >= profile.change(k - 1) && here >= profile.change(k + 1);
     const double ends = framed ? frameEnds(side, at) : 1.0;
     if (!peak && !(framed && ends > kSureEnd)) continue;
-    Vector3f within, outermost;
-    if (!bandsFrom(profile, at, bands, &outermost) || !profile.mean(at - kBandWidth, at - kClear, within))
-      continue;
-    double unlike = 0.0;
-    for (int b = 0; b < kBands; ++b) unlike += difference(bands[b], wanted[b]) / kBands;
+    Vector3f within;
+    if (!coloursFrom(profile, at, bands) || !profile.mean(at - kBandWidth, at - kClear, within)) continue;
+    double off = unlike(bands, side);
+    if (framed && darkest_ > kVeilFrom) off = std::min(off, unlikeThroughVeil(bands, side));
     within = features(within);
-    within[2] -= outermost[2];
-    const double goes_on = difference(within, bands[0]);
-    if (frameless_) unlike += kWithinWeight * difference(within, reference_within_[side]);
+    within[2] -= features(bands[kBands - 1])[2];
+    Vector3f beside = features(bands[0]);
+    beside[2] -= features(bands[kBands - 1])[2];
+    const double goes_on = difference(within, beside);
+    if (frameless_) off += kWithinWeight * difference(within, reference_within_[side]);
     // Where the end of the frame tells the place, a faint border will do.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold)
                                   : std::min(1.0, here / params_.contrast_full) *
                                         std::min(1.0, goes_on / params_.step_full) *
                                         std::pow(here / strongest, kStrongerExponent);
     const double away = at / params_.inward / kFarAway;
-    const double worth = std::exp(-unlike / params_.alike - 0.5 * away * away) * visible;
+    const double worth = std::exp(-off / params_.alike - 0.5 * away * away) * visible;
     if (worth > best) best = worth, border = at;
   }
   return best;
@@ -173,6 +203,9 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
   if (lens)
     for (Vector2d& corner : ideal) corner = lens->undistort(corner);
   measure(image, ideal, lens, aspect_, effort);
+  darkest_ = 255.0F;
+  for (const SideProfile& side : sides_)
+    for (const Vector3f& colour : side.means) darkest_ = std::min(darkest_, colour.minCoeff());
   std::array<double, 4> borders{};
   Located located;
   double least = 1.0, mean_worth = 0.0;

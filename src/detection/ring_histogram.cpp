@@ -5,19 +5,21 @@
 #include <cstdint>
 
 #include "window_ingress/detection/ring_samples.hpp"
+#include "window_ingress/detection/veil.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
 constexpr int kSteps = 16;     ///< places between two bins
 constexpr int kDarkest = 45;   ///< sum of the channels below which chroma is noise
-constexpr int kVeilTop = 8;    ///< what remains below a veil is noise if it is less than one part in so many
 constexpr double kTop = 0.80;  ///< chromaticity at the last bin; the first is at 0
 constexpr double kWeight[RingHistogram::kBands] = {2.0, 1.0};
-constexpr double kVeilFrom = 60.0;  ///< a darkest place brighter than this may be veiled [grey levels]
-constexpr double kVeilPart = 0.95;  ///< but not if it is no darker than this part of the ring: a flat wall
 /// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
 constexpr double kSharing = 4.0 / 9.0;
+
+constexpr double kTurn_rad = 0.07;     ///< of the difference between frame and surround, from paint and light
+constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
+constexpr double kLeastDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
 
 using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
 
@@ -29,13 +31,12 @@ std::array<std::uint32_t, 766> reciprocals() {
   return table;
 }
 
-// Adds one pixel to the four bins round its chromaticity; false if it is too dark, or all veil.
-bool addPixel(const cv::Vec3b& pixel, int veil, Counts& counts) {
+// Adds one pixel to the four bins round its chromaticity; false if it is too dark.
+bool addPixel(const cv::Vec3b& pixel, Counts& counts) {
   static const auto kPerSum = reciprocals();
   constexpr std::uint32_t kLast = (RingHistogram::kBins - 1) * kSteps - 1;
-  const int blue = std::max(pixel[0] - veil, 0), green = std::max(pixel[1] - veil, 0),
-            red = std::max(pixel[2] - veil, 0), sum = blue + green + red;
-  if (sum < kDarkest || kVeilTop * sum < pixel[0] + pixel[1] + pixel[2]) return false;
+  const int blue = pixel[0], green = pixel[1], red = pixel[2], sum = blue + green + red;
+  if (sum < kDarkest) return false;
   const std::uint32_t r = std::min(red * kPerSum[sum] >> 16, kLast),
                       g = std::min(green * kPerSum[sum] >> 16, kLast);
   const std::uint32_t u = r % kSteps, v = g % kSteps;
@@ -47,10 +48,10 @@ bool addPixel(const cv::Vec3b& pixel, int veil, Counts& counts) {
   return true;
 }
 
-RingHistogram::Band bandOf(const RingSamples::Band& samples, int veil, int min_pixels) {
+RingHistogram::Band bandOf(const RingSamples::Band& samples, int min_pixels) {
   Counts counts{};
   int counted = 0;
-  for (int i = 0; i < samples.count; ++i) counted += addPixel(samples.pixels[i], veil, counts);
+  for (int i = 0; i < samples.count; ++i) counted += addPixel(samples.pixels[i], counts);
   RingHistogram::Band band;
   if (samples.asked == 0) return band;
   const double seen = std::min<double>(counted, samples.area_px * counted / samples.asked);
@@ -61,24 +62,13 @@ RingHistogram::Band bandOf(const RingSamples::Band& samples, int veil, int min_p
   return band;
 }
 
-RingHistogram histogramOf(const RingSamples& samples, int veil, int min_pixels) {
+RingHistogram histogramOf(const RingSamples& samples, int min_pixels) {
   RingHistogram histogram;
-  for (int b = 0; b < RingHistogram::kBands; ++b)
-    histogram.bands[b] = bandOf(samples.bands[b], veil, min_pixels);
+  for (int b = 0; b < RingHistogram::kBands; ++b) histogram.bands[b] = bandOf(samples.bands[b], min_pixels);
   return histogram;
 }
 
 bool isSeen(const RingHistogram& histogram) { return histogram.bands[0].pixels > 0.0; }
-
-bool isVeiled(const RingSamples& samples) {
-  double sum = 0.0;
-  int count = 0;
-  for (const RingSamples::Band& band : samples.bands) {
-    for (int i = 0; i < band.count; ++i) sum += band.pixels[i][0] + band.pixels[i][1] + band.pixels[i][2];
-    count += band.count;
-  }
-  return samples.darkest > kVeilFrom && samples.darkest < kVeilPart * sum / (3.0 * count);
-}
 
 bool hasColour(const cv::Vec3b& pixel) {
   constexpr int kNoise = 3;
@@ -92,6 +82,30 @@ bool hasColour(const RingSamples& samples) {
                     [](const cv::Vec3b& pixel) { return hasColour(pixel); }))
       return true;
   return false;
+}
+
+// Mean of a band's pixels; adds the variance of that mean.
+Eigen::Vector3f meanOf(const RingSamples::Band& band, double& variance) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero(), squares = Eigen::Vector3f::Zero();
+  for (int i = 0; i < band.count; ++i) {
+    const Eigen::Vector3f pixel(band.pixels[i][0], band.pixels[i][1], band.pixels[i][2]);
+    sum += pixel;
+    squares += pixel.cwiseProduct(pixel);
+  }
+  const float n = static_cast<float>(std::max(band.count, 1));
+  const Eigen::Vector3f mean = sum / n;
+  variance += std::max(0.0F, (squares / n - mean.cwiseProduct(mean)).maxCoeff()) / n;
+  return mean;
+}
+
+RingMeans meansOf(const RingSamples& samples) {
+  RingMeans means;
+  double variance = 0.0;
+  means.frame = meanOf(samples.bands[0], variance);
+  means.surround = meanOf(samples.bands[1], variance);
+  means.sigma = std::sqrt(variance);
+  means.darkest = samples.darkest;
+  return means;
 }
 
 // 1 - sum sqrt(p q), less what samples of these sizes show even if the colours are the same.
@@ -125,11 +139,8 @@ std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Qua
     return std::nullopt;
   RingSamples samples;
   sampleRing(image, opening, widths.near, widths.far, samples);
-  RingColours colours{histogramOf(samples, 0, min_pixels), std::nullopt};
+  const RingColours colours{histogramOf(samples, min_pixels), meansOf(samples)};
   if (!isSeen(colours.seen) || (!hasColour(samples) && isGrey(image))) return std::nullopt;
-  if (!isVeiled(samples)) return colours;
-  const RingHistogram unveiled = histogramOf(samples, static_cast<int>(samples.darkest), min_pixels);
-  if (isSeen(unveiled)) colours.unveiled = unveiled;
   return colours;
 }
 
@@ -143,9 +154,21 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b) {
   return weights > 0.0 ? std::sqrt(std::clamp(sum / weights, 0.0, 1.0)) : 1.0;
 }
 
-double bhattacharyya(const RingColours& a, const RingColours& b) {
-  const double seen = bhattacharyya(a.seen, b.seen);
-  return a.unveiled || b.unveiled ? std::min(seen, bhattacharyya(a.clear(), b.clear())) : seen;
+std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen) {
+  const Eigen::Vector3f expected = reference.frame - reference.surround, found = seen.frame - seen.surround;
+  const double square = expected.squaredNorm();
+  if (square < kLeastDifference * kLeastDifference) return std::nullopt;
+  const double left = found.dot(expected) / square, along = left * std::sqrt(square);
+  if (!(along > kClearOfNoise * seen.sigma)) return std::nullopt;
+  if (!veilThatLeaves(left, reference.surround, seen.surround, seen.darkest)) return std::nullopt;
+  const double across = (found - static_cast<float>(left) * expected).norm() / along;
+  const double noise = seen.sigma / along, spread = kTurn_rad * kTurn_rad + noise * noise;
+  return std::sqrt(1.0 - std::exp(-across * across / (8.0 * spread)));
+}
+
+double bhattacharyya(const RingColours& reference, const RingColours& seen) {
+  const double plain = bhattacharyya(reference.seen, seen.seen);
+  return std::min(plain, distanceThroughVeil(reference.means, seen.means).value_or(plain));
 }
 
 RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part) {
@@ -160,9 +183,7 @@ RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double
 }
 
 RingColours blended(const RingColours& from, const RingColours& to, double part) {
-  RingColours result{blended(from.seen, to.seen, part), std::nullopt};
-  if (from.unveiled || to.unveiled) result.unveiled = blended(from.clear(), to.clear(), part);
-  return result;
+  return {blended(from.seen, to.seen, part), from.means};
 }
 
 }  // namespace window_ingress::detection

@@ -71,8 +71,10 @@ class ReferenceBorders {
 
   void measure(const cv::Mat& image, const geometry::Quadrilateral& ideal,
                const geometry::PinholeCamera* lens, double aspect, const Effort& effort);
-  bool bandsFrom(const SideProfile& profile, double border, Bands& bands,
-                 Eigen::Vector3f* outermost = nullptr) const;
+  static bool coloursFrom(const SideProfile& profile, double border, Bands& colours);
+  static Bands featuresOf(const Bands& colours);
+  double unlike(const Bands& colours, int side) const;
+  double unlikeThroughVeil(const Bands& colours, int side) const;
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;
@@ -83,12 +85,14 @@ class ReferenceBorders {
   double aspect_ = 1.0;  ///< of the opening: width over height
   /// Of each side: red and green chromaticity, logarithm of the brightness over that of the outermost band.
   std::array<Bands, 4> reference_;
+  std::array<Bands, 4> reference_colours_;  ///< BGR
   /// Just inside the borders, brightness likewise. Counts where no frame tells an opening from the outer
   /// border of another window's frame.
   std::array<Eigen::Vector3f, 4> reference_within_;
   std::array<double, 4> frame_widths_{};  ///< [mean sides of the opening]; 0: no end seen
   bool frameless_ = false;
   std::array<SideProfile, 4> sides_;
+  float darkest_ = 0.0F;  ///< least channel in them
 };
 
 }  // namespace window_ingress::detection

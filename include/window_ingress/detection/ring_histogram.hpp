@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -30,15 +31,17 @@ struct RingHistogram {
   std::array<Band, kBands> bands;
 };
 
-/// A ring as it is seen, and as it would be without the veil that haze or glare may have laid over it. A veil
-/// adds the same to all colours, so it is as bright as the darkest place of opening and ring (dark-object
-/// subtraction, Chavez 1988). A scene without shadows has no dark place either: which of the two it is shows
-/// only in the comparison.
+/// Mean colours of a ring, for what a veil leaves: differences.
+struct RingMeans {
+  Eigen::Vector3f frame = Eigen::Vector3f::Zero(), surround = Eigen::Vector3f::Zero();  ///< BGR
+  double sigma = 0.0;    ///< of their difference, by the spread of their pixels [grey levels]
+  double darkest = 0.0;  ///< least channel of ring and opening [grey levels]
+};
+
+/// How a ring looks.
 struct RingColours {
   RingHistogram seen;
-  std::optional<RingHistogram> unveiled;  ///< nothing if there is a dark place
-
-  const RingHistogram& clear() const { return unveiled ? *unveiled : seen; }
+  RingMeans means;
 };
 
 /// Measures a ring; allocates nothing.
@@ -54,8 +57,13 @@ std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Qua
 /// sum times 8 is Freeman and Tukey's statistic, chi-square in the limit). That much is taken off.
 double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
 
-/// The smaller of the distances as seen and without veils.
-double bhattacharyya(const RingColours& a, const RingColours& b);
+/// The same for two normal distributions of what a veil has left of the difference between frame and
+/// surround, by its direction: the turn that light and paint may show is a standard deviation of kTurn_rad.
+/// \return nothing where there is no veil, or it has left less than noise
+std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen);
+
+/// The smaller of the distances as seen and through a veil.
+double bhattacharyya(const RingColours& reference, const RingColours& seen);
 
 /// Moves `from` towards `to`: 0 leaves it, 1 replaces it. Bands that either has not seen stay as they are.
 RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part);
