@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <random>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::evaluation {
+
+/// What a detector that fits lines sees of an opening if each pixel along a border is one sample of it with
+/// independent noise across: the four lines fitted to the samples, stating their spreads, and the corners
+/// where they cross. Without distortion. Nothing unless the opening lies in front of the camera.
+std::optional<detection::WindowObservation> noisyBorders(const geometry::PinholeCamera& camera,
+                                                         const Eigen::Isometry3d& T_camera_window,
+                                                         const geometry::OpeningSize& opening,
+                                                         double sample_sigma_px, std::mt19937& random);
+
+/// Cramér-Rao bounds: no unbiased estimator has smaller spreads on such borders.
+struct PoseBound {
+  double yaw_rad = 0.0;      ///< about the window's vertical, the opening's size known
+  double lateral_m = 0.0;    ///< of the camera across the window's axis, likewise
+  double sigma_u_rad = 0.0;  ///< of the yaw with the opening's size unknown
+};
+
+/// From the samples themselves, integrated along the borders: shares nothing with the estimator but the
+/// projection. Nothing where the samples do not determine the pose.
+std::optional<PoseBound> poseBound(const geometry::PinholeCamera& camera,
+                                   const Eigen::Isometry3d& T_camera_window,
+                                   const geometry::OpeningSize& opening, double sample_sigma_px);
+
+}  // namespace window_ingress::evaluation

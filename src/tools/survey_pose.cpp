@@ -1,0 +1,203 @@
+/// Measures the pose from one image against the truth and beside OpenCV; see --help.
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/evaluation/pose_chain.hpp"
+#include "window_ingress/evaluation/pose_survey.hpp"
+#include "window_ingress/evaluation/survey_folder.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/pose/window_pose_estimator.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using namespace window_ingress;
+using tools::UsageError;
+
+constexpr double kRadPerDegree = 0.017453292519943295;
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string output, params, camera, window_size, distances = "2,3,4,6,8", yaws = "0,5,10,15,20,30,45",
+                                                   noises = "0.05,0.1,0.2,0.3,0.5";
+  int draws = 1000;
+  double attitude_deg = 0.0;
+  std::uint32_t seed = 1;
+};
+
+po::options_description describe(Options& o) {
+  po::options_description description(
+      "Usage: survey_pose --draws N --output DIR [options]\n"
+      "       survey_pose --load DIR... --window-size W,H --output DIR [options]\n"
+      "Draws random views with noisy borders, one cell for each distance, yaw and noise, estimates the pose "
+      "and\ncompares it with the truth, with the Cramer-Rao bound, and with OpenCV on the corners where the "
+      "same\nborders cross. Writes DIR/cells.csv, prints yaw RMSE over bound as a table.\n"
+      "With --load: from the pixels of pictures that survey_detector has saved to the pose, against the "
+      "truth.\nWrites DIR/pictures.csv, prints the errors of poses and of borders as tables.\n\nOptions");
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("draws", po::value(&o.draws)->default_value(o.draws), "of each cell");
+  add("at", po::value(&o.distances)->default_value(o.distances), "distances [m]");
+  add("yaw", po::value(&o.yaws)->default_value(o.yaws), "against the line of sight, to either side [deg]");
+  add("noise", po::value(&o.noises)->default_value(o.noises), "of each pixel along a border [px]");
+  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first cell; each further one has the next");
+  add("output,o", po::value(&o.output), "folder of the results");
+  add("camera", po::value(&o.camera), "calibration without distortion; default 640 x 480, f = 554 px");
+  add("window-size", po::value(&o.window_size), "W,H of the opening; default 1,1 [m]");
+  add("load", po::value(&o.folders)->composing()->multitoken(), "folders of pictures");
+  add("params", po::value(&o.params), "with --load: yaml file with sections 'detector' or 'pose'");
+  add("attitude", po::value(&o.attitude_deg), "with --load: the attitude is known with this error [deg]");
+  return description;
+}
+
+std::vector<double> numbersOf(const std::string& option, const std::string& text, double least, double most) {
+  const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
+  const std::vector<double> values = tools::numbers(option, text, commas + 1);
+  for (const double value : values)
+    if (value < least || value > most)
+      throw UsageError(option + ": needs numbers from " + std::to_string(least) + " to " +
+                       std::to_string(most));
+  return values;
+}
+
+evaluation::PoseSurveySetup setupOf(const Options& o) {
+  evaluation::PoseSurveySetup setup = evaluation::usualSetup();
+  if (!o.camera.empty()) setup.camera = parameters::readCalibrationFile(o.camera);
+  if (setup.camera.hasDistortion()) throw UsageError(o.camera + ": needs a calibration without distortion");
+  if (o.window_size.empty()) return setup;
+  const auto size = tools::numbers("--window-size", o.window_size, 2);
+  if (size[0] < 0.1 || size[1] < 0.1) throw UsageError("--window-size: needs 0.1 m at least");
+  setup.opening = {size[0], size[1]};
+  return setup;
+}
+
+int surveyNoise(const Options& o) {
+  if (o.draws < 1) throw UsageError("--draws: needs 1 at least");
+  const auto setup = setupOf(o);
+  const auto distances = numbersOf("--at", o.distances, 0.3, 100.0);
+  const auto yaws = numbersOf("--yaw", o.yaws, 0.0, 80.0);
+  const auto noises = numbersOf("--noise", o.noises, 0.001, 10.0);
+  tools::makeFolder(o.output);
+  const fs::path file = fs::path(o.output) / "cells.csv";
+  std::ofstream table(file);
+  table << evaluation::poseSurveyColumns() << "\n";
+  std::vector<evaluation::PoseCellResult> results;
+  std::uint32_t seed = o.seed;
+  for (const double noise : noises) {
+    for (const double distance : distances)
+      for (const double yaw : yaws) {
+        results.push_back(
+            evaluation::surveyCell(setup, {distance, yaw * kRadPerDegree, noise}, o.draws, seed++));
+        if (results.back().draws == 0)
+          throw UsageError("--at: the window does not fit into the image from " + std::to_string(distance) +
+                           " m");
+        table << evaluation::poseSurveyRow(results.back()) << "\n";
+      }
+    std::cerr << "survey_pose: " << results.size() << " cells" << std::endl;
+  }
+  if (!table.flush()) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+  std::cout << evaluation::poseSurveyTable(results) << "\n" << evaluation::poseSurveySummary(results);
+  return 0;
+}
+
+template <typename Params>
+Params paramsOf(const Options& o, const char* section) {
+  Params params;
+  if (!o.params.empty()) parameters::readYamlFile(o.params, section, params);
+  return params;
+}
+
+/// Looks for the window in one picture after the other, and estimates its pose.
+class Chain {
+ public:
+  explicit Chain(const Options& o)
+      : options_(o),
+        detector_(paramsOf<detection::DetectorParams>(o, "detector")),
+        estimator_(poseParams(o)),
+        random_(o.seed) {}
+
+  void look(const evaluation::SurveyPicture& picture) {
+    if (picture.reference.empty())
+      detector_.clearReference();
+    else
+      detector_.setReference(detection::ReferenceAppearance(picture.reference, picture.reference_corners));
+    const auto window = detector_.detect(picture.image, 0.0, &picture.camera);
+    results.push_back(evaluation::chainResult(picture, window, estimator_, gravityOf(picture)));
+  }
+
+  std::vector<evaluation::PoseChainResult> results;
+
+ private:
+  static pose::PoseParams poseParams(const Options& o) {
+    auto params = paramsOf<pose::PoseParams>(o, "pose");
+    const auto size = tools::numbers("--window-size", o.window_size, 2);
+    params.opening_width_m = size[0];
+    params.opening_height_m = size[1];
+    return params;
+  }
+
+  std::optional<pose::GravityPrior> gravityOf(const evaluation::SurveyPicture& picture) {
+    if (!(options_.attitude_deg > 0.0)) return std::nullopt;
+    const auto truth = evaluation::poseOfTrueCorners(
+        picture.truth.inner, picture.camera,
+        {estimator_.params().opening_width_m, estimator_.params().opening_height_m});
+    if (!truth) return std::nullopt;
+    const double sigma = options_.attitude_deg * kRadPerDegree;
+    std::normal_distribution<double> noise(0.0, sigma);
+    const Eigen::Vector3d off(noise(random_), noise(random_), noise(random_));
+    return pose::GravityPrior{(truth->linear().col(2) + off).normalized(), sigma};
+  }
+
+  const Options& options_;
+  detection::WindowDetector detector_;
+  pose::WindowPoseEstimator estimator_;
+  std::mt19937 random_;
+};
+
+int surveyPictures(const Options& o) {
+  if (o.window_size.empty()) throw UsageError("--load needs --window-size");
+  tools::makeFolder(o.output);
+  Chain chain(o);
+  for (const std::string& name : o.folders) {
+    evaluation::SurveyFolder folder(name);
+    folder.readTable();
+    for (int i = 0; i < folder.size(); ++i) chain.look(folder.load(i));
+  }
+  const fs::path file = fs::path(o.output) / "pictures.csv";
+  std::ofstream table(file);
+  table << evaluation::poseChainColumns() << "\n";
+  for (const auto& result : chain.results) table << evaluation::poseChainRow(result) << "\n";
+  if (!table.flush()) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+  std::cout << evaluation::poseChainTable(chain.results);
+  return 0;
+}
+
+int run(const Options& o) {
+  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  return o.folders.empty() ? surveyNoise(o) : surveyPictures(o);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  return tools::runTool("survey_pose", [&] {
+    Options o;
+    const auto description = describe(o);
+    po::variables_map given;
+    po::store(po::command_line_parser(argc, argv).options(description).run(), given);
+    po::notify(given);
+    if (given.count("help") == 0) return run(o);
+    std::cout << description;
+    return 0;
+  });
+}
