@@ -62,13 +62,25 @@ std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::Pi
   factor_ = level.factor;
   level_size_ = level.image.size();
   lens_.set(camera, level_size_, factor_);
-  map_ = &edges_.run(level.image);
+  look(level.image);
+  return combine(SegmentQuads::kQuick, trace);
+}
+
+// From edges to segments and outlines.
+void CandidateSearch::look(const cv::Mat& level) {
+  map_ = &edges_.run(level);
   segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
   keepOnSegments(runs_, lines_, level_size_, straight_);
   outlines_ = contours_.run(closing_.run(straight_), closing_.radiusPx(level_size_));
   for (CandidateTrace& rejected : outlines_.rejected) rejected.quad = inFullImage(rejected.quad, factor_);
   for (Candidate& outline : outlines_.candidates)
     for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
+}
+
+std::vector<Rival> CandidateSearch::runOnColours(DetectionTrace& trace) {
+  const cv::Mat& colours = preprocess_.coloursAlone();
+  if (colours.empty()) return {};
+  look(colours);
   return combine(SegmentQuads::kQuick, trace);
 }
 

@@ -349,6 +349,13 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     impl_->judgeAppearance(image, camera);
     window = impl_->choose(image, stamp_sec, camera);
   }
+  if (!window) {
+    impl_->rivals = impl_->search.runOnColours(impl_->trace);
+    if (!impl_->rivals.empty()) {
+      if (!impl_->judgeAppearance(image, camera)) impl_->judgeLoops(image);
+      window = impl_->choose(image, stamp_sec, camera);
+    }
+  }
   impl_->explain();
   return window;
 }

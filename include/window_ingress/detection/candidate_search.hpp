@@ -43,9 +43,14 @@ class CandidateSearch {
   /// candidates was the target.
   std::vector<Rival> runAgain(DetectionTrace& trace);
 
+  /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue but
+  /// not in brightness, or that are lost among brighter and darker things. None if it has no colours.
+  std::vector<Rival> runOnColours(DetectionTrace& trace);
+
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
  private:
+  void look(const cv::Mat& level);
   std::vector<Rival> combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
   void admit(const std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
              DetectionTrace& trace);

@@ -12,6 +12,7 @@ struct PreprocessParams {
   bool equalise = false;       ///< contrast-limited histogram equalisation of the search level
   double clip_limit = 2.0;     ///< of the equalisation, in mean bin counts
   int tiles = 6;               ///< of the equalisation, each way
+  double colour_gain = 2.0;    ///< of differences between channels, in the picture of colours alone
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -20,6 +21,7 @@ struct PreprocessParams {
     field("equalise", self.equalise);
     field("clip_limit", self.clip_limit, 0.1, 100.0);
     field("tiles", self.tiles, 1, 64);
+    field("colour_gain", self.colour_gain, 0.1, 10.0);
   }
 };
 
@@ -44,11 +46,15 @@ class Preprocess {
   /// call.
   SearchLevel run(const cv::Mat& image);
 
+  /// The last level without its brightness (P23): CV_8UC3, the differences between its channels about 128.
+  /// Empty if it has no colours.
+  const cv::Mat& coloursAlone();
+
  private:
   void equalise(cv::Mat& image);
 
   PreprocessParams params_;
-  cv::Mat levels_[2], smooth_, lab_;
+  cv::Mat levels_[2], smooth_, lab_, colours_;
 };
 
 }  // namespace window_ingress::detection
