@@ -81,7 +81,7 @@ std::vector<Rival> CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
   if (colours.empty()) return {};
   look(colours);
-  return combine(SegmentQuads::kQuick, trace);
+  return combine(SegmentQuads::kThorough, trace);
 }
 
 std::vector<Rival> CandidateSearch::runAgain(DetectionTrace& trace) {
