@@ -29,7 +29,7 @@ const cv::Mat& Preprocess::coloursAlone() {
   colours_.release();
   if (smooth_.channels() != 3) return colours_;
   const float half = static_cast<float>(0.5 * params_.colour_gain), middle = 128.0F;
-  const cv::Matx34f differences(0.0F, -half, half, middle,                //
+  const cv::Matx34f differences(0.0F, -half, half, middle,                 //
                                 half, -0.5F * half, -0.5F * half, middle,  //
                                 -half, 0.0F, half, middle);
   cv::transform(smooth_, colours_, differences);

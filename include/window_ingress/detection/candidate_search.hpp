@@ -43,8 +43,8 @@ class CandidateSearch {
   /// candidates was the target.
   std::vector<Rival> runAgain(DetectionTrace& trace);
 
-  /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue but
-  /// not in brightness, or that are lost among brighter and darker things. None if it has no colours.
+  /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
+  /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   std::vector<Rival> runOnColours(DetectionTrace& trace);
 
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
