@@ -103,6 +103,10 @@ def yaml_lines(structs, struct, indent):
             kind, default, comment = struct.members[member]
             limits = f" ({minimum} .. {maximum})" if minimum else ""
             yield commented(f"{indent}{name}: {yaml_number(default_of(kind, default))}", comment + limits)
+        elif visit[0] == "choice":
+            _, name, member, words = visit
+            kind, default, comment = struct.members[member]
+            yield commented(f"{indent}{name}: {default_of(kind, default)}", f"{comment} ({words.replace(chr(34), '')})")
         else:
             _, name, member = visit
             kind = struct.members[member][0] if visit[0] == "group" else name

@@ -97,6 +97,14 @@ void ParameterReader::operator()(const std::string& name, std::string& value) {
   value = as<std::string>(*found);
 }
 
+void ParameterReader::choice(const std::string& name, std::string& value,
+                             const std::vector<std::string>& allowed) {
+  (*this)(name, value);
+  parameters::RangeCheck check;
+  check.choice(name_space_ + "/" + name, value, allowed);
+  faults_.insert(faults_.end(), check.faults().begin(), check.faults().end());
+}
+
 void ParameterReader::operator()(const std::string& name, std::vector<double>& value) {
   const XmlRpcValue* found = find(name);
   if (!found) return;

@@ -31,6 +31,7 @@ class ParameterReader {
   void operator()(const std::string& name, bool& value);
   void operator()(const std::string& name, std::string& value);
   void operator()(const std::string& name, std::vector<double>& value);  ///< a list of finite numbers
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
   template <typename Params>
   void group(const std::string& name, Params& params) {
     ParameterReader child = descend(name);

@@ -1,5 +1,6 @@
 #include "window_ingress/navigation/target_tracker.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -16,23 +17,20 @@ TrackerParams checked(const TrackerParams& params) {
 
 }  // namespace
 
-TargetEstimate targetFrom(const pose::FilteredWindow& window, const geometry::OpeningSize& opening) {
+TargetEstimate targetFrom(const pose::FilteredWindow& window) {
   TargetEstimate target;
   target.stamp_sec = window.stamp_sec;
   target.T_odom_window = window.T_odom_window;
   target.covariance = window.covariance;
   target.sign_trusted = window.sign_trusted;
   target.updates = window.updates;
-  target.opening = opening;
+  target.opening = window.opening;
   return target;
 }
 
 TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterParams& filter,
                              const TrackerParams& params)
-    : params_(checked(params)),
-      opening_{pose.opening_width_m, pose.opening_height_m},
-      estimator_(pose),
-      filter_(filter) {}
+    : params_(checked(params)), pose_params_(pose), estimator_(pose), filter_(filter) {}
 
 void TargetTracker::reset() {
   filter_.reset();
@@ -73,9 +71,23 @@ void TargetTracker::flush() {
   pending_.reset();
 }
 
+// The estimator takes the opening's size as known; it is given what is known by now.
+pose::PoseResult TargetTracker::estimate(const Pending& pending) {
+  const auto opening = filter_.openingFor(pending.window, pending.camera,
+                                          {pose_params_.opening_width_m, pose_params_.opening_height_m});
+  const pose::PoseParams& assumed = estimator_.params();
+  if (opening.width_m != assumed.opening_width_m || opening.height_m != assumed.opening_height_m) {
+    pose::PoseParams params = pose_params_;
+    params.opening_width_m = std::clamp(opening.width_m, 0.1, 10.0);
+    params.opening_height_m = std::clamp(opening.height_m, 0.1, 10.0);
+    estimator_ = pose::WindowPoseEstimator(params);
+  }
+  return estimator_.estimate(pending.window, pending.camera, gravity(pending));
+}
+
 void TargetTracker::process(const Pending& pending) {
   last_.used = false;
-  last_.pose = estimator_.estimate(pending.window, pending.camera, gravity(pending));
+  last_.pose = estimate(pending);
   const bool is_whole = pending.window.whole() && pending.window.visibleSides() == 4;
   last_.why_not = last_.pose.detail;
   if (!last_.pose.estimate && is_whole) return;
@@ -103,7 +115,7 @@ std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending)
 std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
   const auto state = filter_.state(now_sec);
   if (!state) return std::nullopt;
-  return targetFrom(*state, opening_);
+  return targetFrom(*state);
 }
 
 }  // namespace window_ingress::navigation

@@ -1,6 +1,7 @@
 #include "window_ingress/pose/window_beliefs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -16,18 +17,19 @@ double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)
 
 }  // namespace
 
-bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const FilterView& view) {
+bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizePrior& size,
+                          const FilterView& view) {
   const Eigen::Vector3d position = view.T_odom_camera.translation();
-  WindowHypothesis window(params_, T_odom_window);
+  WindowHypothesis window(params_, T_odom_window, size, position);
   auto outcome = window.update(params_, view);
   if (!outcome || outcome->squares > params_.gate_squares) {
-    window = WindowHypothesis(params_, window.mirrored(position).T_odom_window());
+    window = WindowHypothesis(params_, window.mirrored(position).T_odom_window(), size, position);
     outcome = window.update(params_, view);
   }
   if (!outcome || outcome->squares > params_.gate_squares) return false;
   hypotheses_.assign(1, {window, 0.0});
   may_split_ = true;
-  addMirrorImage(view, outcome->squares);
+  addMirrorImage(view, size, outcome->squares);
   settle(position);
   return true;
 }
@@ -35,15 +37,15 @@ bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const FilterVi
 // The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
 // Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
 // belief.
-void WindowBeliefs::addMirrorImage(const FilterView& view, double squares) {
+void WindowBeliefs::addMirrorImage(const FilterView& view, const SizePrior& size, double squares) {
   const WindowHypothesis& window = hypotheses_.front().window;
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   const Eigen::Isometry3d image = window.mirrored(position).T_odom_window();
-  WindowHypothesis other(params_, image);
+  WindowHypothesis other(params_, image, size, position);
   auto outcome = other.update(params_, view);
   if (!outcome || window.distanceTo(other) < kMergeDistance) {
     if (std::abs(window.yawFromSight(position)) < kSplitSigmas * window.yawSigma()) return;
-    other = WindowHypothesis(params_, image, window.yawSigma());
+    other = WindowHypothesis(params_, image, size, position, window.yawSigma());
     outcome = other.update(params_, view);
   }
   if (!outcome) return;
@@ -51,34 +53,33 @@ void WindowBeliefs::addMirrorImage(const FilterView& view, double squares) {
   hypotheses_.push_back({other, std::clamp(evidence, -params_.max_evidence, params_.max_evidence)});
 }
 
-std::optional<double> WindowBeliefs::apply(const FilterView& view, const FilterView& alone,
-                                           double elapsed_sec, const Eigen::Vector3d& camera_from) {
+std::optional<WindowHypothesis::Outcome> WindowBeliefs::apply(const FilterView& view, double elapsed_sec,
+                                                              const Eigen::Vector3d& camera_from) {
   std::vector<Weighted> tried = hypotheses_;
-  std::vector<double> evidence;
-  std::optional<double> least_squares;
-  for (auto& [window, log_weight] : tried) {
+  std::array<double, 2> evidence{kImpossible, kImpossible};
+  std::optional<WindowHypothesis::Outcome> closest;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    WindowHypothesis& window = tried[i].window;
     window.predict(params_, elapsed_sec, camera_from, view.T_odom_camera.translation());
-    WindowHypothesis updated = window, updated_alone = window;
+    WindowHypothesis updated = window;
     const auto outcome = updated.update(params_, view);
-    const auto outcome_alone = updated_alone.update(params_, alone);
-    const bool inside = outcome && outcome_alone && outcome_alone->squares <= params_.gate_squares;
-    evidence.push_back(inside ? outcome->log_evidence : kImpossible);
-    if (!inside) continue;
+    if (!outcome || outcome->squares > params_.gate_squares) continue;
+    evidence[i] = outcome->log_evidence;
     window = updated;
-    least_squares = std::min(least_squares.value_or(outcome_alone->squares), outcome_alone->squares);
+    if (!closest || outcome->squares < closest->squares) closest = outcome;
   }
-  if (!least_squares) return std::nullopt;
-  const double best = *std::max_element(evidence.begin(), evidence.end());
+  if (!closest) return std::nullopt;
+  const double best = std::max(evidence[0], evidence[1]);
   for (std::size_t i = 0; i < tried.size(); ++i)
     tried[i].log_weight += std::max(evidence[i] - best, -params_.max_evidence);
   hypotheses_ = std::move(tried);
   settle(view.T_odom_camera.translation());
-  return least_squares;
+  return closest;
 }
 
 bool WindowBeliefs::areUnambiguous() const {
   if (hypotheses_.size() < 2) return true;
-  const auto yaw = [](const Weighted& h) { return h.window.state()(WindowHypothesis::kYaw); };
+  const auto yaw = [](const Weighted& h) { return h.window.state().yaw(); };
   return std::abs(geometry::wrapAngle(yaw(hypotheses_[0]) - yaw(hypotheses_[1]))) < params_.harmless_yaw_rad;
 }
 

@@ -7,6 +7,8 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/pose/observation_check.hpp"
+#include "window_ingress/pose/opening_aspect.hpp"
+#include "window_ingress/pose/smooth_path.hpp"
 #include "window_ingress/pose/viewpoints.hpp"
 #include "window_ingress/pose/window_beliefs.hpp"
 
@@ -14,33 +16,98 @@ namespace window_ingress::pose {
 namespace {
 
 constexpr double kExpectedSquares = 8.0;
-constexpr double kMeanOver = 30.0;  // images
+constexpr double kMeanOver = 30.0;        // images
+constexpr double kMaxHeldSigma = 0.1;     // a size that is worse than this is not worth being held
+constexpr double kSureOfHeight = 0.2;     // relative
+constexpr double kHeldSigmaGrowth = 1.5;  // the restart may have had a reason
+
+Eigen::Vector3d upInCamera(const Eigen::Isometry3d& T_odom_camera) {
+  return T_odom_camera.linear().transpose().col(2);
+}
 
 }  // namespace
 
 struct WindowFilter::Impl {
-  explicit Impl(const FilterParams& p) : params(p), viewpoints(p.systematic_renewal_m), beliefs(p) {}
+  explicit Impl(const FilterParams& p)
+      : params(p),
+        viewpoints(p.systematic_renewal_m),
+        beliefs(p),
+        consistency(p.consistency_images, p.max_consistency) {}
 
   FilterParams params;
   Viewpoints viewpoints;
   WindowBeliefs beliefs;
+  ConsistencyMonitor consistency;
+  SmoothPath path;
+  std::optional<SizePrior> held_size;
+  std::uint32_t target_id = 0;
   double stamp_sec = 0.0;
   double interval_sec = 1.0;
   Eigen::Vector3d camera_position = Eigen::Vector3d::Zero();
-  geometry::OpeningSize opening;
   int updates = 0;
   int outliers = 0;
   double mean_squares = kExpectedSquares;
 
+  bool sizeIsKnown() const { return params.size == "known"; }
+  const WindowHypothesis& believed() const { return beliefs.hypotheses().front().window; }
+
   void forgetImages() {
     viewpoints.clear();
+    consistency.clear();
     updates = outliers = 0;
     mean_squares = kExpectedSquares;
   }
 
-  void reset() {
+  void forgetPlaces() {
+    holdSize();
+    path.clear();
     beliefs.clear();
     forgetImages();
+  }
+
+  void reset() {
+    forgetPlaces();
+    held_size.reset();
+  }
+
+  // A filter that was at odds with its images has no size worth keeping.
+  void holdSize() {
+    if (beliefs.empty() || sizeIsKnown()) return;
+    held_size.reset();
+    if (!beliefs.areUnambiguous() || mean_squares > params.max_mean_squares) return;
+    const auto& window = believed();
+    const double aspect_variance = window.covariance()(WindowState::kLogAspect, WindowState::kLogAspect);
+    const SizePrior found{
+        window.state().opening(), kHeldSigmaGrowth * std::sqrt(aspect_variance),
+        kHeldSigmaGrowth * std::sqrt(window.sizeCovariance()(1, 1)) / window.state().heightM()};
+    if (std::max(found.aspect_sigma, found.height_sigma) < kMaxHeldSigma) held_size = found;
+  }
+
+  SizePrior sizePrior(const geometry::OpeningSize& assumed) const {
+    if (held_size) return *held_size;
+    const bool has_aspect = params.size != "unknown";
+    return {assumed, has_aspect ? params.known_size_sigma : params.guessed_aspect_sigma,
+            sizeIsKnown() ? params.known_size_sigma : params.guessed_height_sigma};
+  }
+
+  // A height that is still open may be anything for a while.
+  geometry::OpeningSize scaledIfUnsure(const WindowHypothesis& window,
+                                       const geometry::OpeningSize& nominal) const {
+    const geometry::OpeningSize found = window.state().opening();
+    if (std::sqrt(window.sizeCovariance()(1, 1)) < kSureOfHeight * found.height_m) return found;
+    return {found.width_m * nominal.height_m / found.height_m, nominal.height_m};
+  }
+
+  geometry::OpeningSize openingFor(const detection::WindowObservation& window,
+                                   const geometry::PinholeCamera& camera,
+                                   const geometry::OpeningSize& nominal) const {
+    if (sizeIsKnown()) return nominal;
+    const bool is_same = target_id == 0 || window.target_id == 0 || window.target_id == target_id;
+    if (is_same && !beliefs.empty()) return scaledIfUnsure(believed(), nominal);
+    if (is_same && held_size) return held_size->size;
+    if (params.size == "aspect") return nominal;
+    const auto aspect = openingAspect(upright(window), camera);
+    return aspect ? geometry::OpeningSize{*aspect * nominal.height_m, nominal.height_m} : nominal;
   }
 
   ImageNoise noise() const { return {params.systematic_sigma_px, params.unknown_corner_sigma_px, 1.0, 1.0}; }
@@ -61,11 +128,13 @@ struct WindowFilter::Impl {
   }
 
   // What was believed before is kept until a new start succeeds.
-  bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& alone) {
-    if (!estimate || !beliefs.start(alone.T_odom_camera * estimate->best.T_camera_window, alone))
-      return false;
+  bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
+    if (!estimate) return false;
+    holdSize();
+    const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
+    const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
+    if (!beliefs.start(T_odom_window, sizePrior(estimate->opening), alone)) return false;
     forgetImages();
-    opening = estimate->opening;
     accept(stamp, alone);
     return true;
   }
@@ -74,12 +143,17 @@ struct WindowFilter::Impl {
     if (!std::isfinite(stamp)) return false;
     if (beliefs.empty()) return true;
     const double elapsed = stamp - stamp_sec;
-    if (elapsed < -params.time_jump_sec || elapsed > params.max_age_sec) {
-      reset();
-      return true;
-    }
+    if (elapsed < -params.time_jump_sec) reset();
+    if (elapsed > params.max_age_sec) forgetPlaces();
+    if (beliefs.empty()) return true;
     if (elapsed > 0.0) interval_sec = std::clamp(elapsed, 0.005, 1.0);
     return elapsed > 0.0;
+  }
+
+  void startAnewForAnotherTarget(std::uint32_t seen_id) {
+    if (seen_id == 0) return;
+    if (target_id != 0 && seen_id != target_id) reset();
+    target_id = seen_id;
   }
 
   bool update(const WindowPoseEstimate* estimate, const detection::WindowObservation& window,
@@ -87,27 +161,66 @@ struct WindowFilter::Impl {
     if (!geometry::isValidPose(T_odom_camera) || !camera.validate().empty() || !isInOrder(window.stamp_sec) ||
         (window.whole() && (!geometry::isFinite(window.corners) || !geometry::isConvex(window.corners))))
       return false;
-    const Eigen::Vector3d up_camera = T_odom_camera.linear().transpose().col(2);
-    if (!isUpright(window, up_camera)) return false;
-    const auto ordered = upright(window, up_camera);
+    if (!isUpright(window, upInCamera(T_odom_camera))) return false;
+    const auto ordered = upright(window, upInCamera(T_odom_camera));
     const auto shared = ImageMeasurement::make(ordered, camera, noiseAt(T_odom_camera.translation()));
     const auto first = ImageMeasurement::make(ordered, camera, noise());
     if (!shared || !first) return false;
-    const auto size = estimate ? estimate->opening : opening;
-    const FilterView view{*shared, camera, size, T_odom_camera};
-    const FilterView alone{*first, camera, size, T_odom_camera};
-    return apply(estimate, window.stamp_sec, view, alone);
+    startAnewForAnotherTarget(window.target_id);
+    path.add(window.stamp_sec, T_odom_camera.translation());
+    const auto motion = path.motion();
+    const bool moves = motion && motion->velocity_mps.norm() >= params.scale_speed_mps;
+    const Eigen::Vector3d jitter =
+        motion ? Eigen::Vector3d(T_odom_camera.translation() - motion->position_m) : Eigen::Vector3d::Zero();
+    return apply(estimate, window.stamp_sec, {*shared, *first, camera, T_odom_camera, jitter, moves});
   }
 
-  bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view,
-             const FilterView& alone) {
-    if (beliefs.empty()) return start(estimate, stamp, alone);
-    if (mean_squares > params.max_mean_squares && start(estimate, stamp, alone)) return true;
-    const auto squares = beliefs.apply(view, alone, stamp - stamp_sec, camera_position);
-    if (!squares) return ++outliers >= params.outliers_until_restart && start(estimate, stamp, alone);
-    mean_squares += (*squares - mean_squares) / kMeanOver;
+  bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
+    if (beliefs.empty()) return start(estimate, stamp, view);
+    if (mean_squares > params.max_mean_squares && start(estimate, stamp, view)) return true;
+    const auto outcome = beliefs.apply(view, stamp - stamp_sec, camera_position);
+    if (!outcome) return ++outliers >= params.outliers_until_restart && start(estimate, stamp, view);
+    mean_squares += (outcome->squares - mean_squares) / kMeanOver;
+    consistency.add(outcome->squares, view.alone.size());
     accept(stamp, view);
     return true;
+  }
+
+  Matrix6d covarianceOf(const WindowHypothesis& window) const {
+    const Eigen::Matrix4d pose = window.poseCovariance();
+    Matrix6d covariance = Matrix6d::Zero();
+    covariance.topLeftCorner<3, 3>() = pose.topLeftCorner<3, 3>();
+    covariance.topRightCorner<3, 1>() = pose.topRightCorner<3, 1>();
+    covariance.bottomLeftCorner<1, 3>() = pose.bottomLeftCorner<1, 3>();
+    covariance(3, 3) = covariance(4, 4) = std::pow(params.attitude_bias_sigma_rad, 2);
+    covariance(5, 5) = pose(3, 3);
+    return covariance;
+  }
+
+  WindowHypothesis predicted(WindowHypothesis window, double age_sec) const {
+    window.predict(params, std::max(age_sec, 0.0), camera_position, camera_position);
+    return window;
+  }
+
+  FilteredWindow stateAt(double age_sec) const {
+    const auto& hypotheses = beliefs.hypotheses();
+    const WindowHypothesis window = predicted(hypotheses.front().window, age_sec);
+    FilteredWindow out;
+    out.stamp_sec = stamp_sec;
+    out.age_sec = age_sec;
+    out.T_odom_window = window.T_odom_window();
+    out.covariance = covarianceOf(window);
+    out.hypothesis_weight = std::exp(hypotheses.front().log_weight);
+    out.updates = updates;
+    out.sign_trusted = beliefs.areUnambiguous() && window.yawSigma() < params.trusted_yaw_sigma_rad;
+    if (hypotheses.size() > 1) {
+      const WindowHypothesis other = predicted(hypotheses[1].window, age_sec);
+      out.alternative = FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other)};
+    }
+    out.opening = window.state().opening();
+    out.opening_covariance = window.sizeCovariance();
+    out.consistency = consistency.consistency();
+    return out;
   }
 };
 
@@ -118,6 +231,8 @@ WindowFilter::WindowFilter(const FilterParams& params) {
 }
 
 WindowFilter::~WindowFilter() = default;
+WindowFilter::WindowFilter(WindowFilter&&) noexcept = default;
+WindowFilter& WindowFilter::operator=(WindowFilter&&) noexcept = default;
 
 bool WindowFilter::update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
                           const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) {
@@ -129,36 +244,28 @@ bool WindowFilter::update(const detection::WindowObservation& window, const geom
   return impl_->update(nullptr, window, camera, T_odom_camera);
 }
 
+geometry::OpeningSize WindowFilter::openingFor(const detection::WindowObservation& window,
+                                               const geometry::PinholeCamera& camera,
+                                               const geometry::OpeningSize& nominal) const {
+  return impl_->openingFor(window, camera, nominal);
+}
+
 std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
   const Impl& self = *impl_;
   if (self.beliefs.empty() || !std::isfinite(now_sec)) return std::nullopt;
-  const double age = now_sec - self.stamp_sec;
-  if (age > self.params.max_age_sec || age < -self.params.time_jump_sec) return std::nullopt;
-  const auto& [believed, log_weight] = self.beliefs.hypotheses().front();
-  WindowHypothesis window = believed;
-  window.predict(self.params, std::max(age, 0.0), self.camera_position, self.camera_position);
-
-  FilteredWindow out;
-  out.stamp_sec = self.stamp_sec;
-  out.T_odom_window = window.T_odom_window();
-  out.covariance.topLeftCorner<3, 3>() = window.covariance().topLeftCorner<3, 3>();
-  out.covariance.topRightCorner<3, 1>() = window.covariance().block<3, 1>(0, WindowHypothesis::kYaw);
-  out.covariance.bottomLeftCorner<1, 3>() = out.covariance.topRightCorner<3, 1>().transpose();
-  out.covariance(3, 3) = out.covariance(4, 4) = std::pow(self.params.attitude_bias_sigma_rad, 2);
-  out.covariance(5, 5) = window.covariance()(WindowHypothesis::kYaw, WindowHypothesis::kYaw);
-  out.hypothesis_weight = std::exp(log_weight);
-  out.updates = self.updates;
-  out.sign_trusted = self.beliefs.areUnambiguous() && window.yawSigma() < self.params.trusted_yaw_sigma_rad;
-  return out;
+  const double age_sec = now_sec - self.stamp_sec;
+  if (age_sec > self.params.max_age_sec || age_sec < -self.params.time_jump_sec) return std::nullopt;
+  return self.stateAt(age_sec);
 }
 
 std::optional<geometry::Quadrilateral> WindowFilter::predictedCorners(
     double now_sec, const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) const {
   if (!state(now_sec) || !geometry::isValidPose(T_odom_camera)) return std::nullopt;
-  return geometry::projectOpening(
-      camera, impl_->beliefs.hypotheses().front().window.T_camera_window(T_odom_camera), impl_->opening);
+  const WindowState& window = impl_->believed().state();
+  return geometry::projectOpening(camera, window.T_camera_window(T_odom_camera), window.opening());
 }
 
 void WindowFilter::reset() { impl_->reset(); }
+void WindowFilter::forgetPlaces() { impl_->forgetPlaces(); }
 
 }  // namespace window_ingress::pose

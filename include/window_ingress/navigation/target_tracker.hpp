@@ -64,8 +64,10 @@ class TargetTracker {
   void process(const Pending& pending);
   std::optional<pose::GravityPrior> gravity(const Pending& pending) const;
 
+  pose::PoseResult estimate(const Pending& pending);
+
   TrackerParams params_;
-  geometry::OpeningSize opening_;
+  pose::PoseParams pose_params_;
   pose::WindowPoseEstimator estimator_;
   pose::WindowFilter filter_;
   pose::PoseBuffer odometry_, attitude_;
@@ -76,6 +78,6 @@ class TargetTracker {
 };
 
 /// The filter's state in the navigator's words.
-TargetEstimate targetFrom(const pose::FilteredWindow& window, const geometry::OpeningSize& opening);
+TargetEstimate targetFrom(const pose::FilteredWindow& window);
 
 }  // namespace window_ingress::navigation

@@ -25,21 +25,20 @@ class WindowBeliefs {
   /// Begins anew with a pose from one image, and with its mirror image.
   /// \return false, and nothing changed, if no upright window next to that pose, or to its mirror image,
   /// explains the image
-  bool start(const Eigen::Isometry3d& T_odom_window, const FilterView& view);
+  bool start(const Eigen::Isometry3d& T_odom_window, const SizePrior& size, const FilterView& view);
 
   /// Time passes, the camera moves, and an image is applied to all hypotheses.
-  /// \param alone the same image, as if it were the first from its place: it decides whether it is an outlier
-  /// \return the least normalised innovation squared of `alone`; nothing, and nothing changed, if the image
-  /// is an
+  /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
+  /// an
   ///         outlier to all
-  std::optional<double> apply(const FilterView& view, const FilterView& alone, double elapsed_sec,
-                              const Eigen::Vector3d& camera_from);
+  std::optional<WindowHypothesis::Outcome> apply(const FilterView& view, double elapsed_sec,
+                                                 const Eigen::Vector3d& camera_from);
 
   /// True if the mirror image is dead, or too near to matter.
   bool areUnambiguous() const;
 
  private:
-  void addMirrorImage(const FilterView& view, double squares);
+  void addMirrorImage(const FilterView& view, const SizePrior& size, double squares);
   void settle(const Eigen::Vector3d& camera_position);
   void normalise();
   void mergeOrDrop();

@@ -8,30 +8,37 @@
 #include "window_ingress/pose/filter_params.hpp"
 #include "window_ingress/pose/image_measurement.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
+#include "window_ingress/pose/window_state.hpp"
 
 namespace window_ingress::pose {
 
 /// One image as the filter sees it.
 struct FilterView {
-  const ImageMeasurement& image;
+  const ImageMeasurement& image;  ///< given the weight that it has beside those already taken from its place
+  const ImageMeasurement&
+      alone;  ///< the same, as if it were the first from its place: decides about outliers
   const geometry::PinholeCamera& camera;
-  geometry::OpeningSize opening;
   Eigen::Isometry3d T_odom_camera;
+  /// How far the camera's position lies from the smooth way that it is on. The scale is learned from the way
+  /// alone: jitter that was taken for motion would pass for a way flown past a window of infinite size.
+  Eigen::Vector3d jitter_m = Eigen::Vector3d::Zero();
+  bool moves = true;  ///< else this image tells nothing about the scale
 };
 
-/// One belief about the window in the odometry frame: an iterated extended Kalman filter.
-///
-/// State: position in odom [m], yaw about odom's z [rad], and the lasting error of the camera's attitude
-/// about its own x axis (pitch) and z axis (roll) [rad], which odometry cannot know. The window itself stands
-/// upright.
+/// What is known of the opening's size before any image.
+struct SizePrior {
+  geometry::OpeningSize size;
+  double aspect_sigma = 0.0;  ///< relative, of width over height
+  double height_sigma = 0.0;  ///< relative
+};
+
+/// One belief about the window in the odometry frame: an iterated extended Kalman filter on `WindowState`.
 class WindowHypothesis {
  public:
-  using State = Eigen::Matrix<double, 6, 1>;
-  enum Index { kX, kY, kZ, kYaw, kPitchBias, kRollBias };
-
   /// A wide prior around a pose from a single image; the image itself is still to be applied.
-  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
-                   double yaw_sigma_rad = kWideYawSigmaRad);
+  /// \param anchor_m of the state: the camera's position at that image
+  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window, const SizePrior& size,
+                   const Eigen::Vector3d& anchor_m, double yaw_sigma_rad = kWideYawSigmaRad);
   static constexpr double kWideYawSigmaRad = 0.7;
 
   /// Time passes and the camera moves: odometry drifts, attitude errors fade.
@@ -39,31 +46,34 @@ class WindowHypothesis {
                const Eigen::Vector3d& camera_to);
 
   struct Outcome {
-    double squares = 0.0;       ///< normalised innovation squared
-    double log_evidence = 0.0;  ///< log density of the image given the belief before it
+    double squares = 0.0;        ///< normalised innovation squared of `FilterView::alone`
+    double log_evidence = 0.0;   ///< log density of the image given the belief before it
+    double image_squares = 0.0;  ///< normalised innovation squared of `FilterView::image`
   };
   /// Applies one image. Nothing, and nothing changed, if the belief puts the window behind the camera.
   std::optional<Outcome> update(const FilterParams& params, const FilterView& view);
 
-  Eigen::Isometry3d T_odom_window() const;
-  Eigen::Isometry3d T_camera_window(const Eigen::Isometry3d& T_odom_camera) const;
-  double yawSigma() const { return std::sqrt(covariance_(kYaw, kYaw)); }
-  const State& state() const { return state_; }
-  const Matrix6d& covariance() const { return covariance_; }
+  const WindowState& state() const { return state_; }
+  const WindowState::Matrix& covariance() const { return covariance_; }
+  Eigen::Isometry3d T_odom_window() const { return state_.T_odom_window(); }
+  Eigen::Matrix4d poseCovariance() const;  ///< x, y, z [m], yaw [rad]; odom axes
+  Eigen::Matrix2d sizeCovariance() const;  ///< width, height [m]
+  double yawSigma() const { return std::sqrt(covariance_(WindowState::kYaw, WindowState::kYaw)); }
 
   /// Angle of the window's axis against the horizontal line of sight [rad]: 0 when seen along its axis.
   double yawFromSight(const Eigen::Vector3d& camera_position) const;
   /// The other planar solution: yaw mirrored about the line of sight.
   WindowHypothesis mirrored(const Eigen::Vector3d& camera_position) const;
-  /// One belief with mean and spread of both; `share` is the weight of the other one, 0 to 1.
+  /// One belief with mean and spread of both; `share` is the weight of the other one, 0 to 1. Same anchor.
   WindowHypothesis mergedWith(const WindowHypothesis& other, double share) const;
-  /// Squared Mahalanobis distance of position and yaw.
+  /// Squared Mahalanobis distance of place and yaw.
   double distanceTo(const WindowHypothesis& other) const;
 
  private:
-  friend struct HypothesisFit;
-  State state_;
-  Matrix6d covariance_;
+  void keepScale(double inverse_height, double variance);
+
+  WindowState state_;
+  WindowState::Matrix covariance_;
 };
 
 }  // namespace window_ingress::pose

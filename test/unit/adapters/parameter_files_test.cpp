@@ -38,6 +38,9 @@ class YamlComparison {
     const YAML::Node node = take(name);
     EXPECT_EQ(node.size(), value.size()) << path_ << name;
   }
+  void choice(const std::string& name, const std::string& value, const std::vector<std::string>&) {
+    (*this)(name, value);
+  }
   template <typename Params>
   void group(const std::string& name, const Params& params) {
     YamlComparison child(take(name), path_ + name + "/");

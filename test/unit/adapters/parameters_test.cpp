@@ -21,7 +21,7 @@ struct Outer {
   double speed = 1.0;
   int count = 3;
   bool wanted = false;
-  std::string name = "a";
+  std::string name = "a", mode = "slow";
   std::vector<double> list;
   Inner inner;
   template <typename Self, typename Visitor>
@@ -30,6 +30,7 @@ struct Outer {
     field("count", self.count, 0, 10);
     field("wanted", self.wanted);
     field("name", self.name);
+    field.choice("mode", self.mode, {"slow", "fast"});
     field("list", self.list);
     field.group("inner", self.inner);
   }
@@ -59,6 +60,16 @@ std::vector<std::string> faultsOf(const std::string& name, const Value& value) {
   XmlRpc::XmlRpcValue tree = emptyTree();
   tree[name] = value;
   return read(tree).faults;
+}
+
+TEST(Parameters, AChoiceIsOneOfItsWords) {
+  XmlRpc::XmlRpcValue tree = emptyTree();
+  tree["mode"] = "fast";
+  EXPECT_EQ(read(tree).params.mode, "fast");
+  EXPECT_TRUE(read(tree).faults.empty());
+  tree["mode"] = "quick";
+  ASSERT_EQ(read(tree).faults.size(), 1u);
+  EXPECT_NE(read(tree).faults[0].find("slow, fast"), std::string::npos);
 }
 
 TEST(Parameters, MissingOnesKeepTheirDefaults) {

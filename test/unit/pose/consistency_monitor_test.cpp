@@ -1,0 +1,61 @@
+#include "window_ingress/pose/consistency_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace window_ingress::pose {
+namespace {
+
+double chiSquared(int degrees_of_freedom, std::mt19937& random) {
+  std::normal_distribution<double> normal(0.0, 1.0);
+  double sum = 0.0;
+  for (int i = 0; i < degrees_of_freedom; ++i) sum += std::pow(normal(random), 2);
+  return sum;
+}
+
+TEST(ConsistencyMonitor, MeansOneADegreeOfFreedom) {
+  std::mt19937 random(1);
+  ConsistencyMonitor monitor(200, 3.3);
+  for (int i = 0; i < 500; ++i) {
+    const int degrees = i % 2 == 0 ? 8 : 4;
+    monitor.add(chiSquared(degrees, random), degrees);
+  }
+  EXPECT_EQ(monitor.consistency().images, 200);
+  EXPECT_NEAR(monitor.consistency().mean_nis, 1.0, 0.15);
+  EXPECT_TRUE(monitor.consistency().consistent);
+}
+
+TEST(ConsistencyMonitor, NamesNoiseTwiceAsLargeAsStatedAndForgetsIt) {
+  std::mt19937 random(2);
+  ConsistencyMonitor monitor(50, 3.3);
+  for (int i = 0; i < 50; ++i) monitor.add(4.0 * chiSquared(8, random), 8);
+  EXPECT_FALSE(monitor.consistency().consistent);
+  for (int i = 0; i < 50; ++i) monitor.add(chiSquared(8, random), 8);
+  EXPECT_TRUE(monitor.consistency().consistent);
+}
+
+TEST(ConsistencyMonitor, JudgesNothingByAFewImages) {
+  ConsistencyMonitor monitor(50, 3.3);
+  EXPECT_TRUE(monitor.consistency().consistent);
+  EXPECT_EQ(monitor.consistency().mean_nis, 0.0);
+  for (int i = 0; i < 20; ++i) monitor.add(100.0, 8);
+  EXPECT_TRUE(monitor.consistency().consistent);
+  for (int i = 0; i < 5; ++i) monitor.add(100.0, 8);
+  EXPECT_FALSE(monitor.consistency().consistent);
+  monitor.clear();
+  EXPECT_EQ(monitor.consistency().images, 0);
+}
+
+TEST(ConsistencyMonitor, IgnoresWhatIsNoSquare) {
+  ConsistencyMonitor monitor(10, 3.3);
+  monitor.add(std::numeric_limits<double>::quiet_NaN(), 8);
+  monitor.add(std::numeric_limits<double>::infinity(), 8);
+  monitor.add(-1.0, 8);
+  monitor.add(1.0, 0);
+  EXPECT_EQ(monitor.consistency().images, 0);
+}
+
+}  // namespace
+}  // namespace window_ingress::pose
