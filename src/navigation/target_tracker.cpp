@@ -1,6 +1,5 @@
 #include "window_ingress/navigation/target_tracker.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -24,13 +23,16 @@ TargetEstimate targetFrom(const pose::FilteredWindow& window) {
   target.covariance = window.covariance;
   target.sign_trusted = window.sign_trusted;
   target.updates = window.updates;
-  target.opening = window.opening;
+  target.opening = window.size.size;
   return target;
 }
 
 TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterParams& filter,
                              const TrackerParams& params)
-    : params_(checked(params)), pose_params_(pose), estimator_(pose), filter_(filter) {}
+    : params_(checked(params)),
+      estimator_(pose),
+      filter_(filter, pose::sizeBelief({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma,
+                                       pose.aspect_sigma)) {}
 
 void TargetTracker::reset() {
   filter_.reset();
@@ -71,18 +73,11 @@ void TargetTracker::flush() {
   pending_.reset();
 }
 
-// The estimator takes the opening's size as known; it is given what is known by now.
-pose::PoseResult TargetTracker::estimate(const Pending& pending) {
-  const auto opening = filter_.openingFor(pending.window, pending.camera,
-                                          {pose_params_.opening_width_m, pose_params_.opening_height_m});
-  const pose::PoseParams& assumed = estimator_.params();
-  if (opening.width_m != assumed.opening_width_m || opening.height_m != assumed.opening_height_m) {
-    pose::PoseParams params = pose_params_;
-    params.opening_width_m = std::clamp(opening.width_m, 0.1, 10.0);
-    params.opening_height_m = std::clamp(opening.height_m, 0.1, 10.0);
-    estimator_ = pose::WindowPoseEstimator(params);
-  }
-  return estimator_.estimate(pending.window, pending.camera, gravity(pending));
+pose::PoseResult TargetTracker::estimate(const Pending& pending) const {
+  pose::PoseHints hints;
+  hints.gravity = gravity(pending);
+  hints.size = filter_.sizeOf(pending.window);
+  return estimator_.estimate(pending.window, pending.camera, hints);
 }
 
 void TargetTracker::process(const Pending& pending) {

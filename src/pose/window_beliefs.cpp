@@ -17,7 +17,7 @@ double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)
 
 }  // namespace
 
-bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizePrior& size,
+bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size,
                           const FilterView& view) {
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   WindowHypothesis window(params_, T_odom_window, size, position);
@@ -37,7 +37,7 @@ bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizePrio
 // The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
 // Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
 // belief.
-void WindowBeliefs::addMirrorImage(const FilterView& view, const SizePrior& size, double squares) {
+void WindowBeliefs::addMirrorImage(const FilterView& view, const SizeBelief& size, double squares) {
   const WindowHypothesis& window = hypotheses_.front().window;
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   const Eigen::Isometry3d image = window.mirrored(position).T_odom_window();

@@ -7,7 +7,6 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/pose/observation_check.hpp"
-#include "window_ingress/pose/opening_aspect.hpp"
 #include "window_ingress/pose/smooth_path.hpp"
 #include "window_ingress/pose/viewpoints.hpp"
 #include "window_ingress/pose/window_beliefs.hpp"
@@ -28,18 +27,19 @@ Eigen::Vector3d upInCamera(const Eigen::Isometry3d& T_odom_camera) {
 }  // namespace
 
 struct WindowFilter::Impl {
-  explicit Impl(const FilterParams& p)
+  Impl(const FilterParams& p, const std::optional<SizeBelief>& size)
       : params(p),
+        nominal_size(size),
         viewpoints(p.systematic_renewal_m),
         beliefs(p),
         consistency(p.consistency_images, p.max_consistency) {}
 
   FilterParams params;
+  std::optional<SizeBelief> nominal_size, held_size;
   Viewpoints viewpoints;
   WindowBeliefs beliefs;
   ConsistencyMonitor consistency;
   SmoothPath path;
-  std::optional<SizePrior> held_size;
   std::uint32_t target_id = 0;
   double stamp_sec = 0.0;
   double interval_sec = 1.0;
@@ -48,7 +48,7 @@ struct WindowFilter::Impl {
   int outliers = 0;
   double mean_squares = kExpectedSquares;
 
-  bool sizeIsKnown() const { return params.size == "known"; }
+  bool sizeIsKnown() const { return !nominal_size || nominal_size->log_covariance.isZero(0.0); }
   const WindowHypothesis& believed() const { return beliefs.hypotheses().front().window; }
 
   void forgetImages() {
@@ -75,39 +75,31 @@ struct WindowFilter::Impl {
     if (beliefs.empty() || sizeIsKnown()) return;
     held_size.reset();
     if (!beliefs.areUnambiguous() || mean_squares > params.max_mean_squares) return;
-    const auto& window = believed();
-    const double aspect_variance = window.covariance()(WindowState::kLogAspect, WindowState::kLogAspect);
-    const SizePrior found{
-        window.state().opening(), kHeldSigmaGrowth * std::sqrt(aspect_variance),
-        kHeldSigmaGrowth * std::sqrt(window.sizeCovariance()(1, 1)) / window.state().heightM()};
-    if (std::max(found.aspect_sigma, found.height_sigma) < kMaxHeldSigma) held_size = found;
+    SizeBelief found = believed().size();
+    if (found.log_covariance.trace() > kMaxHeldSigma * kMaxHeldSigma) return;
+    found.log_covariance *= kHeldSigmaGrowth * kHeldSigmaGrowth;
+    held_size = found;
   }
 
-  SizePrior sizePrior(const geometry::OpeningSize& assumed) const {
+  SizeBelief priorSize(const geometry::OpeningSize& fitted) const {
     if (held_size) return *held_size;
-    const bool has_aspect = params.size != "unknown";
-    return {assumed, has_aspect ? params.known_size_sigma : params.guessed_aspect_sigma,
-            sizeIsKnown() ? params.known_size_sigma : params.guessed_height_sigma};
+    return {fitted, nominal_size ? nominal_size->log_covariance : Eigen::Matrix2d::Zero()};
   }
 
-  // A height that is still open may be anything for a while.
-  geometry::OpeningSize scaledIfUnsure(const WindowHypothesis& window,
-                                       const geometry::OpeningSize& nominal) const {
-    const geometry::OpeningSize found = window.state().opening();
-    if (std::sqrt(window.sizeCovariance()(1, 1)) < kSureOfHeight * found.height_m) return found;
-    return {found.width_m * nominal.height_m / found.height_m, nominal.height_m};
+  // A scale that is still open may be anything for a while.
+  SizeBelief believedSize() const {
+    SizeBelief size = believed().size();
+    if (size.log_covariance(1, 1) < kSureOfHeight * kSureOfHeight) return size;
+    const double height_m = nominal_size->size.height_m;
+    size.size = {size.size.width_m * height_m / size.size.height_m, height_m};
+    return size;
   }
 
-  geometry::OpeningSize openingFor(const detection::WindowObservation& window,
-                                   const geometry::PinholeCamera& camera,
-                                   const geometry::OpeningSize& nominal) const {
-    if (sizeIsKnown()) return nominal;
+  std::optional<SizeBelief> sizeOf(const detection::WindowObservation& window) const {
     const bool is_same = target_id == 0 || window.target_id == 0 || window.target_id == target_id;
-    if (is_same && !beliefs.empty()) return scaledIfUnsure(believed(), nominal);
-    if (is_same && held_size) return held_size->size;
-    if (params.size == "aspect") return nominal;
-    const auto aspect = openingAspect(upright(window), camera);
-    return aspect ? geometry::OpeningSize{*aspect * nominal.height_m, nominal.height_m} : nominal;
+    if (sizeIsKnown() || !is_same) return nominal_size;
+    if (!beliefs.empty()) return believedSize();
+    return held_size ? held_size : nominal_size;
   }
 
   ImageNoise noise() const { return {params.systematic_sigma_px, params.unknown_corner_sigma_px, 1.0, 1.0}; }
@@ -133,7 +125,7 @@ struct WindowFilter::Impl {
     holdSize();
     const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
     const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
-    if (!beliefs.start(T_odom_window, sizePrior(estimate->opening), alone)) return false;
+    if (!beliefs.start(T_odom_window, priorSize(estimate->opening), alone)) return false;
     forgetImages();
     accept(stamp, alone);
     return true;
@@ -217,17 +209,17 @@ struct WindowFilter::Impl {
       const WindowHypothesis other = predicted(hypotheses[1].window, age_sec);
       out.alternative = FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other)};
     }
-    out.opening = window.state().opening();
-    out.opening_covariance = window.sizeCovariance();
+    out.size = window.size();
     out.consistency = consistency.consistency();
     return out;
   }
 };
 
-WindowFilter::WindowFilter(const FilterParams& params) {
+WindowFilter::WindowFilter(const FilterParams& params, const std::optional<SizeBelief>& size) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("filter parameters: " + parameters::joined(faults));
-  impl_ = std::make_unique<Impl>(params);
+  if (size && !isUsable(*size)) throw std::invalid_argument("filter: the size of the opening is not usable");
+  impl_ = std::make_unique<Impl>(params, size);
 }
 
 WindowFilter::~WindowFilter() = default;
@@ -244,10 +236,8 @@ bool WindowFilter::update(const detection::WindowObservation& window, const geom
   return impl_->update(nullptr, window, camera, T_odom_camera);
 }
 
-geometry::OpeningSize WindowFilter::openingFor(const detection::WindowObservation& window,
-                                               const geometry::PinholeCamera& camera,
-                                               const geometry::OpeningSize& nominal) const {
-  return impl_->openingFor(window, camera, nominal);
+std::optional<SizeBelief> WindowFilter::sizeOf(const detection::WindowObservation& window) const {
+  return impl_->sizeOf(window);
 }
 
 std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {

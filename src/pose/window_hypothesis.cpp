@@ -115,18 +115,22 @@ double leastCostNear(const FitPoint& point) {
 }  // namespace
 
 WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
-                                   const SizePrior& size, const Eigen::Vector3d& anchor_m,
+                                   const SizeBelief& size, const Eigen::Vector3d& anchor_m,
                                    double yaw_sigma_rad) {
   const double inverse_height = 1.0 / size.size.height_m;
   state_.anchor_m = anchor_m;
   state_.values << inverse_height * (T_odom_window.translation() - anchor_m),
       geometry::yawOf(T_odom_window.linear()), 0.0, 0.0, 0.0,
       std::log(size.size.width_m / size.size.height_m), inverse_height;
-  Vector sigma;
-  sigma << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), yaw_sigma_rad,
-      params.attitude_bias_sigma_rad, params.mounting_yaw_sigma_rad, params.attitude_bias_sigma_rad,
-      size.aspect_sigma, inverse_height * size.height_sigma;
+  Vector sigma = Vector::Zero();
+  sigma.head<7>() << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), yaw_sigma_rad,
+      params.attitude_bias_sigma_rad, params.mounting_yaw_sigma_rad, params.attitude_bias_sigma_rad;
   covariance_ = sigma.cwiseAbs2().asDiagonal();
+  Eigen::Matrix2d aspect_and_scale;
+  aspect_and_scale << 1.0, -1.0, 0.0, -inverse_height;
+  const Eigen::Matrix2d at_least =
+      std::pow(params.known_size_sigma, 2) * Eigen::Matrix2d::Identity() + size.log_covariance;
+  covariance_.bottomRightCorner<2, 2>() = aspect_and_scale * at_least * aspect_and_scale.transpose();
 }
 
 void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec,
@@ -194,9 +198,10 @@ Eigen::Matrix4d WindowHypothesis::poseCovariance() const {
   return slope * covariance_ * slope.transpose();
 }
 
-Eigen::Matrix2d WindowHypothesis::sizeCovariance() const {
-  const auto slope = state_.sizeByValues();
-  return slope * covariance_ * slope.transpose();
+SizeBelief WindowHypothesis::size() const {
+  Eigen::Matrix2d log_size;
+  log_size << 1.0, -state_.heightM(), 0.0, -state_.heightM();
+  return {state_.opening(), log_size * covariance_.bottomRightCorner<2, 2>() * log_size.transpose()};
 }
 
 double WindowHypothesis::yawFromSight(const Eigen::Vector3d& camera_position) const {

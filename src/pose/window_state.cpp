@@ -71,15 +71,6 @@ Eigen::Matrix<double, 4, WindowState::kSize> WindowState::poseByValues() const {
   return jacobian;
 }
 
-Eigen::Matrix<double, 2, WindowState::kSize> WindowState::sizeByValues() const {
-  Eigen::Matrix<double, 2, kSize> jacobian = Eigen::Matrix<double, 2, kSize>::Zero();
-  const geometry::OpeningSize size = opening();
-  jacobian(0, kLogAspect) = size.width_m;
-  jacobian(0, kInverseHeight) = -size.width_m * size.height_m;
-  jacobian(1, kInverseHeight) = -size.height_m * size.height_m;
-  return jacobian;
-}
-
 WindowState::Vector difference(const WindowState::Vector& a, const WindowState::Vector& b) {
   WindowState::Vector out = a - b;
   out(WindowState::kYaw) = geometry::wrapAngle(out(WindowState::kYaw));

@@ -64,10 +64,9 @@ class TargetTracker {
   void process(const Pending& pending);
   std::optional<pose::GravityPrior> gravity(const Pending& pending) const;
 
-  pose::PoseResult estimate(const Pending& pending);
+  pose::PoseResult estimate(const Pending& pending) const;
 
   TrackerParams params_;
-  pose::PoseParams pose_params_;
   pose::WindowPoseEstimator estimator_;
   pose::WindowFilter filter_;
   pose::PoseBuffer odometry_, attitude_;

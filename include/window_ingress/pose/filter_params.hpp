@@ -1,17 +1,11 @@
 #pragma once
 
-#include <string>
-
 namespace window_ingress::pose {
 
 /// Parameters of `WindowFilter`.
 struct FilterParams {
-  std::string size = "known";  ///< what of the opening's size in `pose` is known: known, aspect or unknown
-  double known_size_sigma = 0.003;    ///< relative error of a size that is called known
-  double guessed_aspect_sigma = 0.3;  ///< relative error of the first guess of width over height
-  double guessed_height_sigma = 0.5;  ///< relative error of the first guess of the height
-
-  double scale_speed_mps = 0.1;  ///< slower than this, the way flown tells nothing about the size [m/s]
+  double known_size_sigma = 0.003;  ///< relative error of a size that is called known
+  double scale_speed_mps = 0.1;     ///< slower than this, the way flown tells nothing about the size [m/s]
 
   double systematic_sigma_px =
       0.15;  ///< error of a corner that is the same in all images from one place [px]
@@ -45,10 +39,7 @@ struct FilterParams {
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field.choice("size", self.size, {"known", "aspect", "unknown"});
     field("known_size_sigma", self.known_size_sigma, 1e-4, 0.1);
-    field("guessed_aspect_sigma", self.guessed_aspect_sigma, 0.01, 1.0);
-    field("guessed_height_sigma", self.guessed_height_sigma, 0.01, 1.0);
     field("scale_speed_mps", self.scale_speed_mps, 0.01, 2.0);
     field("systematic_sigma_px", self.systematic_sigma_px, 0.001, 10.0);
     field("unknown_corner_sigma_px", self.unknown_corner_sigma_px, 0.01, 20.0);

@@ -25,7 +25,7 @@ class WindowBeliefs {
   /// Begins anew with a pose from one image, and with its mirror image.
   /// \return false, and nothing changed, if no upright window next to that pose, or to its mirror image,
   /// explains the image
-  bool start(const Eigen::Isometry3d& T_odom_window, const SizePrior& size, const FilterView& view);
+  bool start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size, const FilterView& view);
 
   /// Time passes, the camera moves, and an image is applied to all hypotheses.
   /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
@@ -38,7 +38,7 @@ class WindowBeliefs {
   bool areUnambiguous() const;
 
  private:
-  void addMirrorImage(const FilterView& view, const SizePrior& size, double squares);
+  void addMirrorImage(const FilterView& view, const SizeBelief& size, double squares);
   void settle(const Eigen::Vector3d& camera_position);
   void normalise();
   void mergeOrDrop();

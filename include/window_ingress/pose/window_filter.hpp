@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/pose/consistency_monitor.hpp"
 #include "window_ingress/pose/filter_params.hpp"
+#include "window_ingress/pose/size_belief.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
 
 namespace window_ingress::pose {
@@ -29,10 +29,9 @@ struct FilteredWindow {
   };
   std::optional<Alternative> alternative;
 
-  /// The opening that goes with the pose, and its covariance: width, height [m]. What is called known is as
-  /// good as `FilterParams::known_size_sigma` says; what is not is estimated.
-  geometry::OpeningSize opening;
-  Eigen::Matrix2d opening_covariance = Eigen::Matrix2d::Zero();
+  /// The opening's size that goes with the pose. What is called known is as good as
+  /// `FilterParams::known_size_sigma` says; what is not is estimated.
+  SizeBelief size;
 
   Consistency consistency;
 };
@@ -41,14 +40,16 @@ struct FilteredWindow {
 /// the opening that is not known is estimated along with them; it outlives a restart, but no other window.
 class WindowFilter {
  public:
+  /// \param size what is known of the opening before any image; without it, the opening of each estimate is
+  ///        taken as known
   /// \throws std::invalid_argument that lists every parameter out of range
-  explicit WindowFilter(const FilterParams& params);
+  explicit WindowFilter(const FilterParams& params, const std::optional<SizeBelief>& size = std::nullopt);
   ~WindowFilter();
   WindowFilter(WindowFilter&&) noexcept;
   WindowFilter& operator=(WindowFilter&&) noexcept;
 
   /// A new `target_id`, a jump of the clock or a long silence starts anew.
-  /// \param estimate computed with the opening of `openingFor`
+  /// \param estimate computed with the size of `sizeOf`
   /// \param T_odom_camera from odometry, interpolated to the image's stamp
   /// \return false if the observation was gated out or is older than the last one
   bool update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
@@ -59,11 +60,9 @@ class WindowFilter {
   bool update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
               const Eigen::Isometry3d& T_odom_camera);
 
-  /// The size to estimate a pose with: `nominal` where it is known; else what was found so far; else the
-  /// height of `nominal` and the aspect that the image shows.
-  geometry::OpeningSize openingFor(const detection::WindowObservation& window,
-                                   const geometry::PinholeCamera& camera,
-                                   const geometry::OpeningSize& nominal) const;
+  /// What is known of the size of the window in this observation, for the estimator: what the filter was made
+  /// with, or what was found since; nothing if neither is there.
+  std::optional<SizeBelief> sizeOf(const detection::WindowObservation& window) const;
 
   /// Where the window should be in an image taken now; nothing without a state or if it is not wholly in
   /// front.

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/pose/filter_params.hpp"
 #include "window_ingress/pose/image_measurement.hpp"
+#include "window_ingress/pose/size_belief.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
 #include "window_ingress/pose/window_state.hpp"
 
@@ -25,19 +25,12 @@ struct FilterView {
   bool moves = true;  ///< else this image tells nothing about the scale
 };
 
-/// What is known of the opening's size before any image.
-struct SizePrior {
-  geometry::OpeningSize size;
-  double aspect_sigma = 0.0;  ///< relative, of width over height
-  double height_sigma = 0.0;  ///< relative
-};
-
 /// One belief about the window in the odometry frame: an iterated extended Kalman filter on `WindowState`.
 class WindowHypothesis {
  public:
   /// A wide prior around a pose from a single image; the image itself is still to be applied.
   /// \param anchor_m of the state: the camera's position at that image
-  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window, const SizePrior& size,
+  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window, const SizeBelief& size,
                    const Eigen::Vector3d& anchor_m, double yaw_sigma_rad = kWideYawSigmaRad);
   static constexpr double kWideYawSigmaRad = 0.7;
 
@@ -57,7 +50,7 @@ class WindowHypothesis {
   const WindowState::Matrix& covariance() const { return covariance_; }
   Eigen::Isometry3d T_odom_window() const { return state_.T_odom_window(); }
   Eigen::Matrix4d poseCovariance() const;  ///< x, y, z [m], yaw [rad]; odom axes
-  Eigen::Matrix2d sizeCovariance() const;  ///< width, height [m]
+  SizeBelief size() const;
   double yawSigma() const { return std::sqrt(covariance_(WindowState::kYaw, WindowState::kYaw)); }
 
   /// Angle of the window's axis against the horizontal line of sight [rad]: 0 when seen along its axis.

@@ -43,8 +43,6 @@ struct WindowState {
 
   /// How x, y, z [m] and yaw move with the values.
   Eigen::Matrix<double, 4, kSize> poseByValues() const;
-  /// How width and height [m] move with the values.
-  Eigen::Matrix<double, 2, kSize> sizeByValues() const;
 };
 
 /// a - b, the yaw within (-pi, pi].

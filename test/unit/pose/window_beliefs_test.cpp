@@ -10,7 +10,7 @@ namespace {
 using namespace fixtures;
 
 const auto kLens = camera();
-const SizePrior kKnown{kOpening, 1e-3, 1e-3};
+const SizeBelief kKnown{kOpening};
 
 Eigen::Isometry3d cameraAt(const Eigen::Vector3d& position) {
   return geometry::makePose(geometry::R_optical_flu().transpose(), position);
