@@ -17,7 +17,7 @@ constexpr double kWeight[RingHistogram::kBands] = {2.0, 1.0};
 /// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
 constexpr double kSharing = 4.0 / 9.0;
 
-constexpr double kTurn_rad = 0.07;     ///< of the difference between frame and surround, from paint and light
+constexpr double kTurn_rad = 0.05;     ///< of the difference between frame and surround, from paint and light
 constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
 constexpr double kLeastDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
 

@@ -13,7 +13,7 @@ namespace window_ingress::detection {
 
 struct ReferenceShapeParams {
   bool compare = true;         ///< else every shape will do
-  double sigmas = 4.0;         ///< standard deviations that a shape may differ from the reference's
+  double sigmas = 3.0;         ///< standard deviations that a shape may differ from the reference's
   double corner_px = 0.3;      ///< least standard deviation of a corner, each way [px]
   double aspect_sigma = 0.03;  ///< of the logarithm of the aspect: how well the reference shows it, at best
   double frame_px = 0.03;      ///< standard deviation of the width of a frame [px]
