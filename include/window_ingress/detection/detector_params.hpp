@@ -37,7 +37,7 @@ struct DetectorParams {
   BorderRefinementParams refinement;
   TrackParams track;
   int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
-  double min_score = 0.35;  ///< below this there is no detection
+  double min_score = 0.4;  ///< below this there is no detection
   double min_score_reference = 0.5;  ///< the same for what was compared with a reference
 
   template <typename Self, typename Visitor>
