@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/detection/track_picture.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
 constexpr double kSizeRatio = 1.35;
-
-double sizeOf(const geometry::Quadrilateral& quad) { return std::sqrt(std::abs(geometry::signedArea(quad))); }
 
 }  // namespace
 

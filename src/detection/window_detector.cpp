@@ -104,7 +104,7 @@ struct WindowDetector::Impl {
   ReferenceBorders borders;
   ReferenceShape shape;
   BorderRefinement refinement;
-  std::optional<ReferenceAppearance> reference;
+  std::shared_ptr<const ReferenceAppearance> reference;
   DetectionTrace trace;
   std::vector<Rival> rivals;
 };
@@ -323,7 +323,11 @@ void WindowDetector::setParams(const DetectorParams& params) {
 }
 
 void WindowDetector::setReference(const ReferenceAppearance& reference) {
-  impl_->reference = reference;
+  shareReference(std::make_shared<ReferenceAppearance>(reference));
+}
+
+void WindowDetector::shareReference(std::shared_ptr<const ReferenceAppearance> reference) {
+  impl_->reference = std::move(reference);
   impl_->learnReference();
 }
 

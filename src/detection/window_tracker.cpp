@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "window_ingress/detection/border_quartet.hpp"
+#include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/second_opinion.hpp"
 #include "window_ingress/detection/target_identity.hpp"
+#include "window_ingress/detection/track_picture.hpp"
 #include "window_ingress/detection/track_trace.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -15,29 +18,14 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kFoundSigmaPx = 0.3;     // of corners just found
-constexpr double kQualityRate = 0.25;     // part of the certainty that a frame replaces
-constexpr double kUnlikePart = 0.7;       // of the quality while the ring does not look like the reference
-constexpr double kGivenWarp = 0.3;        // spread of the shape of a given prediction, of that of its place
-constexpr int kCompletionFrames = 10;     // between searches for a border that is in view and not found
+constexpr double kFoundSigmaPx = 0.3;  // of corners just found
+constexpr double kQualityRate = 0.25;  // part of the certainty that a frame replaces
+constexpr double kUnlikePart = 0.7;    // of the quality while the ring does not look like the reference
+constexpr double kGivenWarp = 0.3;     // spread of the shape of a given prediction, of that of its place
+constexpr int kCompletionFrames = 10;  // between searches for a border that is in view and not found
+constexpr double kSureWorth = 0.3;     // of the reference's borders, to say where they are
+constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
 constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
-
-bool isImage(const cv::Mat& image) {
-  return !image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3);
-}
-
-bool sameCamera(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b) {
-  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
-         a.cy == b.cy && a.distortion == b.distortion;
-}
-
-double sizeOf(const Quadrilateral& quad) { return std::sqrt(std::abs(geometry::signedArea(quad))); }
-
-Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera* lens) {
-  if (lens)
-    for (auto& corner : quad) corner = lens->undistort(corner);
-  return quad;
-}
 
 }  // namespace
 
@@ -48,7 +36,8 @@ struct WindowTracker::Impl {
         refinement(p.refinement),
         motion(),
         quartet(p.track, p.refinement),
-        identity(p.track) {}
+        identity(p.track),
+        opinion(p.track) {}
 
   bool isContinued(const TrackInput& input) const;
   void begin(const TrackInput& input);
@@ -57,6 +46,7 @@ struct WindowTracker::Impl {
   QuadSpread spread(const TrackInput& input, bool has_attitude) const;
   bool follow(const TrackInput& input);
   void compareRing(const TrackInput& input);
+  bool strays(const TrackInput& input);
   std::optional<WindowObservation> search(const TrackInput& input);
   std::optional<WindowObservation> amongOthers(const TrackInput& input);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);
@@ -65,7 +55,12 @@ struct WindowTracker::Impl {
     traceRefused(detector.trace(), reason, detail, own_trace);
   }
   std::optional<WindowObservation> complete(const TrackInput& input);
+  std::optional<WindowObservation> askSearch(const TrackInput& input);
   bool surrounds(const TrackInput& input);
+  void learnBorders() {
+    borders = std::make_unique<ReferenceBorders>(params.borders);
+    if (reference) borders->learn(reference->picture(), reference->opening());
+  }
   void forget() {
     identity.forget();
     has_motion = tracking = false;
@@ -76,10 +71,12 @@ struct WindowTracker::Impl {
   DetectorParams params;
   WindowDetector detector;
   BorderRefinement refinement;
-  std::optional<ReferenceAppearance> reference;
+  std::shared_ptr<ReferenceAppearance> reference;  // shared with the detector
   QuadMotion motion;
   BorderQuartet quartet;
   TargetIdentity identity;
+  SecondOpinion opinion;
+  std::unique_ptr<ReferenceBorders> borders;
   WindowObservation window;  // as followed last
   DetectionTrace own_trace;  // where the search's does not tell what happened
   std::optional<geometry::PinholeCamera> camera;
@@ -95,7 +92,7 @@ struct WindowTracker::Impl {
 bool WindowTracker::Impl::isContinued(const TrackInput& input) const {
   if (!last_sec || input.image.size() != size || (input.camera != nullptr) != camera.has_value())
     return false;
-  if (input.camera && !sameCamera(*input.camera, *camera)) return false;
+  if (input.camera && !isSameCalibration(*input.camera, *camera)) return false;
   const double elapsed = input.stamp_sec - *last_sec;
   return elapsed > 0.0 && elapsed <= params.track.max_gap_sec;
 }
@@ -154,25 +151,44 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   return true;
 }
 
-// From time to time: does it still look like the reference?
+// The reference's borders, looked for about the track, are elsewhere.
+bool WindowTracker::Impl::strays(const TrackInput& input) {
+  const Quadrilateral followed = distorted(motion.quad(), lens);
+  const auto found = borders->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
+  if (!found || found->worth < kSureWorth) return false;
+  return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
+}
+
+// From time to time: does it still look like the reference? While it surely does, the reference follows the
+// light.
 void WindowTracker::Impl::compareRing(const TrackInput& input) {
-  if (!reference || !window.whole() || --frames_to_comparison > 0) return;
+  if (!reference || quartet.inView() < 4 || --frames_to_comparison > 0) return;
   frames_to_comparison = params.track.appearance_every;
-  const auto distance = reference->distance(input.image, window.corners, params.appearance);
-  window.has_appearance = distance.has_value();
-  window.bhattacharyya = distance.value_or(0.0);
-  unlike = distance && *distance > params.appearance.max_distance;
+  if (strays(input)) opinion.doubt();
+  if (!window.whole()) return;
+  const auto match = reference->compare(input.image, window.corners, params.appearance);
+  window.has_appearance = match.has_value();
+  window.bhattacharyya = match ? match->distance : 0.0;
+  unlike = match && match->distance > match->limit;
+  if (unlike) opinion.doubt();
+  if (match && !unlike && opinion.isConfirmed() && certainty > params.track.adapt_certainty &&
+      quartet.fitted() == 4)
+    reference->adapt(input.image, window.corners, params.track.adaptation, params.appearance);
 }
 
 // The search's window becomes the one that is own_trace.
 void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
   const Quadrilateral quad = undistorted(found.corners, lens);
   identity.found(is_same, input.stamp_sec);
+  if (is_same)
+    opinion.restart();
+  else
+    opinion.start();
   found.target_id = identity.id();
   motion.start(quad, kFoundSigmaPx);
   quartet.learn(input.image, lens, quad);
   certainty = std::max(found.score, 2.0 * params.track.min_certainty);
-  frames_to_comparison = params.track.appearance_every;
+  if (!is_same) frames_to_comparison = params.track.appearance_every;
   unlike = false;
   window = found;
   tracking = has_motion = true;
@@ -186,15 +202,7 @@ std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInp
       continue;
     const auto borders = refinement.run(input.image, {other.quad, kVariantRadiusPx}, input.camera);
     if (!borders) continue;
-    WindowObservation found;
-    found.stamp_sec = input.stamp_sec;
-    found.corners = borders->corners;
-    found.corner_covariance = borders->corner_covariance;
-    found.edges = borders->edges;
-    found.score = other.score;
-    found.has_appearance = other.has_appearance;
-    found.bhattacharyya = other.bhattacharyya;
-    return found;
+    return observationOf(other, *borders, input.stamp_sec);
   }
   return std::nullopt;
 }
@@ -228,10 +236,21 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
   if (!found) return std::nullopt;
   const Quadrilateral seen = undistorted(found->corners, lens), expected = motion.quad();
   const double limit_px = 2.0 * params.track.reach * std::max(size.width, size.height);
-  for (int i = 0; i < 4; ++i)
-    if (!((seen[i] - expected[i]).norm() < limit_px)) return std::nullopt;
+  if (!geometry::isFinite(expected) || !(furthestCorner(seen, expected) < limit_px)) return std::nullopt;
   has_own_trace = false;
   take(input, *found, true);
+  return found;
+}
+
+// While a track is new or doubtful: the search's answer, if it is to be followed in its place.
+std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput& input) {
+  if (quartet.inView() < 4 || !opinion.isDue()) return std::nullopt;
+  auto found = detector.detect(input.image, input.stamp_sec, input.camera);
+  std::optional<Quadrilateral> searched;
+  if (found) searched = undistorted(found->corners, lens);
+  if (!opinion.prefers(searched, motion.quad())) return std::nullopt;
+  has_own_trace = false;
+  take(input, *found, identity.isSame(*searched, motion.quad()));
   return found;
 }
 
@@ -256,17 +275,21 @@ void WindowTracker::setParams(const DetectorParams& params) {
   impl_->quartet = BorderQuartet(params.track, params.refinement);
   const TargetIdentity before = impl_->identity;
   impl_->identity = TargetIdentity(params.track, before.id());
+  impl_->opinion = SecondOpinion(params.track);
+  impl_->learnBorders();
   impl_->forget();
 }
 
 void WindowTracker::setReference(const ReferenceAppearance& reference) {
-  impl_->reference = reference;
-  impl_->detector.setReference(reference);
+  impl_->reference = std::make_shared<ReferenceAppearance>(reference);
+  impl_->detector.shareReference(impl_->reference);
+  impl_->learnBorders();
   impl_->forget();
 }
 
 void WindowTracker::clearReference() {
   impl_->reference.reset();
+  impl_->borders.reset();
   impl_->detector.clearReference();
   impl_->forget();
 }
@@ -274,7 +297,7 @@ void WindowTracker::clearReference() {
 void WindowTracker::reset() { impl_->forget(); }
 
 std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) {
-  if (!isImage(input.image) || !std::isfinite(input.stamp_sec)) {
+  if (!isPicture(input.image) || !std::isfinite(input.stamp_sec)) {
     impl_->forget();
     impl_->has_own_trace = false;
     return impl_->detector.detect(input.image, input.stamp_sec, input.camera);
@@ -283,8 +306,9 @@ std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) 
   if (impl_->tracking && impl_->follow(input)) {
     impl_->has_own_trace = true;
     traceFollowed(impl_->window, impl_->own_trace);
-    auto whole = impl_->complete(input);
-    return whole ? whole : impl_->window;
+    if (auto whole = impl_->complete(input)) return whole;
+    if (auto other = impl_->askSearch(input)) return other;
+    return impl_->window;
   }
   if (impl_->tracking && impl_->surrounds(input)) return std::nullopt;
   impl_->tracking = false;
@@ -294,6 +318,8 @@ std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) 
 const DetectionTrace& WindowTracker::trace() const {
   return impl_->has_own_trace ? impl_->own_trace : impl_->detector.trace();
 }
+
+double WindowTracker::referenceDrift() const { return impl_->reference ? impl_->reference->drift() : 0.0; }
 
 bool WindowTracker::tracking() const { return impl_->tracking; }
 

@@ -24,6 +24,11 @@ struct TrackParams {
   double reacquire_gate = 0.35;      ///< furthest from its place to be the same [window sides]
   int settled = 5;            ///< frames after which a lost window is waited for before another one is taken
   int appearance_every = 15;  ///< frames between comparisons with the reference
+  double adaptation = 0.1;    ///< part of a difference in appearance that such a comparison takes over
+  double adapt_certainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
+  int confirmations =
+      3;  ///< searches that must agree with a new track, or name another place, to be believed
+  int question_every = 2;  ///< frames between such searches
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -46,6 +51,10 @@ struct TrackParams {
     field("reacquire_gate", self.reacquire_gate, 0.01, 0.5);
     field("settled", self.settled, 1, 1000);
     field("appearance_every", self.appearance_every, 1, 100000);
+    field("adaptation", self.adaptation, 0.0, 1.0);
+    field("adapt_certainty", self.adapt_certainty, 0.0, 1.0);
+    field("confirmations", self.confirmations, 1, 100);
+    field("question_every", self.question_every, 1, 1000);
   }
 };
 

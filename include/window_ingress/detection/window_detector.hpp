@@ -23,6 +23,8 @@ class WindowDetector {
 
   void setParams(const DetectorParams& params);  ///< \throws std::invalid_argument, and keeps the old ones
   void setReference(const ReferenceAppearance& reference);
+  /// The same; what its owner adapts later is seen here.
+  void shareReference(std::shared_ptr<const ReferenceAppearance> reference);
   void clearReference();
 
   /// Finds the target in one image, independent of the images before.

@@ -36,6 +36,11 @@ struct TrackInput {
 /// Near the window its sides leave the view: then the observation is partial (`WindowObservation::whole`). At
 /// least two sides must be seen. What can be known from three and from two sides: see `QuadMotion`.
 ///
+/// A new track is verified by searches in the pictures that follow (`SecondOpinion`). The reference is shared
+/// with the search; it follows the light slowly (`ReferenceAppearance::adapt`) while a confirmed track is
+/// certain. A track that no longer looks like the reference is doubtful, and searches are asked; that alone
+/// never ends it.
+///
 /// `target_id`: see `TargetIdentity`. While a settled track is lost, another window in view is no target
 /// until the old one is forgotten (`TrackParams::reacquire_sec`); it then gets a new number.
 ///
@@ -60,6 +65,8 @@ class WindowTracker {
   const DetectionTrace& trace() const;
   /// There is a window that is followed from here on; the last frame may have been the search that found it.
   bool tracking() const;
+  /// How far the appearance has followed the light: Bhattacharyya distance from the reference as given.
+  double referenceDrift() const;
 
  private:
   struct Impl;

@@ -245,6 +245,56 @@ TEST(WindowTracker, TimeSizeAndCalibrationStartAnew) {
   EXPECT_EQ(numberAt(64, nullptr, larger), 8u) << "another size";
 }
 
+/// A window of this paint, a little further on in each frame.
+cv::Mat painted(const cv::Scalar& paint, int frame, WindowPicture* drawn = nullptr) {
+  WindowPicture picture = windowAt(150 + 10 * std::sin(0.05 * frame), 115, 42, 6, frame);
+  picture.frame = paint;
+  if (drawn) *drawn = picture;
+  return picture.draw();
+}
+
+ReferenceAppearance pictureOf(const cv::Scalar& paint) {
+  WindowPicture drawn;
+  const cv::Mat picture = painted(paint, 0, &drawn);
+  return {picture, drawn.opening};
+}
+
+const cv::Scalar kOrange(40, 130, 220), kTinted(110, 150, 190), kBlue(210, 110, 40);
+
+TEST(WindowTracker, ItsReferenceFollowsTheLightSlowlyAndNotFar) {
+  DetectorParams params;
+  params.track.appearance_every = 5;
+  WindowTracker tracker(params);
+  tracker.setReference(pictureOf(kOrange));
+  EXPECT_EQ(tracker.referenceDrift(), 0.0);
+  int found = 0;
+  double drift = 0.0;
+  for (int i = 0; i < 240; ++i) {
+    const double part = i / 240.0;
+    const auto window = tracker.update(inputOf(painted((1.0 - part) * kOrange + part * kTinted, i), i));
+    if (!window) continue;
+    ++found;
+    EXPECT_EQ(window->target_id, 1u);
+    EXPECT_LT(std::abs(tracker.referenceDrift() - drift), 0.1) << i << ": slowly";
+    drift = tracker.referenceDrift();
+    EXPECT_LE(drift, params.appearance.max_drift + 1e-6);
+  }
+  EXPECT_EQ(found, 240) << "its looks alone never end a track";
+  EXPECT_GT(drift, 0.02);
+  tracker.setReference(pictureOf(kOrange));
+  EXPECT_EQ(tracker.referenceDrift(), 0.0) << "a new one is as it is given";
+}
+
+TEST(WindowTracker, AnotherWindowNeverBecomesTheReference) {
+  WindowTracker tracker{DetectorParams()};
+  tracker.setReference(pictureOf(kOrange));
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_FALSE(tracker.update(inputOf(painted(kBlue, i), i))) << i;
+    EXPECT_EQ(tracker.referenceDrift(), 0.0);
+  }
+  EXPECT_TRUE(tracker.update(inputOf(painted(kOrange, 60), 60)));
+}
+
 TEST(WindowTracker, BadPicturesAndNumbersAreRefused) {
   WindowTracker tracker{DetectorParams()};
   const cv::Mat good = windowAt(150, 115, 50.0, 6.0, 0).draw();

@@ -1,0 +1,68 @@
+#include "window_ingress/detection/second_opinion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "window_ingress/detection/track_picture.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kAgreePx = 2.5, kAgreePart = 0.02;  // corners of one window, the larger; in its sizes
+constexpr double kSameRival = 0.08;                  // corners of one rival in two pictures, in sizes
+constexpr double kSamePlace = 0.12;                  // corners of other borders of the same window, in sizes
+constexpr int kMostQuestions = 4;                    // times the confirmations; then it rests
+constexpr int kPauseFrames = 60;
+
+Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) {
+  Quadrilateral relative;
+  for (int i = 0; i < 4; ++i)
+    relative[i] = (quad[i] - geometry::centroid(frame)) / std::max(1.0, sizeOf(frame));
+  return relative;
+}
+
+}  // namespace
+
+void SecondOpinion::start() {
+  restart();
+  confirmed_ = false;
+}
+
+void SecondOpinion::restart() {
+  frames_ = asked_ = for_ = against_ = 0;
+  doubtful_ = false;
+}
+
+bool SecondOpinion::isDue() {
+  if (confirmed_ && !doubtful_) return false;
+  if (asked_ >= kMostQuestions * params_.confirmations) {
+    const bool pauses = ++frames_ < kPauseFrames;
+    if (pauses || !doubtful_) return false;
+    asked_ = 0;
+  }
+  if (++frames_ < params_.question_every) return false;
+  frames_ = 0;
+  ++asked_;
+  return true;
+}
+
+bool SecondOpinion::prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
+  if (!searched || !geometry::isFinite(*searched)) return false;
+  const double size = sizeOf(followed), off = furthestCorner(*searched, followed);
+  if (!(off > std::max(kAgreePx, kAgreePart * size))) {
+    against_ = 0;
+    if (++for_ >= params_.confirmations) confirmed_ = true, doubtful_ = false, for_ = asked_ = 0;
+    return false;
+  }
+  if (confirmed_ && off > kSamePlace * size) return false;
+  const Quadrilateral rival = relativeTo(followed, *searched);
+  against_ = against_ > 0 && furthestCorner(rival, rival_) < kSameRival ? against_ + 1 : 1;
+  rival_ = rival;
+  if (against_ < params_.confirmations) return false;
+  restart();
+  return true;
+}
+
+}  // namespace window_ingress::detection
