@@ -83,17 +83,20 @@ void LineSupport::countVotes(const std::vector<EdgeRun>& runs) {
   const std::size_t cells = static_cast<std::size_t>(kAngles) * rhos_;
   votes_.assign(cells, 0.0F);
   starts_.assign(cells + 2, 0);
+  cells_.clear();
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k) {
       const int cell = cellOf(middles_[i], k);
+      cells_.push_back(cell);
       votes_[cell] += static_cast<float>(runs[i].moments.n);
       ++starts_[cell + 2];
     }
   for (std::size_t c = 2; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
   voters_.resize(starts_.back());
+  const int* cell = cells_.data();
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k)
-      voters_[starts_[cellOf(middles_[i], k) + 1]++] = static_cast<int>(i);
+      voters_[starts_[*cell++ + 1]++] = static_cast<int>(i);
 }
 
 // The runs that voted for the seed's line or one beside it, as they lie along it.

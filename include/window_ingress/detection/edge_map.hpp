@@ -11,7 +11,7 @@ struct EdgeMapParams {
       0.85;  ///< automatic: this part of all pixels has a smaller gradient than the upper threshold
   double low_ratio = 0.5;  ///< automatic: lower threshold over upper one
   double floor = 6.0;      ///< automatic: the upper threshold is never below this [grey levels a pixel]
-  double ceiling = 16.0;   ///< automatic: nor above this [grey levels a pixel]
+  double ceiling = 30.0;   ///< automatic: nor above this [grey levels a pixel]
   double low = 8.0;        ///< fixed lower threshold [grey levels a pixel]
   double high = 20.0;      ///< fixed upper threshold [grey levels a pixel]
 

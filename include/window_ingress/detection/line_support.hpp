@@ -94,6 +94,7 @@ class LineSupport {
   std::vector<Eigen::Vector2d> middles_;  ///< of the runs
   std::vector<Ballot> ballots_;           ///< one a run
   std::vector<float> votes_;              ///< of the cells [px]
+  std::vector<int> cells_;                ///< of all votes, run by run
   std::vector<int> starts_, voters_;      ///< voters of cell c: from starts_[c] to starts_[c + 1]
   std::vector<std::pair<double, int>> order_;
   std::vector<std::uint8_t> used_;
