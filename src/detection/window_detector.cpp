@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/candidate_search.hpp"
@@ -294,10 +295,14 @@ void WindowDetector::Impl::explain() {
     trace.outcome = RejectReason::kNone;
     return;
   }
+  // That one is like another candidate, or worse, explains nothing.
+  const auto rank = [](const CandidateTrace& c) {
+    const bool tells = c.reject != RejectReason::kDuplicate && c.reject != RejectReason::kOutscored;
+    return std::make_tuple(tells, c.score, c.reject);
+  };
   const CandidateTrace* furthest = nullptr;
   for (const CandidateTrace& c : trace.candidates)
-    if (!furthest || c.score > furthest->score || (c.score == furthest->score && c.reject > furthest->reject))
-      furthest = &c;
+    if (!furthest || rank(c) > rank(*furthest)) furthest = &c;
   if (!furthest) {
     trace.detail =
         std::to_string(trace.contours) + " contours, " + std::to_string(trace.segments) + " segments";
