@@ -110,15 +110,22 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
 }
 
 // Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
-// part along it; as a whole where a half alone does not tell.
-bool BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
+// part along it; as a
+// whole where a half alone does not tell, and in a track.
+DoubleEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
   const int count = profiles_->count(), middle = count / 2;
   const DoubleEdge edge = frontOf(limits, border.line, 0, count);
   border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
-  if (!(edge.apart > 0.0)) return false;
-  const DoubleEdge first = frontOf(limits, border.line, 0, middle),
-                   last = frontOf(limits, border.line, middle, count);
+  if (!(edge.apart > 0.0)) return edge;
+  if (limits.before) {
+    border.line.offset += edge.front;
+    return edge;
+  }
+  DoubleEdgeLimits halves = limits;
+  halves.before = &edge;
+  const DoubleEdge first = frontOf(halves, border.line, 0, middle),
+                   last = frontOf(halves, border.line, middle, count);
   const double apart = std::abs(last.front - first.front);
   if (first.apart > 0.0 && last.apart > 0.0 && apart > kSigmas * std::hypot(first.sigma_px, last.sigma_px)) {
     const double at = profiles_->position(middle / 2), to = profiles_->position((middle + count) / 2);
@@ -128,7 +135,7 @@ bool BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) co
   } else {
     border.line.offset += edge.front;
   }
-  return true;
+  return edge;
 }
 
 DoubleEdge BorderFit::frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first,

@@ -16,6 +16,7 @@ constexpr double kLearningRate = 0.15;  // a picture
 constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
 constexpr double kFrontReachPx = 3.2;   // of the front edge of a reveal from what was fitted
+constexpr int kLookEvery = 6;           // pictures, for a reveal beside the border
 constexpr int kLeastProfiles = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
@@ -59,7 +60,8 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   if (!fit_.run(limits, fitted)) return false;
   limits.outlier_px = refinement_.outlier_px * scale;
   if (!fit_.run(limits, fitted)) return false;
-  fit_.toFront({-kFrontReachPx, kFrontReachPx, front_.outside()}, fitted);
+  if (edge_.apart > 0.0 || ++frames_ % kLookEvery == 0)
+    edge_ = fit_.toFront({-kFrontReachPx, kFrontReachPx, front_.outside(), &edge_}, fitted);
   border.inliers = static_cast<double>(fitted.inliers) / std::max(1, fine_.insideCount());
   border.line = fitted.inImage(fine_);
   border.a = fine_.point(fitted.from, fitted.line.at(fitted.from));
@@ -82,6 +84,8 @@ void BorderFollower::learn(const cv::Mat& image, const geometry::PinholeCamera* 
   half_px_ =
       std::clamp(static_cast<int>(std::lround(track_.reach * longerSide(image))), 4, BorderMemory::kMostHalf);
   coarse_.sample(image, lens, {border.from, border.to, track_.profiles, kSkip, half_px_ + 3, true});
+  edge_ = DoubleEdge();
+  frames_ = -1;
   memory_.clear();
   memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
   front_.forget();

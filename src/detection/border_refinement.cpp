@@ -115,7 +115,8 @@ class Side {
     const double from = border_.line.at(border_.middle());
     const bool located = start_.fallback_sigma_px > 0.0;
     const double near = kBesidePx, wide = kLocatedWithinPx;
-    memory_.fit.toFront({located ? -wide - from : -near, located ? wide - from : near, nullptr}, border_);
+    memory_.fit.toFront({located ? -wide - from : -near, located ? wide - from : near, nullptr, nullptr},
+                        border_);
   }
 
   // How far an end of the fitted line is from the start, moved by `offset`.

@@ -12,7 +12,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of a picture, standard deviation [px]
-constexpr double kSoftest = 2.0;  // of an edge that may be two
+constexpr double kSoftest = 2.0;                        // of an edge that may be two
 constexpr double kLeastBlur = 0.35, kLeastApart = 0.15, kMostApart = 4.5;
 constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
 constexpr double kModelNoise = 0.003;  // and what a blurred step fails to describe, of its change
@@ -26,6 +26,7 @@ constexpr double kBesidePx = 1.2;     // a front further out must have the right
 constexpr float kAlike = 0.35f;       // of the change across an edge: colours nearer than this are the same
 constexpr float kCollinear = 0.97f, kMostOvershoot = 0.3f;
 constexpr int kIterations = 8;
+constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
 constexpr int kMostSamples = 2 * kMostHalfOfEdge + 1, kMostRests = 3 * kMostSamples + 4;
 
 using Params = Eigen::Vector3d;  // front, apart, blur
@@ -33,7 +34,28 @@ using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostS
 using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRests, 1>;
 using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostRests, 3>;
 
-double step(double z) { return 0.5 * std::erfc(-z * M_SQRT1_2); }
+/// The normal distribution, from a table.
+class Step {
+ public:
+  Step() {
+    for (int i = 0; i <= kSize; ++i) values_[i] = 0.5 * std::erfc(-(kFrom + i / kPerUnit) * M_SQRT1_2);
+  }
+  double operator()(double z) const {
+    const double place = std::clamp((z - kFrom) * kPerUnit, 0.0, kSize - 1.0);
+    const int i = static_cast<int>(place);
+    return values_[i] + (place - i) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr double kFrom = -4.0, kPerUnit = 128.0;
+  static constexpr int kSize = 1024;
+  std::array<double, kSize + 1> values_;
+};
+
+double step(double z) {
+  static const Step table;
+  return table(z);
+}
 
 /// Colours between two offsets, as one step or two.
 class Model {
@@ -133,7 +155,7 @@ Fit fit(const Model& model, const Params& start) {
       continue;
     }
     best.params = next, cost = then, rests = tried, damping *= 0.3;
-    if (gain < 1e-3 * cost) break;
+    if (gain < kSettled * cost + kSettled) break;
   }
   const Eigen::Matrix3d levels = model.rests(best.params, tried);
   best.outside = (levels.row(0) + levels.row(1)).transpose().cast<float>();
@@ -167,17 +189,33 @@ bool isOutside(const Fit& two, const DoubleEdgeLimits& limits) {
   return (two.outside - *limits.outside).norm() < 0.5f * (two.reveal - *limits.outside).norm();
 }
 
+bool isGood(const Fit& two, const DoubleEdgeLimits& limits, bool near) {
+  if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px || isOvershoot(two))
+    return false;
+  if (two.params[0] > kBesidePx && (near || !isOutside(two, limits))) return false;
+  return two.rest < kFits && two.sigma < kWellKnownPx;
+}
+
+DoubleEdge answer(const Fit& two, double moved) {
+  return {two.params[0], two.params[1], std::min(two.sigma, moved), two.params[2]};
+}
+
 }  // namespace
 
 DoubleEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits) {
   const auto bad = [](float v) { return !std::isfinite(v); };
   if (std::any_of(mean, mean + channels * (2 * half + 1), bad)) return {};
+  const Model near(mean, channels, half, -4, 2, true), far(mean, channels, half, -3, 4, true);
+  if (limits.before && limits.before->apart > 0.0 && limits.before->blur > 0.0) {
+    const DoubleEdge& last = *limits.before;
+    const Fit two = fit(last.front > kBesidePx ? far : near, {last.front, last.apart, last.blur});
+    if (isGood(two, limits, last.front <= kBesidePx)) return answer(two, 1.0);
+  }
   const Fit one = fit(Model(mean, channels, half, -3, 2, false), {0.0, 1.0, kUsualBlur});
   const bool goes_on = limits.outside && !isNextTo(mean, channels, half, *limits.outside);
   if ((one.rest < kGoodEnough && !goes_on) || one.params[2] > kSoftest) return {};
   Fit best;
   best.rest = best.sigma = 1e9;
-  const Model near(mean, channels, half, -4, 2, true), far(mean, channels, half, -3, 4, true);
   for (const auto& [model, front, apart] : std::array<std::tuple<const Model*, double, double>, 4>{
            {{&near, 0.0, 0.7}, {&near, 0.0, 2.0}, {&near, 1.0, 1.0}, {&far, 2.0, 2.0}}}) {
     if (model == &far ? front > limits.farthest_px + 1.0 : one.rest < kGoodEnough) continue;
@@ -192,8 +230,8 @@ DoubleEdge fitDoubleEdge(const float* mean, int channels, int half, const Double
   }
   if (best.rest > kBetter * one.rest && !(goes_on && best.params[0] > kBesidePx)) return {};
   const double moved = std::abs(best.params[0] - one.params[0]);
-  if (best.rest > kStillGood || best.sigma > kWellKnownPx) return {0.0, 0.0, 0.5 * std::min(2.0, moved)};
-  return {best.params[0], best.params[1], std::min(best.sigma, moved)};
+  if (best.rest > kStillGood || best.sigma > kWellKnownPx) return {0.0, 0.0, 0.5 * std::min(2.0, moved), 0.0};
+  return answer(best, moved);
 }
 
 }  // namespace window_ingress::detection

@@ -17,7 +17,7 @@ using geometry::Quadrilateral;
 
 constexpr double kInward = 0.02, kOutward = 0.36;         ///< of the profiles [mean sides of the opening]
 constexpr double kThinnest = 0.015, kWidest = 0.14;       ///< frame [mean sides of the opening]
-constexpr double kBlur_px = 3.0;  ///< nearer to the border its own edge shows
+constexpr double kBlur_px = 3.0;                          ///< nearer to the border its own edge shows
 constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;  ///< where the wall is, in widths of the frame
 constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;          ///< and the frame's own colour
 constexpr float kLeastContrast = 20.0F;                   ///< of frame and wall [grey levels]

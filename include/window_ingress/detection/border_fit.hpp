@@ -45,8 +45,9 @@ class BorderFit {
   bool run(const BorderFitLimits& limits, FittedBorder& border);
 
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
-  /// (`DoubleEdge`), and enlarges its spread by what is not known of it. \return true if it was moved
-  bool toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const;
+  /// (`DoubleEdge`), and enlarges its spread by what is not known of it. \return what was found about the
+  /// line that was fitted
+  DoubleEdge toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const;
 
  private:
   DoubleEdge frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first, int last) const;

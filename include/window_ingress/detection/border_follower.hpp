@@ -51,6 +51,8 @@ class BorderFollower {
   FrontBorder front_;
   EdgeProfiles coarse_, fine_;
   BorderFit fit_;
+  DoubleEdge edge_;  // of a reveal beside the border, as seen last
+  int frames_ = -1;
   OffsetLine seen_;  // as followed last, in the coarse profiles' axes
   int half_px_ = 6;
 };

@@ -9,6 +9,7 @@ struct DoubleEdge {
   double front = 0.0;     ///< offset of the outermost change [px]
   double apart = 0.0;     ///< of the change behind it, inwards [px]; 0: there is one change alone
   double sigma_px = 0.0;  ///< what is not known of `front` for the sake of the second change [px]
+  double blur = 0.0;      ///< of both changes, standard deviation [px]
 };
 
 /// What may be taken for the front edge.
@@ -17,6 +18,8 @@ struct DoubleEdgeLimits {
   /// Colour that lies outside of the front edge, BGR, if known: tells a reveal (another colour, then this
   /// one) from a frame (this colour, then another one).
   const Eigen::Vector3f* outside = nullptr;
+  /// What was found in nearly the same colours before: tried first.
+  const DoubleEdge* before = nullptr;
 };
 
 /// A reveal seen at a narrow angle is a strip of a few pixels or a part of one: its front edge (frame or wall
