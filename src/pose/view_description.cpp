@@ -63,7 +63,8 @@ void widen(double factor, PlanarSolution& solution) {
 
 double misfitOf(const RefinementProblem& problem, const PlanarSolution& best) {
   const int spare = problem.image.size() + (problem.prior ? kPoseParameters : 0) - kPoseParameters;
-  return std::max(1.0, 2.0 * best.cost / kExpectedSquares[std::clamp(spare, 0, 8)]);
+  const double beyond = 2.0 * best.cost - kExpectedSquares[std::clamp(spare, 0, 8)];
+  return 1.0 + std::max(0.0, beyond) / std::max(1, spare);
 }
 
 WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSolutions& solutions,

@@ -9,6 +9,7 @@
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/pose/observation_check.hpp"
 #include "window_ingress/pose/planar_solutions.hpp"
+#include "window_ingress/pose/stray_border.hpp"
 #include "window_ingress/pose/view_description.hpp"
 
 namespace window_ingress::pose {
@@ -121,7 +122,11 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   if (!solutions)
     return rejected(PoseReject::kNotInFront, "no pose in front of the camera explains the corners");
   WindowPoseEstimate estimate = describe(problem, *solutions, up, params_);
+  const auto stray = withoutStrayBorder(problem, estimate);
+  if (stray) estimate = describe(stray->problem, stray->solutions, up, params_);
   estimate.stamp_sec = window.stamp_sec;
+  estimate.border_astray = stray.has_value();
+  if (stray) estimate.opening = size.size, estimate.opening_log_covariance.setZero();
   return checked(params_, up, estimate);
 }
 

@@ -9,8 +9,8 @@
 
 namespace window_ingress::pose {
 
-/// Spreads of the fit are widened by its misfit: a fit worse than the stated noise allows (99 %) shows that
-/// the noise is larger than was said. \return by how much the variances grow, >= 1
+/// A fit worse than the stated noise allows (99 %) shows that the noise is larger than was said: by what the
+/// variances grow, 1 within that limit, the mean squared spare residual far beyond it.
 double misfitOf(const RefinementProblem& problem, const PlanarSolution& best);
 
 /// Everything about a view that follows from its solutions: yaw and its spreads, the paper's angles (P12),
