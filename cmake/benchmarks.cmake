@@ -2,6 +2,7 @@
 # `benchmarks`). What is not installed is left out, saying so.
 #   benchmark_draw_frames  the pictures that need no recordings
 #   benchmark_detection    times, with Google Benchmark
+#   benchmark_pose         likewise, of a pose from one image
 #   benchmark_instructions the same, counted under callgrind
 #   benchmark_allocations  allocations a picture, by who asks for them
 #   benchmark_memory       memory over an hour's worth of pictures
@@ -52,6 +53,7 @@ set_target_properties(benchmark_allocations PROPERTIES ENABLE_EXPORTS ON)
 find_package(benchmark QUIET)
 if(benchmark_FOUND)
   add_benchmark(detection benchmark::benchmark)
+  add_benchmark(pose ${PROJECT_NAME}_evaluation benchmark::benchmark)
 else()
   message(STATUS "benchmarks: without times (libbenchmark-dev is not installed)")
 endif()

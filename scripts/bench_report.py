@@ -17,6 +17,9 @@ COMPARED = ["composition", "composition_without_hough", "apriltag_decimate_2", "
 # Ours, peer, sequences, greatest ratio of their times. Wide: a loaded machine must not cross them.
 BOUNDS = [("track", "composition", ["plaster", "brick", "lens", "brick_wall", "flight"], 1 / 20),
           ("search", "composition", ["brick_wall"], 1 / 4), ("search", "apriltag_decimate_2", ["brick_wall"], 1 / 2)]
+POSE_METHODS = {"ours": "ours: both solutions, spreads, aspect, attitude", "ours_size_unknown": "ours, size unknown",
+                "ippe": "solvePnP IPPE", "iterative": "solvePnP ITERATIVE", "homography": "findHomography, decomposed"}
+POSE_LIMIT_US = 150.0
 LEAST_FOLLOWED = 0.9  # part of the pictures: a search in every picture is no track
 STAGES = ["preprocess", "edges", "lines", "closing", "contours", "segment_quads", "all_to_candidates",
           "appearance_of_all", "borders_of_one"]
@@ -30,10 +33,10 @@ def load(path, otherwise):
         return json.load(file)
 
 
-def read_times(folder):
+def read_times(folder, file="times.json"):
     """{"subject/sequence": {"ms", "fastest_ms", "found"}}, processor time, medians over the repetitions."""
     runs = collections.defaultdict(list)
-    raw = load(os.path.join(folder, "times.json"), {"benchmarks": []})
+    raw = load(os.path.join(folder, file), {"benchmarks": []})
     for run in raw["benchmarks"]:
         if run["run_type"] == "iteration" and not run.get("error_occurred"):
             runs[run["run_name"]].append(run)
@@ -137,6 +140,20 @@ def millions(value):
     return "–" if value is None else f"{value / 1e6:.1f}" if value >= 1e6 else f"{value / 1e6:.2f}"
 
 
+def read_pose_times(folder):
+    """{method: microseconds}"""
+    per_ms = {"ns": 1e-6, "us": 1e-3, "ms": 1.0}
+    raw = load(os.path.join(folder, "pose.json"), {"benchmarks": []})
+    to_us = 1e3 * per_ms[raw["benchmarks"][0]["time_unit"]] if raw["benchmarks"] else 1.0
+    return {name.split("/")[1]: of["ms"] * to_us for name, of in read_times(folder, "pose.json").items()}
+
+
+def pose_table(pose):
+    rows = [[POSE_METHODS[name], f"{pose[name]:.0f}", as_fraction(pose["ours"] / pose[name])]
+            for name in POSE_METHODS if name in pose]
+    return table("Pose from one image, microseconds", ["method", "time", "ours / it"], rows)
+
+
 def allocation_table(allocations):
     rows = [[name.replace("/", ", "), f"{a['ours']:.1f}", f"{a['opencv']:.1f}", f"{a['bytes'] / 1e3:.0f}"]
             for name, a in allocations.items() if name.split("/")[0] in OURS]
@@ -152,8 +169,10 @@ def memory_lines(memory, node):
     return lines + [""] if lines else []
 
 
-def broken_bounds(ratios, times):
+def broken_bounds(ratios, times, pose):
     broken = []
+    if pose and pose["ours"] > max(POSE_LIMIT_US, pose["iterative"]):
+        broken.append(f"pose: {pose['ours']:.0f} us, more than {POSE_LIMIT_US:.0f} us and than solvePnP ITERATIVE")
     for ours, peer, sequences, limit in BOUNDS:
         for sequence in sequences:
             ratio = ratios.get(sequence, {}).get(ours, {}).get(peer)
@@ -175,6 +194,8 @@ def tables_of(result):
     if result["instructions"]:
         lines += ratio_table("Ratios of instructions", result["instruction_ratios"])
         lines += cost_table("Instructions, millions a picture", result["instructions"], millions)
+    if result["pose"]:
+        lines += pose_table(result["pose"])
     if result["allocations"]:
         lines += allocation_table(result["allocations"])
     return lines + memory_lines(result["memory"], result["node"])
@@ -206,9 +227,10 @@ def main():
     times, instructions = read_times(folder), read_instructions(folder)
     result = {"times": times, "ratios": ratios_of(followed_times(times)),
               "instructions": instructions, "instruction_ratios": ratios_of(instructions),
+              "pose": read_pose_times(folder),
               "allocations": load(os.path.join(folder, "allocations.json"), {}),
               "memory": load(os.path.join(folder, "memory.json"), {}), "node": load(os.path.join(folder, "node.json"), {})}
-    result["broken_bounds"] = broken_bounds(result["ratios"], times)
+    result["broken_bounds"] = broken_bounds(result["ratios"], times, result["pose"])
     with open(arguments.json, "w") as file:
         json.dump(result, file, indent=1)
     lines = tables_of(result)
