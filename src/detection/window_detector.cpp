@@ -116,6 +116,7 @@ void WindowDetector::Impl::learnReference() {
   if (!reference || !imageFault(reference->picture()).empty()) return;
   borders.learn(reference->picture(), reference->opening());
   shape.learn(reference->picture(), reference->opening());
+  if (const auto& aspect = shape.aspect()) borders.setAspect(aspect->value, aspect->sigma / aspect->value);
 }
 
 // Of all loops about the same place the likeliest ones; the others are variants of them.
