@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <tuple>
 
 namespace window_ingress::detection {
 namespace {
@@ -91,6 +92,29 @@ std::string describe(const CandidateTrace& candidate) {
     std::snprintf(text, sizeof text, "%s %.3g %s %.3g", words.quantity, candidate.value, relation,
                   candidate.limit);
   return text;
+}
+
+// Without a target: the reason of the candidate that came furthest.
+void explain(DetectionTrace& trace) {
+  if (trace.target >= 0) {
+    trace.outcome = RejectReason::kNone;
+    return;
+  }
+  // That one is like another candidate, or worse, explains nothing.
+  const auto rank = [](const CandidateTrace& c) {
+    const bool tells = c.reject != RejectReason::kDuplicate && c.reject != RejectReason::kOutscored;
+    return std::make_tuple(tells, c.score, c.reject);
+  };
+  const CandidateTrace* furthest = nullptr;
+  for (const CandidateTrace& c : trace.candidates)
+    if (!furthest || rank(c) > rank(*furthest)) furthest = &c;
+  if (!furthest) {
+    trace.detail =
+        std::to_string(trace.contours) + " contours, " + std::to_string(trace.segments) + " segments";
+    return;
+  }
+  trace.outcome = furthest->reject;
+  trace.detail = describe(*furthest);
 }
 
 }  // namespace window_ingress::detection

@@ -71,4 +71,7 @@ struct DetectionTrace {
   bool budget_exceeded = false;  ///< a limit on counts was reached: something may have been overlooked
 };
 
+/// Sets outcome and detail: without a target the reason of the candidate that came furthest.
+void explain(DetectionTrace& trace);
+
 }  // namespace window_ingress::detection

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/candidate_gates.hpp"
+#include "window_ingress/detection/candidate_search.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/reference_shape.hpp"
+
+namespace window_ingress::detection {
+
+/// Which of the rivals is the target that the reference shows (P9): where its borders are, how far its
+/// colours and its shape are those of the reference.
+class ReferenceJudge {
+ public:
+  explicit ReferenceJudge(const DetectorParams& params);
+
+  /// \param reference null: none
+  void learn(std::shared_ptr<const ReferenceAppearance> reference);
+  const std::shared_ptr<const ReferenceAppearance>& reference() const { return reference_; }
+
+  /// True if rivals can be told apart by the colours about their borders.
+  bool knowsBorders() const { return borders_.known(); }
+
+  /// Weighs the rivals by the reference; adds those whose borders it located. False, and nothing changed, if
+  /// there is no reference or no colour could be compared.
+  bool judge(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
+
+  /// Why fitted borders cannot be the reference's, if they cannot.
+  std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
+                                       const geometry::PinholeCamera* camera);
+
+ private:
+  std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
+                              const ReferenceBorders::Effort& effort);
+  std::vector<Rival> locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                               const std::vector<Rival>& rivals);
+  bool weigh(const cv::Mat& image, std::vector<Rival>& rivals) const;
+  void weighOthers(const cv::Mat& image, const std::vector<Rival>& located, std::vector<Rival>& rivals) const;
+
+  AppearanceParams appearance_;
+  WindowScoreParams score_;
+  ReferenceBorders borders_;
+  ReferenceShape shape_;
+  std::shared_ptr<const ReferenceAppearance> reference_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,140 @@
+#include "window_ingress/detection/reference_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "window_ingress/detection/window_score.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kMostCertain = 0.99;  ///< of a score before the reference is asked
+constexpr double kSameWindow = 0.22;   ///< loops whose corners differ less, in its size, are of one window
+constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
+constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
+constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
+constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
+constexpr double kUnlocatedPart =
+    0.7;  ///< of its score keeps a loop whose borders are not those of the reference
+
+// Loops of one window: no corner is further off than a part of its size.
+bool isAbout(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
+  const double reach = kSameWindow * kSameWindow * std::abs(geometry::signedArea(b));
+  for (int i = 0; i < 4; ++i)
+    if ((a[i] - b[i]).squaredNorm() > reach) return false;
+  return true;
+}
+
+// Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
+double updated(double score, double odds) {
+  const double prior = std::min(score, kMostCertain);
+  return prior * odds / (1.0 - prior + prior * odds);
+}
+
+// Of all loops about the same place the likeliest ones; the others are variants of them.
+std::vector<std::size_t> placesOf(const std::vector<Rival>& rivals) {
+  std::vector<std::size_t> leaders;
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    int variants = 0;
+    for (std::size_t leader : leaders) variants += isAbout(rivals[i].quad, rivals[leader].quad);
+    if (variants < kVariantsLocated) leaders.push_back(i);
+    if (leaders.size() == kPlacesLocated) break;
+  }
+  return leaders;
+}
+
+}  // namespace
+
+ReferenceJudge::ReferenceJudge(const DetectorParams& params)
+    : appearance_(params.appearance), score_(params.score), borders_(params.borders), shape_(params.shape) {}
+
+void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
+  reference_ = std::move(reference);
+  borders_.forget();
+  shape_.forget();
+  if (!reference_ || reference_->picture().empty()) return;
+  borders_.learn(reference_->picture(), reference_->opening());
+  shape_.learn(reference_->picture(), reference_->opening());
+  if (const auto& aspect = shape_.aspect()) borders_.setAspect(aspect->value, aspect->sigma / aspect->value);
+}
+
+// The rival with its borders where the reference's are, if they are found near it.
+std::optional<Rival> ReferenceJudge::locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                            const Rival& rough, const ReferenceBorders::Effort& effort) {
+  const auto found = borders_.locate(image, rough.quad, camera, effort);
+  if (!found) return std::nullopt;
+  Rival rival = rough;
+  rival.quad = found->quad;
+  rival.candidate.source = CandidateSource::kReference;
+  rival.located = true;
+  rival.worth = found->worth;
+  rival.geometry = rough.located ? rough.geometry : rough.score;
+  rival.score = scoreWithReference(rival.geometry, rival.worth, score_);
+  rival.verdict.reject = found->holds_frame ? RejectReason::kOuterBorder : RejectReason::kNone;
+  return rival;
+}
+
+// The borders of the reference at all places where they are found; the best are looked at closely.
+std::vector<Rival> ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                             const std::vector<Rival>& rivals) {
+  std::vector<Rival> located;
+  for (std::size_t i : placesOf(rivals))
+    if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located.push_back(*rival);
+  sortByRank(located);
+  for (std::size_t i = 0; i < std::min(located.size(), kPlacesFine); ++i)
+    if (auto rival = locate(image, camera, located[i], ReferenceBorders::kFine)) located[i] = *rival;
+  return located;
+}
+
+// Compares their frames with the reference's; false if none can be compared.
+bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<Rival>& rivals) const {
+  bool any = false;
+  for (Rival& rival : rivals) {
+    rival.appearance = reference_->compare(image, rival.quad, appearance_);
+    any = any || rival.appearance;
+    if (rival.appearance) rival.score = updated(rival.score, rival.appearance->odds);
+  }
+  return any;
+}
+
+// Loops whose borders were not located count less; not at all where others have surely been.
+void ReferenceJudge::weighOthers(const cv::Mat& image, const std::vector<Rival>& located,
+                                 std::vector<Rival>& rivals) const {
+  for (Rival& rival : rivals) {
+    const bool sure = std::any_of(located.begin(), located.end(), [&](const Rival& place) {
+      return place.worth > kSureWorth && isAbout(rival.quad, place.quad);
+    });
+    rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
+    if (rival.appearance)
+      rival.score = updated(kUnlocatedPart * rival.score, rival.appearance->odds);
+    else
+      rival.verdict.reject = RejectReason::kDuplicate;
+  }
+}
+
+bool ReferenceJudge::judge(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                           std::vector<Rival>& rivals) {
+  if (!reference_ || image.channels() != 3) return false;
+  if (!borders_.known()) {
+    std::vector<Rival> weighed = rivals;
+    if (!weigh(image, weighed)) return false;
+    rivals.swap(weighed);
+    return true;
+  }
+  std::vector<Rival> located = locateAll(image, camera, rivals);
+  weigh(image, located);
+  weighOthers(image, located, rivals);
+  rivals.insert(rivals.end(), located.begin(), located.end());
+  return true;
+}
+
+std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
+                                                     const geometry::PinholeCamera* camera) {
+  if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, camera))
+    return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
+  if (const auto off = shape_.inFrame(image, fitted.corners, camera))
+    return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
+  return std::nullopt;
+}
+
+}  // namespace window_ingress::detection
