@@ -116,7 +116,8 @@ bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Ei
   border.across = {-border.along.y(), border.along.x()};
   border.offset_sigma_px =
       std::sqrt(marginalVariance(white_px * white_px, 0.5 * systematic * systematic, noise));
-  const double systematic_slope = 2.0 * systematic * systematic / (length * length);
+  const double at_ends = noise.systematic_turn * systematic;
+  const double systematic_slope = 2.0 * at_ends * at_ends / (length * length);
   border.slope_sigma = std::sqrt(marginalVariance(white_slope * white_slope, systematic_slope, noise));
   return true;
 }

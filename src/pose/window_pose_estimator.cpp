@@ -50,6 +50,14 @@ PoseResult checked(const PoseParams& params, const Eigen::Vector3d& up_camera,
   return {estimate, PoseReject::kNone, ""};
 }
 
+ImageNoise noiseOf(const PoseParams& params) {
+  ImageNoise noise;
+  noise.systematic_sigma_px = params.systematic_sigma_px;
+  noise.unknown_corner_sigma_px = params.unknown_corner_sigma_px;
+  noise.systematic_turn = params.systematic_turn;
+  return noise;
+}
+
 PoseHints usable(const PoseHints& given) {
   PoseHints hints = given;
   if (hints.gravity && !isUsable(*hints.gravity)) hints.gravity.reset();
@@ -111,8 +119,7 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   if (!isUpright(window, up))
     return rejected(PoseReject::kBadCorners, "a partial view rolled by 45 degrees or more");
   const auto ordered = upright(window, up);
-  const auto image = ImageMeasurement::make(
-      ordered, camera, {params_.systematic_sigma_px, params_.unknown_corner_sigma_px, 1.0});
+  const auto image = ImageMeasurement::make(ordered, camera, noiseOf(params_));
   if (!image) return rejected(PoseReject::kBadCorners, "corners cannot be undistorted");
   const geometry::OpeningSize stated{params_.opening_width_m, params_.opening_height_m};
   const SizeBelief size =

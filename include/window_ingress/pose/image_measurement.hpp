@@ -20,6 +20,9 @@ struct ImageNoise {
   double looks = 1.0;
   /// The systematic error is renewed in time as well: no measurement gets more than this times its variance.
   double max_looks_variance = 1e12;
+  /// By how much of what it shifts a border the systematic error turns it, at its ends: 1 where corners err
+  /// independently, less where whole borders are displaced.
+  double systematic_turn = 1.0;
 };
 
 /// Residuals of predicted against measured borders, weighted to unit variance. At most eight.

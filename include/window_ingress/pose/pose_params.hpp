@@ -9,6 +9,7 @@ struct PoseParams {
   double scale_sigma = 0.0;           ///< relative spread of both together; 0: their scale is known [-]
   double aspect_sigma = 0.0;          ///< relative spread of width over height; 0: it is known [-]
   double systematic_sigma_px = 0.15;  ///< error of a corner that does not average out: lens, sill, blur [px]
+  double systematic_turn = 0.4;       ///< its part that turns a border; the rest shifts it as a whole [-]
   double unknown_corner_sigma_px = 1.0;  ///< taken where an observation brings no usable covariance [px]
   double max_reprojection_rms_px = 3.0;  ///< worst fit that is believed, root mean square per coordinate [px]
   double min_side_px = 4.0;              ///< shortest side of the quadrilateral [px]
@@ -27,6 +28,7 @@ struct PoseParams {
     field("scale_sigma", self.scale_sigma, 0.0, 2.0);
     field("aspect_sigma", self.aspect_sigma, 0.0, 2.0);
     field("systematic_sigma_px", self.systematic_sigma_px, 0.001, 10.0);
+    field("systematic_turn", self.systematic_turn, 0.0, 1.0);
     field("unknown_corner_sigma_px", self.unknown_corner_sigma_px, 0.01, 20.0);
     field("max_reprojection_rms_px", self.max_reprojection_rms_px, 0.1, 50.0);
     field("min_side_px", self.min_side_px, 1.0, 200.0);
