@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <random>
 
 #include "drawn_window.hpp"
 
@@ -53,6 +55,40 @@ TEST(CandidateSearch, AFineGratingStaysWithinItsBudget) {
   DetectionTrace trace;
   const auto rivals = CandidateSearch(DetectorParams()).run(grating, nullptr, trace);
   EXPECT_LE(static_cast<int>(rivals.size()), DetectorParams().max_candidates);
+}
+
+// Bright and dark patches everywhere, and a ring that differs in hue only.
+cv::Mat hueAmongPatches(const geometry::Quadrilateral& opening) {
+  cv::Mat image(480, 640, CV_8UC3), ring(480, 640, CV_8UC1, cv::Scalar(0));
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> grey(60, 190), at(0, 640), size(6, 40);
+  image.setTo(cv::Scalar::all(128));
+  for (int n = 0; n < 1500; ++n)
+    cv::rectangle(image, cv::Rect(at(random), at(random), size(random), size(random)),
+                  cv::Scalar::all(grey(random)), cv::FILLED);
+  test::fillQuad(ring, test::grown(opening, 24.0), cv::Scalar(255));
+  test::fillQuad(ring, opening, cv::Scalar(0));
+  cv::add(image, cv::Scalar(-30, 0, 30), image, ring);
+  return image;
+}
+
+TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
+  const auto opening = test::rectangle(200, 150, 420, 330);
+  const cv::Mat image = hueAmongPatches(opening);
+  CandidateSearch search{DetectorParams()};
+  DetectionTrace trace;
+  const bool at_once = holds(search.run(image, nullptr, trace), opening, 6.0);
+  EXPECT_FALSE(at_once) << "the picture is too easy for this test";
+  EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
+}
+
+TEST(CandidateSearch, AGreyPictureHasNoColours) {
+  cv::Mat grey;
+  cv::cvtColor(framed().draw(), grey, cv::COLOR_BGR2GRAY);
+  CandidateSearch search{DetectorParams()};
+  DetectionTrace trace;
+  EXPECT_FALSE(search.run(grey, nullptr, trace).empty());
+  EXPECT_TRUE(search.runOnColours(trace).empty());
 }
 
 }  // namespace

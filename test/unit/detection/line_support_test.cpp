@@ -128,14 +128,6 @@ TEST(SegmentQuads, FindsAWindowWithGapsInItsBorder) {
   EXPECT_TRUE(found);
 }
 
-TEST(SegmentQuads, NothingFromNothing) {
-  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({}, 1.0, SegmentQuads::kQuick).candidates.empty());
-  const Segment one{{0, 0}, {10, 0}, {0, 1}, 10, 20.0};
-  EXPECT_TRUE(SegmentQuads(SegmentQuadsParams())
-                  .run({one, one, one, one}, 1.0, SegmentQuads::kQuick)
-                  .candidates.empty());
-}
-
 TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
   EdgeDetector edges{EdgeMapParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
