@@ -1,11 +1,12 @@
 #include "window_ingress/detection/window_tracker.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "window_ingress/detection/border_quartet.hpp"
-#include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/picture_sequence.hpp"
+#include "window_ingress/detection/reference_watch.hpp"
 #include "window_ingress/detection/second_opinion.hpp"
 #include "window_ingress/detection/target_identity.hpp"
 #include "window_ingress/detection/track_picture.hpp"
@@ -18,13 +19,11 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kFoundSigmaPx = 0.3;  // of corners just found
-constexpr double kQualityRate = 0.25;  // part of the certainty that a frame replaces
-constexpr double kUnlikePart = 0.7;    // of the quality while the ring does not look like the reference
-constexpr double kGivenWarp = 0.3;     // spread of the shape of a given prediction, of that of its place
-constexpr int kCompletionFrames = 10;  // between searches for a border that is in view and not found
-constexpr double kSureWorth = 0.3;     // of the reference's borders, to say where they are
-constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
+constexpr double kFoundSigmaPx = 0.3;     // of corners just found
+constexpr double kQualityRate = 0.25;     // part of the certainty that a frame replaces
+constexpr double kUnlikePart = 0.7;       // of the quality while the ring does not look like the reference
+constexpr double kGivenWarp = 0.3;        // spread of the shape of a given prediction, of that of its place
+constexpr int kCompletionFrames = 10;     // between searches for a border that is in view and not found
 constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
 
 }  // namespace
@@ -34,19 +33,18 @@ struct WindowTracker::Impl {
       : params(p),
         detector(p),
         refinement(p.refinement),
+        pictures(p.track.max_gap_sec),
+        reference(p),
         motion(),
         quartet(p.track, p.refinement),
         identity(p.track),
         opinion(p.track) {}
 
-  bool isContinued(const TrackInput& input) const;
   void begin(const TrackInput& input);
   void predict(const TrackInput& input);
-  Eigen::Matrix3d turn(const TrackInput& input) const;
-  QuadSpread spread(const TrackInput& input, bool has_attitude) const;
+  QuadSpread spread() const;
   bool follow(const TrackInput& input);
-  void compareRing(const TrackInput& input);
-  bool strays(const TrackInput& input);
+  void watch(const TrackInput& input);
   std::optional<WindowObservation> search(const TrackInput& input);
   std::optional<WindowObservation> amongOthers(const TrackInput& input);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);
@@ -57,139 +55,89 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> complete(const TrackInput& input);
   std::optional<WindowObservation> askSearch(const TrackInput& input);
   bool surrounds(const TrackInput& input);
-  void learnBorders() {
-    borders = std::make_unique<ReferenceBorders>(params.borders);
-    if (reference) borders->learn(reference->picture(), reference->opening());
-  }
-  void forget() {
+  void forgetTrack() {
     identity.forget();
     has_motion = tracking = false;
-    last_sec.reset();
-    last_attitude.reset();
+  }
+  void forget() {
+    forgetTrack();
+    pictures.forget();
   }
 
   DetectorParams params;
   WindowDetector detector;
   BorderRefinement refinement;
-  std::shared_ptr<ReferenceAppearance> reference;  // shared with the detector
+  PictureSequence pictures;
+  ReferenceWatch reference;
   QuadMotion motion;
   BorderQuartet quartet;
   TargetIdentity identity;
   SecondOpinion opinion;
-  std::unique_ptr<ReferenceBorders> borders;
   WindowObservation window;  // as followed last
   DetectionTrace own_trace;  // where the search's does not tell what happened
-  std::optional<geometry::PinholeCamera> camera;
-  const geometry::PinholeCamera* lens = nullptr;  // of this frame, if it distorts
-  cv::Size size;
-  std::optional<double> last_sec;
-  std::optional<Eigen::Matrix3d> last_attitude;
-  double elapsed_sec = 0.0, certainty = 0.0;
-  int frames_to_comparison = 0, frames_to_completion = 0;
-  bool tracking = false, has_motion = false, place_given = false, has_own_trace = false, unlike = false;
+  double certainty = 0.0;
+  int frames_to_completion = 0;
+  bool tracking = false, has_motion = false, place_given = false, has_own_trace = false;
 };
 
-bool WindowTracker::Impl::isContinued(const TrackInput& input) const {
-  if (!last_sec || input.image.size() != size || (input.camera != nullptr) != camera.has_value())
-    return false;
-  if (input.camera && !isSameCalibration(*input.camera, *camera)) return false;
-  const double elapsed = input.stamp_sec - *last_sec;
-  return elapsed > 0.0 && elapsed <= params.track.max_gap_sec;
-}
-
-// Time, calibration and what they say about the track so far.
 void WindowTracker::Impl::begin(const TrackInput& input) {
-  if (!isContinued(input)) forget();
-  elapsed_sec = last_sec ? input.stamp_sec - *last_sec : 0.0;
-  size = input.image.size();
-  camera.reset();
-  if (input.camera) camera = *input.camera;
-  lens = camera && camera->hasDistortion() ? &*camera : nullptr;
+  if (!pictures.take(input)) forgetTrack();
   if (has_motion) predict(input);
-  last_sec = input.stamp_sec;
-  last_attitude = input.R_world_camera;
 }
 
-Eigen::Matrix3d WindowTracker::Impl::turn(const TrackInput& input) const {
-  const Eigen::Matrix3d K = input.camera->K();
-  const Eigen::Matrix3d R_now_last = input.R_world_camera->transpose() * *last_attitude;
-  return K * R_now_last * K.inverse();
-}
-
-QuadSpread WindowTracker::Impl::spread(const TrackInput& input, bool has_attitude) const {
-  const double longer = std::max(input.image.cols, input.image.rows), side = sizeOf(motion.quad());
-  const double place = has_attitude ? params.track.turn_known : params.track.turn;
-  return {place * longer * elapsed_sec, params.track.reshape * side * elapsed_sec,
+QuadSpread WindowTracker::Impl::spread() const {
+  const double side = sizeOf(motion.quad()), elapsed_sec = pictures.elapsedSec();
+  const double place = pictures.turn() ? params.track.turn_known : params.track.turn;
+  return {place * pictures.longerSide() * elapsed_sec, params.track.reshape * side * elapsed_sec,
           params.track.warp * side * elapsed_sec};
 }
 
 void WindowTracker::Impl::predict(const TrackInput& input) {
-  const bool has_attitude =
-      input.camera && input.R_world_camera && last_attitude && input.R_world_camera->allFinite();
-  motion.predict(has_attitude ? turn(input) : Eigen::Matrix3d(Eigen::Matrix3d::Identity()), elapsed_sec,
-                 spread(input, has_attitude));
+  motion.predict(pictures.turn().value_or(Eigen::Matrix3d::Identity()), pictures.elapsedSec(), spread());
   place_given =
       input.predicted && geometry::isFinite(*input.predicted) && geometry::isConvex(*input.predicted);
   if (!place_given) return;
-  const double sigma_px = params.track.given_sigma * std::max(size.width, size.height);
-  motion.foretell(undistorted(*input.predicted, lens), {sigma_px, sigma_px, kGivenWarp * sigma_px});
+  const double sigma_px = params.track.given_sigma * pictures.longerSide();
+  motion.foretell(undistorted(*input.predicted, pictures.lens()),
+                  {sigma_px, sigma_px, kGivenWarp * sigma_px});
 }
 
 bool WindowTracker::Impl::follow(const TrackInput& input) {
-  const bool found = quartet.follow(input.image, lens, motion);
-  const double quality = found ? quartet.quality() * (unlike ? kUnlikePart : 1.0) : 0.0;
+  const bool found = quartet.follow(input.image, pictures.lens(), motion);
+  const double quality = found ? quartet.quality() * (reference.isUnlike() ? kUnlikePart : 1.0) : 0.0;
   certainty += kQualityRate * (quality - certainty);
   if (!found || certainty < params.track.min_certainty) return false;
-  motion.settle(elapsed_sec);
-  quartet.keep(input.image, lens, motion.quad());
-  quartet.describe(input.image, lens, motion, window);
+  motion.settle(pictures.elapsedSec());
+  quartet.keep(input.image, pictures.lens(), motion.quad());
+  quartet.describe(input.image, pictures.lens(), motion, window);
   identity.follow(input.stamp_sec);
   window.stamp_sec = input.stamp_sec;
   window.target_id = identity.id();
-  compareRing(input);
+  watch(input);
   window.score = std::clamp(certainty, 0.0, 1.0);
   return true;
 }
 
-// The reference's borders, looked for about the track, are elsewhere.
-bool WindowTracker::Impl::strays(const TrackInput& input) {
-  const Quadrilateral followed = distorted(motion.quad(), lens);
-  const auto found = borders->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
-  if (!found || found->worth < kSureWorth) return false;
-  return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
-}
-
-// From time to time: does it still look like the reference? While it surely does, the reference follows the
-// light.
-void WindowTracker::Impl::compareRing(const TrackInput& input) {
-  if (!reference || quartet.inView() < 4 || --frames_to_comparison > 0) return;
-  frames_to_comparison = params.track.appearance_every;
-  if (strays(input)) opinion.doubt();
-  if (!window.whole()) return;
-  const auto match = reference->compare(input.image, window.corners, params.appearance);
-  window.has_appearance = match.has_value();
-  window.bhattacharyya = match ? match->distance : 0.0;
-  unlike = match && match->distance > match->limit;
-  if (unlike) opinion.doubt();
-  if (match && !unlike && opinion.isConfirmed() && certainty > params.track.adapt_certainty &&
+void WindowTracker::Impl::watch(const TrackInput& input) {
+  if (quartet.inView() < 4) return;
+  if (!reference.look(input, distorted(motion.quad(), pictures.lens()), window)) opinion.doubt();
+  if (reference.hasAgreed() && opinion.isConfirmed() && certainty > params.track.adapt_certainty &&
       quartet.fitted() == 4)
-    reference->adapt(input.image, window.corners, params.track.adaptation, params.appearance);
+    reference.adapt(input, window);
 }
 
 // The search's window becomes the one that is own_trace.
 void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
-  const Quadrilateral quad = undistorted(found.corners, lens);
+  const Quadrilateral quad = undistorted(found.corners, pictures.lens());
   identity.found(is_same, input.stamp_sec);
   if (is_same)
-    opinion.restart();
+    opinion.restart(), reference.restart();
   else
-    opinion.start();
+    opinion.start(), reference.start();
   found.target_id = identity.id();
   motion.start(quad, kFoundSigmaPx);
-  quartet.learn(input.image, lens, quad);
+  quartet.learn(input.image, pictures.lens(), quad);
   certainty = std::max(found.score, 2.0 * params.track.min_certainty);
-  if (!is_same) frames_to_comparison = params.track.appearance_every;
-  unlike = false;
   window = found;
   tracking = has_motion = true;
 }
@@ -198,7 +146,7 @@ void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found
 std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInput& input) {
   for (const CandidateTrace& other : detector.trace().candidates) {
     if (other.reject != RejectReason::kOutscored ||
-        !identity.isSame(undistorted(other.quad, lens), motion.quad()))
+        !identity.isSame(undistorted(other.quad, pictures.lens()), motion.quad()))
       continue;
     const auto borders = refinement.run(input.image, {other.quad, kVariantRadiusPx}, input.camera);
     if (!borders) continue;
@@ -212,7 +160,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   auto found = detector.detect(input.image, input.stamp_sec, input.camera);
   if (!found) return std::nullopt;
   const bool remembers = has_motion && identity.remembers(input.stamp_sec, place_given);
-  bool is_same = remembers && identity.isSame(undistorted(found->corners, lens), motion.quad());
+  bool is_same = remembers && identity.isSame(undistorted(found->corners, pictures.lens()), motion.quad());
   if (remembers && !is_same) {
     if (auto other = amongOthers(input)) found = other, is_same = true;
   }
@@ -234,8 +182,8 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
   frames_to_completion = kCompletionFrames;
   auto found = detector.detect(input.image, input.stamp_sec, input.camera);
   if (!found) return std::nullopt;
-  const Quadrilateral seen = undistorted(found->corners, lens), expected = motion.quad();
-  const double limit_px = 2.0 * params.track.reach * std::max(size.width, size.height);
+  const Quadrilateral seen = undistorted(found->corners, pictures.lens()), expected = motion.quad();
+  const double limit_px = 2.0 * params.track.reach * pictures.longerSide();
   if (!geometry::isFinite(expected) || !(furthestCorner(seen, expected) < limit_px)) return std::nullopt;
   has_own_trace = false;
   take(input, *found, true);
@@ -247,7 +195,7 @@ std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput
   if (quartet.inView() < 4 || !opinion.isDue()) return std::nullopt;
   auto found = detector.detect(input.image, input.stamp_sec, input.camera);
   std::optional<Quadrilateral> searched;
-  if (found) searched = undistorted(found->corners, lens);
+  if (found) searched = undistorted(found->corners, pictures.lens());
   if (!opinion.prefers(searched, motion.quad())) return std::nullopt;
   has_own_trace = false;
   take(input, *found, identity.isSame(*searched, motion.quad()));
@@ -257,7 +205,7 @@ std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput
 // So near that no two sides are in view: the window is where it must be, for a while.
 bool WindowTracker::Impl::surrounds(const TrackInput& input) {
   if (quartet.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec, place_given) ||
-      !geometry::contains(motion.quad(), {0.5 * size.width, 0.5 * size.height}))
+      !geometry::contains(motion.quad(), {0.5 * pictures.size().width, 0.5 * pictures.size().height}))
     return false;
   refuse(RejectReason::kBorder,
          std::to_string(quartet.inView()) + " of 4 sides in view: the picture lies within the window");
@@ -276,20 +224,20 @@ void WindowTracker::setParams(const DetectorParams& params) {
   const TargetIdentity before = impl_->identity;
   impl_->identity = TargetIdentity(params.track, before.id());
   impl_->opinion = SecondOpinion(params.track);
-  impl_->learnBorders();
+  impl_->reference.setParams(params);
+  impl_->pictures = PictureSequence(params.track.max_gap_sec);
   impl_->forget();
 }
 
 void WindowTracker::setReference(const ReferenceAppearance& reference) {
-  impl_->reference = std::make_shared<ReferenceAppearance>(reference);
-  impl_->detector.shareReference(impl_->reference);
-  impl_->learnBorders();
+  const auto shared = std::make_shared<ReferenceAppearance>(reference);
+  impl_->detector.shareReference(shared);
+  impl_->reference.setReference(shared);
   impl_->forget();
 }
 
 void WindowTracker::clearReference() {
-  impl_->reference.reset();
-  impl_->borders.reset();
+  impl_->reference.setReference(nullptr);
   impl_->detector.clearReference();
   impl_->forget();
 }
@@ -319,7 +267,7 @@ const DetectionTrace& WindowTracker::trace() const {
   return impl_->has_own_trace ? impl_->own_trace : impl_->detector.trace();
 }
 
-double WindowTracker::referenceDrift() const { return impl_->reference ? impl_->reference->drift() : 0.0; }
+double WindowTracker::referenceDrift() const { return impl_->reference.drift(); }
 
 bool WindowTracker::tracking() const { return impl_->tracking; }
 

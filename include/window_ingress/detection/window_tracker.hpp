@@ -1,27 +1,15 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
-#include <opencv2/core.hpp>
 #include <optional>
 
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/track_input.hpp"
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
-
-/// One picture and what else is known about its moment.
-struct TrackInput {
-  cv::Mat image;                                     ///< CV_8UC1 or CV_8UC3 (BGR); not kept
-  double stamp_sec = 0.0;                            ///< exposure
-  const geometry::PinholeCamera* camera = nullptr;   ///< calibration of the image if there is one
-  std::optional<Eigen::Matrix3d> R_world_camera;     ///< attitude at the exposure, if known
-  std::optional<geometry::Quadrilateral> predicted;  ///< where pose and odometry say the window is, in
-                                                     ///< pixels of the image as it came, if known
-};
 
 /// The detector over time: searches until there is a window, then follows its four borders.
 ///

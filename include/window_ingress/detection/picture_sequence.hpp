@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "window_ingress/detection/track_input.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// Pictures of one camera one after the other: what lies between the last two.
+class PictureSequence {
+ public:
+  /// \param max_gap_sec pictures further apart do not continue each other
+  explicit PictureSequence(double max_gap_sec) : max_gap_sec_(max_gap_sec) {}
+
+  /// \return false if it does not continue the last one: no time went by or too much, or size or calibration
+  /// are others. A new sequence begins then.
+  bool take(const TrackInput& input);
+  void forget();
+
+  double elapsedSec() const { return elapsed_sec_; }  ///< since the picture before; 0 at the first [s]
+  cv::Size size() const { return size_; }
+  int longerSide() const;
+  /// The camera if it distorts, null if not.
+  const geometry::PinholeCamera* lens() const;
+  /// Homography of the undistorted image by the turn since the picture before; nothing where an attitude of
+  /// the two or the camera is not known.
+  const std::optional<Eigen::Matrix3d>& turn() const { return turn_; }
+
+ private:
+  bool isContinuedBy(const TrackInput& input) const;
+
+  double max_gap_sec_;
+  cv::Size size_;
+  std::optional<geometry::PinholeCamera> camera_;
+  std::optional<double> last_sec_;
+  std::optional<Eigen::Matrix3d> attitude_, turn_;
+  double elapsed_sec_ = 0.0;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,63 @@
+#include "window_ingress/detection/reference_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "window_ingress/detection/track_picture.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kSureWorth = 0.3;                    // of the reference's borders, to say where they are
+constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
+
+}  // namespace
+
+void ReferenceWatch::setParams(const DetectorParams& params) {
+  params_ = params;
+  learnBorders();
+}
+
+void ReferenceWatch::setReference(std::shared_ptr<ReferenceAppearance> reference) {
+  reference_ = std::move(reference);
+  learnBorders();
+}
+
+void ReferenceWatch::learnBorders() {
+  borders_.reset();
+  if (!reference_) return;
+  borders_ = std::make_unique<ReferenceBorders>(params_.borders);
+  borders_->learn(reference_->picture(), reference_->opening());
+}
+
+void ReferenceWatch::start() {
+  restart();
+  frames_to_comparison_ = params_.track.appearance_every;
+}
+
+bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
+  const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
+  if (!found || found->worth < kSureWorth) return false;
+  return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
+}
+
+bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral& followed,
+                          WindowObservation& window) {
+  agreed_ = false;
+  if (!reference_ || --frames_to_comparison_ > 0) return true;
+  frames_to_comparison_ = params_.track.appearance_every;
+  const bool in_place = !strays(input, followed);
+  if (!window.whole()) return in_place;
+  const auto match = reference_->compare(input.image, window.corners, params_.appearance);
+  window.has_appearance = match.has_value();
+  window.bhattacharyya = match ? match->distance : 0.0;
+  unlike_ = match && match->distance > match->limit;
+  agreed_ = match && !unlike_;
+  return in_place && !unlike_;
+}
+
+void ReferenceWatch::adapt(const TrackInput& input, const WindowObservation& window) {
+  reference_->adapt(input.image, window.corners, params_.track.adaptation, params_.appearance);
+}
+
+}  // namespace window_ingress::detection
