@@ -3,11 +3,13 @@
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "adapters/guarded.hpp"
 #include "adapters/image_message.hpp"
 #include "adapters/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/pose/yaw_text.hpp"
 
 namespace window_ingress::adapters {
 
@@ -26,6 +28,8 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
   reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
       nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
+  pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
+      nh, "window_pose", 1, diagnostics_, [this](const auto& message) { last_pose_ = message; });
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
   reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);
   diagnostics_.add("detection", [this] { return detectionHealth(); });
@@ -91,7 +95,18 @@ void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::M
                                      double milliseconds) {
   detection::drawDetection(image, detector_.trace(), last_window_ ? &*last_window_ : nullptr, canvas_,
                            milliseconds);
+  const std::string yaw = yawAt(header.stamp);
+  if (last_window_ && !yaw.empty()) detection::drawYaw(canvas_, *last_window_, yaw);
   debug_publisher_.publish(toImageMsg(canvas_, header));
+}
+
+// That of the picture before: the pose of this one is not known yet. Empty if there is none of late.
+std::string DetectorNode::yawAt(const ros::Time& stamp) const {
+  constexpr double kLateSec = 0.5;
+  if (!last_pose_ || last_pose_->reject != window_ingress::WindowPose::OK ||
+      std::abs(stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
+    return "";
+  return pose::yawText(last_pose_->yaw, last_pose_->yaw_sigma, last_pose_->sign_trusted != 0);
 }
 
 void DetectorNode::receiveReference(const window_ingress::ReferencePicture& message) {

@@ -5,6 +5,7 @@
 #include <window_ingress/ReferencePicture.h>
 #include <window_ingress/WindowDetection.h>
 #include <window_ingress/WindowDetectorConfig.h>
+#include <window_ingress/WindowPose.h>
 
 #include <memory>
 #include <opencv2/core.hpp>
@@ -58,6 +59,7 @@ class DetectorNode : public Node {
   bool isComplete(const Lockstep::Step& step) const;
   void lookInStep(const Lockstep::Step& step);
   void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image, double milliseconds);
+  std::string yawAt(const ros::Time& stamp) const;
   void receiveReference(const window_ingress::ReferencePicture& message);
   void use(const detection::ReferenceAppearance& reference, const std::string& source);
   std::string captureFault() const;
@@ -82,7 +84,8 @@ class DetectorNode : public Node {
   std::optional<GuardedImage> waiting_;
   ros::Time reference_stamp_, announced_;
 
-  ros::Subscriber reference_subscriber_;
+  window_ingress::WindowPose::ConstPtr last_pose_;  // for the debug image alone
+  ros::Subscriber reference_subscriber_, pose_subscriber_;
   ros::Publisher window_publisher_, debug_publisher_;
   ros::ServiceServer capture_, reset_;
 };

@@ -151,4 +151,12 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
   explainBest(lettering, trace);
 }
 
+void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text) {
+  if (canvas.empty() || canvas.type() != CV_8UC3 || !window.whole() || !geometry::isFinite(window.corners))
+    return;
+  Lettering lettering(canvas);
+  lettering.keepFree(boxRound(window.corners));
+  lettering.label({text, kGreen}, pixel(window.corners[geometry::kBottomLeft]));
+}
+
 }  // namespace window_ingress::detection

@@ -21,6 +21,7 @@
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/pose/window_pose_estimator.hpp"
+#include "window_ingress/pose/yaw_text.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
@@ -222,6 +223,9 @@ void writeOverlay(const std::string& file, const cv::Mat& picture, const Finder&
   cv::Mat canvas;
   detection::drawDetection(picture, finder.trace(), row.window ? &*row.window : nullptr, canvas,
                            row.milliseconds);
+  if (row.pose && row.window)
+    detection::drawYaw(canvas, *row.window,
+                       pose::yawText(row.pose->yaw_rad, row.pose->yaw_sigma_rad, row.pose->sign_trusted));
   const fs::path target = fs::path(folder) / (fs::path(file).filename().string() + ".png");
   if (!cv::imwrite(target.string(), canvas))
     throw JobError(target.string() + ": cannot be written; is the disk full?");

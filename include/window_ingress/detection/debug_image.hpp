@@ -2,6 +2,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -17,6 +18,9 @@ namespace window_ingress::detection {
 /// \param milliseconds what the detection took, if that is known
 void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const WindowObservation* window,
                    cv::Mat& canvas, std::optional<double> milliseconds = std::nullopt);
+
+/// Writes a text about the target, such as its relative yaw, below it, as far as there is room.
+void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text);
 
 /// Colour of a gate in these pictures.
 cv::Scalar colourOf(RejectReason reason);
