@@ -57,6 +57,28 @@ TEST(DebugImage, OfAPartialWindowOnlyTheSidesSeenAreDrawn) {
   EXPECT_FALSE(isGreen(150, 150));
 }
 
+TEST(DebugImage, TheYawIsWrittenBesideAWholeWindowAlone) {
+  const cv::Mat image(240, 320, CV_8UC3, cv::Scalar::all(90));
+  const auto changed = [&](const WindowObservation& window) {
+    cv::Mat canvas = image.clone();
+    drawYaw(canvas, window, "yaw +12.3 +-0.4 deg");
+    return cv::norm(canvas, image, cv::NORM_L1) > 0.0;
+  };
+  WindowObservation window;
+  window.corners = test::rectangle(160, 80, 220, 170);
+  EXPECT_TRUE(changed(window));
+  WindowObservation broken = window;
+  broken.corners[1].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(changed(broken));
+  window.corner_visible[0] = false;
+  EXPECT_FALSE(changed(window));
+  cv::Mat none, grey(10, 10, CV_8UC1, cv::Scalar::all(0));
+  drawYaw(none, broken, "yaw");
+  drawYaw(grey, broken, "yaw");
+  EXPECT_TRUE(none.empty());
+  EXPECT_EQ(cv::countNonZero(grey), 0);
+}
+
 TEST(DebugImage, GatesHaveColoursOfTheirOwnAndNoneIsTheTargetsGreen) {
   for (int i = 1; i < kRejectReasons; ++i) {
     const cv::Scalar colour = colourOf(static_cast<RejectReason>(i));
