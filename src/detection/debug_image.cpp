@@ -61,8 +61,12 @@ cv::Rect boxRound(const geometry::Quadrilateral& quad) {
   return cv::boundingRect(cv::Mat(4, 1, CV_32SC2, const_cast<cv::Point*>(corners.data())));
 }
 
-// The most promising first; among those without a score the largest.
+// What a gate stopped before what was only outscored; the most promising first; of those without a score the
+// largest.
 bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
+  const bool a_stopped = a->reject != RejectReason::kOutscored,
+             b_stopped = b->reject != RejectReason::kOutscored;
+  if (a_stopped != b_stopped) return a_stopped;
   if (a->score != b->score) return a->score > b->score;
   return std::abs(geometry::signedArea(a->quad)) > std::abs(geometry::signedArea(b->quad));
 }
@@ -120,11 +124,14 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 }  // namespace
 
 cv::Scalar colourOf(RejectReason reason) {
-  // One hue a gate, far from its neighbours' and from the target's green; pale, to be read on dark.
-  constexpr int kFirst = 95, kStep = 47, kHues = 180, kGreenest = 36, kGreenWidth = 50;
-  const int turned = (kFirst + static_cast<int>(reason) * kStep) % (kHues - kGreenWidth);
+  // Eleven hues that leave out the target's green; pale for the first gates, strong for those that come
+  // later.
+  constexpr int kSteps = 11, kStride = 4, kHues = 180, kGreenest = 36, kGreenWidth = 50;
+  const int index = static_cast<int>(reason);
+  const int turned = index * kStride % kSteps * (kHues - kGreenWidth) / kSteps;
   const int hue = turned < kGreenest ? turned : turned + kGreenWidth;
-  cv::Mat3b colour(1, 1, cv::Vec3b(static_cast<uchar>(hue), 170, 255));
+  const int saturation = index <= kSteps ? 130 : 200;
+  cv::Mat3b colour(1, 1, cv::Vec3b(static_cast<uchar>(hue), static_cast<uchar>(saturation), 255));
   cv::cvtColor(colour, colour, cv::COLOR_HSV2BGR);
   return cv::Scalar(colour(0, 0));
 }

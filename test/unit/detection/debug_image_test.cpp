@@ -84,8 +84,24 @@ TEST(DebugImage, GatesHaveColoursOfTheirOwnAndNoneIsTheTargetsGreen) {
     const cv::Scalar colour = colourOf(static_cast<RejectReason>(i));
     EXPECT_FALSE(colour[1] > colour[0] + 60 && colour[1] > colour[2] + 60) << i;
     for (int k = 1; k < i; ++k)
-      EXPECT_GT(cv::norm(colour - colourOf(static_cast<RejectReason>(k))), 5.0) << i << " " << k;
+      EXPECT_GT(cv::norm(colour - colourOf(static_cast<RejectReason>(k))), 35.0) << i << " " << k;
   }
+}
+
+TEST(DebugImage, WordsGoToWhatAGateStoppedBeforeWhatWasOutscored) {
+  DetectionTrace trace;
+  for (int i = 0; i < 12; ++i)
+    trace.candidates.push_back(
+        {test::rectangle(20 + 100 * (i % 6), 60 + 150 * (i / 6), 90 + 100 * (i % 6), 120 + 150 * (i / 6)),
+         CandidateSource::kSegments, RejectReason::kOutscored, 0.8, 0.9, 0.8, false, 0.0});
+  trace.candidates.push_back({test::rectangle(280, 380, 380, 440), CandidateSource::kSegments,
+                              RejectReason::kAppearance, 0.825, 0.492, 0.3, true, 0.825});
+  const cv::Mat image(480, 640, CV_8UC3, cv::Scalar::all(90));
+  cv::Mat canvas, other;
+  drawDetection(image, trace, nullptr, canvas);
+  trace.candidates.back().value = 0.614;
+  drawDetection(image, trace, nullptr, other);
+  EXPECT_GT(cv::norm(canvas, other), 0.0) << "its value is told";
 }
 
 TEST(DebugImage, AnySizeAndAnyNumberOfCandidatesIsBorne) {
