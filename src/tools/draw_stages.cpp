@@ -80,6 +80,8 @@ int run(const Job& job) {
   if (job.output.empty()) throw UsageError("--output is missing; see --help");
   if (job.scenario.empty() == job.image.empty())
     throw UsageError("give either a scenario or a picture; see --help");
+  if (!(job.distance_m >= 0.0)) throw UsageError("--distance: needs metres, above 0");
+  if (job.off_axis_rad != 0.0 && job.distance_m == 0.0) throw UsageError("--off-axis needs --distance");
   detection::DetectorParams params;
   if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", params))
     throw UsageError(job.params + ": no section 'detector' in this file");

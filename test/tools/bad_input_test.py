@@ -11,7 +11,7 @@ import rosbag
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RUN = ROOT / "scripts" / "run"
 NOMINAL = ROOT / "config" / "scenarios" / "nominal.yaml"
-TOOLS = ["detect_images", "fly", "replay_bag", "survey_detector", "survey_tracker"]
+TOOLS = ["detect_images", "draw_stages", "fly", "replay_bag", "survey_detector", "survey_tracker"]
 
 
 def run(*arguments):
@@ -173,3 +173,14 @@ def test_unknown_tool_is_named():
 def test_run_works_from_any_folder(tmp_path):
     result = subprocess.run([str(RUN), "fly", "--help"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert result.returncode == 0 and "--scenario" in result.stdout
+
+
+@pytest.mark.parametrize("distance", ["-4", "nan"])
+def test_stages_refuse_a_distance_that_is_none(tmp_path, distance):
+    result = run("draw_stages", "--scenario", NOMINAL, "--distance", distance, "--output", tmp_path / "sheet.jpg")
+    assert_refused(result, 2, "--distance")
+
+
+def test_stages_refuse_an_angle_without_a_distance(tmp_path):
+    result = run("draw_stages", "--scenario", NOMINAL, "--off-axis", "0.3", "--output", tmp_path / "sheet.jpg")
+    assert_refused(result, 2, "--off-axis", "--distance")
