@@ -106,7 +106,8 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   const auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
-  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
+                       vehicle.value->velocity_odom_mps);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
 }
 

@@ -118,7 +118,8 @@ void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImag
 void Replay::takeOdometry(const nav_msgs::Odometry& message) {
   const auto vehicle = fromMsg(message, params_.frames);
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
-  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
+                       vehicle.value->velocity_odom_mps);
   odometry_sec_ = vehicle.value->stamp_sec;
   while (!waiting_.empty() && waiting_.front().header.stamp.toSec() <= odometry_sec_) processFirst();
 }

@@ -29,6 +29,10 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   vehicle.camera_forward_m = world.T_base_camera().translation().x();
   vehicle.horizontal_fov_rad = 2.0 * std::atan(camera.width / (2.0 * camera.fx));
   vehicle.vertical_fov_rad = 2.0 * std::atan(camera.height / (2.0 * camera.fy));
+  auto& fit = params.tracker.fit;
+  fit.vehicle_width_m = 2.0 * half.y();
+  fit.vehicle_height_m = 2.0 * half.z();
+  if (params.pose.scale_sigma > 0.0 || params.pose.aspect_sigma > 0.0) return params;  // to be found out
   params.pose.opening_width_m = world.opening().width_m;
   params.pose.opening_height_m = world.opening().height_m;
   return params;
@@ -115,7 +119,7 @@ class Flight {
 void Flight::sense() {
   while (const auto odometry = world_.takeOdometry()) {
     for (auto* observer : observers_) observer->onOdometry(*odometry);
-    tracker_.addOdometry(odometry->stamp_sec, odometry->T_odom_base);
+    tracker_.addOdometry(odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps);
     input_.vehicle =
         navigation::VehicleState{odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
   }

@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace window_ingress::navigation {
+namespace {
+constexpr double kNearAxisM = 0.3;
+}
 
 double HeightProbe::climb(double height_m) {
   constexpr double kReachedM = 0.05;
@@ -40,7 +43,7 @@ Decision Align::step(const Situation& situation) {
   const RelativeState relative = relate(*situation.vehicle, *situation.target);
   if (!situation.target->sign_trusted) return resolveSign(situation, relative);
   ambiguous_since_sec_ = situation.now_sec;
-  probe_.reset();
+  if (situation.target->approach_forbidden.empty()) probe_.reset();
   return moveOntoAxis(situation, relative);
 }
 
@@ -70,7 +73,8 @@ Decision Align::moveOntoAxis(const Situation& situation, const RelativeState& re
   const auto& target = *situation.target;
   const Contract contract = evaluateContract(relative, target.opening, pitchOf(*situation.vehicle), params_);
   Decision decision;
-  if (std::min(contract.clearance_lateral_m, contract.clearance_vertical_m) <= 0.0) {
+  const bool has_size = target.fit != pose::Fit::kUnknown;
+  if (has_size && std::min(contract.clearance_lateral_m, contract.clearance_vertical_m) <= 0.0) {
     decision.event = Event::kGiveUp;
     decision.reason = "the opening is too small for the vehicle";
     return decision;
@@ -82,14 +86,26 @@ Decision Align::moveOntoAxis(const Situation& situation, const RelativeState& re
       situation);
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
   decision.reason = "moving onto the window's normal";
-  if (contract.openness < 0.15) {
+  const bool is_forbidden = !target.approach_forbidden.empty();
+  const bool near_axis =
+      contract.openness >= 0.15 || (is_forbidden && std::abs(relative.lateral()) < kNearAxisM);
+  if (!near_axis) {
     in_funnel_since_sec_.reset();
   } else if (!in_funnel_since_sec_) {
     in_funnel_since_sec_ = situation.now_sec;
   }
-  if (in_funnel_since_sec_ && situation.now_sec - *in_funnel_since_sec_ >= params_.align.dwell_sec) {
-    decision.event = Event::kAligned;
-  }
+  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < params_.align.dwell_sec)
+    return decision;
+  if (is_forbidden) return probeForLeave(situation, decision);
+  decision.event = Event::kAligned;
+  return decision;
+}
+
+// Motion may yet show the size of the opening, or that the frames are as they are said to be.
+Decision Align::probeForLeave(const Situation& situation, Decision decision) {
+  decision.wish.velocity_odom_mps.z() = probe_.climb(situation.vehicle->T_odom_base.translation().z());
+  decision.reason = "approach forbidden: " + situation.target->approach_forbidden;
+  if (probe_.isExhausted()) decision.event = Event::kGiveUp;
   return decision;
 }
 

@@ -32,6 +32,11 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
     decision.reason = "sign of the window's yaw no longer certain";
     return decision;
   }
+  if (!target.approach_forbidden.empty()) {
+    decision.event = Event::kMisaligned;
+    decision.reason = "approach forbidden: " + target.approach_forbidden;
+    return decision;
+  }
   const Contract contract = evaluateContract(relative, target.opening, pitchOf(*situation.vehicle), params_);
   decision.wish.velocity_odom_mps = pacer_.pace(
       velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_),

@@ -14,6 +14,10 @@ TrackerParams checked(const TrackerParams& params) {
   return params;
 }
 
+pose::SizeBelief sizeSaid(const pose::PoseParams& pose) {
+  return pose::sizeBelief({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
+}
+
 }  // namespace
 
 TargetEstimate targetFrom(const pose::FilteredWindow& window) {
@@ -31,11 +35,12 @@ TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterPar
                              const TrackerParams& params)
     : params_(checked(params)),
       estimator_(pose),
-      filter_(filter, pose::sizeBelief({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma,
-                                       pose.aspect_sigma)) {}
+      filter_(filter, sizeSaid(pose)),
+      frames_(pose, filter, params.frames, sizeSaid(pose)) {}
 
-void TargetTracker::reset() {
-  filter_.reset();
+void TargetTracker::forgetPlaces() {
+  filter_.forgetPlaces();
+  frames_.forgetPlaces();
   odometry_.clear();
   attitude_.clear();
   odometry_stamp_sec_.reset();
@@ -43,15 +48,24 @@ void TargetTracker::reset() {
   last_ = TrackerUpdate();
 }
 
-void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base) {
+void TargetTracker::reset() {
+  forgetPlaces();
+  filter_.reset();
+  frames_.clear();
+}
+
+void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
+                                const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
   constexpr double kFastestMps = 3.0;
   if (!geometry::isValidPose(T_odom_base)) return;
   if (odometry_stamp_sec_) {
     const double moved_m = (T_odom_base.translation() - odometry_position_m_).norm();
     const double dt_sec = stamp_sec - *odometry_stamp_sec_;
-    if (dt_sec < 0.0 || moved_m > params_.max_jump_m + kFastestMps * dt_sec) reset();
+    if (dt_sec < 0.0) reset();
+    if (moved_m > params_.max_jump_m + kFastestMps * dt_sec) forgetPlaces();
   }
   if (!odometry_.add(stamp_sec, T_odom_base)) return;
+  if (velocity_odom_mps) frames_.twist().add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
   odometry_position_m_ = T_odom_base.translation();
   if (pending_ && pending_->window.stamp_sec <= stamp_sec) flush();
@@ -81,21 +95,25 @@ pose::PoseResult TargetTracker::estimate(const Pending& pending) const {
 }
 
 void TargetTracker::process(const Pending& pending) {
-  last_.used = false;
   last_.pose = estimate(pending);
-  const bool is_whole = pending.window.whole() && pending.window.visibleSides() == 4;
-  last_.why_not = last_.pose.detail;
-  if (!last_.pose.estimate && is_whole) return;
-  last_.why_not = "mounting of the camera unknown";
-  if (!pending.T_base_camera) return;
-  const auto T_odom_base = odometry_.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
-  last_.why_not = "no odometry near the exposure";
-  if (!T_odom_base) return;
-  const Eigen::Isometry3d T_odom_camera = *T_odom_base * *pending.T_base_camera;
-  last_.used = last_.pose.estimate
-                   ? filter_.update(*last_.pose.estimate, pending.window, pending.camera, T_odom_camera)
-                   : filter_.update(pending.window, pending.camera, T_odom_camera);
-  last_.why_not = last_.used ? "" : "gated out by the filter";
+  last_.why_not = whyNotUsed(pending);
+  last_.used = last_.why_not.empty();
+}
+
+std::string TargetTracker::whyNotUsed(const Pending& pending) {
+  const auto& [window, camera, T_base_camera] = pending;
+  const bool is_whole = window.whole() && window.visibleSides() == 4;
+  const auto T_odom_base = odometry_.at(window.stamp_sec, params_.max_pose_gap_sec);
+  // A camera that is not mounted as said may give no pose at all.
+  if (is_whole && T_odom_base && T_base_camera)
+    frames_.mounting().see(window, camera, *T_odom_base, *T_base_camera);
+  if (!last_.pose.estimate && is_whole) return last_.pose.detail;
+  if (!T_base_camera) return "mounting of the camera unknown";
+  if (!T_odom_base) return "no odometry near the exposure";
+  const Eigen::Isometry3d T_odom_camera = *T_odom_base * *T_base_camera;
+  const bool used = last_.pose.estimate ? filter_.update(*last_.pose.estimate, window, camera, T_odom_camera)
+                                        : filter_.update(window, camera, T_odom_camera);
+  return used ? "" : "gated out by the filter";
 }
 
 std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending) const {
@@ -110,7 +128,18 @@ std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending)
 std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
   const auto state = filter_.state(now_sec);
   if (!state) return std::nullopt;
-  return targetFrom(*state);
+  TargetEstimate target = targetFrom(*state);
+  target.fit = fit(*state).fit;
+  target.approach_forbidden = approachForbidden(*state);
+  return target;
+}
+
+std::string TargetTracker::approachForbidden(const pose::FilteredWindow& window) const {
+  const pose::FramesVerdict frames = frames_.verdict();
+  if (frames.state == pose::FramesVerdict::kWrong) return frames.what;
+  const pose::FitVerdict verdict = fit(window);
+  if (verdict.fit == pose::Fit::kGo) return "";
+  return std::string("fit ") + pose::toString(verdict.fit) + ": " + verdict.reason;
 }
 
 }  // namespace window_ingress::navigation

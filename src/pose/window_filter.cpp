@@ -24,6 +24,11 @@ Eigen::Vector3d upInCamera(const Eigen::Isometry3d& T_odom_camera) {
   return T_odom_camera.linear().transpose().col(2);
 }
 
+CameraTurn cameraTurn(const WindowHypothesis& window) {
+  return {-window.state().values.segment<3>(WindowState::kPitchBias),
+          window.covariance().block<3, 3>(WindowState::kPitchBias, WindowState::kPitchBias)};
+}
+
 }  // namespace
 
 struct WindowFilter::Impl {
@@ -207,9 +212,11 @@ struct WindowFilter::Impl {
     out.sign_trusted = beliefs.areUnambiguous() && window.yawSigma() < params.trusted_yaw_sigma_rad;
     if (hypotheses.size() > 1) {
       const WindowHypothesis other = predicted(hypotheses[1].window, age_sec);
-      out.alternative = FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other)};
+      out.alternative =
+          FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other), cameraTurn(other)};
     }
     out.size = window.size();
+    out.camera_turn = cameraTurn(window);
     out.consistency = consistency.consistency();
     return out;
   }

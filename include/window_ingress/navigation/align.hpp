@@ -57,6 +57,7 @@ class Align {
  private:
   Decision resolveSign(const Situation& situation, const RelativeState& relative);
   Decision moveOntoAxis(const Situation& situation, const RelativeState& relative);
+  Decision probeForLeave(const Situation& situation, Decision decision);
 
   NavigatorParams params_;
   HeightProbe probe_;

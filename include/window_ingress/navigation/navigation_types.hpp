@@ -6,6 +6,7 @@
 #include <string>
 
 #include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/pose/opening_fit.hpp"
 
 namespace window_ingress::navigation {
 
@@ -25,6 +26,12 @@ struct TargetEstimate {
   bool sign_trusted = false;
   int updates = 0;  ///< images that contributed since the window was last acquired
   geometry::OpeningSize opening;
+  /// GO: the vehicle fits; UNKNOWN: the size of the opening is still to be found out.
+  pose::Fit fit = pose::Fit::kGo;
+  /// Why nobody should fly towards the window, whatever its pose: it does not fit or that is not known, or
+  /// the camera's mounting or the velocity's frame are not what they are said to be. Empty if there is no
+  /// reason.
+  std::string approach_forbidden;
 };
 
 /// Velocity wish for the vehicle: odometry axes, yaw rate about z.

@@ -7,6 +7,8 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
+#include "window_ingress/pose/frames_check.hpp"
+#include "window_ingress/pose/opening_fit.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
 #include "window_ingress/pose/window_filter.hpp"
 #include "window_ingress/pose/window_pose_estimator.hpp"
@@ -17,12 +19,16 @@ struct TrackerParams {
   double max_pose_gap_sec = 0.05;   ///< odometry may end this much before the exposure [s]
   double gravity_sigma_rad = 0.02;  ///< of the attitude, mounting included [rad]
   double max_jump_m = 0.5;          ///< odometry moving more than this beyond 3 m/s is a jump [m]
+  pose::FitParams fit;
+  pose::FramesParams frames;
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("max_pose_gap_sec", self.max_pose_gap_sec, 0.0, 0.5);
     field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
     field("max_jump_m", self.max_jump_m, 0.05, 10.0);
+    field.group("fit", self.fit);
+    field.group("frames", self.frames);
   }
 };
 
@@ -36,13 +42,17 @@ struct TrackerUpdate {
 /// Observations, odometry and attitude to the target in odom: pose estimation at the attitude of the
 /// exposure, then the filter at the position of the exposure. Everything may arrive late; an observation
 /// waits until odometry has caught up with its exposure, at most until the next one comes. A jump of the
-/// odometry starts anew.
+/// odometry starts anew, but for the size of the opening; a clock that goes back starts everything anew.
+///
+/// What is said of the camera's mounting, of the velocity's frame and of a known size is verified on the way.
 class TargetTracker {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
   TargetTracker(const pose::PoseParams& pose, const pose::FilterParams& filter, const TrackerParams& params);
 
-  void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base);
+  /// \param velocity_odom_mps if reported: turned to odom axes with the pose's attitude
+  void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
+                   const std::optional<Eigen::Vector3d>& velocity_odom_mps = std::nullopt);
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
   /// \param T_base_camera mounting of the camera; without it there is a pose, but nothing for the filter
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
@@ -55,6 +65,16 @@ class TargetTracker {
   std::optional<pose::FilteredWindow> filtered(double now_sec) const { return filter_.state(now_sec); }
   const TrackerUpdate& lastUpdate() const { return last_; }
 
+  /// Whether the vehicle fits through the opening, as far as its size is known.
+  pose::FitVerdict fit(const pose::FilteredWindow& window) const {
+    return pose::fitVerdict(window.size, params_.fit);
+  }
+  pose::FramesVerdict frames() const { return frames_.verdict(); }
+  /// The opening's size as measured on the way flown, whatever it is said to be.
+  const std::optional<pose::SizeBelief>& measuredSize() const { return frames_.mounting().measuredSize(); }
+  /// Why nobody should fly towards this window; empty if there is no reason.
+  std::string approachForbidden(const pose::FilteredWindow& window) const;
+
  private:
   struct Pending {
     detection::WindowObservation window;
@@ -62,6 +82,8 @@ class TargetTracker {
     std::optional<Eigen::Isometry3d> T_base_camera;
   };
   void process(const Pending& pending);
+  std::string whyNotUsed(const Pending& pending);
+  void forgetPlaces();
   std::optional<pose::GravityPrior> gravity(const Pending& pending) const;
 
   pose::PoseResult estimate(const Pending& pending) const;
@@ -69,6 +91,7 @@ class TargetTracker {
   TrackerParams params_;
   pose::WindowPoseEstimator estimator_;
   pose::WindowFilter filter_;
+  pose::FramesCheck frames_;
   pose::PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
   Eigen::Vector3d odometry_position_m_ = Eigen::Vector3d::Zero();

@@ -12,6 +12,13 @@
 
 namespace window_ingress::pose {
 
+/// Lasting error of the camera's attitude: rotation of the true camera against the one that odometry and
+/// mounting make, about its x (pitch), y (yaw) and z (roll) axes.
+struct CameraTurn {
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
 /// The window in the odometry frame, upright: position and yaw, filtered over time.
 struct FilteredWindow {
   double stamp_sec = 0.0;  ///< of the last image that contributed
@@ -26,6 +33,7 @@ struct FilteredWindow {
   struct Alternative {
     Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();
     Matrix6d covariance = Matrix6d::Zero();
+    CameraTurn camera_turn;
   };
   std::optional<Alternative> alternative;
 
@@ -33,6 +41,7 @@ struct FilteredWindow {
   /// `FilterParams::known_size_sigma` says; what is not is estimated.
   SizeBelief size;
 
+  CameraTurn camera_turn;
   Consistency consistency;
 };
 

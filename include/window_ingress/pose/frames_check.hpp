@@ -1,0 +1,32 @@
+#pragma once
+
+#include "window_ingress/pose/mounting_check.hpp"
+#include "window_ingress/pose/twist_check.hpp"
+
+namespace window_ingress::pose {
+
+/// Camera mounting and velocity frame, verified in the first metres of motion: what is predicted against what
+/// is seen and flown. A mismatch is named; with it nobody should fly towards anything.
+class FramesCheck {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
+              const SizeBelief& size);
+
+  TwistCheck& twist() { return twist_; }
+  MountingCheck& mounting() { return mounting_; }
+  const MountingCheck& mounting() const { return mounting_; }
+
+  /// Wrong if one of them is, good if both are.
+  FramesVerdict verdict() const;
+
+  void clear();
+  /// The odometry frame is another one; what was found out stays.
+  void forgetPlaces();
+
+ private:
+  TwistCheck twist_;
+  MountingCheck mounting_;
+};
+
+}  // namespace window_ingress::pose

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "window_ingress/pose/size_belief.hpp"
+
+namespace window_ingress::pose {
+
+/// The vehicle that is to pass, and how sure it must be.
+struct FitParams {
+  double vehicle_width_m = 0.5;    ///< of the vehicle's box, propellers included [m]
+  double vehicle_height_m = 0.24;  ///< likewise [m]
+  double margin_m = 0.05;          ///< that must be left on each side [m]
+  double sigmas = 2.0;             ///< standard deviations of the size by which it must be certain
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("vehicle_width_m", self.vehicle_width_m, 0.02, 10.0);
+    field("vehicle_height_m", self.vehicle_height_m, 0.02, 10.0);
+    field("margin_m", self.margin_m, 0.0, 2.0);
+    field("sigmas", self.sigmas, 0.0, 10.0);
+  }
+};
+
+enum class Fit {
+  kUnknown,  ///< the size is not known well enough to say
+  kGo,       ///< vehicle and margins fit
+  kNoGo      ///< they do not
+};
+
+const char* toString(Fit fit);
+
+struct FitVerdict {
+  Fit fit = Fit::kUnknown;
+  std::string reason = "no window";  ///< with numbers
+};
+
+/// GO if width and height both exceed what is needed by `sigmas` standard deviations, NO-GO if either falls
+/// short of it by as much.
+FitVerdict fitVerdict(const SizeBelief& opening, const FitParams& params);
+
+}  // namespace window_ingress::pose
