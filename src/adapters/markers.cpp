@@ -66,22 +66,32 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
   return message;
 }
 
-visualization_msgs::MarkerArray windowMarkers(const Eigen::Isometry3d& T_frame_window,
-                                              const geometry::OpeningSize& opening, bool sign_trusted,
+visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id) {
-  const std_msgs::ColorRGBA shade = sign_trusted ? colour(0.1F, 0.8F, 0.2F) : colour(1.0F, 0.6F, 0.0F);
-  Marker border = makeMarker("window_border", Marker::LINE_STRIP, stamp, frame_id);
-  for (const Eigen::Vector3d& corner : geometry::openingCorners(opening))
-    border.points.push_back(toPoint(T_frame_window * corner));
-  border.points.push_back(border.points.front());
-  border.scale.x = kLineWidthM;
-  border.color = shade;
-  Marker normal =
-      makeArrow(makeMarker("window_normal", Marker::ARROW, stamp, frame_id), T_frame_window.translation(),
-                T_frame_window * Eigen::Vector3d(kArrowLengthM, 0.0, 0.0));
-  normal.color = shade;
   visualization_msgs::MarkerArray markers;
-  markers.markers = {border, normal};
+  const auto add = [&](const std::string& name, const Eigen::Isometry3d& T,
+                       const std_msgs::ColorRGBA& shade) {
+    Marker border = makeMarker(name + "_border", Marker::LINE_STRIP, stamp, frame_id);
+    for (const Eigen::Vector3d& corner : geometry::openingCorners(window.size.size))
+      border.points.push_back(toPoint(T * corner));
+    border.points.push_back(border.points.front());
+    border.scale.x = kLineWidthM;
+    Marker normal = makeArrow(makeMarker(name + "_normal", Marker::ARROW, stamp, frame_id), T.translation(),
+                              T * Eigen::Vector3d(kArrowLengthM, 0.0, 0.0));
+    border.color = normal.color = shade;
+    markers.markers.push_back(border);
+    markers.markers.push_back(normal);
+  };
+  add("window", window.T_odom_window,
+      window.sign_trusted ? colour(0.1F, 0.8F, 0.2F) : colour(1.0F, 0.6F, 0.0F));
+  if (window.alternative) add("alternative", window.alternative->T_odom_window, colour(0.5F, 0.5F, 0.5F));
+  Marker label = makeMarker("window_text", Marker::TEXT_VIEW_FACING, stamp, frame_id);
+  const double above_m = 0.5 * window.size.size.height_m + kTextAboveM;
+  label.pose.position = toPoint(window.T_odom_window.translation() + Eigen::Vector3d(0.0, 0.0, above_m));
+  label.text = text;
+  label.scale.z = kTextHeightM;
+  label.color = colour(1.0F, 1.0F, 1.0F);
+  markers.markers.push_back(label);
   return markers;
 }
 

@@ -10,6 +10,7 @@
 
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/pose/window_filter.hpp"
 
 namespace window_ingress::adapters {
 
@@ -18,9 +19,9 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
                                              const geometry::OpeningSize& opening, const ros::Time& stamp,
                                              const std::string& frame_id);
 
-/// Border and direction of flight; green while the normal is trusted, else amber.
-visualization_msgs::MarkerArray windowMarkers(const Eigen::Isometry3d& T_frame_window,
-                                              const geometry::OpeningSize& opening, bool sign_trusted,
+/// Border and direction of flight, green while the normal is trusted, else amber; the other planar solution
+/// in grey while it lives; and above the window, `text`.
+visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id);
 
 /// The velocity wished for, as an arrow at the vehicle, and the state in words.

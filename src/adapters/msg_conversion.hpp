@@ -20,6 +20,8 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/pose/frames_params.hpp"
+#include "window_ingress/pose/opening_fit.hpp"
 #include "window_ingress/pose/window_filter.hpp"
 #include "window_ingress/pose/window_pose_estimator.hpp"
 
@@ -82,6 +84,10 @@ Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDete
 
 void fill(window_ingress::WindowPose& message, const pose::PoseResult& result);
 void fill(window_ingress::WindowPose& message, const pose::FilteredWindow& filtered);
+/// The size as measured on the way flown.
+void fill(window_ingress::WindowPose& message, const pose::SizeBelief& measured);
+void fill(window_ingress::WindowPose& message, const pose::FitVerdict& fit);
+void fill(window_ingress::WindowPose& message, const pose::FramesVerdict& frames);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
 

@@ -2,6 +2,10 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "adapters/guarded.hpp"
 #include "adapters/markers.hpp"
 #include "adapters/parameters.hpp"
@@ -19,6 +23,18 @@ PoseNodeParams checked(PoseNodeParams params) {
   for (const char* known : {"imu", "odom", "tf"})
     if (params.gravity_source == known) return params;
   throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom or tf");
+}
+
+// What people want to read at the window.
+std::string labelOf(const window_ingress::WindowPose& message) {
+  static const char* const kFits[] = {"fit?", "GO", "NO GO"};
+  constexpr double kDegrees = 180.0 / M_PI;
+  char text[160];
+  std::snprintf(text, sizeof text, "yaw %+.1f +- %.1f deg%s\n%.2f x %.2f m: %s%s", message.yaw * kDegrees,
+                message.yaw_sigma * kDegrees, message.filtered_sign_trusted ? "" : " (sign open)",
+                message.window_width, message.window_height, kFits[std::min<int>(message.fit, 2)],
+                message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
+  return text;
 }
 
 }  // namespace
@@ -52,6 +68,8 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     imu_health_->watch(imu_subscriber_);
   }
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
+  diagnostics_.add("frames check", [this] { return framesHealth(); });
+  diagnostics_.add("consistency", [this] { return consistencyHealth(); });
   if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -149,11 +167,19 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.window_width = params_.pose.opening_width_m;
   out.window_height = params_.pose.opening_height_m;
   estimate(message, out);
-  if (const auto state = tracker_.filtered(message.header.stamp.toSec()))
+  fill(out, tracker_.frames());
+  if (const auto& measured = tracker_.measuredSize()) fill(out, *measured);
+  const auto state = tracker_.filtered(message.header.stamp.toSec());
+  if (state) {
     fill(out, *state);
-  else if (out.filtered_reason.empty())
+    fill(out, tracker_.fit(*state));
+    out.approach_forbidden = tracker_.approachForbidden(*state);
+  } else if (out.filtered_reason.empty()) {
     out.filtered_reason = "no image has contributed lately";
+  }
+  consistency_ = state ? state->consistency : pose::Consistency();
   publish(out);
+  if (state) publishFiltered(out, *state);
 }
 
 void PoseNode::estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out) {
@@ -212,22 +238,19 @@ void PoseNode::publish(const window_ingress::WindowPose& message) {
                                                 {message.window_width, message.window_height},
                                                 message.header.stamp, message.header.frame_id));
   }
-  if (message.filtered_valid) publishFiltered(message);
 }
 
-void PoseNode::publishFiltered(const window_ingress::WindowPose& message) {
-  const auto T_odom_window = fromMsg(message.filtered.pose);
-  if (!T_odom_window) return;
+void PoseNode::publishFiltered(const window_ingress::WindowPose& message,
+                               const pose::FilteredWindow& window) {
   if (marker_publisher_.getNumSubscribers() > 0)
     marker_publisher_.publish(
-        windowMarkers(*T_odom_window.value, {message.window_width, message.window_height},
-                      message.filtered_sign_trusted, message.header.stamp, params_.frames.odom));
+        windowMarkers(window, labelOf(message), message.header.stamp, params_.frames.odom));
   if (!params_.publish_tf) return;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = message.header.stamp;
   transform.header.frame_id = params_.frames.odom;
   transform.child_frame_id = params_.window_frame;
-  transform.transform = toTransformMsg(*T_odom_window.value);
+  transform.transform = toTransformMsg(window.T_odom_window);
   tf_broadcaster_.sendTransform(transform);
 }
 
@@ -244,6 +267,22 @@ Health PoseNode::mountingHealth() const {
   if (T_base_camera_) return {};
   const bool no_image_yet = window_health_.silentSec() > kSilenceSec;
   return {no_image_yet ? Health::kOk : Health::kError, T_base_camera_.reason};
+}
+
+Health PoseNode::framesHealth() const {
+  const pose::FramesVerdict frames = tracker_.frames();
+  if (frames.state == pose::FramesVerdict::kWrong) return {Health::kError, frames.what + "; no approach"};
+  if (frames.state == pose::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
+  return {Health::kOk, "camera mounting and velocity frame verified"};
+}
+
+Health PoseNode::consistencyHealth() const {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
+                consistency_.mean_nis, consistency_.images, params_.filter.consistency_images,
+                params_.filter.max_consistency);
+  return {consistency_.consistent ? Health::kOk : Health::kWarn, text};
 }
 
 }  // namespace window_ingress::adapters

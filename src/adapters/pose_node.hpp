@@ -67,12 +67,14 @@ class PoseNode : public Node {
   void process(const window_ingress::WindowDetection& message);
   void estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
   void publish(const window_ingress::WindowPose& message);
-  void publishFiltered(const window_ingress::WindowPose& message);
+  void publishFiltered(const window_ingress::WindowPose& message, const pose::FilteredWindow& window);
 
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   void takeAttitudeFromTf(double stamp_sec);
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
+  Health framesHealth() const;
+  Health consistencyHealth() const;
 
   PoseNodeParams params_;
   Diagnostics diagnostics_;
@@ -84,6 +86,7 @@ class PoseNode : public Node {
   ClockWatch clock_;
   CameraSource camera_;
   navigation::TargetTracker tracker_;
+  pose::Consistency consistency_;
   double odometry_stamp_sec_ = -1.0;
   window_ingress::WindowDetectionConstPtr pending_;
   double pending_since_sec_ = 0.0;  // on the steady clock

@@ -30,6 +30,11 @@ static_assert(same(PoseMsg::OK, pose::PoseReject::kNone) &&
               same(PoseMsg::RANGE, pose::PoseReject::kRange) &&
               same(PoseMsg::TILT, pose::PoseReject::kTilt) &&
               same(PoseMsg::NOT_FINITE, pose::PoseReject::kNotFinite));
+static_assert(same(PoseMsg::FIT_UNKNOWN, pose::Fit::kUnknown) && same(PoseMsg::FIT_GO, pose::Fit::kGo) &&
+              same(PoseMsg::FIT_NO_GO, pose::Fit::kNoGo));
+static_assert(same(PoseMsg::FRAMES_OPEN, pose::FramesVerdict::kOpen) &&
+              same(PoseMsg::FRAMES_GOOD, pose::FramesVerdict::kGood) &&
+              same(PoseMsg::FRAMES_WRONG, pose::FramesVerdict::kWrong));
 static_assert(same(StateMsg::IDLE, navigation::State::kIdle) &&
               same(StateMsg::SEARCH, navigation::State::kSearch) &&
               same(StateMsg::ALIGN, navigation::State::kAlign) &&
@@ -52,6 +57,12 @@ bool isFinite(const DetectionMsg& m) {
 bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
   return std::all_of(m.covariance.begin(), m.covariance.end(),
                      [](double number) { return std::isfinite(number); });
+}
+
+// Standard deviations of width and height [m].
+Eigen::Vector2d sigmasOf(const pose::SizeBelief& belief) {
+  return {belief.size.width_m * std::sqrt(belief.log_covariance(0, 0)),
+          belief.size.height_m * std::sqrt(belief.log_covariance(1, 1))};
 }
 
 pose::Matrix6d covarianceFromMsg(const geometry_msgs::PoseWithCovariance& message) {
@@ -153,6 +164,13 @@ void fill(PoseMsg& message, const pose::PoseResult& result) {
   message.opening_width = estimate.opening_width_m;
   message.left_side = estimate.left_side_px;
   message.right_side = estimate.right_side_px;
+  message.window_width = estimate.opening.width_m;
+  message.window_height = estimate.opening.height_m;
+  message.yaw_from_sight = estimate.yaw_from_sight_rad;
+  message.opening_height = estimate.opening_height_m;
+  if (!estimate.aspect) return;
+  message.aspect = estimate.aspect->ratio;
+  message.aspect_sigma = estimate.aspect->sigma;
 }
 
 void fill(PoseMsg& message, const pose::FilteredWindow& filtered) {
@@ -162,6 +180,37 @@ void fill(PoseMsg& message, const pose::FilteredWindow& filtered) {
   message.filtered_sign_trusted = filtered.sign_trusted;
   message.filtered_weight = filtered.hypothesis_weight;
   message.filtered_updates = static_cast<std::uint32_t>(std::max(0, filtered.updates));
+  message.filtered_age = filtered.age_sec;
+  message.has_filtered_alternative = filtered.alternative.has_value();
+  if (filtered.alternative)
+    message.filtered_alternative =
+        toMsg(filtered.alternative->T_odom_window, filtered.alternative->covariance);
+  message.window_width = filtered.size.size.width_m;
+  message.window_height = filtered.size.size.height_m;
+  const Eigen::Vector2d sigma = sigmasOf(filtered.size);
+  message.window_width_sigma = sigma.x();
+  message.window_height_sigma = sigma.y();
+  message.nis = filtered.consistency.mean_nis;
+  message.nis_images = static_cast<std::uint32_t>(std::max(0, filtered.consistency.images));
+  message.consistent = filtered.consistency.consistent;
+}
+
+void fill(PoseMsg& message, const pose::SizeBelief& measured) {
+  const Eigen::Vector2d sigma = sigmasOf(measured);
+  message.measured_width = measured.size.width_m;
+  message.measured_width_sigma = sigma.x();
+  message.measured_height = measured.size.height_m;
+  message.measured_height_sigma = sigma.y();
+}
+
+void fill(PoseMsg& message, const pose::FitVerdict& fit) {
+  message.fit = static_cast<std::uint8_t>(fit.fit);
+  message.fit_reason = fit.reason;
+}
+
+void fill(PoseMsg& message, const pose::FramesVerdict& frames) {
+  message.frames = static_cast<std::uint8_t>(frames.state);
+  message.frames_reason = frames.what;
 }
 
 Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, const std::string& odom_frame) {
@@ -184,6 +233,11 @@ Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, cons
   target.sign_trusted = message.filtered_sign_trusted != 0;
   target.updates = static_cast<int>(std::min<std::uint32_t>(message.filtered_updates, 1u << 30));
   target.opening = {message.window_width, message.window_height};
+  target.approach_forbidden = message.approach_forbidden;
+  if (!message.approach_forbidden.empty())
+    target.fit = message.fit == PoseMsg::FIT_NO_GO ? pose::Fit::kNoGo
+                 : message.fit == PoseMsg::FIT_GO  ? pose::Fit::kGo
+                                                   : pose::Fit::kUnknown;
   return {target, ""};
 }
 

@@ -54,13 +54,13 @@ void WindowBeliefs::addMirrorImage(const FilterView& view, const SizeBelief& siz
 }
 
 std::optional<WindowHypothesis::Outcome> WindowBeliefs::apply(const FilterView& view, double elapsed_sec,
-                                                              const Eigen::Vector3d& camera_from) {
+                                                              double way_m) {
   std::vector<Weighted> tried = hypotheses_;
   std::array<double, 2> evidence{kImpossible, kImpossible};
   std::optional<WindowHypothesis::Outcome> closest;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     WindowHypothesis& window = tried[i].window;
-    window.predict(params_, elapsed_sec, camera_from, view.T_odom_camera.translation());
+    window.predict(params_, elapsed_sec, way_m, view.T_odom_camera.translation());
     WindowHypothesis updated = window;
     const auto outcome = updated.update(params_, view);
     if (!outcome || outcome->squares > params_.gate_squares) continue;

@@ -172,10 +172,19 @@ struct WindowFilter::Impl {
     return apply(estimate, window.stamp_sec, {*shared, *first, camera, T_odom_camera, jitter, moves});
   }
 
+  // Jitter is no way flown. But where the way is the measure of the scale, its jitter counts as drift: what
+  // the smooth way still has of it would else make the scale too certain.
+  double wayTo(const FilterView& view, double stamp) const {
+    const double moved_m = (view.T_odom_camera.translation() - camera_position).norm();
+    const auto motion = path.motion();
+    return motion && sizeIsKnown() ? std::min(moved_m, motion->velocity_mps.norm() * (stamp - stamp_sec))
+                                   : moved_m;
+  }
+
   bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
     if (beliefs.empty()) return start(estimate, stamp, view);
     if (mean_squares > params.max_mean_squares && start(estimate, stamp, view)) return true;
-    const auto outcome = beliefs.apply(view, stamp - stamp_sec, camera_position);
+    const auto outcome = beliefs.apply(view, stamp - stamp_sec, wayTo(view, stamp));
     if (!outcome) return ++outliers >= params.outliers_until_restart && start(estimate, stamp, view);
     mean_squares += (outcome->squares - mean_squares) / kMeanOver;
     consistency.add(outcome->squares, view.alone.size());
@@ -195,13 +204,20 @@ struct WindowFilter::Impl {
   }
 
   WindowHypothesis predicted(WindowHypothesis window, double age_sec) const {
-    window.predict(params, std::max(age_sec, 0.0), camera_position, camera_position);
+    window.predict(params, std::max(age_sec, 0.0), 0.0, camera_position);
     return window;
+  }
+
+  // Two hypotheses so near to each other that they need not be told apart are one with the spread of both.
+  WindowHypothesis reported() const {
+    const auto& hypotheses = beliefs.hypotheses();
+    if (hypotheses.size() < 2 || !beliefs.areUnambiguous()) return hypotheses.front().window;
+    return hypotheses[0].window.mergedWith(hypotheses[1].window, std::exp(hypotheses[1].log_weight));
   }
 
   FilteredWindow stateAt(double age_sec) const {
     const auto& hypotheses = beliefs.hypotheses();
-    const WindowHypothesis window = predicted(hypotheses.front().window, age_sec);
+    const WindowHypothesis window = predicted(reported(), age_sec);
     FilteredWindow out;
     out.stamp_sec = stamp_sec;
     out.age_sec = age_sec;

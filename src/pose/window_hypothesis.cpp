@@ -133,8 +133,8 @@ WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isom
   covariance_.bottomRightCorner<2, 2>() = aspect_and_scale * at_least * aspect_and_scale.transpose();
 }
 
-void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec,
-                               const Eigen::Vector3d& camera_from, const Eigen::Vector3d& camera_to) {
+void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec, double way_m,
+                               const Eigen::Vector3d& camera_position) {
   const double kept = std::exp(-elapsed_sec / params.attitude_bias_time_sec);
   const double renewed = (1.0 - kept * kept) * std::pow(params.attitude_bias_sigma_rad, 2);
   for (const Index bias : {WindowState::kPitchBias, WindowState::kRollBias}) {
@@ -144,12 +144,12 @@ void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec,
     covariance_(bias, bias) += renewed;
   }
   const double inverse_height = state_.values(WindowState::kInverseHeight);
-  const double drift = std::pow(params.drift_m_per_sqrt_sec, 2) * elapsed_sec +
-                       std::pow(params.drift_m_per_sqrt_m, 2) * (camera_to - camera_from).norm();
+  const double drift =
+      std::pow(params.drift_m_per_sqrt_sec, 2) * elapsed_sec + std::pow(params.drift_m_per_sqrt_m, 2) * way_m;
   covariance_.topLeftCorner<3, 3>().diagonal().array() += inverse_height * inverse_height * drift;
   // Odometry's heading drifts about the vehicle: it carries the window around.
   Vector turn = Vector::Zero();
-  turn.head<3>() = inverse_height * Eigen::Vector3d::UnitZ().cross(state_.position() - camera_to);
+  turn.head<3>() = inverse_height * Eigen::Vector3d::UnitZ().cross(state_.position() - camera_position);
   turn(WindowState::kYaw) = 1.0;
   covariance_ += std::pow(params.drift_rad_per_sqrt_sec, 2) * elapsed_sec * turn * turn.transpose();
 }

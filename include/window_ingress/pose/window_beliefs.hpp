@@ -27,12 +27,11 @@ class WindowBeliefs {
   /// explains the image
   bool start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size, const FilterView& view);
 
-  /// Time passes, the camera moves, and an image is applied to all hypotheses.
+  /// Time passes, the camera flies a way, and an image is applied to all hypotheses.
   /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
   /// an
   ///         outlier to all
-  std::optional<WindowHypothesis::Outcome> apply(const FilterView& view, double elapsed_sec,
-                                                 const Eigen::Vector3d& camera_from);
+  std::optional<WindowHypothesis::Outcome> apply(const FilterView& view, double elapsed_sec, double way_m);
 
   /// True if the mirror image is dead, or too near to matter.
   bool areUnambiguous() const;

@@ -34,9 +34,9 @@ class WindowHypothesis {
                    const Eigen::Vector3d& anchor_m, double yaw_sigma_rad = kWideYawSigmaRad);
   static constexpr double kWideYawSigmaRad = 0.7;
 
-  /// Time passes and the camera moves: odometry drifts, attitude errors fade.
-  void predict(const FilterParams& params, double elapsed_sec, const Eigen::Vector3d& camera_from,
-               const Eigen::Vector3d& camera_to);
+  /// Time passes and the camera flies a way to its position: odometry drifts, attitude errors fade.
+  void predict(const FilterParams& params, double elapsed_sec, double way_m,
+               const Eigen::Vector3d& camera_position);
 
   struct Outcome {
     double squares = 0.0;        ///< normalised innovation squared of `FilterView::alone`

@@ -47,7 +47,7 @@ TEST(WindowHypothesis, HeadingDriftCarriesTheWindowAround) {
   WindowHypothesis window(params, geometry::makePose(Eigen::Matrix3d::Identity(), {10, 0, 0}), kKnown,
                           kOrigin);
   const Eigen::Matrix4d before = window.poseCovariance();
-  window.predict(params, 4.0, {0, 0, 0}, {0, 0, 0});
+  window.predict(params, 4.0, 0.0, {0, 0, 0});
   const Eigen::Matrix4d grown = window.poseCovariance() - before;
   EXPECT_NEAR(grown(3, 3), 4e-4, 1e-12);
   EXPECT_NEAR(grown(1, 1), 4e-2, 1e-12) << "10 m off, sideways";

@@ -1,0 +1,159 @@
+/// Measures the filter over time on synthetic approaches; see --help.
+
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "window_ingress/evaluation/filter_survey.hpp"
+#include "window_ingress/evaluation/statistics.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace {
+
+namespace po = boost::program_options;
+using namespace window_ingress;
+using evaluation::FilterSample;
+using evaluation::SizeTold;
+using tools::UsageError;
+
+struct Options {
+  int runs = 200;
+  std::uint32_t seed = 1;
+  std::string size = "known", output, params;
+};
+
+po::options_description describe(Options& o) {
+  po::options_description description(
+      "Usage: survey_filter --output DIR [options]\n"
+      "Flies synthetic approaches (no pictures: borders with noise and lasting errors, odometry that "
+      "drifts,\n"
+      "attitude that is wrong) through estimator and filter and compares with the truth.\n"
+      "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % band.\n"
+      "\nOptions");
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("output,o", po::value(&o.output), "folder of the results");
+  add("runs", po::value(&o.runs)->default_value(o.runs), "approaches");
+  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first approach");
+  add("size", po::value(&o.size)->default_value(o.size), "of the opening: known or unknown");
+  add("params", po::value(&o.params),
+      "yaml file with a section 'filter'; the errors are drawn by the defaults");
+  return description;
+}
+
+void check(const Options& o) {
+  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.runs < 2 || o.runs > 100000) throw UsageError("--runs: needs 2 to 100000");
+  if (o.size != "known" && o.size != "unknown") throw UsageError("--size: known or unknown");
+}
+
+void write(std::ostream& out, int run, const FilterSample& s) {
+  constexpr double kDegrees = 180.0 / M_PI;
+  out << run << ',' << s.time_sec << ',' << s.flown_m << ',' << s.position_m.x() << ',' << s.position_m.y()
+      << ',' << s.trusted << ',' << s.nees << ',' << s.position_error_m << ',' << s.yaw_error_rad * kDegrees
+      << ',' << s.yaw_sigma_rad * kDegrees << ',' << s.relative_yaw_rad * kDegrees << ','
+      << s.filtered_yaw_rad * kDegrees << ',';
+  if (s.single_yaw_rad) out << *s.single_yaw_rad * kDegrees;
+  out << ',' << s.width_error << ',' << s.width_sigma << ',' << s.apparent_width_m << ',' << s.nis << '\n';
+}
+
+/// All samples at which this much of the way was flown, one a run.
+class AtWay {
+ public:
+  explicit AtWay(double share) : share_(share) {}
+  void add(const std::vector<FilterSample>& run) {
+    for (const FilterSample& sample : run) {
+      if (sample.flown_m < share_ * run.back().flown_m) continue;
+      if (sample.trusted) {
+        nees_.push_back(sample.nees);
+        yaw_.push_back(std::abs(sample.yaw_error_rad) * 180.0 / M_PI);
+        position_.push_back(sample.position_error_m);
+        width_.push_back(std::abs(sample.width_error));
+        width_squares_ += std::pow(sample.width_error / sample.width_sigma, 2);
+      }
+      return;
+    }
+  }
+  void print() const {
+    if (nees_.empty()) return;
+    double mean = 0.0;
+    for (const double nees : nees_) mean += nees / static_cast<double>(nees_.size());
+    const int count = static_cast<int>(nees_.size());
+    const auto band = evaluation::chiSquaredBand(4, count);
+    std::printf("%3.0f %% of the way | %4d | %.2f (%.2f .. %.2f) %s | %.2f | %.1f | %.2f / %.2f\n",
+                100.0 * share_, count, mean, band.low, band.high,
+                mean >= band.low && mean <= band.high ? "inside " : "OUTSIDE",
+                evaluation::quantile(yaw_, 0.5), 100.0 * evaluation::quantile(position_, 0.5),
+                100.0 * evaluation::quantile(width_, 0.5), width_squares_ / count);
+  }
+
+ private:
+  double share_;
+  std::vector<double> nees_, yaw_, position_, width_;
+  double width_squares_ = 0.0;
+};
+
+int survey(const Options& o) {
+  pose::FilterParams filter;
+  if (!o.params.empty() && !parameters::readYamlFile(o.params, "filter", filter))
+    throw UsageError(o.params + ": no section 'filter' in this file");
+  tools::makeFolder(o.output);
+  std::ofstream table(o.output + "/filter.csv");
+  table << "run,time_s,flown_m,x_m,y_m,trusted,nees,position_error_m,yaw_error_deg,yaw_sigma_deg,relative_"
+           "yaw_deg,"
+           "filtered_yaw_deg,single_yaw_deg,width_error,width_sigma,apparent_width_m,nis\n";
+  const SizeTold told = o.size == "known" ? SizeTold::kAll : SizeTold::kNothing;
+  std::vector<AtWay> ways{AtWay(0.1), AtWay(0.25), AtWay(0.5), AtWay(0.75), AtWay(1.0)};
+  double images = 0.0, nees = 0.0;
+  int trusted_runs = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (int run = 0; run < o.runs; ++run) {
+    const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(run);
+    const auto script = evaluation::drawApproach(seed, told);
+    evaluation::SyntheticApproach approach(seed, script, pose::FilterParams());
+    navigation::TargetTracker tracker(evaluation::poseParams(told), filter, {});
+    const auto samples = evaluation::follow(approach, tracker, script.opening);
+    for (const FilterSample& sample : samples) write(table, run, sample);
+    for (AtWay& way : ways)
+      if (!samples.empty()) way.add(samples);
+    const auto mean = evaluation::meanNees(samples);
+    nees += mean.value_or(0.0);
+    trusted_runs += mean.has_value();
+    images += static_cast<double>(samples.size());
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("size %s, %d approaches\n", o.size.c_str(), o.runs);
+  std::printf(
+      "                  |  runs | NEES, mean (95 %% band of 4) | yaw [deg] | place [cm] | width [%%] / its "
+      "NEES\n");
+  for (const AtWay& way : ways) way.print();
+  const auto band = evaluation::chiSquaredBand(4, std::max(trusted_runs, 1));
+  std::printf("whole approaches  | %4d | %.2f (%.2f .. %.2f)\n", trusted_runs,
+              nees / std::max(trusted_runs, 1), band.low, band.high);
+  std::printf("%.0f us an image, simulation included\n", 1e6 * seconds / images);
+  if (!table.flush()) throw std::runtime_error(o.output + "/filter.csv: cannot be written");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return tools::runTool("survey_filter", [&] {
+    Options options;
+    const auto description = describe(options);
+    po::variables_map given;
+    po::store(po::parse_command_line(argc, argv, description), given);
+    po::notify(given);
+    if (given.count("help") != 0) {
+      std::cout << description;
+      return 0;
+    }
+    check(options);
+    return survey(options);
+  });
+}

@@ -1,0 +1,126 @@
+#include "window_ingress/evaluation/filter_survey.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "window_ingress/pose/opening_fit.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+TEST(FilterSurvey, BandOfChiSquaredAgreesWithTables) {
+  const Band one = chiSquaredBand(4, 1), many = chiSquaredBand(4, 200);
+  EXPECT_NEAR(one.low, 0.484, 0.05);
+  EXPECT_NEAR(one.high, 11.143, 0.05);
+  EXPECT_NEAR(many.low, 3.62, 0.01);
+  EXPECT_NEAR(many.high, 4.40, 0.01);
+}
+
+// Drift of place and heading, jitter, lasting errors of attitude and corners: all drawn as the filter assumes
+// them.
+TEST(FilterSurvey, NormalisedErrorOfTwoHundredApproachesLiesInItsBand) {
+  double sum = 0.0, end = 0.0;
+  int runs = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    auto script = drawApproach(seed, SizeTold::kAll);
+    SyntheticApproach approach(seed, script, pose::FilterParams());
+    navigation::TargetTracker tracker(poseParams(SizeTold::kAll), pose::FilterParams(), {});
+    const auto samples = follow(approach, tracker, script.opening);
+    const auto mean = meanNees(samples);
+    ASSERT_TRUE(mean) << seed;
+    sum += *mean;
+    end += samples.back().nees;
+    ++runs;
+  }
+  const Band band = chiSquaredBand(4, runs);
+  std::printf("NEES over %d approaches: %.2f, at their ends %.2f; band %.2f .. %.2f\n", runs, sum / runs,
+              end / runs, band.low, band.high);
+  EXPECT_GT(sum / runs, band.low);
+  EXPECT_LT(sum / runs, band.high);
+  EXPECT_GT(end / runs, band.low);
+  EXPECT_LT(end / runs, band.high);
+}
+
+/// Sideways past a window of which nothing is told, 4 m away.
+struct Sideways {
+  geometry::OpeningSize opening;
+  std::optional<pose::FilteredWindow> found;
+};
+
+Sideways flySideways(std::uint32_t seed, const pose::FilterParams& errors, double width_m) {
+  simulation::RandomStream random(seed, "sideways");
+  const double off_axis = random.uniform(-0.5, 0.5), side = seed % 2 == 0 ? 1.0 : -1.0;
+  const Eigen::Vector3d from(-4.0 * std::cos(off_axis), 4.0 * std::sin(off_axis), random.uniform(-0.3, 0.3));
+  ApproachScript script;
+  script.waypoints_m = {from, from + Eigen::Vector3d(0.0, 1.2 * side, 0.0)};
+  script.opening = {width_m, random.uniform(0.7, 1.4)};
+  SyntheticApproach approach(seed, script, errors);
+  navigation::TargetTracker tracker(poseParams(SizeTold::kNothing), errors, {});
+  while (approach.flownM() < 1.0 && approach.advance()) {
+    for (const auto& odometry : approach.odometry())
+      tracker.addOdometry(odometry.stamp_sec, odometry.T_odom_base);
+    if (approach.isInView()) tracker.see(approach.window(), approach.camera(), approach.T_base_camera());
+  }
+  return {script.opening, tracker.filtered(approach.timeSec())};
+}
+
+// Odometry that drifts by a centimetre a square root of a second, as the world's does.
+pose::FilterParams worldsOdometry() {
+  pose::FilterParams errors;
+  errors.drift_m_per_sqrt_m = 0.005;
+  return errors;
+}
+
+TEST(FilterSurvey, TheWidthIsKnownToThreePercentAfterAMetreSideways) {
+  std::vector<double> errors;
+  double squares = 0.0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    simulation::RandomStream random(seed, "width");
+    const auto [opening, found] = flySideways(seed, worldsOdometry(), random.uniform(0.7, 1.8));
+    ASSERT_TRUE(found) << seed;
+    const double error = std::log(found->size.size.width_m / opening.width_m);
+    errors.push_back(std::abs(error));
+    squares += error * error / found->size.log_covariance(0, 0) / 200.0;
+  }
+  std::sort(errors.begin(), errors.end());
+  double rms = 0.0;
+  for (const double error : errors) rms += error * error / 200.0;
+  rms = std::sqrt(rms);
+  std::printf(
+      "width after 1 m sideways: rms %.1f %%, median %.1f %%, 95 %% %.1f %%; normalised error squared %.2f\n",
+      100 * rms, 100 * errors[100], 100 * errors[190], squares);
+  EXPECT_LT(rms, 0.03);
+  EXPECT_GT(squares, 0.7);
+  EXPECT_LT(squares, 1.35);
+}
+
+TEST(FilterSurvey, TheFitVerdictIsRightWheneverTheTruthIsClear) {
+  int clear = 0, right = 0, wrong = 0;
+  for (std::uint32_t seed = 1; clear < 200; ++seed) {
+    simulation::RandomStream random(seed, "fit");
+    const auto [opening, found] = flySideways(1000 + seed, pose::FilterParams(), random.uniform(0.4, 0.8));
+    if (!found) continue;
+    const double needed = 0.6, width = found->size.size.width_m;
+    const double sigma = width * std::sqrt(found->size.log_covariance(0, 0));
+    const bool fits = opening.width_m > needed;
+    const auto fit = pose::fitVerdict(found->size, {}).fit;
+    wrong += fit == (fits ? pose::Fit::kNoGo : pose::Fit::kGo);
+    if (std::abs(width - needed) < 2.0 * sigma) continue;
+    ++clear;
+    right += fit == (fits ? pose::Fit::kGo : pose::Fit::kNoGo);
+  }
+  std::printf("fit verdict: right in %d of %d clear draws, wrong in %d of all\n", right, clear, wrong);
+  EXPECT_EQ(right, clear);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(FilterSurvey, RunsWithoutATrustedSampleHaveNoMean) {
+  EXPECT_FALSE(meanNees({}));
+  EXPECT_FALSE(meanNees({FilterSample()}));
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation
