@@ -133,6 +133,32 @@ TEST(WindowPose, CarriesTheReasonWhereThereIsNoPose) {
   EXPECT_EQ(message.pose.pose.orientation.w, 0.0);
 }
 
+TEST(WindowPose, CarriesSizeFitFramesAndConsistency) {
+  pose::FilteredWindow filtered;
+  filtered.age_sec = 0.25;
+  filtered.size = {{1.3, 0.9}, 0.0004 * Eigen::Matrix2d::Identity()};
+  filtered.alternative = pose::FilteredWindow::Alternative();
+  filtered.alternative->T_odom_window.translation().x() = 7.0;
+  filtered.consistency = {40, 1.5, true};
+  window_ingress::WindowPose message;
+  fill(message, filtered);
+  fill(message, pose::SizeBelief{{1.31, 0.91}, 0.0001 * Eigen::Matrix2d::Identity()});
+  fill(message, pose::FitVerdict{pose::Fit::kNoGo, "too narrow"});
+  fill(message, pose::FramesVerdict{pose::FramesVerdict::kWrong, "twist looks odd"});
+  EXPECT_EQ(message.filtered_age, 0.25);
+  EXPECT_EQ(message.window_width, 1.3);
+  EXPECT_NEAR(message.window_height_sigma, 0.018, 1e-12);
+  EXPECT_TRUE(message.has_filtered_alternative);
+  EXPECT_EQ(message.filtered_alternative.pose.position.x, 7.0);
+  EXPECT_EQ(message.measured_width, 1.31);
+  EXPECT_NEAR(message.measured_width_sigma, 0.0131, 1e-12);
+  EXPECT_EQ(message.fit, window_ingress::WindowPose::FIT_NO_GO);
+  EXPECT_EQ(message.frames, window_ingress::WindowPose::FRAMES_WRONG);
+  EXPECT_EQ(message.frames_reason, "twist looks odd");
+  EXPECT_EQ(message.nis, 1.5);
+  EXPECT_EQ(message.nis_images, 40u);
+}
+
 window_ingress::WindowPose makeFiltered() {
   pose::FilteredWindow filtered;
   filtered.stamp_sec = 12.5;
@@ -158,6 +184,15 @@ TEST(WindowPose, FilteredWindowBecomesTheTarget) {
   EXPECT_TRUE(target.value->sign_trusted);
   EXPECT_EQ(target.value->updates, 9);
   EXPECT_EQ(target.value->opening.width_m, 1.2);
+}
+
+TEST(WindowPose, WhatForbidsTheApproachReachesTheTarget) {
+  auto message = makeFiltered();
+  EXPECT_EQ(targetFromMsg(message, "odom").value->fit, pose::Fit::kGo) << "nothing said against it";
+  message.fit = window_ingress::WindowPose::FIT_UNKNOWN;
+  message.approach_forbidden = "fit UNKNOWN";
+  EXPECT_EQ(targetFromMsg(message, "odom").value->fit, pose::Fit::kUnknown);
+  EXPECT_EQ(targetFromMsg(message, "odom").value->approach_forbidden, "fit UNKNOWN");
 }
 
 TEST(WindowPose, TargetsThatCannotBeUsedAreRefused) {

@@ -101,6 +101,38 @@ TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
   EXPECT_TRUE(probe.isExhausted());
 }
 
+TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
+  Align align{NavigatorParams()};
+  align.enter(0.0);
+  bool climbed = false, gave_up = false;
+  double height_m = 0.0;
+  for (double now = 0.0; now < 60.0 && !gave_up; now += 0.05) {
+    auto situation = situationAt({-3.0, 0.0, height_m}, now, true);
+    situation.target->approach_forbidden = "twist looks like world frame";
+    const Decision decision = align.step(situation);
+    EXPECT_NE(decision.event, Event::kAligned);
+    gave_up = decision.event == Event::kGiveUp;
+    if (gave_up) EXPECT_NE(decision.reason.find("world frame"), std::string::npos);
+    climbed = climbed || decision.wish.velocity_odom_mps.z() > 0.1;
+    height_m += 0.05 * decision.wish.velocity_odom_mps.z();
+  }
+  EXPECT_TRUE(climbed);
+  EXPECT_TRUE(gave_up);
+}
+
+TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
+  Approach approach{NavigatorParams()};
+  approach.enter();
+  MissionMemory memory;
+  auto situation = situationAt({-3.0, 0.0, 0.0}, 1.0, true);
+  EXPECT_NE(approach.step(situation, memory).event, Event::kMisaligned);
+  situation.target->approach_forbidden = "fit NO_GO: width 0.50 m";
+  const Decision decision = approach.step(situation, memory);
+  EXPECT_EQ(decision.event, Event::kMisaligned);
+  EXPECT_EQ(decision.wish.velocity_odom_mps, Eigen::Vector3d(0, 0, 0));
+  EXPECT_NE(decision.reason.find("0.50 m"), std::string::npos);
+}
+
 TEST(StepPacer, PausesAfterEachStepOnlyIfAsked) {
   AlignParams params;
   const Eigen::Vector3d wish(0.5, 0, 0);

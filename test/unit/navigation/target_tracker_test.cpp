@@ -80,6 +80,81 @@ TEST(TargetTracker, AJumpOfTheOdometryStartsAnew) {
   EXPECT_FALSE(track.target(0.3));
 }
 
+/// 2 m sideways past the window, each picture as it would be; the mounting told may be another.
+TargetTracker flownSideways(const pose::PoseParams& pose, const TrackerParams& params,
+                            const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
+  TargetTracker track(pose, pose::FilterParams(), params);
+  for (int i = 0; i <= 90; ++i) {
+    const double now = i / 30.0, y = 0.6 * now;
+    track.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.6 * velocity_factor, 0.0));
+    track.see(sighting(vehicleAt(y), now), kCamera, mounting_told);
+  }
+  return track;
+}
+
+pose::PoseParams unknownSize() {
+  pose::PoseParams params;
+  params.opening_width_m = params.opening_height_m = 0.9;
+  params.scale_sigma = 0.5;
+  params.aspect_sigma = 0.3;
+  return params;
+}
+
+TEST(TargetTracker, FindsOutASizeThatIsNotKnown) {
+  const auto track = flownSideways(unknownSize(), TrackerParams(), kMounting);
+  const auto target = track.target(3.0);
+  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  EXPECT_NEAR(target->opening.width_m, 1.2, 0.06);
+  EXPECT_NEAR(target->opening.height_m, 1.0, 0.05);
+  EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.25);
+  EXPECT_EQ(target->fit, pose::Fit::kGo);
+  EXPECT_EQ(target->approach_forbidden, "");
+}
+
+TEST(TargetTracker, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
+  auto track = TargetTracker(unknownSize(), pose::FilterParams(), TrackerParams());
+  for (int i = 0; i < 30; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(1.0));
+  EXPECT_EQ(track.target(1.0)->fit, pose::Fit::kUnknown);
+  EXPECT_NE(track.target(1.0)->approach_forbidden.find("UNKNOWN"), std::string::npos);
+  TrackerParams broad;
+  broad.fit.vehicle_width_m = 1.15;
+  const auto narrow = flownSideways(pose::PoseParams(), broad, kMounting);
+  EXPECT_EQ(narrow.target(3.0)->fit, pose::Fit::kNoGo);
+  EXPECT_NE(narrow.target(3.0)->approach_forbidden.find("NO_GO"), std::string::npos);
+}
+
+TEST(TargetTracker, ForbidsTheApproachWithFramesThatAreNotAsTold) {
+  Eigen::Isometry3d turned = kMounting;
+  turned.linear() = geometry::yawRotation(0.3) * turned.linear();
+  const auto mounting = flownSideways(pose::PoseParams(), TrackerParams(), turned);
+  EXPECT_EQ(mounting.frames().state, pose::FramesVerdict::kWrong);
+  EXPECT_NE(mounting.frames().what.find("in yaw"), std::string::npos) << mounting.frames().what;
+  const auto twist = flownSideways(pose::PoseParams(), TrackerParams(), kMounting, -1.0);
+  ASSERT_TRUE(twist.target(3.0));
+  EXPECT_NE(twist.target(3.0)->approach_forbidden.find("twist"), std::string::npos);
+  const auto good = flownSideways(pose::PoseParams(), TrackerParams(), kMounting);
+  EXPECT_EQ(good.frames().state, pose::FramesVerdict::kGood) << good.frames().what;
+  EXPECT_EQ(good.target(3.0)->approach_forbidden, "");
+}
+
+TEST(TargetTracker, AJumpOfTheOdometryKeepsTheSizeAndWhatWasFoundOfTheFrames) {
+  auto track = flownSideways(unknownSize(), TrackerParams(), kMounting);
+  const auto frames = track.frames();
+  track.addOdometry(3.03, vehicleAt(7.0));
+  EXPECT_FALSE(track.target(3.03));
+  EXPECT_EQ(track.frames(), frames);
+  for (int i = 0; i < 3; ++i) {
+    track.addOdometry(3.1 + i / 30.0, vehicleAt(1.8));
+    if (i > 0) track.see(sighting(vehicleAt(1.8), 3.1 + i / 30.0), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(3.2)) << track.lastUpdate().why_not;
+  EXPECT_NEAR(track.target(3.2)->opening.width_m, 1.2, 0.1);
+}
+
 TEST(TargetTracker, BadInputIsRefusedWithAReason) {
   auto track = tracker();
   const double nan = std::numeric_limits<double>::quiet_NaN();
