@@ -24,6 +24,7 @@ constexpr double kQualityRate = 0.25;     // part of the certainty that a frame 
 constexpr double kUnlikePart = 0.7;       // of the quality while the ring does not look like the reference
 constexpr double kGivenWarp = 0.3;        // spread of the shape of a given prediction, of that of its place
 constexpr int kCompletionFrames = 10;     // between searches for a border that is in view and not found
+constexpr double kSameWindow = 0.6;       // overlap of two loops of one window, of their union
 constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
 
 }  // namespace
@@ -46,7 +47,7 @@ struct WindowTracker::Impl {
   bool follow(const TrackInput& input);
   void watch(const TrackInput& input);
   std::optional<WindowObservation> search(const TrackInput& input);
-  std::optional<WindowObservation> amongOthers(const TrackInput& input);
+  std::optional<WindowObservation> amongOthers(const TrackInput& input, const WindowObservation& found);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);
   void refuse(RejectReason reason, const std::string& detail) {
     has_own_trace = true;
@@ -142,12 +143,15 @@ void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found
   tracking = has_motion = true;
 }
 
-// A window that the search passed over for a better one, where the old one must be.
-std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInput& input) {
+// A window that the search passed over for a better one, where the old one must be; another loop of the one
+// that it found says that this is the old one.
+std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInput& input,
+                                                                  const WindowObservation& found) {
   for (const CandidateTrace& other : detector.trace().candidates) {
     if (other.reject != RejectReason::kOutscored ||
         !identity.isSame(undistorted(other.quad, pictures.lens()), motion.quad()))
       continue;
+    if (geometry::intersectionOverUnion(other.quad, found.corners) > kSameWindow) return found;
     const auto borders = refinement.run(input.image, {other.quad, kVariantRadiusPx}, input.camera);
     if (!borders) continue;
     return observationOf(other, *borders, input.stamp_sec);
@@ -162,7 +166,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   const bool remembers = has_motion && identity.remembers(input.stamp_sec, place_given);
   bool is_same = remembers && identity.isSame(undistorted(found->corners, pictures.lens()), motion.quad());
   if (remembers && !is_same) {
-    if (auto other = amongOthers(input)) found = other, is_same = true;
+    if (auto other = amongOthers(input, *found)) found = other, is_same = true;
   }
   if (remembers && !is_same && identity.settled()) {
     refuse(RejectReason::kOutscored, "another window is in view; the one that was followed is waited for");
