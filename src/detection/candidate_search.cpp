@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "window_ingress/detection/window_score.hpp"
 
@@ -41,8 +42,11 @@ CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, do
 }
 
 void sortByRank(std::vector<Rival>& rivals) {
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.rank() > b.rank(); });
+  // Equals by their place, so that the order does not depend on the order before.
+  const auto key = [](const Rival& r) {
+    return std::make_tuple(-r.rank(), r.quad[0].x(), r.quad[0].y(), r.quad[2].x(), r.quad[2].y());
+  };
+  std::sort(rivals.begin(), rivals.end(), [&key](const Rival& a, const Rival& b) { return key(a) < key(b); });
 }
 
 CandidateSearch::CandidateSearch(const DetectorParams& params)
@@ -56,8 +60,8 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
       segment_quads_(params.segment_quads),
       gates_(params.gates) {}
 
-std::vector<Rival> CandidateSearch::run(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                        DetectionTrace& trace) {
+const std::vector<Rival>& CandidateSearch::run(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                               DetectionTrace& trace) {
   const SearchLevel level = preprocess_.run(image);
   factor_ = level.factor;
   level_size_ = level.image.size();
@@ -77,33 +81,35 @@ void CandidateSearch::look(const cv::Mat& level) {
     for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
 }
 
-std::vector<Rival> CandidateSearch::runOnColours(DetectionTrace& trace) {
+const std::vector<Rival>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
-  if (colours.empty()) return {};
+  kept_.clear();
+  if (colours.empty()) return kept_;
   look(colours);
   return combine(SegmentQuads::kThorough, trace);
 }
 
-std::vector<Rival> CandidateSearch::runAgain(DetectionTrace& trace) {
+const std::vector<Rival>& CandidateSearch::runAgain(DetectionTrace& trace) {
   return combine(SegmentQuads::kThorough, trace);
 }
 
 // Quadrilaterals from segments and contours, through the gates.
-std::vector<Rival> CandidateSearch::combine(const SegmentQuads::Effort& effort, DetectionTrace& trace) {
+const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& effort,
+                                                   DetectionTrace& trace) {
   const SegmentQuads::Result& quads =
       segment_quads_.run(*segments_, params_.gates.min_area * level_size_.area(), effort);
   trace.segments = static_cast<int>(segments_->size());
   trace.contours = outlines_.contours;
   trace.budget_exceeded = outlines_.budget_exceeded || quads.budget_exceeded;
   trace.candidates.insert(trace.candidates.end(), outlines_.rejected.begin(), outlines_.rejected.end());
-  std::vector<Rival> rivals;
-  admit(quads.candidates, *map_, rivals, trace);
-  admit(outlines_.candidates, *map_, rivals, trace);
-  return best(rivals, trace);
+  admitted_.clear();
+  admit(quads.candidates, trace);
+  admit(outlines_.candidates, trace);
+  keepBest(trace);
+  return kept_;
 }
 
-void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& map,
-                            std::vector<Rival>& rivals, DetectionTrace& trace) {
+void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace& trace) {
   for (const Candidate& one : found) {
     Rival rival;
     rival.candidate = one;
@@ -111,7 +117,7 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& 
     for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
     auto rejection = gates_.shape(candidate, level_size_);
     if (!rejection) {
-      candidate.sides = measureSides(map, lens_, candidate.quad, params_.side_support);
+      candidate.sides = measureSides(*map_, lens_, candidate.quad, params_.side_support);
       rejection = gates_.support(candidate);
     }
     rival.quad = inFullImage(candidate.seen, factor_);
@@ -121,36 +127,34 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, const EdgeMap& 
     }
     rival.score = windowScore(candidate, params_.score);
     rival.size = sizeRank(candidate.quad, level_size_, params_.score);
-    rivals.push_back(rival);
+    admitted_.push_back(rival);
   }
 }
 
 // How many of those kept are loops of the same window.
-int CandidateSearch::variants(const Rival& rival, const std::vector<Rival>& kept) {
+int CandidateSearch::variants(const Rival& rival) const {
   const double near_px = kVariantPart * std::sqrt(std::abs(geometry::signedArea(rival.candidate.quad)));
-  return static_cast<int>(std::count_if(kept.begin(), kept.end(), [&](const Rival& better) {
+  return static_cast<int>(std::count_if(kept_.begin(), kept_.end(), [&](const Rival& better) {
     return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
   }));
 }
 
-std::vector<Rival> CandidateSearch::best(std::vector<Rival>& rivals, DetectionTrace& trace) const {
-  sortByRank(rivals);
-  std::vector<Rival> kept;
-  for (const Rival& rival : rivals) {
+void CandidateSearch::keepBest(DetectionTrace& trace) {
+  sortByRank(admitted_);
+  kept_.clear();
+  for (const Rival& rival : admitted_) {
     const double near_px =
         kSameLoopPx + kSameLoopPart * std::sqrt(std::abs(geometry::signedArea(rival.candidate.quad)));
-    const auto twin = std::find_if(kept.begin(), kept.end(), [&](const Rival& better) {
+    const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const Rival& better) {
       return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
     });
-    if (twin != kept.end())
+    if (twin != kept_.end())
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
-    else if (static_cast<int>(kept.size()) >= params_.max_candidates ||
-             variants(rival, kept) >= kMostVariants)
-      trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept.back().rank()));
+    else if (static_cast<int>(kept_.size()) >= params_.max_candidates || variants(rival) >= kMostVariants)
+      trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
     else
-      kept.push_back(rival);
+      kept_.push_back(rival);
   }
-  return kept;
 }
 
 }  // namespace window_ingress::detection

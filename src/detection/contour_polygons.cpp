@@ -68,17 +68,18 @@ geometry::Quadrilateral boundingQuad(const std::vector<cv::Point>& outline) {
 
 }  // namespace
 
-std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull) {
+std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
+                                                     std::vector<Vector2d>& buffer) {
   if (hull.size() < 4) return std::nullopt;
-  std::vector<Vector2d> polygon;
+  std::vector<Vector2d>& polygon = buffer;
+  polygon.clear();
   for (const cv::Point& p : hull) polygon.emplace_back(p.x, p.y);
   while (polygon.size() > 4)
     if (!removeCheapestSide(polygon)) return std::nullopt;
   return geometry::canonical({polygon[0], polygon[1], polygon[2], polygon[3]});
 }
 
-void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px,
-                           Result& result) {
+void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px) {
   const double perimeter = cv::arcLength(outline, true);
   if (outline.size() < 4 || perimeter < min_perimeter_px) return;
   cv::convexHull(outline, hull_);
@@ -89,30 +90,31 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
   cv::approxPolyDP(hull_, polygon_, params_.epsilon * cv::arcLength(hull_, true), true);
   std::optional<geometry::Quadrilateral> quad;
   if (polygon_.size() == 4) quad = geometry::canonical(toQuad(polygon_));
-  if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_);
+  if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_, lines_);
   const double excess = quad ? geometry::signedArea(*quad) / hull_area - 1.0 : 1.0;
   if (excess > params_.hull_excess) {
-    result.rejected.push_back({boundingQuad(outline), CandidateSource::kContour, RejectReason::kCorners,
-                               static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0});
+    result_.rejected.push_back({boundingQuad(outline), CandidateSource::kContour, RejectReason::kCorners,
+                                static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0});
     return;
   }
   candidate.closure = params_.closure;
   candidate.quad = candidate.seen = grown(*quad, grow_px);
-  result.candidates.push_back(candidate);
+  result_.candidates.push_back(candidate);
 }
 
-ContourPolygons::Result ContourPolygons::run(const cv::Mat& closed, double dilation_px) {
-  Result result;
+const ContourPolygons::Result& ContourPolygons::run(const cv::Mat& closed, double dilation_px) {
+  result_.candidates.clear();
+  result_.rejected.clear();
   cv::findContours(closed, outlines_, tree_, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
-  result.contours = static_cast<int>(outlines_.size());
-  result.budget_exceeded = result.contours > params_.max_contours;
-  const int count = std::min(result.contours, params_.max_contours);
+  result_.contours = static_cast<int>(outlines_.size());
+  result_.budget_exceeded = result_.contours > params_.max_contours;
+  const int count = std::min(result_.contours, params_.max_contours);
   const double min_perimeter_px = params_.min_perimeter * std::max(closed.cols, closed.rows);
   for (int i = 0; i < count; ++i) {
     const bool is_hole = tree_[i][3] >= 0;
-    look(outlines_[i], min_perimeter_px, is_hole ? dilation_px : -dilation_px, result);
+    look(outlines_[i], min_perimeter_px, is_hole ? dilation_px : -dilation_px);
   }
-  return result;
+  return result_;
 }
 
 }  // namespace window_ingress::detection

@@ -79,6 +79,14 @@ const char* toString(CandidateSource source) {
   return "unknown";
 }
 
+void DetectionTrace::clear() {
+  std::vector<CandidateTrace> memory;
+  memory.swap(candidates);
+  memory.clear();
+  *this = DetectionTrace();
+  candidates.swap(memory);
+}
+
 std::string describe(const CandidateTrace& candidate) {
   const Wording words = wording(candidate.reject);
   const char* relation = words.relation;

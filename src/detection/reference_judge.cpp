@@ -32,15 +32,13 @@ double updated(double score, double odds) {
 }
 
 // Of all loops about the same place the likeliest ones; the others are variants of them.
-std::vector<std::size_t> placesOf(const std::vector<Rival>& rivals) {
-  std::vector<std::size_t> leaders;
-  for (std::size_t i = 0; i < rivals.size(); ++i) {
+void choosePlaces(const std::vector<Rival>& rivals, std::vector<std::size_t>& places) {
+  places.clear();
+  for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
     int variants = 0;
-    for (std::size_t leader : leaders) variants += isAbout(rivals[i].quad, rivals[leader].quad);
-    if (variants < kVariantsLocated) leaders.push_back(i);
-    if (leaders.size() == kPlacesLocated) break;
+    for (std::size_t place : places) variants += isAbout(rivals[i].quad, rivals[place].quad);
+    if (variants < kVariantsLocated) places.push_back(i);
   }
-  return leaders;
 }
 
 }  // namespace
@@ -75,15 +73,15 @@ std::optional<Rival> ReferenceJudge::locate(const cv::Mat& image, const geometry
 }
 
 // The borders of the reference at all places where they are found; the best are looked at closely.
-std::vector<Rival> ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                             const std::vector<Rival>& rivals) {
-  std::vector<Rival> located;
-  for (std::size_t i : placesOf(rivals))
-    if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located.push_back(*rival);
-  sortByRank(located);
-  for (std::size_t i = 0; i < std::min(located.size(), kPlacesFine); ++i)
-    if (auto rival = locate(image, camera, located[i], ReferenceBorders::kFine)) located[i] = *rival;
-  return located;
+void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                               const std::vector<Rival>& rivals) {
+  located_.clear();
+  choosePlaces(rivals, places_);
+  for (std::size_t i : places_)
+    if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located_.push_back(*rival);
+  sortByRank(located_);
+  for (std::size_t i = 0; i < std::min(located_.size(), kPlacesFine); ++i)
+    if (auto rival = locate(image, camera, located_[i], ReferenceBorders::kFine)) located_[i] = *rival;
 }
 
 // Compares their frames with the reference's; false if none can be compared.
@@ -98,10 +96,9 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<Rival>& rivals) con
 }
 
 // Loops whose borders were not located count less; not at all where others have surely been.
-void ReferenceJudge::weighOthers(const cv::Mat& image, const std::vector<Rival>& located,
-                                 std::vector<Rival>& rivals) const {
+void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<Rival>& rivals) const {
   for (Rival& rival : rivals) {
-    const bool sure = std::any_of(located.begin(), located.end(), [&](const Rival& place) {
+    const bool sure = std::any_of(located_.begin(), located_.end(), [&](const Rival& place) {
       return place.worth > kSureWorth && isAbout(rival.quad, place.quad);
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
@@ -121,10 +118,10 @@ bool ReferenceJudge::judge(const cv::Mat& image, const geometry::PinholeCamera* 
     rivals.swap(weighed);
     return true;
   }
-  std::vector<Rival> located = locateAll(image, camera, rivals);
-  weigh(image, located);
-  weighOthers(image, located, rivals);
-  rivals.insert(rivals.end(), located.begin(), located.end());
+  locateAll(image, camera, rivals);
+  weigh(image, located_);
+  weighOthers(image, rivals);
+  rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "window_ingress/detection/rectangle_misfit.hpp"
 #include "window_ingress/detection/unit_square.hpp"
@@ -118,15 +117,16 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
   const PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
   const Quadrilateral ideal = undistorted(corners, lens);
   measureSides(image, ideal, lens, {kInward, kOutward, seen_aspect_}, sides_);
-  std::vector<double> ratios;
+  ratios_.clear();
   double widths = 0.0;
   for (int i = 0; i < 4; ++i) {
     if (frame_[i] <= 0.0) continue;
     const double width = paintedWidth(sides_[i], frame_[i]);
-    if (width > 0.0) ratios.push_back(width / frame_[i]), widths += frame_[i];
+    if (width > 0.0) ratios_.push_back(width / frame_[i]), widths += frame_[i];
   }
-  if (ratios.size() < kFewestSides) return std::nullopt;
-  return middleOf(ratios, params_.frame_px * static_cast<double>(ratios.size()) / (widths * meanSide(ideal)));
+  if (ratios_.size() < kFewestSides) return std::nullopt;
+  return middleOf(ratios_,
+                  params_.frame_px * static_cast<double>(ratios_.size()) / (widths * meanSide(ideal)));
 }
 
 std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat& image,

@@ -156,7 +156,7 @@ void WindowDetector::clearReference() { impl_->reference.learn(nullptr); }
 
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
                                                         const geometry::PinholeCamera* camera) {
-  impl_->trace = DetectionTrace();
+  impl_->trace.clear();
   if (const std::string fault = imageFault(image); !fault.empty()) {
     impl_->trace.outcome = RejectReason::kBadImage;
     impl_->trace.detail = fault;
@@ -165,7 +165,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   impl_->rivals = impl_->search.run(image, camera, impl_->trace);
   auto window = impl_->judge(image, stamp_sec, camera);
   if (!window && impl_->reference.knowsBorders() && impl_->trace.budget_exceeded) {
-    impl_->trace = DetectionTrace();
+    impl_->trace.clear();
     impl_->rivals = impl_->search.runAgain(impl_->trace);
     window = impl_->judge(image, stamp_sec, camera);
   }

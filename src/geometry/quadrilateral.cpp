@@ -1,8 +1,8 @@
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
 
 namespace window_ingress::geometry {
 namespace {
@@ -11,21 +11,29 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double polygonArea(const std::vector<Vector2d>& polygon) {
+/// A quadrilateral clipped four times; each time at most half as many points are added.
+struct Polygon {
+  std::array<Vector2d, 20> points;
+  int count = 0;
+
+  const Vector2d& after(int i) const { return points[(i + 1) % count]; }
+  void add(const Vector2d& p) { points[count++] = p; }
+};
+
+double polygonArea(const Polygon& polygon) {
   double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  for (int i = 0; i < polygon.count; ++i) twice += cross(polygon.points[i], polygon.after(i));
   return 0.5 * std::abs(twice);
 }
 
 // Sutherland-Hodgman: the part of `polygon` on the right (screen-inner) side of the line a-b.
-std::vector<Vector2d> clip(const std::vector<Vector2d>& polygon, const Vector2d& a, const Vector2d& b) {
-  std::vector<Vector2d> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d& p = polygon[i];
-    const Vector2d& q = polygon[(i + 1) % polygon.size()];
+Polygon clip(const Polygon& polygon, const Vector2d& a, const Vector2d& b) {
+  Polygon kept;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector2d &p = polygon.points[i], &q = polygon.after(i);
     const double dp = cross(b - a, p - a), dq = cross(b - a, q - a);
-    if (dp >= 0.0) kept.push_back(p);
-    if ((dp < 0.0) != (dq < 0.0)) kept.push_back(p + (q - p) * (dp / (dp - dq)));
+    if (dp >= 0.0) kept.add(p);
+    if ((dp < 0.0) != (dq < 0.0)) kept.add(p + (q - p) * (dp / (dp - dq)));
   }
   return kept;
 }
@@ -90,7 +98,8 @@ bool contains(const Quadrilateral& quad, const Vector2d& point) {
 double intersectionOverUnion(const Quadrilateral& a, const Quadrilateral& b) {
   Quadrilateral clipper = b;
   if (signedArea(clipper) < 0.0) std::reverse(clipper.begin(), clipper.end());
-  std::vector<Vector2d> overlap(a.begin(), a.end());
+  Polygon overlap;
+  for (const Vector2d& p : a) overlap.add(p);
   for (int i = 0; i < 4; ++i) overlap = clip(overlap, clipper[i], clipper[(i + 1) % 4]);
   const double shared = polygonArea(overlap);
   const double united = std::abs(signedArea(a)) + std::abs(signedArea(b)) - shared;

@@ -34,28 +34,28 @@ class CandidateSearch {
  public:
   explicit CandidateSearch(const DetectorParams& params);
 
-  /// Best first, each loop once, at most `max_candidates`. Everything else goes into the trace.
-  /// \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way
-  /// \param camera its calibration, or null: the image is then taken as free of distortion
-  std::vector<Rival> run(const cv::Mat& image, const geometry::PinholeCamera* camera, DetectionTrace& trace);
+  /// Valid until the next call. Best first, each loop once, at most `max_candidates`. Everything else goes
+  /// into the trace. \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way \param camera its
+  /// calibration, or null: the image is then taken as free of distortion
+  const std::vector<Rival>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                DetectionTrace& trace);
 
   /// The last image once more, with more segments and more of their combinations: for when none of the
   /// candidates was the target.
-  std::vector<Rival> runAgain(DetectionTrace& trace);
+  const std::vector<Rival>& runAgain(DetectionTrace& trace);
 
   /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
-  std::vector<Rival> runOnColours(DetectionTrace& trace);
+  const std::vector<Rival>& runOnColours(DetectionTrace& trace);
 
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
  private:
   void look(const cv::Mat& level);
-  std::vector<Rival> combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
-  void admit(const std::vector<Candidate>& found, const EdgeMap& map, std::vector<Rival>& rivals,
-             DetectionTrace& trace);
-  static int variants(const Rival& rival, const std::vector<Rival>& kept);
-  std::vector<Rival> best(std::vector<Rival>& rivals, DetectionTrace& trace) const;
+  const std::vector<Rival>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
+  void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
+  int variants(const Rival& rival) const;
+  void keepBest(DetectionTrace& trace);
 
   DetectorParams params_;
   Preprocess preprocess_;
@@ -71,6 +71,7 @@ class CandidateSearch {
   const std::vector<Segment>* segments_ = nullptr;
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
+  std::vector<Rival> admitted_, kept_;
   int factor_ = 1;
   cv::Size level_size_;
 };

@@ -27,7 +27,9 @@ struct ContourPolygonsParams {
 
 /// Four lines round a convex polygon: removes the side that adds least area until four are left.
 /// \return nothing if fewer than four points are given or the lines do not close
-std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull);
+/// \param buffer memory for its work
+std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
+                                                     std::vector<Eigen::Vector2d>& buffer);
 
 /// Closed contours to quadrilaterals (P7).
 class ContourPolygons {
@@ -43,15 +45,18 @@ class ContourPolygons {
 
   /// \param closed CV_8UC1, edges after closing; not changed
   /// \param dilation_px what the closing added on each side of an edge; taken off again
-  Result run(const cv::Mat& closed, double dilation_px);
+  /// Valid until the next call.
+  const Result& run(const cv::Mat& closed, double dilation_px);
 
  private:
-  void look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px, Result& result);
+  void look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px);
 
   ContourPolygonsParams params_;
   std::vector<std::vector<cv::Point>> outlines_;
   std::vector<cv::Vec4i> tree_;
   std::vector<cv::Point> hull_, polygon_;
+  std::vector<Eigen::Vector2d> lines_;
+  Result result_;
 };
 
 }  // namespace window_ingress::detection

@@ -69,6 +69,8 @@ struct DetectionTrace {
   int contours = 0;              ///< closed contours seen
   int segments = 0;              ///< straight segments seen
   bool budget_exceeded = false;  ///< a limit on counts was reached: something may have been overlooked
+
+  void clear();  ///< as new, but keeps its memory
 };
 
 /// Sets outcome and detail: without a target the reason of the candidate that came furthest.

@@ -39,16 +39,18 @@ class ReferenceJudge {
  private:
   std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
                               const ReferenceBorders::Effort& effort);
-  std::vector<Rival> locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                               const std::vector<Rival>& rivals);
+  void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                 const std::vector<Rival>& rivals);
   bool weigh(const cv::Mat& image, std::vector<Rival>& rivals) const;
-  void weighOthers(const cv::Mat& image, const std::vector<Rival>& located, std::vector<Rival>& rivals) const;
+  void weighOthers(const cv::Mat& image, std::vector<Rival>& rivals) const;
 
   AppearanceParams appearance_;
   WindowScoreParams score_;
   ReferenceBorders borders_;
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
+  std::vector<std::size_t> places_;  ///< of the rivals that are looked at
+  std::vector<Rival> located_;
 };
 
 }  // namespace window_ingress::detection

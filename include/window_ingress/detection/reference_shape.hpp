@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "window_ingress/detection/side_profile.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -72,6 +73,7 @@ class ReferenceShape {
   double seen_aspect_ = 1.0;
   std::array<double, 4> frame_{};  ///< of each side [mean sides of the opening]; 0: no frame
   std::array<SideProfile, 4> sides_;
+  std::vector<double> ratios_;
 };
 
 }  // namespace window_ingress::detection
