@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/detection/colour_sharpness.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -53,7 +55,8 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   fine_.sample(image, lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
                 static_cast<int>(std::ceil(radius_px)) + 5});
-  fit_.project(fine_, memory_.colour());
+  if (!soft_) soft_ = isColourSoft(fine_);
+  fit_.project(fine_, *soft_ ? resolvedPart(memory_.colour()).normalized() : memory_.colour());
   FittedBorder fitted;
   BorderFitLimits limits{radius_px, kPriorPx * scale, std::max(kRoughPx, refinement_.outlier_px) * scale,
                          refinement_.sigma_floor_px};
@@ -86,6 +89,7 @@ void BorderFollower::learn(const cv::Mat& image, const geometry::PinholeCamera* 
   coarse_.sample(image, lens, {border.from, border.to, track_.profiles, kSkip, half_px_ + 3, true});
   edge_ = DoubleEdge();
   frames_ = -1;
+  soft_.reset();
   memory_.clear();
   memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
   front_.forget();

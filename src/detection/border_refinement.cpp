@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "window_ingress/detection/border_fit.hpp"
+#include "window_ingress/detection/colour_sharpness.hpp"
 #include "window_ingress/detection/edge_profiles.hpp"
 #include "window_ingress/detection/line_corners.hpp"
 
@@ -130,6 +131,7 @@ class Side {
     const EdgeProfiles& p = memory_.profiles;
     memory_.mean.resize(static_cast<std::size_t>(3) * p.width());
     p.mean(0, p.count(), memory_.mean.data());
+    const bool soft = isColourSoft(p);
     memory_.changes.clear();
     memory_.sizes.clear();
     for (int o = -radius; o <= radius; ++o) {
@@ -138,6 +140,7 @@ class Side {
         const float* mean = memory_.mean.data() + (p.channels() == 1 ? 0 : c) * p.width() + p.reach() + o;
         change[c] = mean[1] - mean[-1];
       }
+      if (soft) change = resolvedPart(change);
       memory_.changes.push_back(change);
       memory_.sizes.push_back(change.norm());
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "window_ingress/detection/border_fit.hpp"
 #include "window_ingress/detection/border_memory.hpp"
@@ -53,7 +54,8 @@ class BorderFollower {
   BorderFit fit_;
   DoubleEdge edge_;  // of a reveal beside the border, as seen last
   int frames_ = -1;
-  OffsetLine seen_;  // as followed last, in the coarse profiles' axes
+  std::optional<bool> soft_;  // the colours beside the border, see `isColourSoft`
+  OffsetLine seen_;           // as followed last, in the coarse profiles' axes
   int half_px_ = 6;
 };
 
