@@ -10,15 +10,17 @@
 namespace window_ingress::detection {
 namespace {
 
-const cv::Scalar kFrame(70, 158, 209), kReveal(128, 142, 152), kBehind(60, 60, 60);
+const cv::Scalar kFrame(70, 158, 209), kPaint(58, 137, 184), kReveal(128, 142, 152), kBehind(60, 60, 60);
 const geometry::Quadrilateral kOpening{
     {{60.5, 50.5}, {199.5, 50.5}, {199.5, 159.5}, {60.5, 159.5}}};  // between two pixels
 
-// A frame, four pixels of a reveal of nearly the frame's brightness, and what is behind.
+// A frame whose paint goes on around the corner for two pixels, darker; the reveal, as bright as that paint;
+// and what is behind.
 cv::Mat drawn(double noise) {
   cv::Mat picture(210, 260, CV_8UC3, kFrame);
-  picture(cv::Rect(61, 51, 139, 109)).setTo(kReveal);
-  picture(cv::Rect(65, 55, 131, 101)).setTo(kBehind);
+  picture(cv::Rect(61, 51, 139, 109)).setTo(kPaint);
+  picture(cv::Rect(63, 53, 135, 105)).setTo(kReveal);
+  picture(cv::Rect(69, 59, 123, 93)).setTo(kBehind);
   cv::Mat rough(picture.size(), CV_16SC3), sum;
   cv::RNG random(5);
   random.fill(rough, cv::RNG::NORMAL, 0.0, noise);
