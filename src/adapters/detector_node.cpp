@@ -124,7 +124,9 @@ void DetectorNode::receiveReference(const window_ingress::ReferencePicture& mess
 
 void DetectorNode::use(const detection::ReferenceAppearance& reference, const std::string& source) {
   detector_.setReference(reference);
-  reference_from_ = source + (detection::isGrey(reference.picture()) ? ", which has no colour" : "");
+  reference_is_guess_ = !reference.openingIsKnown();
+  reference_from_ = source + (detection::isGrey(reference.picture()) ? ", which has no colour" : "") +
+                    (reference.openingIsKnown() ? "" : ", opening guessed: give reference/corners");
 }
 
 // Why there is nothing to capture, or nothing.
@@ -173,7 +175,7 @@ Health DetectorNode::referenceHealth() const {
   if (last_window_)
     text += last_window_->has_appearance ? "; distance " + std::to_string(last_window_->bhattacharyya)
                                          : "; not compared in the last image: geometry alone";
-  return {Health::kOk, text};
+  return {reference_is_guess_ ? Health::kWarn : Health::kOk, text};
 }
 
 }  // namespace window_ingress::adapters

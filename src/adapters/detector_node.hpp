@@ -77,6 +77,7 @@ class DetectorNode : public Node {
   cv::Mat canvas_;
   GuardedImage last_picture_;
   std::optional<detection::WindowObservation> last_window_;
+  bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference
   double slowest_ms_ = 0.0;
   std::optional<Lockstep> lockstep_;

@@ -37,6 +37,8 @@ detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto canonical = geometry::canonical(quad);
   if (!canonical) throw ParameterError("reference/corners are no convex quadrilateral in cyclic order");
+  if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *canonical); !fault.empty())
+    throw ParameterError("reference/corners: " + fault);
   return {picture, *canonical};
 }
 

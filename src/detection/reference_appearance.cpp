@@ -12,7 +12,8 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr double kElsewherePart = 0.1;  ///< of the other places that are nearer than `elsewhere_`
+constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
+constexpr double kElsewherePart = 0.1;    ///< of the other places that are nearer than `elsewhere_`
 constexpr double kLimitPart = 0.6;  ///< of that distance: the limit, somewhat nearer to it than to the target
 constexpr double kElsewhereScale = 0.4;   ///< size of those places, in that of the opening
 constexpr int kElsewhereSteps = 7;        ///< positions each way
@@ -82,7 +83,33 @@ ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, const Quadrilat
     : picture_(picture.clone()), opening_(opening) {}
 
 ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, double frame_width)
-    : ReferenceAppearance(picture, inset(picture.size(), frame_width)) {}
+    : ReferenceAppearance(guessed(picture, inset(picture.size(), frame_width))) {}
+
+ReferenceAppearance ReferenceAppearance::guessed(const cv::Mat& picture, const Quadrilateral& opening) {
+  ReferenceAppearance reference(picture, opening);
+  reference.opening_is_known_ = false;
+  return reference;
+}
+
+std::string ReferenceAppearance::faultOf(const cv::Mat& picture, const Quadrilateral& opening) {
+  if (picture.empty()) return "the picture is empty";
+  if (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)
+    return "the picture has neither one nor three channels of eight bits";
+  if (!geometry::isFinite(opening) || !geometry::isConvex(opening))
+    return "the corners are no convex quadrilateral";
+  for (const Vector2d& corner : opening)
+    if (corner.x() < -0.5 || corner.y() < -0.5 || corner.x() > picture.cols - 0.5 ||
+        corner.y() > picture.rows - 0.5)
+      return "corner (" + std::to_string(std::lround(corner.x())) + ", " +
+             std::to_string(std::lround(corner.y())) + ") lies outside the picture of " +
+             std::to_string(picture.cols) + " x " + std::to_string(picture.rows) + " pixels";
+  const auto sides = geometry::sideLengths(opening);
+  const double shortest = *std::min_element(sides.begin(), sides.end());
+  if (shortest < kShortestSidePx)
+    return "a side of the opening is " + std::to_string(std::lround(shortest)) + " pixels long, " +
+           std::to_string(static_cast<int>(kShortestSidePx)) + " are needed";
+  return {};
+}
 
 void ReferenceAppearance::prepare(const AppearanceParams& params) const {
   if (prepared_ && same(*prepared_, params)) return;

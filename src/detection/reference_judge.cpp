@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
+#include "window_ingress/detection/ring_histogram.hpp"
 #include "window_ingress/detection/window_score.hpp"
 
 namespace window_ingress::detection {
@@ -46,12 +48,22 @@ void choosePlaces(const std::vector<Rival>& rivals, std::vector<std::size_t>& pl
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
     : appearance_(params.appearance), score_(params.score), borders_(params.borders), shape_(params.shape) {}
 
+// A grey picture as one of three equal channels.
+const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
+  if (picture.channels() != 1) return picture;
+  cv::cvtColor(picture, channels_, cv::COLOR_GRAY2BGR);
+  return channels_;
+}
+
 void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
   reference_ = std::move(reference);
   borders_.forget();
   shape_.forget();
-  if (!reference_ || reference_->picture().empty()) return;
-  borders_.learn(reference_->picture(), reference_->opening());
+  is_grey_ = reference_ && isGrey(reference_->picture());
+  if (!reference_ || !reference_->openingIsKnown() ||
+      !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
+    return;
+  borders_.learn(inChannels(reference_->picture()), reference_->opening());
   shape_.learn(reference_->picture(), reference_->opening());
   if (const auto& aspect = shape_.aspect()) borders_.setAspect(aspect->value, aspect->sigma / aspect->value);
 }
@@ -102,23 +114,23 @@ void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<Rival>& rival
       return place.worth > kSureWorth && isAbout(rival.quad, place.quad);
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
-    if (rival.appearance)
-      rival.score = updated(kUnlocatedPart * rival.score, rival.appearance->odds);
-    else
+    if (sure)
       rival.verdict.reject = RejectReason::kDuplicate;
+    else
+      rival.score = updated(kUnlocatedPart * rival.score, rival.appearance ? rival.appearance->odds : 1.0);
   }
 }
 
 bool ReferenceJudge::judge(const cv::Mat& image, const geometry::PinholeCamera* camera,
                            std::vector<Rival>& rivals) {
-  if (!reference_ || image.channels() != 3) return false;
+  if (!reference_ || isGrey(image) != is_grey_) return false;
   if (!borders_.known()) {
     std::vector<Rival> weighed = rivals;
     if (!weigh(image, weighed)) return false;
     rivals.swap(weighed);
     return true;
   }
-  locateAll(image, camera, rivals);
+  locateAll(inChannels(image), camera, rivals);
   weigh(image, located_);
   weighOthers(image, rivals);
   rivals.insert(rivals.end(), located_.begin(), located_.end());

@@ -126,7 +126,8 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
 
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
-  if (!reference.judge(image, camera, rivals)) loops.judge(image, search.factor(), rivals);
+  const bool compared = reference.judge(image, camera, rivals);
+  if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
   return choose(image, stamp_sec, camera);
 }
 
@@ -185,7 +186,7 @@ ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorP
   wide.gates.max_area = 1.0;
   WindowDetector detector(wide);
   const auto window = detector.detect(picture, 0.0);
-  return window ? ReferenceAppearance(picture, window->corners) : ReferenceAppearance(picture);
+  return window ? ReferenceAppearance::guessed(picture, window->corners) : ReferenceAppearance(picture);
 }
 
 }  // namespace window_ingress::detection

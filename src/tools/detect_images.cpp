@@ -138,6 +138,8 @@ detection::ReferenceAppearance readReference(const Options& o, const detection::
   const auto quad = geometry::canonical({Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]),
                                          Eigen::Vector2d(v[4], v[5]), Eigen::Vector2d(v[6], v[7])});
   if (!quad) throw UsageError("--reference-corners: '" + o.corners + "' is no convex quadrilateral");
+  if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *quad); !fault.empty())
+    throw UsageError("--reference-corners: " + fault);
   return detection::ReferenceAppearance(picture, *quad);
 }
 

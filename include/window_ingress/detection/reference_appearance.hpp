@@ -2,6 +2,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "window_ingress/detection/ring_histogram.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -52,8 +53,17 @@ class ReferenceAppearance {
   ReferenceAppearance(const cv::Mat& picture, const geometry::Quadrilateral& opening);
 
   /// The whole picture is the target with its frame; `frame_width` is that of the frame, in mean sides of the
-  /// picture.
+  /// picture. Where the opening lies in it is a guess then, see `openingIsKnown`.
   explicit ReferenceAppearance(const cv::Mat& picture, double frame_width = 0.05);
+
+  /// The same, the opening found by its geometry alone.
+  static ReferenceAppearance guessed(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+
+  /// False if somebody guessed where the opening is: its colours may be compared, its shape may not.
+  bool openingIsKnown() const { return opening_is_known_; }
+
+  /// Why a picture with this opening in it cannot be a reference; empty if it can.
+  static std::string faultOf(const cv::Mat& picture, const geometry::Quadrilateral& opening);
 
   /// Compares a candidate's ring; nothing if there is no colour to compare.
   std::optional<AppearanceMatch> compare(const cv::Mat& image, const geometry::Quadrilateral& opening,
@@ -81,6 +91,7 @@ class ReferenceAppearance {
 
   cv::Mat picture_;
   geometry::Quadrilateral opening_;
+  bool opening_is_known_ = true;
   // Made when they are first asked for, with the parameters given then.
   mutable std::optional<RingColours> colours_;
   mutable double elsewhere_ = 1.0;  ///< distance that most other places of the picture exceed

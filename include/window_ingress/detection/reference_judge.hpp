@@ -29,7 +29,7 @@ class ReferenceJudge {
   bool knowsBorders() const { return borders_.known(); }
 
   /// Weighs the rivals by the reference; adds those whose borders it located. False, and nothing changed, if
-  /// there is no reference or no colour could be compared.
+  /// there is no reference or only one of reference and picture has colours.
   bool judge(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
 
   /// Why fitted borders cannot be the reference's, if they cannot.
@@ -37,6 +37,7 @@ class ReferenceJudge {
                                        const geometry::PinholeCamera* camera);
 
  private:
+  const cv::Mat& inChannels(const cv::Mat& picture);
   std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
                               const ReferenceBorders::Effort& effort);
   void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
@@ -49,6 +50,8 @@ class ReferenceJudge {
   ReferenceBorders borders_;
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
+  bool is_grey_ = false;  ///< the reference; then by brightness alone
+  cv::Mat channels_;
   std::vector<std::size_t> places_;  ///< of the rivals that are looked at
   std::vector<Rival> located_;
 };

@@ -51,6 +51,28 @@ TEST(ReferenceAppearance, TheOuterBorderOfTheSameFrameIsFurther) {
   EXPECT_GT(distance(image, test::grown(kOpening, 6)), distance(image) + 0.3);
 }
 
+TEST(ReferenceAppearance, SaysWhyAPictureCannotBeOne) {
+  const cv::Mat picture = window(kOrange, cv::Scalar(60, 55, 50));
+  EXPECT_EQ(ReferenceAppearance::faultOf(picture, kOpening), "");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::pair<geometry::Quadrilateral, std::string> bad[] = {
+      {test::rectangle(5000, 5000, 5100, 5100), "outside"},
+      {test::rectangle(100, 80, 110, 170), "10 pixels long"},
+      {{Eigen::Vector2d(nan, 0), {9, 0}, {9, 9}, {0, 9}}, "convex"},
+      {{Eigen::Vector2d(100, 80), {220, 170}, {220, 80}, {100, 170}}, "convex"}};
+  for (const auto& [corners, word] : bad)
+    EXPECT_NE(ReferenceAppearance::faultOf(picture, corners).find(word), std::string::npos) << word;
+  EXPECT_NE(ReferenceAppearance::faultOf(cv::Mat(), kOpening), "");
+  EXPECT_NE(ReferenceAppearance::faultOf(cv::Mat(240, 320, CV_16UC3), kOpening), "");
+}
+
+TEST(ReferenceAppearance, KnowsWhetherItsOpeningIsAGuess) {
+  const cv::Mat picture = window(kOrange, cv::Scalar(60, 55, 50));
+  EXPECT_TRUE(ReferenceAppearance(picture, kOpening).openingIsKnown());
+  EXPECT_FALSE(ReferenceAppearance(picture).openingIsKnown());
+  EXPECT_FALSE(ReferenceAppearance::guessed(picture, kOpening).openingIsKnown());
+}
+
 TEST(ReferenceAppearance, NoAnswerForGreyTooFewPixelsAndBadQuads) {
   const ReferenceAppearance reference(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
   const AppearanceParams params;

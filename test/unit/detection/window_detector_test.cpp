@@ -169,6 +169,23 @@ TEST(WindowDetector, ImagesThatCannotHoldAWindowGiveAReason) {
   }
 }
 
+TEST(WindowDetector, AGreyPictureHasOneAnswerWhateverItsEncoding) {
+  test::WindowPicture picture;
+  picture.opening = test::rectangle(240, 160, 400, 290), picture.frame_px = 10;
+  cv::Mat grey, as_colours;
+  cv::cvtColor(picture.draw(), grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(grey, as_colours, cv::COLOR_GRAY2BGR);
+  for (const cv::Mat& reference : {grey, as_colours}) {
+    WindowDetector detector{DetectorParams()};
+    detector.setReference(ReferenceAppearance(reference, picture.opening));
+    for (const cv::Mat& image : {grey, as_colours}) {
+      const auto window = detector.detect(image, 0.0);
+      ASSERT_TRUE(window) << detector.trace().detail;
+      EXPECT_LT(test::worstCorner(window->corners, picture.opening), 1.0);
+    }
+  }
+}
+
 TEST(WindowDetector, PlainImagesHoldNoWindow) {
   WindowDetector detector{DetectorParams()};
   for (int value : {0, 128, 255})
