@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/detection/unit_square.hpp"
 #include "window_ingress/detection/veil.hpp"
 
 namespace window_ingress::detection {
@@ -28,22 +29,12 @@ constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its bor
 constexpr double kForetold = 0.8;         ///< worth of such a border
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
 constexpr double kEvenFrame = 2.2;        ///< widest over narrowest side of a frame
-constexpr std::size_t kMostOptions = 3;   ///< of a side that are combined with those of the others
-constexpr std::size_t kMostOfFaintest = 12;  ///< of the side that is least certain
-constexpr double kLeastOption = 0.1;         ///< worth of such a border over that of the best
-constexpr double kAnyShape = 0.1;            ///< of its worth keeps a shape that cannot be
 constexpr double kLeastChange =
     3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
 
 Vector3f features(const Vector3f& bgr) {
   const float sum = bgr.sum() + 12.0F;
   return {(bgr[2] + 4.0F) / sum, (bgr[1] + 4.0F) / sum, std::log(sum)};
-}
-
-// Geometric mean of the least and the mean of the sides' worths.
-double worthOf(const std::array<double, 4>& worths) {
-  const double least = *std::min_element(worths.begin(), worths.end());
-  return std::sqrt(least * 0.25 * (worths[0] + worths[1] + worths[2] + worths[3]));
 }
 
 }  // namespace
@@ -101,7 +92,7 @@ double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const
 
 // A uniform ring just inside the borders, of even width and ended by an edge all round: a frame. What it
 // frames is the opening then, not this.
-bool ReferenceBorders::holdsFrame(const Borders& borders) const {
+bool ReferenceBorders::holdsFrame(const std::array<double, 4>& borders) const {
   double least = 1.0, most = 0.0;
   std::array<Vector3f, 4> colours;
   for (int i = 0; i < 4; ++i) {
@@ -164,15 +155,15 @@ double ReferenceBorders::frameEnds(int side, double border) const {
          (1.0 - kWithoutEnd) * (near > kLeastChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
 }
 
-// The edges from which outwards the colours are most like those of the reference, and inwards are not.
-void ReferenceBorders::findOptions(int side) {
+// The edge from which outwards the colours are most like those of the reference, and inwards are not; its
+// worth.
+double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
   const int count = static_cast<int>(profile.means.size());
   double strongest = 1.0;
   for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(profile.change(k)));
   const bool framed = !frameless_ && frame_widths_[side] > 0.0;
-  std::vector<Option>& options = options_[side];
-  options.clear();
+  double best = 0.0;
   Bands bands;
   for (int k = 1; k + 1 < count; ++k) {
     const double here = profile.change(k);
@@ -197,64 +188,9 @@ void ReferenceBorders::findOptions(int side) {
                                         std::pow(here / strongest, kStrongerExponent);
     const double away = at / params_.inward / kFarAway;
     const double worth = std::exp(-off / params_.alike - 0.5 * away * away) * visible;
-    options.push_back({at, worth});
+    if (worth > best) best = worth, border = at;
   }
-  std::sort(options.begin(), options.end(),
-            [](const Option& a, const Option& b) { return a.worth > b.worth; });
-  while (!options.empty() && options.back().worth < kLeastOption * options[0].worth) options.pop_back();
-}
-
-// Few of each side, more of the one that is least certain.
-void ReferenceBorders::limitOptions() {
-  const auto certain = [](const auto& a, const auto& b) {
-    return (a.empty() ? 0.0 : a[0].worth) < (b.empty() ? 0.0 : b[0].worth);
-  };
-  const auto least = std::min_element(options_.begin(), options_.end(), certain);
-  for (auto& options : options_)
-    if (const std::size_t most = &options == &*least ? kMostOfFaintest : kMostOptions; options.size() > most)
-      options.resize(most);
-}
-
-Quadrilateral ReferenceBorders::quadAt(const UnitSquare& map, const Borders& borders) const {
-  const double of_width = (1.0 + aspect_) / (2.0 * aspect_), of_height = (1.0 + aspect_) / 2.0;
-  const double top = -borders[0] * of_height, right = 1.0 + borders[1] * of_width,
-               bottom = 1.0 + borders[2] * of_height, left = -borders[3] * of_width;
-  return {map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),
-          map.toImage({left, bottom})};
-}
-
-// How likely the corners are a rectangle of the known aspect, 1 at best: seen from the front its sides are
-// perpendicular and as long as they should be (the columns of the homography from a square).
-double ReferenceBorders::likelyShape(const Quadrilateral& ideal,
-                                     const geometry::PinholeCamera& camera) const {
-  if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return 0.0;
-  Quadrilateral rays = ideal;
-  for (Vector2d& p : rays) p = {(p.x() - camera.cx) / camera.fx, (p.y() - camera.cy) / camera.fy};
-  const Eigen::Matrix3d H = UnitSquare(rays).matrix();
-  const double width = H.col(0).norm(), height = H.col(1).norm();
-  const double off =
-      std::log(width / height / true_aspect_) / std::max(params_.aspect_sigma, aspect_log_sigma_);
-  const double cosine = H.col(0).dot(H.col(1)) / (width * height) / params_.square_sigma;
-  return std::exp(-0.5 * (off * off + cosine * cosine));
-}
-
-// Of all combinations the worthiest, for its shape too; its worth without that. 0: a side has none.
-double ReferenceBorders::chooseBorders(const UnitSquare& map, const geometry::PinholeCamera* camera,
-                                       Borders& borders) const {
-  const bool shaped = camera && true_aspect_ > 0.0;
-  double best = 0.0, best_worth = 0.0;
-  for (const Option& top : options_[0])
-    for (const Option& right : options_[1])
-      for (const Option& bottom : options_[2])
-        for (const Option& left : options_[3]) {
-          const double worth = worthOf({top.worth, right.worth, bottom.worth, left.worth});
-          if (worth <= best) continue;
-          const Borders now = {top.border, right.border, bottom.border, left.border};
-          const double likely = shaped ? likelyShape(quadAt(map, now), *camera) : 1.0;
-          const double value = worth * (kAnyShape + (1.0 - kAnyShape) * likely);
-          if (value > best) best = value, best_worth = worth, borders = now;
-        }
-  return best_worth;
+  return best;
 }
 
 std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat& image,
@@ -270,15 +206,21 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
   darkest_ = 255.0F;
   for (const SideProfile& side : sides_)
     for (const Vector3f& colour : side.means) darkest_ = std::min(darkest_, colour.minCoeff());
-  for (int i = 0; i < 4; ++i) findOptions(i);
-  limitOptions();
-  const UnitSquare map(ideal);
-  Borders borders{};
+  std::array<double, 4> borders{};
   Located located;
-  located.worth = chooseBorders(map, camera, borders);
-  if (located.worth <= 0.0) return std::nullopt;
+  double least = 1.0, mean_worth = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double worth = choose(i, borders[i]);
+    if (worth <= 0.0) return std::nullopt;
+    least = std::min(least, worth), mean_worth += 0.25 * worth;
+  }
+  located.worth = std::sqrt(least * mean_worth);
   located.holds_frame = frameless_ && holdsFrame(borders);
-  located.quad = quadAt(map, borders);
+  for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
+  const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
+  const UnitSquare map(ideal);
+  located.quad = {map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),
+                  map.toImage({left, bottom})};
   if (lens)
     for (Vector2d& corner : located.quad) corner = lens->distort(corner);
   if (!geometry::isFinite(located.quad) || !geometry::isConvex(located.quad)) return std::nullopt;

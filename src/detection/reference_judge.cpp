@@ -65,7 +65,6 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
     return;
   borders_.learn(inChannels(reference_->picture()), reference_->opening());
   shape_.learn(reference_->picture(), reference_->opening());
-  if (const auto& aspect = shape_.aspect()) borders_.setAspect(aspect->value, aspect->sigma / aspect->value);
 }
 
 // The rival with its borders where the reference's are, if they are found near it.

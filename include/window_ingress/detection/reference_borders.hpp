@@ -4,10 +4,8 @@
 #include <array>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <vector>
 
 #include "window_ingress/detection/side_profile.hpp"
-#include "window_ingress/detection/unit_square.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -21,8 +19,6 @@ struct ReferenceBordersParams {
   double step_full = 0.06;      ///< difference of the colours on both sides of a border that counts fully
   double uniform_frame = 0.08;  ///< colours of a frame's four sides differ less than this
   double brightness_weight = 0.25;  ///< of relative brightness beside chroma
-  double aspect_sigma = 0.03;  ///< least standard deviation of the logarithm of the aspect that borders make
-  double square_sigma = 0.05;  ///< and of the cosine between neighbouring sides, seen from the front
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -33,8 +29,6 @@ struct ReferenceBordersParams {
     field("step_full", self.step_full, 0.001, 10.0);
     field("uniform_frame", self.uniform_frame, 0.0, 10.0);
     field("brightness_weight", self.brightness_weight, 0.0, 10.0);
-    field("aspect_sigma", self.aspect_sigma, 0.001, 10.0);
-    field("square_sigma", self.square_sigma, 0.001, 10.0);
   }
 };
 
@@ -42,8 +36,7 @@ struct ReferenceBordersParams {
 /// is the front inner border of the opening: side by side the one from which outwards the colours follow each
 /// other as they do in the reference picture. Frame and wall lie in the plane of the opening, so that the
 /// order and the widths of their colours are the same from any direction; what is seen through the opening is
-/// not looked at. Where the camera is known, borders that make a rectangle of the reference's aspect are
-/// preferred: one that hardly shows is then found by the other three.
+/// not looked at.
 class ReferenceBorders {
  public:
   static constexpr int kBands = 7;            ///< outwards from the border
@@ -53,10 +46,7 @@ class ReferenceBorders {
 
   /// \param opening inner border in the picture, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
-  void forget() { known_ = false, true_aspect_ = 0.0; }
-
-  /// What is known of the opening's width over its height, and the standard deviation of its logarithm.
-  void setAspect(double aspect, double log_sigma) { true_aspect_ = aspect, aspect_log_sigma_ = log_sigma; }
+  void forget() { known_ = false; }
   bool known() const { return known_; }
 
   /// Samples along a side and across it.
@@ -86,18 +76,9 @@ class ReferenceBorders {
   double unlike(const Bands& colours, int side) const;
   double unlikeThroughVeil(const Bands& colours, int side) const;
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
-  struct Option {
-    double border = 0.0, worth = 0.0;
-  };
-  using Borders = std::array<double, 4>;
-
-  void findOptions(int side);
-  void limitOptions();
-  geometry::Quadrilateral quadAt(const UnitSquare& map, const Borders& borders) const;
-  double likelyShape(const geometry::Quadrilateral& ideal, const geometry::PinholeCamera& camera) const;
-  double chooseBorders(const UnitSquare& map, const geometry::PinholeCamera* camera, Borders& borders) const;
+  double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;
-  bool holdsFrame(const Borders& borders) const;
+  bool holdsFrame(const std::array<double, 4>& borders) const;
 
   ReferenceBordersParams params_;
   bool known_ = false;
@@ -110,10 +91,8 @@ class ReferenceBorders {
   std::array<Eigen::Vector3f, 4> reference_within_;
   std::array<double, 4> frame_widths_{};  ///< [mean sides of the opening]; 0: no end seen
   bool frameless_ = false;
-  double true_aspect_ = 0.0, aspect_log_sigma_ = 0.0;  ///< 0: not known
   std::array<SideProfile, 4> sides_;
-  std::array<std::vector<Option>, 4> options_;  ///< of each side, best first
-  float darkest_ = 0.0F;                        ///< least channel in them
+  float darkest_ = 0.0F;  ///< least channel in them
 };
 
 }  // namespace window_ingress::detection

@@ -46,8 +46,6 @@ class ReferenceShape {
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
   void forget() { aspect_.reset(), frame_.fill(0.0); }
 
-  const std::optional<Measured>& aspect() const { return aspect_; }
-
   /// Where a shape differs by more than it may: value and limit; nothing where it does not, or cannot be
   /// told.
   struct Difference {
