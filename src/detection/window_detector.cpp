@@ -63,7 +63,9 @@ std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) con
   if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
-  const double least = rival.appearance ? params.min_score_reference : params.min_score;
+  const double least = reference.frameless() ? params.min_score_frameless
+                       : rival.appearance    ? params.min_score_reference
+                                             : params.min_score;
   if (rival.score < least) return Rejection{RejectReason::kScore, rival.score, least};
   return std::nullopt;
 }

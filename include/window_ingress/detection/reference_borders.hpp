@@ -49,6 +49,9 @@ class ReferenceBorders {
   void forget() { known_ = false; }
   bool known() const { return known_; }
 
+  /// True if the reference shows no frame: then next to nothing tells the target from other rectangles.
+  bool frameless() const { return known_ && frameless_; }
+
   /// Samples along a side and across it.
   struct Effort {
     int along, across;

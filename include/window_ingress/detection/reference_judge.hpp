@@ -28,6 +28,8 @@ class ReferenceJudge {
   /// True if rivals can be told apart by the colours about their borders.
   bool knowsBorders() const { return borders_.known(); }
 
+  bool frameless() const { return borders_.frameless(); }
+
   /// Weighs the rivals by the reference; adds those whose borders it located. False, and nothing changed, if
   /// there is no reference or only one of reference and picture has colours.
   bool judge(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
