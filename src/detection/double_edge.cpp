@@ -14,8 +14,8 @@ namespace {
 constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of a picture, standard deviation [px]
 constexpr double kSoftest = 2.0;                        // of an edge that may be two
 constexpr double kLeastBlur = 0.35, kLeastApart = 0.15, kMostApart = 4.5;
-constexpr double kNoise = 0.35;       // of a mean colour [grey levels]
-constexpr double kModelNoise = 0.01;  // and what a blurred step fails to describe, of its change
+constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
+constexpr double kModelNoise = 0.003;  // and what a blurred step fails to describe, of its change
 constexpr double kBlackest = -5.0, kWhitest = 262.0, kColourSpread = 10.0;  // of a reveal
 constexpr double kGoodEnough = 5.0;   // mean squared rest of one step, in noises, that needs no second one
 constexpr double kFits = 1.2;         // of two that need no other ones

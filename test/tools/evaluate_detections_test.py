@@ -104,6 +104,7 @@ def draw_window(shift):
     picture = numpy.full((240, 320, 3), 200, numpy.uint8)
     cv2.rectangle(picture, (80 + shift, 60), (220 + shift, 170), (20, 95, 225), -1)
     cv2.rectangle(picture, (95 + shift, 75), (205 + shift, 155), (40, 40, 40), -1)
+    picture = cv2.GaussianBlur(picture, (0, 0), 0.6)  # no camera gives steps without any blur
     return picture, [(94.5 + shift, 74.5), (205.5 + shift, 74.5), (205.5 + shift, 155.5), (94.5 + shift, 155.5)]
 
 
