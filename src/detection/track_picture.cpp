@@ -39,17 +39,4 @@ double furthestCorner(const Quadrilateral& a, const Quadrilateral& b) {
   return furthest;
 }
 
-WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
-                                double stamp_sec) {
-  WindowObservation window;
-  window.stamp_sec = stamp_sec;
-  window.corners = borders.corners;
-  window.corner_covariance = borders.corner_covariance;
-  window.edges = borders.edges;
-  window.score = candidate.score;
-  window.has_appearance = candidate.has_appearance;
-  window.bhattacharyya = candidate.bhattacharyya;
-  return window;
-}
-
 }  // namespace window_ingress::detection

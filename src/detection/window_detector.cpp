@@ -45,7 +45,7 @@ struct WindowDetector::Impl {
   std::optional<Rejection> objection(const Rival& rival) const;
   std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
-  WindowObservation observe(const Rival& rival, const RefinedBorders& fitted, double stamp_sec) const;
+  double leastScore(const Rival& rival) const;
   void record(const Rival& rival, RejectReason reason, double value, double limit) {
     trace.candidates.push_back(traceOf(rival, reason, value, limit));
   }
@@ -59,14 +59,17 @@ struct WindowDetector::Impl {
   std::vector<Rival> rivals;
 };
 
+double WindowDetector::Impl::leastScore(const Rival& rival) const {
+  if (reference.frameless()) return params.min_score_frameless;
+  return rival.appearance ? params.min_score_reference : params.min_score;
+}
+
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
   if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
-  const double least = reference.frameless() ? params.min_score_frameless
-                       : rival.appearance    ? params.min_score_reference
-                                             : params.min_score;
-  if (rival.score < least) return Rejection{RejectReason::kScore, rival.score, least};
+  if (const double least = leastScore(rival); rival.score < least)
+    return Rejection{RejectReason::kScore, rival.score, least};
   return std::nullopt;
 }
 
@@ -78,19 +81,6 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
   start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search.factor() + 1.0;
   if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
   return refinement.run(image, start, camera, &inliers);
-}
-
-WindowObservation WindowDetector::Impl::observe(const Rival& rival, const RefinedBorders& fitted,
-                                                double stamp_sec) const {
-  WindowObservation window;
-  window.stamp_sec = stamp_sec;
-  window.corners = fitted.corners;
-  window.corner_covariance = fitted.corner_covariance;
-  window.edges = fitted.edges;
-  window.score = rival.score;
-  window.has_appearance = rival.appearance.has_value();
-  if (rival.appearance) window.bhattacharyya = rival.appearance->distance;
-  return window;
 }
 
 // The best to which there is no objection and whose borders can be fitted.
@@ -117,8 +107,8 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, fault->reason, fault->value, fault->limit);
         continue;
       }
-      window = observe(rival, *fitted, stamp_sec);
-      record(rival, RejectReason::kNone, rival.score, params.min_score);
+      record(rival, RejectReason::kNone, rival.score, leastScore(rival));
+      window = observationOf(trace.candidates.back(), *fitted, stamp_sec);
       trace.target = static_cast<int>(trace.candidates.size()) - 1;
       trace.candidates.back().quad = fitted->corners;
     }
@@ -181,6 +171,19 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
 }
 
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
+
+WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
+                                double stamp_sec) {
+  WindowObservation window;
+  window.stamp_sec = stamp_sec;
+  window.corners = borders.corners;
+  window.corner_covariance = borders.corner_covariance;
+  window.edges = borders.edges;
+  window.score = candidate.score;
+  window.has_appearance = candidate.has_appearance;
+  window.bhattacharyya = candidate.bhattacharyya;
+  return window;
+}
 
 ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorParams& params) {
   DetectorParams wide = params;

@@ -190,14 +190,5 @@ int run(const Options& o) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return tools::runTool("survey_pose", [&] {
-    Options o;
-    const auto description = describe(o);
-    po::variables_map given;
-    po::store(po::command_line_parser(argc, argv).options(description).run(), given);
-    po::notify(given);
-    if (given.count("help") == 0) return run(o);
-    std::cout << description;
-    return 0;
-  });
+  return tools::runTool("survey_pose", argc, argv, describe, run);
 }

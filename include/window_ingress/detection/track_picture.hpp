@@ -25,8 +25,4 @@ geometry::Quadrilateral distorted(geometry::Quadrilateral quad, const geometry::
 
 double furthestCorner(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);  ///< [px]
 
-/// A window whose borders were fitted where a search had seen it.
-WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
-                                double stamp_sec);
-
 }  // namespace window_ingress::detection

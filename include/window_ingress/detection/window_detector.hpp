@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
@@ -42,6 +43,10 @@ class WindowDetector {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// A window whose borders were fitted where a search had seen it.
+WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
+                                double stamp_sec);
 
 /// Reference from a picture that is the target with its frame, without corners given: the detector looks for
 /// the inner border in the picture; where it finds none, the frame is taken to be a twentieth of the picture
