@@ -99,6 +99,7 @@ class Flight {
   void report() const;
   FlightRecord record() const;
   void recordTarget(FlightRecord& record) const;
+  void recordImage(FlightRecord& record) const;
 
   std::vector<FlightObserver*> observers_;
   simulation::World world_;
@@ -195,7 +196,9 @@ FlightRecord Flight::record() const {
   record.setpoint_yaw_rate_radps = output_.setpoint.yaw_rate_radps;
   record.detected = detected_;
   record.sighting = tracker_.lastUpdate().why_not;
+  record.predicted_miss_m = output_.report.predicted_miss_m;
   recordTarget(record);
+  recordImage(record);
   return record;
 }
 
@@ -212,6 +215,13 @@ void Flight::recordTarget(FlightRecord& record) const {
   record.target_yaw_error_rad = geometry::yawOf(T_window_estimate.linear());
   record.target_sigma_m = std::sqrt(left.dot(target.covariance.topLeftCorner<3, 3>() * left));
   record.target_yaw_sigma_rad = std::sqrt(target.covariance(5, 5));
+}
+
+void Flight::recordImage(FlightRecord& record) const {
+  const auto& seen = tracker_.lastUpdate().pose.estimate;
+  if (!seen || !started_sec_) return;
+  record.image = ImageRecord{seen->stamp_sec - *started_sec_, seen->yaw_rad,      seen->sign_trusted,
+                             seen->opening_width_m,           seen->left_side_px, seen->right_side_px};
 }
 
 FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdict) const {

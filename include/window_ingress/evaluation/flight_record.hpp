@@ -1,11 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::evaluation {
+
+/// What one image alone said of the window.
+struct ImageRecord {
+  double time_sec = 0.0;  ///< of its exposure, since the start of the mission
+  double yaw_rad = 0.0;   ///< of the window's axis against the camera's
+  bool sign_trusted = false;
+  double opening_width_m = 0.0;  ///< apparent
+  double left_side_px = 0.0, right_side_px = 0.0;
+};
 
 /// One step of the navigator beside the truth. Positions and velocities in the true window's frame.
 struct FlightRecord {
@@ -24,7 +34,9 @@ struct FlightRecord {
   double target_yaw_error_rad = 0.0;
   double target_sigma_m = 0.0;  ///< of the centre, along the window's y
   double target_yaw_sigma_rad = 0.0;
-  std::string sighting;  ///< why the last image with a window did not contribute; empty if it did
+  double predicted_miss_m = 0.0;     ///< by the navigator at its last commit; 0 before
+  std::optional<ImageRecord> image;  ///< the last one with a pose
+  std::string sighting;              ///< why the last image with a window did not contribute; empty if it did
   std::string reason;
 };
 

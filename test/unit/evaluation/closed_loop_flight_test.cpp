@@ -43,6 +43,29 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
   EXPECT_TRUE(std::any_of(log.records.begin(), log.records.end(), is_committed));
 }
 
+TEST(ClosedLoopFlight, LogHoldsWhatEachImageSaidAndThePredictedMiss) {
+  FlightLog log;
+  const auto flight = flyOnce(shortFlight(), 1, FlightParams(), {&log});
+  EXPECT_FALSE(log.records.front().image);
+  ASSERT_TRUE(flight.predicted_miss_m);
+  EXPECT_EQ(log.records.back().predicted_miss_m, *flight.predicted_miss_m);
+  int images = 0;
+  for (const auto& record : log.records) {
+    if (!record.image || record.position_m.x() > -1.5) continue;
+    EXPECT_LT(record.image->time_sec, record.time_sec + 1e-6);
+    EXPECT_NEAR(record.image->yaw_rad, -record.heading_rad, 0.1);
+    EXPECT_NEAR(record.image->left_side_px / record.image->right_side_px, 1.0, 0.5);
+    EXPECT_GT(record.image->opening_width_m, 0.8);
+    ++images;
+  }
+  EXPECT_GT(images, 20);
+  std::istringstream text(csvOf(log));
+  std::string line;
+  std::getline(text, line);
+  const auto fields = std::count(line.begin(), line.end(), ',');
+  while (std::getline(text, line)) EXPECT_EQ(std::count(line.begin(), line.end(), ','), fields) << line;
+}
+
 TEST(ClosedLoopFlight, RepeatsToTheBit) {
   auto scenario = shortFlight();
   scenario.time_limit_sec = 1.0;
