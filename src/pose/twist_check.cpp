@@ -10,20 +10,34 @@ namespace window_ingress::pose {
 namespace {
 
 constexpr double kLongestGapSec = 0.5, kLongestPieceSec = 5.0;
-constexpr std::size_t kMostPieces = 20;
-constexpr double kMuchBetter = 0.5;
+constexpr std::size_t kMostPieces = 20, kLeastPieces = 4;
+// Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
+constexpr double kJitterM = 0.02, kDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
+constexpr double kMaxMeanSquares = 2.0;  // of its errors, normalised; 1 is expected
+constexpr double kMuchBetter = 0.5;      // of the other meaning's squares
+constexpr double kLeastEvidence = 10.0;  // for it [nats]
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
-    "", "twist looks like world frame, not body frame", "twist looks like x and y exchanged",
-    "twist looks like y and z of opposite sign (forward-right-down)", "twist looks like the opposite sign"};
+    "",
+    "twist looks like world frame, not body frame",
+    "twist looks turned to body frame twice",
+    "twist looks like x and y exchanged",
+    "twist looks like y and z of opposite sign (forward-right-down)",
+    "twist looks like the opposite sign"};
 
 // What the velocity in odom would be, were the numbers of the twist meant like this.
 std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3d& R,
                                                             const Eigen::Vector3d& velocity) {
   const Eigen::Vector3d twist = R.transpose() * velocity;
-  return {velocity, twist, R * Eigen::Vector3d(twist.y(), twist.x(), twist.z()),
-          R * Eigen::Vector3d(twist.x(), -twist.y(), -twist.z()), -velocity};
+  return {velocity,
+          twist,
+          R * velocity,
+          R * Eigen::Vector3d(twist.y(), twist.x(), twist.z()),
+          R * Eigen::Vector3d(twist.x(), -twist.y(), -twist.z()),
+          -velocity};
 }
+
+double square(double value) { return value * value; }
 
 }  // namespace
 
@@ -34,55 +48,71 @@ void TwistCheck::add(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
   const Sample now{stamp_sec, T_odom_base.translation(), meanings(T_odom_base.linear(), velocity_odom_mps)};
   const double dt_sec = last_ ? stamp_sec - last_->stamp_sec : -1.0;
   if (dt_sec == 0.0) return;
-  if (!(dt_sec > 0.0) || dt_sec > kLongestGapSec || elapsed_sec_ > kLongestPieceSec) {
-    last_ = now;
-    from_m_ = now.position_m;
-    integrated_m_.fill(Eigen::Vector3d::Zero());
-    elapsed_sec_ = 0.0;
-    return;
-  }
+  const bool continues = dt_sec > 0.0 && dt_sec <= kLongestGapSec;
+  if (!continues || last_->stamp_sec - first_->stamp_sec > kLongestPieceSec) return startAt(now);
   for (int k = 0; k < kMeanings; ++k)
     integrated_m_[k] += 0.5 * dt_sec * (last_->velocity_mps[k] + now.velocity_mps[k]);
-  elapsed_sec_ += dt_sec;
   last_ = now;
-  const Eigen::Vector3d moved = now.position_m - from_m_;
-  if (moved.norm() >= params_.way_segment_m) closePiece(moved);
+  const Eigen::Vector3d moved = now.position_m - first_->position_m;
+  if (std::max(moved.norm(), integrated_m_[0].norm()) >= params_.way_segment_m) closePiece(moved);
+}
+
+void TwistCheck::startAt(const Sample& now) {
+  first_ = last_ = now;
+  integrated_m_.fill(Eigen::Vector3d::Zero());
 }
 
 void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
-  Piece piece{moved_m.norm(), {}};
+  const double changed_mps = (last_->velocity_mps[0] - first_->velocity_mps[0]).norm();
+  Piece piece;
+  piece.way_m = std::max(moved_m.norm(), integrated_m_[0].norm());
+  piece.variance = 2.0 * square(kJitterM) +
+                   square(kDriftMPerSqrtSec) * (last_->stamp_sec - first_->stamp_sec) +
+                   square(kScale * piece.way_m) + square(kLateSec * changed_mps);
   for (int k = 0; k < kMeanings; ++k) piece.error_m[k] = (integrated_m_[k] - moved_m).norm();
   pieces_.push_back(piece);
   if (pieces_.size() > kMostPieces) pieces_.pop_front();
-  from_m_ = last_->position_m;
-  integrated_m_.fill(Eigen::Vector3d::Zero());
-  elapsed_sec_ = 0.0;
+  startAt(*last_);
   judge();
 }
 
-void TwistCheck::judge() {
-  double way = 0.0, squares = 0.0;
-  std::array<double, kMeanings> misfit{};
+double TwistCheck::Sums::misfit() const { return std::sqrt(misfits[0] / squares); }
+
+TwistCheck::Sums TwistCheck::sums() const {
+  Sums sums;
   for (const Piece& piece : pieces_) {
-    way += piece.way_m;
-    squares += piece.way_m * piece.way_m;
-    for (int k = 0; k < kMeanings; ++k) misfit[k] += piece.error_m[k] * piece.error_m[k];
+    sums.way_m += piece.way_m;
+    sums.squares += square(piece.way_m) / piece.variance;
+    for (int k = 0; k < kMeanings; ++k) sums.misfits[k] += square(piece.error_m[k]) / piece.variance;
   }
-  if (way < params_.least_way_m) return;
-  for (double& each : misfit) each = std::sqrt(each / squares);
-  if (misfit[0] <= params_.max_velocity_error) {
+  return sums;
+}
+
+// Zero if there is none.
+std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
+  const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
+  const double evidence = 1.5 * static_cast<double>(pieces_.size()) * std::log(sums.misfits[0] / *least);
+  const bool is_better = *least < kMuchBetter * sums.misfits[0] && evidence > kLeastEvidence;
+  return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
+}
+
+void TwistCheck::judge() {
+  const Sums all = sums();
+  if (all.way_m < params_.least_way_m) return;
+  if (all.misfit() <= params_.max_velocity_error) {
     verdict_ = {FramesVerdict::kGood, ""};
     return;
   }
-  const auto best = static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end()) - misfit.begin());
-  char text[160];
-  if (best > 0 && misfit[best] <= params_.max_velocity_error && misfit[best] < kMuchBetter * misfit[0])
-    std::snprintf(text, sizeof text, "%s", kNames[best]);
-  else
-    std::snprintf(text, sizeof text, "twist does not fit the way flown: off by %.0f %%", 100.0 * misfit[0]);
-  verdict_ = {FramesVerdict::kWrong, text};
+  const std::size_t better = betterMeaning(all);
+  const double mean_squares = all.misfits[0] / (3.0 * static_cast<double>(pieces_.size()));
+  if (better > 0) {
+    verdict_ = {FramesVerdict::kWrong, kNames[better]};
+  } else if (pieces_.size() >= kLeastPieces && mean_squares > kMaxMeanSquares) {
+    char text[160];
+    std::snprintf(text, sizeof text, "twist does not fit the way flown: off by %.0f %%",
+                  100.0 * all.misfit());
+    verdict_ = {FramesVerdict::kWrong, text};
+  }
 }
-
-FramesVerdict TwistCheck::verdict() const { return verdict_; }
 
 }  // namespace window_ingress::pose

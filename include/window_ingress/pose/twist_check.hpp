@@ -9,9 +9,14 @@
 
 namespace window_ingress::pose {
 
-/// Compares the velocity that odometry reports with the way that it reports, piece by piece. Where they do
-/// not agree, it tries other meanings of the velocity's numbers: axes of the world instead of the body's, x
+/// Compares the velocity that odometry reports with the way that it reports, piece by piece, and with other
+/// meanings of the velocity's numbers: axes of the world instead of the body's, turned to the body's twice, x
 /// and y exchanged, y and z mirrored, the opposite sign.
+///
+/// Positions drift, jitter and lag, and then way and velocity differ without any fault. So a frame is a fault
+/// only where another meaning explains the very same pieces far better (a likelihood ratio of unknown noise:
+/// bad odometry is as bad for all meanings, and a scale is the same in all of them). Where none does, the
+/// velocity is a fault only if even odometry that drifts much cannot explain the difference.
 ///
 /// A heading within some 17 degrees of zero tells body from world too little to matter.
 class TwistCheck {
@@ -22,9 +27,9 @@ class TwistCheck {
   void add(double stamp_sec, const Eigen::Isometry3d& T_odom_base, const Eigen::Vector3d& velocity_odom_mps);
   void clear() { *this = TwistCheck(params_); }
   void startPiece() { last_.reset(); }  ///< what follows is no continuation of what was
-  FramesVerdict verdict() const;
+  FramesVerdict verdict() const { return verdict_; }
 
-  static constexpr int kMeanings = 5;
+  static constexpr int kMeanings = 6;
 
  private:
   using Way = std::array<Eigen::Vector3d, kMeanings>;
@@ -34,16 +39,23 @@ class TwistCheck {
     Way velocity_mps;
   };
   struct Piece {
-    double way_m;
+    double way_m;     ///< by position or by velocity, whichever is longer
+    double variance;  ///< of their difference, each axis, were odometry to drift much [m^2]
     std::array<double, kMeanings> error_m;
   };
+  struct Sums {
+    double way_m = 0.0, squares = 0.0;           ///< of the way itself
+    std::array<double, kMeanings> misfits = {};  ///< of the errors; all weighted by the variances
+    double misfit() const;                       ///< relative, of the velocity as it was taken
+  };
+  void startAt(const Sample& now);
   void closePiece(const Eigen::Vector3d& moved_m);
   void judge();
+  Sums sums() const;
+  std::size_t betterMeaning(const Sums& sums) const;
 
   FramesParams params_;
-  std::optional<Sample> last_;
-  Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();
-  double elapsed_sec_ = 0.0;
+  std::optional<Sample> first_, last_;
   Way integrated_m_{};
   std::deque<Piece> pieces_;
   FramesVerdict verdict_{FramesVerdict::kOpen, "velocity: no way flown yet"};

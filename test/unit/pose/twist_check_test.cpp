@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
@@ -78,6 +79,25 @@ TEST(TwistCheck, SaysNothingWithoutAWayAndIgnoresWhatIsNotFinite) {
   check.add(11.0, T, {nan, 0, 0});
   check.add(11.1, geometry::makePose(Eigen::Matrix3d::Identity(), {nan, 0, 1}), {0, 0, 0});
   EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
+}
+
+TEST(TwistCheck, AWayOfDriftAloneIsNoFault) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> step(0.0, 0.05 * std::sqrt(1.0 / 50.0));
+  TwistCheck check{FramesParams()};
+  Eigen::Vector3d position(0, 0, 1);
+  for (int i = 0; i < 50 * 600; ++i) {
+    position += Eigen::Vector3d(step(random), step(random), 0.4 * step(random));
+    check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), position), Eigen::Vector3d::Zero());
+    ASSERT_NE(check.verdict().state, FramesVerdict::kWrong) << i / 50.0 << ": " << check.verdict().what;
+  }
+}
+
+TEST(TwistCheck, APositionThatStandsStillWhileTheVehicleFliesIsAFault) {
+  TwistCheck check{FramesParams()};
+  for (int i = 0; i < 300; ++i)
+    check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), {0, 0, 1}), {0.5, 0.1, 0.0});
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
 }
 
 TEST(TwistCheck, AGapOrAJumpBackIsNoWay) {
