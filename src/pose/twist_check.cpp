@@ -10,9 +10,10 @@ namespace window_ingress::pose {
 namespace {
 
 constexpr double kLongestGapSec = 0.5, kLongestPieceSec = 5.0;
-constexpr std::size_t kMostPieces = 20, kLeastPieces = 4;
+constexpr std::size_t kMostPieces = 20, kLeastPieces = 6;
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
 constexpr double kJitterM = 0.02, kDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
+constexpr double kMostSquares = 30.0;    // of one piece: a single mad number is no frame
 constexpr double kMaxMeanSquares = 2.0;  // of its errors, normalised; 1 is expected
 constexpr double kMuchBetter = 0.5;      // of the other meaning's squares
 constexpr double kLeastEvidence = 10.0;  // for it [nats]
@@ -38,6 +39,10 @@ std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3
 }
 
 double square(double value) { return value * value; }
+
+double normalised(double length_m, double variance) {
+  return std::min(square(length_m) / variance, kMostSquares);
+}
 
 }  // namespace
 
@@ -82,8 +87,8 @@ TwistCheck::Sums TwistCheck::sums() const {
   Sums sums;
   for (const Piece& piece : pieces_) {
     sums.way_m += piece.way_m;
-    sums.squares += square(piece.way_m) / piece.variance;
-    for (int k = 0; k < kMeanings; ++k) sums.misfits[k] += square(piece.error_m[k]) / piece.variance;
+    sums.squares += normalised(piece.way_m, piece.variance);
+    for (int k = 0; k < kMeanings; ++k) sums.misfits[k] += normalised(piece.error_m[k], piece.variance);
   }
   return sums;
 }
