@@ -15,10 +15,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-COLOURS = {
-    "IDLE": "0.7", "SEARCH": "tab:purple", "ALIGN": "tab:orange", "APPROACH": "tab:blue", "COMMIT": "tab:green",
-    "PASSED": "black", "BACK_OFF": "tab:red", "HOLD": "magenta", "ABORTED": "brown",
-}
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from flight_data import STATE_COLOURS as COLOURS  # noqa: E402
 
 
 def read(path):

@@ -220,8 +220,9 @@ void Flight::recordTarget(FlightRecord& record) const {
 void Flight::recordImage(FlightRecord& record) const {
   const auto& seen = tracker_.lastUpdate().pose.estimate;
   if (!seen || !started_sec_) return;
-  record.image = ImageRecord{seen->stamp_sec - *started_sec_, seen->yaw_rad,      seen->sign_trusted,
-                             seen->opening_width_m,           seen->left_side_px, seen->right_side_px};
+  record.image = ImageRecord{
+      seen->stamp_sec - *started_sec_, seen->yaw_rad,      seen->sign_trusted, seen->opening_width_m,
+      seen->opening_height_m,          seen->left_side_px, seen->right_side_px};
 }
 
 FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdict) const {

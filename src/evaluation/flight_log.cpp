@@ -21,13 +21,14 @@ void writeTarget(const FlightRecord& record, std::ostream& out) {
 
 void writeImage(const FlightRecord& record, std::ostream& out) {
   if (!record.image) {
-    out << ",,,,,,";
+    out << ",,,,,,,";
     return;
   }
   const ImageRecord& image = *record.image;
   char text[160];
-  std::snprintf(text, sizeof text, ",%.4f,%.5f,%d,%.4f,%.2f,%.2f", image.time_sec, image.yaw_rad,
-                image.sign_trusted ? 1 : 0, image.opening_width_m, image.left_side_px, image.right_side_px);
+  std::snprintf(text, sizeof text, ",%.4f,%.5f,%d,%.4f,%.4f,%.2f,%.2f", image.time_sec, image.yaw_rad,
+                image.sign_trusted ? 1 : 0, image.opening_width_m, image.opening_height_m, image.left_side_px,
+                image.right_side_px);
   out << text;
 }
 
@@ -47,7 +48,8 @@ std::string withoutCommas(std::string text) {
 void writeCsv(const FlightLog& log, std::ostream& out) {
   out << "time_s,state,x_m,y_m,z_m,heading_rad,vx_mps,vy_mps,vz_mps,set_x_mps,set_y_mps,set_z_mps,"
          "set_yaw_radps,detected,trusted,age_s,error_x_m,error_y_m,error_z_m,error_yaw_rad,sigma_m,"
-         "sigma_yaw_rad,image_s,image_yaw_rad,image_trusted,image_width_m,image_left_px,image_right_px,"
+         "sigma_yaw_rad,image_s,image_yaw_rad,image_trusted,image_width_m,image_height_m,image_left_px,image_"
+         "right_px,"
          "predicted_miss_m,sighting,reason\n";
   for (const auto& r : log.records) {
     char text[240];

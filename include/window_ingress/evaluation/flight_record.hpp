@@ -13,7 +13,7 @@ struct ImageRecord {
   double time_sec = 0.0;  ///< of its exposure, since the start of the mission
   double yaw_rad = 0.0;   ///< of the window's axis against the camera's
   bool sign_trusted = false;
-  double opening_width_m = 0.0;  ///< apparent
+  double opening_width_m = 0.0, opening_height_m = 0.0;  ///< apparent
   double left_side_px = 0.0, right_side_px = 0.0;
 };
 

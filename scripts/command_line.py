@@ -1,0 +1,24 @@
+"""What the plotting tools share: wrong usage is one line on stderr, and exit code 2."""
+import argparse
+import sys
+
+
+class Parser(argparse.ArgumentParser):
+    def __init__(self, prog, description):
+        super().__init__(prog=prog, description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+    def error(self, message):
+        fail(2, f"{self.prog}: {message}; see --help")
+
+
+def fail(code, text):
+    print(text, file=sys.stderr)
+    sys.exit(code)
+
+
+def save(tool, figure, file):
+    """Writes the picture; ends the program with code 1 if that cannot be done."""
+    try:
+        figure.savefig(file, dpi=80)
+    except (OSError, ValueError) as error:
+        fail(1, f"{tool}: {file}: cannot write: {error}")

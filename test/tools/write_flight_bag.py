@@ -1,0 +1,68 @@
+"""Writes a bag of a made-up flight: usage write_flight_bag.py FILE.bag truth|no_truth|no_state|no_odom|no_pose|two_odoms
+
+1 m/s along the window's axis, 0.1 m left and 0.05 m above it, through the plane 5 s after the start. The window stands at
+(10, 2, 1.5), turned by 0.3 rad.
+"""
+import math
+import sys
+
+import rosbag
+import rospy
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Odometry
+from window_ingress.msg import IngressState, WindowPose
+
+START_S, YAW = 100.0, 0.3
+CENTRE = (10.0, 2.0, 1.5)
+
+
+def place(pose, x, y, z, yaw):
+    pose.position.x = CENTRE[0] + x * math.cos(YAW) - y * math.sin(YAW)
+    pose.position.y = CENTRE[1] + x * math.sin(YAW) + y * math.cos(YAW)
+    pose.position.z = CENTRE[2] + z
+    pose.orientation.z, pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+
+
+def odometry(x):
+    message = Odometry(child_frame_id="base_link")
+    place(message.pose.pose, x, 0.1, 0.05, YAW)
+    message.twist.twist.linear.x = 1.0
+    return message
+
+
+def window():
+    message = PoseStamped()
+    place(message.pose, 0, 0, 0, YAW)
+    return message
+
+
+def state(t):
+    name = "IDLE" if t < 0 else "SEARCH" if t < 1 else "APPROACH" if t < 4 else "COMMIT" if t < 6 else "PASSED"
+    return IngressState(state_name=name, predicted_miss=0.12 if t >= 4 else 0.0)
+
+
+def window_pose():
+    message = WindowPose(filtered_valid=True, filtered_sign_trusted=True, sign_trusted=True, opening_width=1.2,
+                         opening_height=1.0, window_width=1.2, window_height=1.0, left_side=80, right_side=80)
+    place(message.filtered.pose, 0, 0, 0, YAW)
+    return message
+
+
+def main():
+    file, what = sys.argv[1:]
+    odom = [] if what == "no_odom" else ["/mavros/local_position/odom"]
+    odom += ["/mavros/odometry/in"] if what == "two_odoms" else []
+    with rosbag.Bag(file, "w") as bag:
+        for i in range(-10, 70):
+            t = 0.1 * i
+            messages = [(topic, odometry(t - 5.0)) for topic in odom]
+            messages += [("/ground_truth/odom", odometry(t - 5.0)), ("/ground_truth/window", window())] * (what == "truth")
+            messages += [("/state", state(t))] * (what != "no_state")
+            messages += [("/window_pose", window_pose())] * (what != "no_pose" and i % 2 == 0)
+            for topic, message in messages:
+                message.header.stamp = rospy.Time.from_sec(START_S + t)
+                bag.write(topic, message, message.header.stamp)
+
+
+if __name__ == "__main__":
+    main()
