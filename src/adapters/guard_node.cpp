@@ -1,35 +1,26 @@
 #include "adapters/guard_node.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include "adapters/guarded.hpp"
 #include "adapters/parameters.hpp"
 
 namespace window_ingress::adapters {
+namespace {
 
-std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params) {
-  const auto &v = twist.linear, &w = twist.angular;
-  // One by one: std::hypot of three numbers swallows a NaN beside zeros.
-  for (const double number : {v.x, v.y, v.z, w.x, w.y, w.z})
-    if (!std::isfinite(number)) return "velocity is not finite";
-  const double speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-  const double turning = std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z);
-  if (!(speed <= params.max_speed_mps))
-    return "speed of " + std::to_string(speed) + " m/s is above the limit";
-  if (!(turning <= params.max_yaw_rate_radps))
-    return "turning at " + std::to_string(turning) + " rad/s is above the limit";
-  return "";
+GuardParams checked(const GuardParams& params) {
+  if (params.lockstep && !ros::Time::isSimTime())
+    throw ParameterError("lockstep is for simulated time only, and use_sim_time is not set");
+  return params;
 }
 
+}  // namespace
+
 GuardNode::GuardNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(readParameters<GuardParams>(pnh)),
+    : params_(checked(readParameters<GuardParams>(pnh))),
       diagnostics_(nh, pnh),
-      received_sec_(-std::numeric_limits<double>::infinity()) {
-  if (params_.lockstep && !ros::Time::isSimTime())
-    throw ParameterError("lockstep is for simulated time only, and use_sim_time is not set");
-  input_.header.frame_id = params_.frame;
-  diagnostics_.add("cmd_vel_in", [this] { return health(); });
+      gate_(params_),
+      frame_id_(params_.frame) {
+  diagnostics_.add("cmd_vel_in", [this] { return inputHealth(); });
+  diagnostics_.add("cmd_vel", [this] { return outputHealth(); });
   publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1, params_.lockstep);
   subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
       nh, "cmd_vel_in", 1, diagnostics_, [this](const auto& message) { receive(message); });
@@ -38,35 +29,48 @@ GuardNode::GuardNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
 }
 
 void GuardNode::receive(const geometry_msgs::TwistStampedConstPtr& message) {
-  input_ = *message;
-  received_sec_ = steadyNowSec();
-  fault_ = whyUnsafe(message->twist, params_);
+  const double now_sec = steadyNowSec();
+  gate_.receive(message->twist, now_sec);
+  frame_id_ = message->header.frame_id;
   if (params_.lockstep)
-    publish(fault_.empty() ? input_.twist : geometry_msgs::Twist(), message->header.stamp);
+    publish(gate_.output(now_sec).value_or(geometry_msgs::Twist()), message->header.stamp);
 }
 
 void GuardNode::send() {
-  const bool late = steadyNowSec() - received_sec_ > params_.late_sec;
-  publish(late || !fault_.empty() ? geometry_msgs::Twist() : input_.twist, ros::Time::now());
+  if (const auto twist = gate_.output(steadyNowSec())) publish(*twist, ros::Time::now());
 }
 
 void GuardNode::publish(const geometry_msgs::Twist& twist, const ros::Time& stamp) {
   geometry_msgs::TwistStamped message;
   message.header.stamp = stamp;
-  message.header.frame_id = input_.header.frame_id;
+  message.header.frame_id = frame_id_;
   message.twist = twist;
   publisher_.publish(message);
 }
 
-Health GuardNode::health() const {
-  if (!fault_.empty()) return {Health::kError, "input refused, sending zero: " + fault_};
-  if (steadyNowSec() - received_sec_ <= params_.late_sec) return {};
-  return {Health::kWarn, "input on " + subscriber_.getTopic() + " is silent (" +
-                             std::to_string(subscriber_.getNumPublishers()) + " publishers), sending zero"};
+Health GuardNode::inputHealth() const {
+  const double now_sec = steadyNowSec();
+  const std::string publishers = "(" + std::to_string(subscriber_.getNumPublishers()) + " publishers)";
+  const std::string input = "input on " + subscriber_.getTopic() + " ";
+  if (gate_.isSilent(now_sec))
+    return {Health::kError, input + "is silent or refused " + publishers + " for " +
+                                std::to_string(static_cast<int>(gate_.sinceSaneSec(now_sec))) +
+                                " s, sending nothing: the autopilot's failsafe has to act"};
+  if (gate_.isLate(now_sec)) return {Health::kWarn, input + "is silent " + publishers + ", sending zero"};
+  if (!gate_.fault().empty()) return {Health::kError, "input refused, sending zero: " + gate_.fault()};
+  if (subscriber_.getNumPublishers() > 1)
+    return {Health::kWarn, input + "comes from several " + publishers + ", only one must steer"};
+  return {};
+}
+
+Health GuardNode::outputHealth() const {
+  if (publisher_.getNumSubscribers() > 0) return {};
+  return {Health::kWarn, "nobody subscribes to " + publisher_.getTopic() + ": no autopilot takes setpoints"};
 }
 
 void GuardNode::stop() {
   subscriber_.shutdown();
+  if (gate_.isSilent(steadyNowSec())) return;
   for (int i = 0; i < 5; ++i) {
     publish(geometry_msgs::Twist(), ros::Time::now());
     ros::WallDuration(0.05).sleep();

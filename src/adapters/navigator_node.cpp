@@ -32,6 +32,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       pose_health_(diagnostics_, "window_pose", 2.0),
       odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
       pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      engagement_(params_.engagement),
       navigator_(params_.navigator) {
   setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
   state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
@@ -41,6 +42,11 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
   pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
       nh, "window_pose", queue, diagnostics_, [this](const auto& message) { receivePose(message); });
+  engaged_subscriber_ = subscribeGuarded<std_msgs::Bool>(
+      nh, "engaged", 1, diagnostics_,
+      [this](const auto& message) { engagement_.hear(message->data, steadyNowSec()); });
+  diagnostics_.add("engaged",
+                   [this] { return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec()); });
   odom_health_.watch(odom_subscriber_);
   pose_health_.watch(pose_subscriber_);
   diagnostics_.add("mission", [this] { return missionHealth(); });
@@ -132,6 +138,7 @@ navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
 void NavigatorNode::forgetSilentInputs() {
   if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
   if (pose_health_.silentSec() > params_.max_pose_silence_sec) input_.target.reset();
+  input_.engaged = engagement_.holds(steadyNowSec());
 }
 
 void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
@@ -179,7 +186,8 @@ bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, 
 }
 
 void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros::Time& now) {
-  if (output.enabled || was_enabled_)
+  const bool stands_by = output.state == navigation::State::kIdle && !lockstep_;
+  if (output.enabled || was_enabled_ || stands_by)
     publishSetpoint(output.enabled ? output.setpoint : navigation::Setpoint(), now);
   was_enabled_ = output.enabled;
   publishState(output, now);

@@ -2,6 +2,7 @@
 
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/WindowPose.h>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "adapters/diagnostics.hpp"
+#include "adapters/engagement.hpp"
 #include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
@@ -31,6 +33,7 @@ struct NavigatorNodeParams {
       false;  ///< in lockstep: the mission starts with the first step at which it may, not when asked
   FrameNames frames;
   StampLimits stamps;
+  EngagementParams engagement;
   navigation::NavigatorParams navigator;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -42,11 +45,14 @@ struct NavigatorNodeParams {
     field("start_at_once", self.start_at_once);
     FrameNames::visit(self.frames, field);
     field.group("stamps", self.stamps);
+    field.group("engagement", self.engagement);
     field.group("navigator", self.navigator);
   }
 };
 
-/// `navigation::Navigator` between topics and services: pose and odometry in, velocity out.
+/// `navigation::Navigator` between topics and services: pose and odometry in, velocity out. In IDLE it sends
+/// zeros, so that an autopilot accepts the switch to the mode that follows them; after an abort it falls
+/// silent, so that the autopilot's own failsafe acts. In lockstep it is silent in IDLE, too.
 class NavigatorNode : public Node {
  public:
   NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
@@ -80,6 +86,7 @@ class NavigatorNode : public Node {
   Diagnostics diagnostics_;
   TopicHealth odom_health_, pose_health_;
   StampGate odom_gate_, pose_gate_;
+  Engagement engagement_;
   ClockWatch clock_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
@@ -91,7 +98,7 @@ class NavigatorNode : public Node {
   ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
   double step_sec_ = 0.0;            // in lockstep: the time that the world has
 
-  ros::Subscriber odom_subscriber_, pose_subscriber_;
+  ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
   ros::ServiceServer start_, abort_, reset_;
   ros::SteadyTimer timer_;

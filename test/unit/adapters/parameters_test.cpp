@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "adapters/guard_node.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -153,29 +152,6 @@ TEST(Parameters, NamesReadByOthersAreNoFault) {
   Outer params;
   Outer::visit(params, reader);
   EXPECT_TRUE(reader.faults().empty());
-}
-
-geometry_msgs::Twist twist(double x, double yaw_rate) {
-  geometry_msgs::Twist out;
-  out.linear.x = x;
-  out.angular.z = yaw_rate;
-  return out;
-}
-
-TEST(Guard, PassesSaneVelocitiesOnly) {
-  const GuardParams params;
-  EXPECT_TRUE(whyUnsafe(twist(0.0, 0.0), params).empty());
-  EXPECT_TRUE(whyUnsafe(twist(-params.max_speed_mps, params.max_yaw_rate_radps), params).empty());
-  EXPECT_FALSE(whyUnsafe(twist(params.max_speed_mps + 1e-6, 0.0), params).empty());
-  EXPECT_FALSE(whyUnsafe(twist(0.0, -params.max_yaw_rate_radps - 1e-6), params).empty());
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
-    EXPECT_FALSE(whyUnsafe(twist(bad, 0.0), params).empty()) << bad;
-    EXPECT_FALSE(whyUnsafe(twist(0.0, bad), params).empty()) << bad;
-    geometry_msgs::Twist other;
-    other.angular.x = bad;
-    EXPECT_FALSE(whyUnsafe(other, params).empty()) << bad;
-  }
 }
 
 }  // namespace
