@@ -38,6 +38,11 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   return params;
 }
 
+simulation::World::Pictures picturesFor(const FlightParams& params) {
+  using Pictures = simulation::World::Pictures;
+  return params.without_pictures ? Pictures::kNone : Pictures::kDrawn;
+}
+
 const simulation::Scenario& flyable(const simulation::Scenario& scenario) {
   if (scenario.vehicle.profile != "external") return scenario;
   throw simulation::ScenarioError(
@@ -54,14 +59,13 @@ class Flight {
   Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
          const std::vector<FlightObserver*>& observers)
       : observers_(observers),
-        world_(flyable(scenario), seed),
+        world_(flyable(scenario), seed, picturesFor(params)),
         params_(withFactsOf(world_, params)),
         detector_(params_.detector),
+        sight_(params_.sight, seed),
         tracker_(params_.pose, params_.filter, params_.tracker),
         navigator_(params_.navigator) {
-    geometry::Quadrilateral corners;
-    const cv::Mat picture = world_.referencePicture(&corners);
-    detector_.setReference(detection::ReferenceAppearance(picture, corners));
+    if (!params_.without_pictures) showReference();
     timing_.lap(Stage::kOther);
   }
 
@@ -93,7 +97,9 @@ class Flight {
  private:
   void sense();
   void calibrate(const simulation::CalibrationSample& sample);
+  void showReference();
   void look(const simulation::CameraFrame& frame);
+  std::optional<detection::WindowObservation> detect(const simulation::CameraFrame& frame);
   void step();
   void keepTrack();
   void report() const;
@@ -105,6 +111,7 @@ class Flight {
   simulation::World world_;
   FlightParams params_;
   detection::WindowTracker detector_;
+  ProjectedSight sight_;
   pose::PoseBuffer attitude_;
   navigation::TargetTracker tracker_;
   navigation::Navigator navigator_;
@@ -141,20 +148,33 @@ void Flight::calibrate(const simulation::CalibrationSample& sample) {
   if (sample.camera.validate().empty()) camera_ = sample.camera;
 }
 
-void Flight::look(const simulation::CameraFrame& frame) {
-  timing_.lap(Stage::kPicture);
-  timing_.countFrame();
+void Flight::showReference() {
+  geometry::Quadrilateral corners;
+  const cv::Mat picture = world_.referencePicture(&corners);
+  detector_.setReference(detection::ReferenceAppearance(picture, corners));
+}
+
+std::optional<detection::WindowObservation> Flight::detect(const simulation::CameraFrame& frame) {
+  if (params_.without_pictures)
+    return sight_.look(world_.camera(), frame.T_camera_window, world_.opening(), frame.stamp_sec);
   detection::TrackInput seen;
   seen.image = frame.image;
   seen.stamp_sec = frame.stamp_sec;
   seen.camera = camera_ ? &*camera_ : nullptr;
   if (const auto T_odom_base = attitude_.at(frame.stamp_sec, kMaxAttitudeGap_sec))
     seen.R_world_camera = T_odom_base->linear() * world_.T_base_camera().linear();
-  const auto window = detector_.update(seen);
+  return detector_.update(seen);
+}
+
+void Flight::look(const simulation::CameraFrame& frame) {
+  timing_.lap(Stage::kPicture);
+  timing_.countFrame();
+  const auto window = detect(frame);
   timing_.lap(Stage::kDetector);
   detected_ = window.has_value();
   input_.image_stamp_sec = frame.stamp_sec;
-  for (auto* observer : observers_) observer->onImage(frame, detector_.trace(), window);
+  if (!frame.image.empty())
+    for (auto* observer : observers_) observer->onImage(frame, detector_.trace(), window);
   timing_.lap(Stage::kOther);
   if (window && camera_) tracker_.see(*window, *camera_, world_.T_base_camera());
   timing_.lap(Stage::kPose);

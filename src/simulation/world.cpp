@@ -64,14 +64,14 @@ std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams&
 }  // namespace
 
 struct World::Impl {
-  Impl(const Scenario& given, std::uint32_t seed_of_all)
+  Impl(const Scenario& given, std::uint32_t seed_of_all, Pictures pictures)
       : scenario(checked(given)),
         seed(seed_of_all),
         scene(buildScene(scenario)),
         model(modelOf(scenario.camera)),
         T_base_camera(scenario.camera.T_base_camera()),
         T_odom_window(scenario.T_odom_window()),
-        camera(makeCamera(scene, scenario.camera, seed)),
+        camera(pictures == Pictures::kDrawn ? makeCamera(scene, scenario.camera, seed) : nullptr),
         wind(scenario.wind, wallOf(scenario, scene), scenario.vehicle.half_length_m, seed),
         quadrotor(scenario.vehicle, scenario.startPoseInOdom(),
                   T_odom_window.linear() * wind.steadyAt(scenario.startPoseInWindow().translation())),
@@ -150,7 +150,7 @@ struct World::Impl {
   Scene scene;
   geometry::PinholeCamera model;
   Eigen::Isometry3d T_base_camera, T_odom_window;
-  std::unique_ptr<CameraSensor> camera;
+  std::unique_ptr<CameraSensor> camera;  ///< null: no pictures
   Wind wind;
   Quadrotor quadrotor;
   OdometrySensor odometry;
@@ -172,7 +172,8 @@ struct World::Impl {
   double time_sec = 0.0;
 };
 
-World::World(const Scenario& scenario, std::uint32_t seed) : impl_(std::make_unique<Impl>(scenario, seed)) {}
+World::World(const Scenario& scenario, std::uint32_t seed, Pictures pictures)
+    : impl_(std::make_unique<Impl>(scenario, seed, pictures)) {}
 
 World::~World() = default;
 
@@ -211,6 +212,7 @@ std::optional<CameraFrame> World::takeFrame() {
   frame.stamp_sec = exposure->stamp_sec;
   frame.truth = exposure->truth;
   frame.T_camera_window = impl_->cameraInWindow(exposure->truth).inverse();
+  if (!impl_->camera) return frame;
   const auto motion = CameraMotion::of(exposure->shown, impl_->T_odom_window, impl_->T_base_camera);
   frame.image = impl_->camera->expose(motion, exposure->index, exposure->stamp_sec);
   spoil(frame.image, *exposure, impl_->seed);

@@ -65,6 +65,10 @@ options::options_description describe() {
       "flies nothing: joins the folders of several shards into one");
   add("params", options::value<std::string>(),
       "yaml file with any of the sections detector, pose, filter, tracker, navigator");
+  add("no-pictures",
+      "draws none: the window is seen as by a detector that never errs. Many times faster; measures what "
+      "comes "
+      "behind the detector, not the whole");
   add("keep-failures", "for each flight that did not pass, a bag and a picture in DIR/failures");
   add("timing", "where the time went, as a table, at the end");
   add("log", options::value<std::string>(), "folder for a csv of every step of each flight");
@@ -103,10 +107,13 @@ Job parse(int argc, char** argv, const options::options_description& description
   job.with_timing = given.count("timing") != 0;
   if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
   if (given.count("params") != 0) parameters::readYamlFile(given["params"].as<std::string>(), "", job.params);
+  if (given.count("no-pictures") != 0) job.params.without_pictures = true;
   for (const auto seed : job.seeds) simulation::loadScenario(job.scenario_file, seed);
   makeFolder(job.output_folder);
   if (given.count("log") != 0) makeFolder(job.log_folder = given["log"].as<std::string>());
   if (given.count("keep-failures") == 0) return job;
+  if (job.params.without_pictures)
+    throw UsageError("--keep-failures: there are no pictures to keep with --no-pictures");
   if (!kCanRecordBags)
     throw UsageError(
         "--keep-failures: this fly was built without ROS and cannot write bags; run scripts/build");

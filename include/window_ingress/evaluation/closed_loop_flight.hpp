@@ -8,6 +8,7 @@
 #include "window_ingress/evaluation/flight_metrics.hpp"
 #include "window_ingress/evaluation/flight_observer.hpp"
 #include "window_ingress/evaluation/flight_timing.hpp"
+#include "window_ingress/evaluation/projected_sight.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
 #include "window_ingress/pose/filter_params.hpp"
@@ -23,7 +24,9 @@ struct FlightParams {
   pose::FilterParams filter;
   navigation::TrackerParams tracker;
   navigation::NavigatorParams navigator;
-  double step_rate_hz = 30.0;  ///< of the navigator [1/s]
+  double step_rate_hz = 30.0;     ///< of the navigator [1/s]
+  bool without_pictures = false;  ///< the window is seen by `ProjectedSight`, no picture is drawn
+  SightParams sight;
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -33,6 +36,8 @@ struct FlightParams {
     field.group("tracker", self.tracker);
     field.group("navigator", self.navigator);
     field("step_rate_hz", self.step_rate_hz, 10.0, 200.0);
+    field("without_pictures", self.without_pictures);
+    field.group("sight", self.sight);
   }
 };
 
@@ -40,7 +45,8 @@ struct FlightParams {
 /// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
 /// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
 /// from the world. \param timing the flight's is added to it \throws simulation::ScenarioError,
-/// std::invalid_argument (parameters), std::runtime_error (no renderer)
+/// std::invalid_argument (parameters), std::runtime_error (no renderer). Without
+/// pictures, observers are not shown any.
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
                      const std::vector<FlightObserver*>& observers = {}, FlightTiming* timing = nullptr);
 

@@ -20,7 +20,7 @@ namespace window_ingress::simulation {
 /// A picture as the camera delivers it.
 struct CameraFrame {
   double stamp_sec = 0.0;  ///< of the exposure
-  cv::Mat image;           ///< CV_8UC3, BGR; valid until the next call of `World::takeFrame`
+  cv::Mat image;  ///< CV_8UC3, BGR; valid until the next call of `World::takeFrame`; empty: not drawn
   Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();  ///< truth at the exposure
   VehicleTruth truth;
 };
@@ -34,9 +34,13 @@ struct CameraFrame {
 /// off, and falls. Not for use from several threads, but several worlds may live in several threads.
 class World {
  public:
+  /// Whether frames have pictures. Without, no renderer is needed, and nothing that becomes of a picture
+  /// matters: light, noise, faults that spoil it.
+  enum class Pictures { kDrawn, kNone };
+
   /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software
   /// renderer.
-  World(const Scenario& scenario, std::uint32_t seed);
+  World(const Scenario& scenario, std::uint32_t seed, Pictures pictures = Pictures::kDrawn);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
