@@ -29,6 +29,8 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   vehicle.camera_forward_m = world.T_base_camera().translation().x();
   vehicle.horizontal_fov_rad = 2.0 * std::atan(camera.width / (2.0 * camera.fx));
   vehicle.vertical_fov_rad = 2.0 * std::atan(camera.height / (2.0 * camera.fy));
+  vehicle.pixel_rad = 1.0 / camera.fx;
+  vehicle.exposure_sec = world.scenario().camera.exposure_sec;
   auto& fit = params.tracker.fit;
   fit.vehicle_width_m = 2.0 * half.y();
   fit.vehicle_height_m = 2.0 * half.z();
@@ -155,6 +157,7 @@ void Flight::showReference() {
 }
 
 std::optional<detection::WindowObservation> Flight::detect(const simulation::CameraFrame& frame) {
+  if (params_.without_pictures && !world_.scenario().window.present) return std::nullopt;
   if (params_.without_pictures)
     return sight_.look(world_.camera(), frame.T_camera_window, world_.opening(), frame.stamp_sec);
   detection::TrackInput seen;

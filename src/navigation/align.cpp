@@ -23,15 +23,31 @@ double HeightProbe::climb(double height_m) {
   return std::copysign(std::min(align.probe_speed_mps, 0.1 + std::abs(goal_m - height_m)), goal_m - height_m);
 }
 
-Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_mps, const Situation& situation) {
-  if (!params_.stepped) return velocity_mps;
-  if (situation.now_sec < pause_until_sec_) return Eigen::Vector3d::Zero();
+Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_odom_mps,
+                                const Eigen::Matrix3d& R_odom_window, const Situation& situation) {
+  constexpr double kStandingMps = 0.1, kThereM = 0.02;
+  if (!isStepped()) return velocity_odom_mps;
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
-  if (!from_odom_m_) from_odom_m_ = position;
-  if ((position - *from_odom_m_).norm() < params_.step_m) return velocity_mps;
+  const double left_m = from_odom_m_ ? params_.align.step_m - (position - *from_odom_m_).norm() : 0.0;
+  if (left_m > kThereM) return along(velocity_odom_mps, left_m);
   from_odom_m_.reset();
-  pause_until_sec_ = situation.now_sec + params_.step_pause_sec;
-  return Eigen::Vector3d::Zero();
+  const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStandingMps;
+  if (!stands) standing_since_sec_.reset();
+  if (stands && !standing_since_sec_) standing_since_sec_ = situation.now_sec;
+  const bool has_looked =
+      standing_since_sec_ && situation.now_sec - *standing_since_sec_ >= params_.align.step_pause_sec;
+  if (!has_looked) return Eigen::Vector3d::Zero();
+  standing_since_sec_.reset();
+  Eigen::Index axis;
+  (R_odom_window.transpose() * velocity_odom_mps).cwiseAbs().maxCoeff(&axis);
+  along_ = R_odom_window.col(axis);
+  from_odom_m_ = position;
+  return along(velocity_odom_mps, params_.align.step_m);
+}
+
+Eigen::Vector3d StepPacer::along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const {
+  const double most_mps = stoppingSpeed(left_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec);
+  return std::clamp(velocity_odom_mps.dot(along_), -most_mps, most_mps) * along_;
 }
 
 void Align::enter(double now_sec) {
@@ -39,17 +55,18 @@ void Align::enter(double now_sec) {
   ambiguous_since_sec_ = now_sec;
 }
 
-Decision Align::step(const Situation& situation) {
+Decision Align::step(const Situation& situation, const MissionMemory& memory) {
   const RelativeState relative = relate(*situation.vehicle, *situation.target);
   if (!situation.target->sign_trusted) return resolveSign(situation, relative);
   ambiguous_since_sec_ = situation.now_sec;
   if (situation.target->approach_forbidden.empty()) probe_.reset();
-  return moveOntoAxis(situation, relative);
+  return moveOntoAxis(situation, memory, relative);
 }
 
 Decision Align::resolveSign(const Situation& situation, const RelativeState& relative) {
   in_funnel_since_sec_.reset();
   Decision decision;
+  decision.keeps_place = true;
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
   const double height_m = situation.vehicle->T_odom_base.translation().z();
   if (situation.now_sec - ambiguous_since_sec_ < params_.align.settle_sec) {
@@ -69,9 +86,10 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
   return decision;
 }
 
-Decision Align::moveOntoAxis(const Situation& situation, const RelativeState& relative) {
+Decision Align::moveOntoAxis(const Situation& situation, const MissionMemory& memory,
+                             const RelativeState& relative) {
   const auto& target = *situation.target;
-  const Contract contract = evaluateContract(relative, target.opening, pitchOf(*situation.vehicle), params_);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, params_);
   Decision decision;
   const bool has_size = target.fit != pose::Fit::kUnknown;
   if (has_size && std::min(contract.clearance_lateral_m, contract.clearance_vertical_m) <= 0.0) {
@@ -82,13 +100,14 @@ Decision Align::moveOntoAxis(const Situation& situation, const RelativeState& re
   const double retreat_mps =
       -climbFor(params_.align.min_distance_m - relative.distance(), params_.align.lateral_speed_mps, params_);
   decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), Eigen::Vector3d::Zero(), params_),
-      situation);
+      velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), memory.wind_odom_mps, params_),
+      uprightRotation(target), situation);
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
   decision.reason = "moving onto the window's normal";
   const bool is_forbidden = !target.approach_forbidden.empty();
-  const bool near_axis =
-      contract.openness >= 0.15 || (is_forbidden && std::abs(relative.lateral()) < kNearAxisM);
+  const bool is_on_axis = std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
+  const bool near_axis = (pacer_.isStepped() ? is_on_axis : contract.openness >= 0.15) ||
+                         (is_forbidden && std::abs(relative.lateral()) < kNearAxisM);
   if (!near_axis) {
     in_funnel_since_sec_.reset();
   } else if (!in_funnel_since_sec_) {

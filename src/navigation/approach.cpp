@@ -13,10 +13,8 @@ double heldSec(bool condition, double now_sec, std::optional<double>& since_sec)
   return since_sec ? now_sec - *since_sec : -1.0;
 }
 
-bool isOutside(const Contract& contract, double factor) {
-  return contract.miss_lateral_m > factor * (contract.clearance_lateral_m + contract.funnel_m) ||
-         contract.miss_vertical_m > factor * (contract.clearance_vertical_m + contract.funnel_m);
-}
+/// Beyond the funnel's wall by this factor.
+bool isOutside(const Contract& contract, double factor) { return contract.fullness > factor; }
 
 }  // namespace
 
@@ -37,14 +35,15 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
     decision.reason = "approach forbidden: " + target.approach_forbidden;
     return decision;
   }
-  const Contract contract = evaluateContract(relative, target.opening, pitchOf(*situation.vehicle), params_);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, params_);
   decision.wish.velocity_odom_mps = pacer_.pace(
       velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_),
-      situation);
+      uprightRotation(target), situation);
   decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
   decision.event = judge(contract, relative, situation, decision.reason);
   if (decision.event == Event::kCommitReached) {
     memory.committed = target;
+    memory.committed_sec = situation.now_sec;
     memory.predicted_miss_m = contract.missM();
     memory.blind_sec = 0.0;
   }

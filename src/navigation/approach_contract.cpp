@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace window_ingress::navigation {
 
@@ -16,37 +17,63 @@ double stoppingDistance(double speed_mps, double braking_mps2, double response_s
   return std::abs(speed_mps) * response_sec + speed_mps * speed_mps / (2.0 * braking_mps2);
 }
 
+namespace {
+
+constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
+
+/// From here on the opening is larger than the picture. Nobody commits from further off the axis than half of
+/// the opening; there, yaw and height keep it in view.
+double viewDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
+                    const VehicleParams& vehicle) {
+  const double half_v_rad = std::max(0.1, vehicle.vertical_fov_rad / 2.0 - std::abs(pitch_rad));
+  const double half_width_m = opening.width_m / 2.0, half_height_m = opening.height_m / 2.0;
+  const double wide_m = half_width_m + std::min(std::abs(relative.lateral()), half_width_m);
+  const double high_m = half_height_m + std::min(std::abs(relative.vertical()), half_height_m);
+  return std::max(wide_m / std::tan(vehicle.horizontal_fov_rad / 2.0), high_m / std::tan(half_v_rad)) +
+         vehicle.camera_forward_m;
+}
+
+}  // namespace
+
 double commitDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                       const NavigatorParams& params) {
   const auto& vehicle = params.vehicle;
-  const double half_v_rad = std::max(0.1, vehicle.vertical_fov_rad / 2.0 - std::abs(pitch_rad));
-  const double wide_m = opening.width_m / 2.0 + std::abs(relative.lateral());
-  const double high_m = opening.height_m / 2.0 + std::abs(relative.vertical());
-  const double view_m =
-      std::max(wide_m / std::tan(vehicle.horizontal_fov_rad / 2.0), high_m / std::tan(half_v_rad));
   const double stop_m = stoppingDistance(params.commit.speed_mps, vehicle.braking_mps2, vehicle.response_sec);
-  return std::max(view_m + vehicle.camera_forward_m + params.commit.view_margin_m,
+  return std::max(viewDistance(relative, opening, pitch_rad, vehicle) + params.commit.view_margin_m,
                   vehicle.half_length_m + stop_m);
 }
 
 namespace {
 
-/// The way without sight: at most from the commit line until the tail has left the opening's front plane.
-double blindSec(const RelativeState& relative, double commit_distance_m, const NavigatorParams& params) {
-  const double way_m =
-      std::min(std::max(relative.distance(), 0.0), commit_distance_m) + params.vehicle.half_length_m;
-  return way_m / params.commit.speed_mps;
+/// Without sight of the window, so far and on the way to the plane.
+double blindSec(const ContractInput& input, const NavigatorParams& params) {
+  const double view_m = viewDistance(input.relative, input.opening, input.pitch_rad, params.vehicle);
+  const double way_m = std::clamp(input.relative.distance(), 0.0, view_m);
+  return input.unseen_sec + way_m / params.commit.speed_mps;
 }
 
-double missOf(double offset_m, double speed_mps, double sigma_m, double blind_sec,
-              const NavigatorParams& params) {
-  return std::abs(offset_m + speed_mps * params.vehicle.response_sec) +
-         params.approach.sigma_factor * sigma_m + params.commit.drift_mps * blind_sec;
+/// Where the vehicle is by the time it answers.
+Eigen::Vector3d coastedOffset(const RelativeState& relative, const NavigatorParams& params) {
+  return relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
 }
 
-double opennessOf(double miss_m, double wall_m) {
-  return wall_m > 0.0 && std::isfinite(miss_m) ? std::clamp((wall_m - miss_m) / (0.35 * wall_m), 0.0, 1.0)
-                                               : 0.0;
+/// Of an offset, what is left when the nose is in the opening: it is steered away meanwhile, after a delay.
+double remaining(const RelativeState& relative, const NavigatorParams& params) {
+  const double way_m = relative.distance() - params.vehicle.half_length_m;
+  const double steering_sec = way_m / params.commit.speed_mps - params.vehicle.response_sec;
+  return std::exp(-params.align.lateral_gain_hz * std::max(0.0, steering_sec));
+}
+
+/// What chance may add: `sigma_factor` standard deviations.
+double spreadOf(double sigma_m, double gust_mps, double blind_sec, const NavigatorParams& params) {
+  const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
+  const double gust_m = params.approach.gust_carry_sec * gust_mps;
+  return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
+}
+
+double fullnessOf(double offset_m, double wall_m) {
+  return wall_m > 0.0 && std::isfinite(offset_m) ? offset_m / wall_m
+                                                 : std::numeric_limits<double>::infinity();
 }
 
 template <typename... Args>
@@ -57,6 +84,13 @@ std::string format(const char* pattern, Args... args) {
 }
 
 std::string whyUnmet(const Contract& contract, const RelativeState& relative, const NavigatorParams& params) {
+  const Eigen::Vector3d coasted = coastedOffset(relative, params);
+  if (!(std::abs(coasted.y()) < contract.clearance_lateral_m)) {
+    return format("lateral offset %.2f m, clearance %.2f m", coasted.y(), contract.clearance_lateral_m);
+  }
+  if (!(std::abs(coasted.z()) < contract.clearance_vertical_m)) {
+    return format("vertical offset %.2f m, clearance %.2f m", coasted.z(), contract.clearance_vertical_m);
+  }
   if (!(contract.miss_lateral_m < contract.clearance_lateral_m)) {
     return format("predicted lateral miss %.2f m, clearance %.2f m", contract.miss_lateral_m,
                   contract.clearance_lateral_m);
@@ -76,25 +110,27 @@ std::string whyUnmet(const Contract& contract, const RelativeState& relative, co
 
 }  // namespace
 
-Contract evaluateContract(const RelativeState& relative, const geometry::OpeningSize& opening,
-                          double pitch_rad, const NavigatorParams& params) {
+Contract evaluateContract(const ContractInput& input, const NavigatorParams& params) {
   Contract contract;
-  const Eigen::Vector3d& velocity = relative.velocity_window_mps;
+  const RelativeState& relative = input.relative;
   const double margin_m = params.approach.margin_m;
-  contract.clearance_lateral_m = opening.width_m / 2.0 - params.vehicle.half_width_m - margin_m;
-  contract.clearance_vertical_m = opening.height_m / 2.0 - params.vehicle.half_height_m - margin_m;
-  contract.commit_distance_m = commitDistance(relative, opening, pitch_rad, params);
-  const double blind_sec = blindSec(relative, contract.commit_distance_m, params);
-  contract.miss_lateral_m =
-      missOf(relative.lateral(), velocity.y(), relative.sigma_lateral_m, blind_sec, params);
-  contract.miss_vertical_m =
-      missOf(relative.vertical(), velocity.z(), relative.sigma_vertical_m, blind_sec, params);
+  contract.clearance_lateral_m = input.opening.width_m / 2.0 - params.vehicle.half_width_m - margin_m;
+  contract.clearance_vertical_m = input.opening.height_m / 2.0 - params.vehicle.half_height_m - margin_m;
+  contract.commit_distance_m = commitDistance(relative, input.opening, input.pitch_rad, params);
+  const double blind_sec = blindSec(input, params);
+  const double lateral_m = spreadOf(relative.sigma_lateral_m, input.gust_lateral_mps, blind_sec, params);
+  const double vertical_m = spreadOf(relative.sigma_vertical_m, input.gust_vertical_mps, blind_sec, params);
+  const Eigen::Vector3d offset = coastedOffset(relative, params).cwiseAbs();
+  const double left = remaining(relative, params);
+  contract.miss_lateral_m = left * offset.y() + lateral_m;
+  contract.miss_vertical_m = left * offset.z() + vertical_m;
 
   const double before_line_m = std::max(0.0, relative.distance() - contract.commit_distance_m);
   contract.funnel_m = params.approach.funnel_slope * before_line_m;
-  contract.openness =
-      std::min(opennessOf(contract.miss_lateral_m, contract.clearance_lateral_m + contract.funnel_m),
-               opennessOf(contract.miss_vertical_m, contract.clearance_vertical_m + contract.funnel_m));
+  contract.fullness =
+      std::max(fullnessOf(offset.y() + lateral_m, contract.clearance_lateral_m + contract.funnel_m),
+               fullnessOf(offset.z() + vertical_m, contract.clearance_vertical_m + contract.funnel_m));
+  contract.openness = std::clamp((1.0 - contract.fullness) / kWallOfFunnel, 0.0, 1.0);
   contract.in_funnel =
       contract.openness > 0.0 && contract.clearance_lateral_m > 0.0 && contract.clearance_vertical_m > 0.0;
   contract.unmet = whyUnmet(contract, relative, params);

@@ -13,13 +13,16 @@ Decision BackOff::step(const Situation& situation, const MissionMemory& memory) 
   const double room_m = params_.back_off.distance_m - relative.distance();
   const double speed_mps = std::min(params_.back_off.speed_mps, 0.1 + std::max(0.0, room_m));
   Decision decision;
-  decision.wish.velocity_odom_mps = -speed_mps * uprightRotation(target).col(0);
   const double turning_radius_m = std::hypot(params_.vehicle.half_length_m, params_.vehicle.half_width_m);
   const bool is_clear = relative.distance() > turning_radius_m + params_.approach.margin_m;
+  decision.wish.velocity_odom_mps =
+      is_clear ? velocityAlongAxis(relative, target, -speed_mps, memory.wind_odom_mps, params_)
+               : Eigen::Vector3d(-speed_mps * uprightRotation(target).col(0));
   if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
   decision.reason = "away from the window along its normal";
   if (room_m <= 0.0) {
     decision.wish.velocity_odom_mps.setZero();
+    decision.keeps_place = true;
     decision.event = judge(situation, memory, relative, decision.reason);
   }
   return decision;

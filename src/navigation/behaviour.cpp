@@ -9,15 +9,28 @@ void MissionMemory::forgetPlaces() {
   trusted.reset();
   committed.reset();
   window_odom_m.reset();
+  place_odom_m.reset();
 }
 
 double pitchOf(const VehicleState& vehicle) {
   return std::asin(std::clamp(-vehicle.T_odom_base.linear()(2, 0), -1.0, 1.0));
 }
 
-Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
-                      const NavigatorParams& params) {
-  return evaluateContract(relate(vehicle, target), target.opening, pitchOf(vehicle), params);
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory,
+                      const NavigatorParams& params, double unseen_sec) {
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const auto along = [&](int axis) {
+    const Eigen::Vector3d direction = R_odom_window.col(axis);
+    return std::sqrt(std::max(0.0, direction.dot(memory.gusts_odom * direction)));
+  };
+  ContractInput input;
+  input.relative = relate(vehicle, target);
+  input.opening = target.opening;
+  input.pitch_rad = pitchOf(vehicle);
+  input.unseen_sec = unseen_sec;
+  input.gust_lateral_mps = along(1);
+  input.gust_vertical_mps = along(2);
+  return evaluateContract(input, params);
 }
 
 double yawRateFor(double error_rad, const NavigatorParams& params) {

@@ -15,10 +15,12 @@ std::string text(const char* pattern, double value) {
   return buffer;
 }
 
-/// Offset and present uncertainty exceed the clearance. The drift since the last sighting is part of it.
-bool isBroken(const Contract& contract, double drift_m) {
-  return contract.miss_lateral_m + drift_m > contract.clearance_lateral_m ||
-         contract.miss_vertical_m + drift_m > contract.clearance_vertical_m;
+/// The predicted miss exceeds the clearance by half of the margin that was kept: less is no reason to turn
+/// back.
+bool isBroken(const Contract& contract, const NavigatorParams& params) {
+  const double given_m = params.approach.margin_m / 2.0;
+  return contract.miss_lateral_m > contract.clearance_lateral_m + given_m ||
+         contract.miss_vertical_m > contract.clearance_vertical_m + given_m;
 }
 
 /// The nose can still be stopped before it is in the opening.
@@ -45,8 +47,9 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
   refine(situation, memory);
   const auto& target = *memory.committed;
   const RelativeState relative = relate(*situation.vehicle, target);
-  const Contract contract = evaluateContract(relative, target.opening, 0.0, params_);
   const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
+  const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, params_, unknown_sec);
   if (relative.distance() > 0.0) memory.blind_sec = std::max(memory.blind_sec, blind_sec);
 
   Decision decision;
@@ -56,17 +59,19 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
   decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
     decision.wish = Setpoint();
+    decision.keeps_place = true;
     decision.reason = text("%.2f m behind the window", -relative.distance());
     if (situation.vehicle->velocity_odom_mps.norm() < params_.commit.standing_mps)
       decision.event = Event::kCrossed;
   } else if (canStop(relative, params_)) {
+    memory.predicted_miss_m = contract.missM();
     turnBackIfUnsafe(contract, blind_sec, decision);
   }
   return decision;
 }
 
 void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const {
-  if (isBroken(contract, params_.commit.drift_mps * blind_sec)) {
+  if (isBroken(contract, params_)) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + contract.unmet;
   } else if (disagreements_ >= kDisagreementsToTurnBack) {
@@ -85,6 +90,7 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
   disagreement_m_ = moved.norm();
   if (disagreement_m_ < params_.commit.max_update_jump_m) {
     memory.committed = situation.target;
+    memory.committed_sec = situation.now_sec;
     disagreements_ = 0;
   } else if (situation.target_is_new) {
     ++disagreements_;
@@ -103,12 +109,11 @@ double Commit::forwardSpeed(const Contract& contract, const RelativeState& relat
 bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
                        const NavigatorParams& params) {
   if (!memory.committed || !situation.vehicle) return false;
-  const double blind_sec = std::max(0.0, situation.now_sec - memory.committed->stamp_sec);
+  const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
   const RelativeState relative = relate(*situation.vehicle, *memory.committed);
   if (relative.distance() < -params.vehicle.half_length_m) return true;
   if (canStop(relative, params) && !seesCommitted(situation, *memory.committed, params)) return false;
-  return !isBroken(contractWith(*memory.committed, *situation.vehicle, params),
-                   params.commit.drift_mps * blind_sec);
+  return !isBroken(contractWith(*memory.committed, *situation.vehicle, memory, params, unknown_sec), params);
 }
 
 }  // namespace window_ingress::navigation

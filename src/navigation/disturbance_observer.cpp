@@ -5,6 +5,9 @@
 namespace window_ingress::navigation {
 namespace {
 
+constexpr double kStrongestGustMps = 3.0;
+constexpr double kSteadyMps = 0.15;  // a vehicle that is asked to change answers otherwise than its model
+
 /// Share of a first-order step that is made in this time.
 double share(double dt_sec, double time_constant_sec) {
   return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
@@ -20,6 +23,8 @@ Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
 void DisturbanceObserver::reset() {
   model_mps_.setZero();
   disturbance_mps_.setZero();
+  gust_mps_.setZero();
+  gusts_.setZero();
 }
 
 void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,
@@ -29,6 +34,9 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
   const Eigen::Vector3d surprise_mps = measured_mps - model_mps_ - disturbance_mps_;
   disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
   disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);
+  if ((commanded_mps - model_mps_).norm() > kSteadyMps) return;
+  gust_mps_ += share(dt_sec, vehicle_.response_sec) * (clipped(surprise_mps, kStrongestGustMps) - gust_mps_);
+  gusts_ += share(dt_sec, approach_.gust_memory_sec) * (gust_mps_ * gust_mps_.transpose() - gusts_);
 }
 
 }  // namespace window_ingress::navigation

@@ -16,6 +16,7 @@ Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
   if (!is_good) good_since_sec_.reset();
   if (is_good && !good_since_sec_) good_since_sec_ = situation.now_sec;
   Decision decision;
+  decision.keeps_place = true;
   decision.reason = !situation.vehicle ? situation.vehicle_fault
                     : !is_good         ? situation.image_fault
                                        : situation.target_fault;

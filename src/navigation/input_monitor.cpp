@@ -189,11 +189,22 @@ bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
   return true;
 }
 
-void InputMonitor::judgeImage(const NavigatorInput& input, Situation& situation) const {
+void InputMonitor::judgeImage(const NavigatorInput& input, Situation& situation) {
   situation.image_fault = "no image searched so far";
   if (!input.image_stamp_sec) return;
   situation.image_fault = ageFault("last image", *input.image_stamp_sec, situation.now_sec,
                                    params_.max_image_age_sec, params_.max_future_sec);
+  if (situation.image_fault.empty()) measurePeriod(*input.image_stamp_sec);
+  situation.image_period_sec = image_period_sec_;
+}
+
+void InputMonitor::measurePeriod(double image_stamp_sec) {
+  constexpr double kWeight = 0.2;
+  if (image_stamp_sec_ == image_stamp_sec) return;
+  const double period_sec = image_stamp_sec_ ? image_stamp_sec - *image_stamp_sec_ : 0.0;
+  image_stamp_sec_ = image_stamp_sec;
+  if (!(period_sec > 0.0 && period_sec < params_.max_image_age_sec)) return;
+  image_period_sec_ += (image_period_sec_ > 0.0 ? kWeight : 1.0) * (period_sec - image_period_sec_);
 }
 
 }  // namespace window_ingress::navigation

@@ -2,15 +2,46 @@
 
 #include <algorithm>
 
+#include "window_ingress/navigation/place_keeping.hpp"
+
 namespace window_ingress::navigation {
 namespace {
-
-Eigen::Vector3d onlyVertical(const Eigen::Vector3d& velocity) { return {0.0, 0.0, velocity.z()}; }
 
 /// The velocity less its part towards the window.
 Eigen::Vector3d withoutForward(const Eigen::Vector3d& velocity, const TargetEstimate& target) {
   const Eigen::Vector3d normal = uprightRotation(target).col(0);
   return velocity - std::max(0.0, velocity.dot(normal)) * normal;
+}
+
+/// Upward and downward as wished, sideways only back to the place that is kept.
+Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situation& situation,
+                                   const MissionMemory& memory, const NavigatorParams& params) {
+  Eigen::Vector3d permitted =
+      onlyToPlace({velocity.x(), velocity.y(), 0.0}, *situation.vehicle, memory, params.hold);
+  permitted.z() = velocity.z();
+  return permitted;
+}
+
+/// Of a velocity that leads nowhere forward, what is permitted this near the wall outside the funnel.
+Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& situation,
+                             const Contract& contract, const NavigatorParams& params) {
+  const auto& target = *situation.target;
+  const bool is_near = relate(*situation.vehicle, target).distance() < params.limits.wall_distance_m;
+  if (!is_near || contract.in_funnel) return velocity;
+  const Eigen::Vector3d normal = uprightRotation(target).col(0);
+  return std::min(0.0, velocity.dot(normal)) * normal;
+}
+
+Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
+                                      const Situation& situation, const MissionMemory& memory,
+                                      const NavigatorParams& params) {
+  const auto& target = *situation.target;
+  const Contract contract = contractWith(target, *situation.vehicle, memory, params);
+  const bool before_line = relate(*situation.vehicle, target).distance() > contract.commit_distance_m;
+  const bool may_advance =
+      state == State::kApproach && (contract.holds || (before_line && contract.in_funnel));
+  if (may_advance) return velocity;
+  return awayFromWall(withoutForward(velocity, target), situation, contract, params);
 }
 
 Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,
@@ -19,25 +50,20 @@ Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, c
   const bool is_trusted = target && target->sign_trusted;
   switch (state) {
     case State::kSearch:
-      return onlyVertical(velocity);
+      return verticalAndToPlace(velocity, situation, memory, params);
     case State::kAlign:
-      if (!is_trusted) return onlyVertical(velocity);
-      return withoutForward(velocity, *target);
-    case State::kApproach: {
-      if (!is_trusted) return onlyVertical(velocity);
-      const Contract contract = contractWith(*target, *situation.vehicle, params);
-      const bool before_line = relate(*situation.vehicle, *target).distance() > contract.commit_distance_m;
-      const bool may_advance = contract.holds || (before_line && contract.in_funnel);
-      return may_advance ? velocity : withoutForward(velocity, *target);
-    }
+    case State::kApproach:
+      if (!is_trusted) return verticalAndToPlace(velocity, situation, memory, params);
+      return permittedBeforeWindow(velocity, state, situation, memory, params);
     case State::kCommit:
       return memory.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());
     case State::kBackOff:
       return memory.trusted ? withoutForward(velocity, *memory.trusted)
                             : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    case State::kIdle:
-    case State::kPassed:
     case State::kHold:
+    case State::kPassed:
+      return onlyToPlace(velocity, *situation.vehicle, memory, params.hold);
+    case State::kIdle:
     case State::kAborted:
       break;
   }
@@ -51,6 +77,20 @@ double withinHeights(double climb_mps, double height_m, const NavigatorParams& p
   return std::clamp(climb_mps, -down, up);
 }
 
+/// The velocity less what of its way outward could not be stopped at the fence.
+Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector3d& position_m,
+                            const MissionMemory& memory, const NavigatorParams& params) {
+  if (!memory.home_odom_m) return velocity;
+  Eigen::Vector3d outward = position_m - *memory.home_odom_m;
+  outward.z() = 0.0;
+  const double away_m = outward.norm();
+  if (away_m < 1e-6) return velocity;
+  outward /= away_m;
+  const double most_mps = stoppingSpeed(params.limits.fence_radius_m - away_m, params.vehicle.braking_mps2,
+                                        params.vehicle.response_sec);
+  return velocity - std::max(0.0, velocity.dot(outward) - most_mps) * outward;
+}
+
 }  // namespace
 
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
@@ -58,8 +98,9 @@ Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, Stat
                                   const NavigatorParams& params) {
   if (!situation.vehicle) return Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = permittedByState(velocity_odom_mps, state, situation, memory, params);
-  velocity.z() = withinHeights(velocity.z(), situation.vehicle->T_odom_base.translation().z(), params);
-  return velocity;
+  const Eigen::Vector3d position_m = situation.vehicle->T_odom_base.translation();
+  velocity.z() = withinHeights(velocity.z(), position_m.z(), params);
+  return withinFence(velocity, position_m, memory, params);
 }
 
 }  // namespace window_ingress::navigation

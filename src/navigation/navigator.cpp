@@ -11,11 +11,16 @@
 #include "window_ingress/navigation/hold.hpp"
 #include "window_ingress/navigation/mission_rules.hpp"
 #include "window_ingress/navigation/motion_guard.hpp"
+#include "window_ingress/navigation/place_keeping.hpp"
 #include "window_ingress/navigation/search.hpp"
 #include "window_ingress/navigation/setpoint_limiter.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
+namespace {
+constexpr double kBeyondFenceM = 1.0;
+}
+
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
       : params(checked(given)),
@@ -43,6 +48,8 @@ struct Navigator::Impl {
   std::string reason = "waiting for start";
   MissionMemory memory;
   Setpoint last_setpoint;
+  std::optional<Eigen::Vector3d> position_odom_m;  ///< of the step before, in the present odometry frame
+  Eigen::Vector3d from_home_m = Eigen::Vector3d::Zero();
   bool was_near = false;
   double now_sec = 0.0;
   double started_sec = 0.0;
@@ -51,9 +58,11 @@ struct Navigator::Impl {
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   void passTime(double to_sec);
   void remember(const Situation& situation);
+  void keepHome(const VehicleState& vehicle);
   Decision decide(const NavigatorInput& input, const Situation& situation);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
   Decision behave(const Situation& situation);
+  Decision staying() const { return {{}, state == State::kPassed, std::nullopt, reason}; }
   void change(State to, const std::string& why);
   void enter(State from);
   Setpoint output(const Decision& decision, const Situation& situation);
@@ -75,10 +84,13 @@ void Navigator::Impl::remember(const Situation& situation) {
   if (situation.vehicle_jumped) {
     memory.forgetPlaces();
     observer.reset();
+    position_odom_m.reset();
   }
   if (situation.vehicle) {
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     memory.wind_odom_mps = observer.disturbance();
+    memory.gusts_odom = observer.gusts();
+    keepHome(*situation.vehicle);
   }
   if (state == State::kCommit) {
     memory.trusted = memory.committed;
@@ -88,6 +100,15 @@ void Navigator::Impl::remember(const Situation& situation) {
   }
 }
 
+// The odometry may jump, home does not: it stays where it was as seen from the vehicle.
+void Navigator::Impl::keepHome(const VehicleState& vehicle) {
+  const Eigen::Vector3d position = vehicle.T_odom_base.translation();
+  if (!memory.home_odom_m) from_home_m = Eigen::Vector3d::Zero();
+  if (!position_odom_m) memory.home_odom_m = position - from_home_m;
+  position_odom_m = position;
+  from_home_m = position - *memory.home_odom_m;
+}
+
 Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& situation) {
   if (auto overruled = overrule(input, situation)) return *overruled;
   return behave(situation);
@@ -95,16 +116,19 @@ Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& s
 
 std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
                                                   const Situation& situation) const {
-  if (!isLive()) return Decision{{}, std::nullopt, reason};
-  if (!input.engaged) return Decision{{}, Event::kDisengaged, "the vehicle no longer follows setpoints"};
+  if (!isLive()) return staying();
+  if (!input.engaged)
+    return Decision{{}, false, Event::kDisengaged, "the vehicle no longer follows setpoints"};
   const std::string name = toString(state);
   if (now_sec - started_sec > params.timeouts.total_sec)
-    return Decision{{}, Event::kGiveUp, "mission timed out in " + name};
+    return Decision{{}, false, Event::kGiveUp, "mission timed out in " + name};
   if (now_sec - since_sec > timeoutOf(state, params.timeouts))
-    return Decision{{}, Event::kGiveUp, name + " timed out"};
+    return Decision{{}, false, Event::kGiveUp, name + " timed out"};
+  if (from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
+    return Decision{{}, false, Event::kGiveUp, "outside the fence"};
   if (!isMoving(state)) return std::nullopt;
   const std::string missing = missingInput(state, situation);
-  if (!missing.empty()) return Decision{{}, Event::kInputStale, missing};
+  if (!missing.empty()) return Decision{{}, false, Event::kInputStale, missing};
   return std::nullopt;
 }
 
@@ -113,7 +137,7 @@ Decision Navigator::Impl::behave(const Situation& situation) {
     case State::kSearch:
       return search.step(situation, memory);
     case State::kAlign:
-      return align.step(situation);
+      return align.step(situation, memory);
     case State::kApproach:
       return approach.step(situation, memory);
     case State::kCommit:
@@ -127,7 +151,7 @@ Decision Navigator::Impl::behave(const Situation& situation) {
     case State::kAborted:
       break;
   }
-  return Decision{{}, std::nullopt, reason};
+  return staying();
 }
 
 void Navigator::Impl::change(State to, const std::string& why) {
@@ -169,8 +193,14 @@ void Navigator::Impl::enter(State from) {
 }
 
 Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situation) {
-  if (!isMoving(state) || !situation.vehicle) return limiter.stop();
-  Setpoint limited = limiter.limit(decision.wish, situation.dt_sec);
+  if (!mayHaveVelocity(state) || !situation.vehicle) return limiter.stop();
+  Setpoint wish = decision.wish;
+  if (decision.keeps_place) {
+    const Eigen::Vector3d back = velocityToPlace(*situation.vehicle, memory, params);
+    wish.velocity_odom_mps.head<2>() = back.head<2>();
+    if (wish.velocity_odom_mps.z() == 0.0) wish.velocity_odom_mps.z() = back.z();
+  }
+  Setpoint limited = limiter.limit(wish, situation.dt_sec);
   limited.velocity_odom_mps = permittedVelocity(limited.velocity_odom_mps, state, situation, memory, params);
   return limiter.cutTo(limited);
 }
@@ -208,6 +238,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.memory = MissionMemory();
   self.observer.reset();
+  self.position_odom_m.reset();
   self.was_near = false;
   self.limiter.stop();
   self.now_sec = self.started_sec = now_sec;
@@ -244,8 +275,9 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   const auto to = decision.event ? next(self.state, *decision.event) : std::nullopt;
   if (to) {
     self.change(*to, decision.reason);
-    decision = isMoving(*to) ? self.behave(situation) : Decision();
+    decision = isMoving(*to) ? self.behave(situation) : self.staying();
   }
+  rememberPlace(decision.keeps_place && input.engaged, situation, self.params.hold, self.memory);
   NavigatorOutput output;
   output.setpoint = self.last_setpoint = self.output(decision, situation);
   output.state = self.state;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "window_ingress/geometry/frames.hpp"
 
@@ -22,9 +23,11 @@ Decision Search::step(const Situation& situation, const MissionMemory& memory) {
     decision = lookAt(situation);
   } else {
     frames_ = 0;
-    decision.wish.yaw_rate_radps = sweep(vehicle, memory);
+    const double fastest = fastestTurn(situation.image_period_sec);
+    decision.wish.yaw_rate_radps = std::clamp(sweep(vehicle, memory), -fastest, fastest);
     decision.reason = "turn " + std::to_string(turns_ + 1) + " of " + std::to_string(params_.search.turns);
   }
+  decision.keeps_place = true;
   decision.wish.velocity_odom_mps.z() =
       climbFor(*height_m_ - height_m, params_.search.climb_speed_mps, params_);
   if (turns_ >= params_.search.turns) {
@@ -42,6 +45,16 @@ Decision Search::lookAt(const Situation& situation) {
   decision.reason = "window in view";
   if (frames_ >= params_.search.found_frames) decision.event = Event::kWindowFound;
   return decision;
+}
+
+double Search::fastestTurn(double image_period_sec) const {
+  const auto& [search, vehicle] = std::tie(params_.search, params_.vehicle);
+  double fastest = search.yaw_rate_radps;
+  if (vehicle.exposure_sec > 0.0)
+    fastest = std::min(fastest, search.max_blur_px * vehicle.pixel_rad / vehicle.exposure_sec);
+  if (image_period_sec > 0.0)
+    fastest = std::min(fastest, search.max_turn_per_image * vehicle.horizontal_fov_rad / image_period_sec);
+  return fastest;
 }
 
 double Search::sweep(const VehicleState& vehicle, const MissionMemory& memory) {

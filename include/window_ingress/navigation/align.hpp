@@ -29,19 +29,26 @@ class HeightProbe {
   int count_ = 0;
 };
 
-/// The paper's small steps (P19), as a yardstick: lets the vehicle move `step_m`, then makes it look for a
-/// while.
+/// The paper's small steps (P19), as a yardstick: the vehicle moves `step_m`, stops, looks for a while, and
+/// so on; a step leads sideways or forward, never both.
 class StepPacer {
  public:
-  explicit StepPacer(const AlignParams& params) : params_(params) {}
+  explicit StepPacer(const NavigatorParams& params) : params_(params) {}
 
-  /// The velocity, or none during the look.
-  Eigen::Vector3d pace(const Eigen::Vector3d& velocity_mps, const Situation& situation);
+  bool isStepped() const { return params_.scheme == "stepped"; }
+  /// The velocity as wished unless the scheme is stepped; then that of the present step, or none during the
+  /// look. \param R_odom_window the window's axes
+  Eigen::Vector3d pace(const Eigen::Vector3d& velocity_odom_mps, const Eigen::Matrix3d& R_odom_window,
+                       const Situation& situation);
 
  private:
-  AlignParams params_;
-  std::optional<Eigen::Vector3d> from_odom_m_;
-  double pause_until_sec_ = -1e300;
+  /// Of the wish, the part along the step's axis, so slow that the step can end in time.
+  Eigen::Vector3d along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const;
+
+  NavigatorParams params_;
+  std::optional<Eigen::Vector3d> from_odom_m_;       ///< where the present step began; none: looking
+  Eigen::Vector3d along_ = Eigen::Vector3d::Zero();  ///< the present step's axis, odom
+  std::optional<double> standing_since_sec_;
 };
 
 /// ALIGN (P15): yaw keeps the window in view, height follows its centre, and once the normal is trusted the
@@ -49,14 +56,15 @@ class StepPacer {
 /// only changes height.
 class Align {
  public:
-  explicit Align(const NavigatorParams& params) : params_(params), probe_(params), pacer_(params.align) {}
+  explicit Align(const NavigatorParams& params) : params_(params), probe_(params), pacer_(params) {}
 
   void enter(double now_sec);
-  Decision step(const Situation& situation);
+  Decision step(const Situation& situation, const MissionMemory& memory);
 
  private:
   Decision resolveSign(const Situation& situation, const RelativeState& relative);
-  Decision moveOntoAxis(const Situation& situation, const RelativeState& relative);
+  Decision moveOntoAxis(const Situation& situation, const MissionMemory& memory,
+                        const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);
 
   NavigatorParams params_;

@@ -10,7 +10,7 @@ namespace window_ingress::navigation {
 /// as the contract does not hold.
 class Approach {
  public:
-  explicit Approach(const NavigatorParams& params) : params_(params), pacer_(params.align) {}
+  explicit Approach(const NavigatorParams& params) : params_(params), pacer_(params) {}
 
   void enter();
   Decision step(const Situation& situation, MissionMemory& memory);

@@ -17,31 +17,43 @@ double stoppingSpeed(double distance_m, double braking_mps2, double response_sec
 double stoppingDistance(double speed_mps, double braking_mps2, double response_sec);
 
 /// Distance of the body's centre to the plane at which the vehicle commits: the opening, off-centre by the
-/// present error and with the camera pitched as given, is about to outgrow the field of view; or, if that is
-/// nearer, where the vehicle can just stop before its nose is in the opening. Trap: the wide field of view of
-/// a level camera shrinks with its pitch.
+/// present error (half of the opening at most) and with the camera pitched as given, is about to outgrow the
+/// field of view; or, if that is nearer, where the vehicle can just stop before its nose is in the opening.
+/// Trap: the wide field of view of a level camera shrinks with its pitch.
 double commitDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                       const NavigatorParams& params);
+
+/// What the contract is made on.
+struct ContractInput {
+  RelativeState relative;
+  geometry::OpeningSize opening;
+  double pitch_rad = 0.0;          ///< of the vehicle, nose down positive
+  double unseen_sec = 0.0;         ///< the estimate is as of so long ago
+  double gust_lateral_mps = 0.0;   ///< root mean square of the velocity that gusts bring
+  double gust_vertical_mps = 0.0;  ///< likewise
+};
 
 /// The bargain with the wall, at this moment.
 struct Contract {
   double clearance_lateral_m = 0.0;  ///< half the opening less half the body less the margin
   double clearance_vertical_m = 0.0;
-  double miss_lateral_m =
-      0.0;  ///< predicted: offset after the response time, sigma_factor sigmas, drift on the blind way
+  /// Predicted at the plane: what is left of the offset by then, and `sigma_factor` times the spread of
+  /// estimate, odometry's drift on the blind way, and gusts.
+  double miss_lateral_m = 0.0;
   double miss_vertical_m = 0.0;
   double commit_distance_m = 0.0;
   double funnel_m = 0.0;   ///< by how much the funnel is wider than the clearance at this distance
+  double fullness = 0.0;   ///< offset as it is and its spread, over the funnel's half width; 1 at its wall
   double openness = 0.0;   ///< 1 well within the funnel, 0 at its wall or outside: scales the forward speed
-  bool in_funnel = false;  ///< both misses within clearance + funnel
-  bool holds = false;  ///< both misses within the clearance, heading along the normal, little sideways speed
-  std::string unmet;   ///< why it does not hold, with numbers; empty if it does
+  bool in_funnel = false;  ///< the offsets as they are, and their spread, within clearance + funnel
+  /// Both misses within the clearance, and the offset too: straight on would also do; heading along the
+  /// normal, little sideways speed.
+  bool holds = false;
+  std::string unmet;  ///< why it does not hold, with numbers; empty if it does
 
   double missM() const { return miss_lateral_m > miss_vertical_m ? miss_lateral_m : miss_vertical_m; }
 };
 
-/// \param pitch_rad of the vehicle, nose down positive
-Contract evaluateContract(const RelativeState& relative, const geometry::OpeningSize& opening,
-                          double pitch_rad, const NavigatorParams& params);
+Contract evaluateContract(const ContractInput& input, const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation

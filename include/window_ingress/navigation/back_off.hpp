@@ -5,8 +5,8 @@
 namespace window_ingress::navigation {
 
 /// BACK_OFF (P17): away from the window along its last trusted normal in odom, to where it can be seen again.
-/// Within the reveal neither turning nor sideways; clear of it, yaw points the camera at where the window
-/// must be.
+/// Within the reveal neither turning nor sideways; clear of it, back onto the normal, and yaw points the
+/// camera at where the window must be.
 class BackOff {
  public:
   explicit BackOff(const NavigatorParams& params) : params_(params) {}

@@ -13,6 +13,7 @@ namespace window_ingress::navigation {
 
 struct Decision {
   Setpoint wish;
+  bool keeps_place = false;  ///< where the wish has no velocity, the vehicle is to stay where it is
   std::optional<Event> event;
   std::string reason;
 };
@@ -21,10 +22,14 @@ struct Decision {
 struct MissionMemory {
   std::optional<TargetEstimate> trusted;         ///< last estimate whose normal was trusted
   std::optional<TargetEstimate> committed;       ///< what COMMIT flies by, in odom
+  double committed_sec = 0.0;                    ///< as known at this time; its spread has grown since
   std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
+  Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
+  std::optional<Eigen::Vector3d> home_odom_m;               ///< where the mission began
+  std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   int back_offs = 0;
-  double predicted_miss_m = 0.0;  ///< at the moment of the commit
+  double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
 
   /// Everything that lives in an odometry frame.
@@ -34,9 +39,10 @@ struct MissionMemory {
 /// Nose-down pitch of the vehicle [rad].
 double pitchOf(const VehicleState& vehicle);
 
-/// Contract of this vehicle with this window, now.
-Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
-                      const NavigatorParams& params);
+/// Contract of this vehicle with this window, now. \param unseen_sec nothing is known of the
+/// window since so long
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory,
+                      const NavigatorParams& params, double unseen_sec = 0.0);
 
 /// Yaw rate that takes the heading error away.
 double yawRateFor(double error_rad, const NavigatorParams& params);

@@ -20,12 +20,16 @@ class DisturbanceObserver {
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
   /// At most `max_wind_mps` long.
   const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
+  /// Mean square of what remains beyond it, over `gust_memory_sec` of steady commands: gusts.
+  const Eigen::Matrix3d& gusts() const { return gusts_; }
 
  private:
   VehicleParams vehicle_;
   ApproachParams approach_;
   Eigen::Vector3d model_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
+  Eigen::Matrix3d gusts_ = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace window_ingress::navigation

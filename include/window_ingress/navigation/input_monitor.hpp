@@ -29,8 +29,9 @@ struct Situation {
   bool vehicle_jumped = false;  ///< what was known in the old odometry frame is void
   std::optional<TargetEstimate> target;
   std::string target_fault;
-  bool target_is_new = false;  ///< from another image than the target of the step before
-  std::string image_fault;     ///< empty: images come, or nobody says
+  bool target_is_new = false;     ///< from another image than the target of the step before
+  std::string image_fault;        ///< empty: images come, or nobody says
+  double image_period_sec = 0.0;  ///< between the images searched, of late; 0: not known yet
 };
 
 /// Remembers the last good samples. A target sample that is bad counts as none came: the last good one holds
@@ -48,7 +49,8 @@ class InputMonitor {
   void judgeClock(double now_sec, Situation& situation);
   void judgeVehicle(const NavigatorInput& input, Situation& situation);
   void judgeTarget(const NavigatorInput& input, Situation& situation);
-  void judgeImage(const NavigatorInput& input, Situation& situation) const;
+  void judgeImage(const NavigatorInput& input, Situation& situation);
+  void measurePeriod(double image_stamp_sec);
   bool hasJumped(const VehicleState& vehicle, Situation& situation) const;
   bool staysAtNewPlace(const TargetEstimate& target) const;
   bool acceptTarget(const TargetEstimate& target, double now_sec);
@@ -60,6 +62,8 @@ class InputMonitor {
   std::optional<TargetEstimate> target_;
   std::optional<TargetEstimate> moved_target_;  ///< disagrees with `target_`; believed if it stays
   double moved_since_sec_ = 0.0;
+  std::optional<double> image_stamp_sec_;
+  double image_period_sec_ = 0.0;
   double not_before_sec_ = -1e300;  ///< targets of images up to this stamp belong to an old odometry frame
 };
 

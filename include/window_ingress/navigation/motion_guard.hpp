@@ -8,12 +8,15 @@ namespace window_ingress::navigation {
 /// guidance: whatever a behaviour wishes by mistake, this holds.
 ///
 /// - no odometry, or a state that does not move: nothing
-/// - SEARCH: only upward and downward
-/// - ALIGN: normal not trusted: only upward and downward; trusted: nothing towards the window
+/// - SEARCH: upward and downward, and back to the place that is kept
+/// - ALIGN, APPROACH: normal not trusted: as SEARCH; outside the funnel: nothing towards the window, and near
+///   the wall only away from it
 /// - APPROACH: towards the window only with a fresh, trusted estimate and within the funnel
 /// - COMMIT: only with a committed window
 /// - BACK_OFF: only with a trusted normal in memory, nothing towards the window
-/// - nowhere beyond the height limits, with room to stop
+/// - HOLD, PASSED: back to the place that is kept
+/// - nowhere beyond the height limits and the fence, with room to stop
+/// Back to a place means: never towards a window in front.
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
                                   const Situation& situation, const MissionMemory& memory,
                                   const NavigatorParams& params);

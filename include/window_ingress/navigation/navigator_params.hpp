@@ -1,6 +1,8 @@
 /// Every number that the navigator flies by. Section `navigator` of config/navigator.yaml.
 #pragma once
 
+#include <string>
+
 namespace window_ingress::navigation {
 
 /// When an input is believed. Ages count from the stamp of the measurement, i.e. for the window from the
@@ -39,8 +41,10 @@ struct VehicleParams {
   double camera_forward_m = 0.1;     ///< camera ahead of the body's centre [m]
   double horizontal_fov_rad = 1.39;  ///< of the camera [rad]
   double vertical_fov_rad = 1.12;    ///< of the camera [rad]
-  double response_sec = 0.3;         ///< from a setpoint to the velocity following it, latency included [s]
-  double braking_mps2 = 1.2;         ///< deceleration that can be relied upon [m/s^2]
+  double pixel_rad = 0.0018;    ///< angle that a pixel in the picture's middle covers: 1 / focal length [rad]
+  double exposure_sec = 0.004;  ///< of a picture, at the darkest [s]
+  double response_sec = 0.3;    ///< from a setpoint to the velocity following it, latency included [s]
+  double braking_mps2 = 1.2;    ///< deceleration that can be relied upon [m/s^2]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -50,6 +54,8 @@ struct VehicleParams {
     field("camera_forward_m", self.camera_forward_m, -1.0, 1.0);
     field("horizontal_fov_rad", self.horizontal_fov_rad, 0.3, 2.8);
     field("vertical_fov_rad", self.vertical_fov_rad, 0.3, 2.8);
+    field("pixel_rad", self.pixel_rad, 1e-4, 0.02);
+    field("exposure_sec", self.exposure_sec, 0.0, 0.5);
     field("response_sec", self.response_sec, 0.0, 2.0);
     field("braking_mps2", self.braking_mps2, 0.2, 10.0);
   }
@@ -59,34 +65,44 @@ struct VehicleParams {
 struct LimitParams {
   double speed_mps = 1.0;                ///< magnitude of the velocity [m/s]
   double acceleration_mps2 = 1.5;        ///< magnitude of its change [m/s^2]
+  double jerk_mps3 = 12.0;               ///< magnitude of the acceleration's change [m/s^3]
   double yaw_rate_radps = 0.5;           ///< [rad/s]
   double yaw_acceleration_radps2 = 2.0;  ///< [rad/s^2]
   double min_height_m = 0.3;             ///< of odom: no way down below this [m]
   double max_height_m = 10.0;            ///< of odom: no way up above this [m]
+  double fence_radius_m = 25.0;          ///< around the place of the start: no way out of this [m]
+  double wall_distance_m = 0.9;          ///< outside the funnel, nearer to the window's plane: only away [m]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("speed_mps", self.speed_mps, 0.05, 5.0);
     field("acceleration_mps2", self.acceleration_mps2, 0.1, 10.0);
+    field("jerk_mps3", self.jerk_mps3, 0.5, 1000.0);
     field("yaw_rate_radps", self.yaw_rate_radps, 0.05, 3.0);
     field("yaw_acceleration_radps2", self.yaw_acceleration_radps2, 0.1, 20.0);
     field("min_height_m", self.min_height_m, -1000.0, 1000.0);
     field("max_height_m", self.max_height_m, -1000.0, 1000.0);
+    field("fence_radius_m", self.fence_radius_m, 1.0, 10000.0);
+    field("wall_distance_m", self.wall_distance_m, 0.0, 20.0);
   }
 };
 
 /// SEARCH: turning on the spot, climbing to a height from which to look.
 struct SearchParams {
-  double yaw_rate_radps = 0.5;   ///< keep below 2 px of blur: 2 / (focal length [px] * exposure [s]) [rad/s]
-  double height_m = 1.0;         ///< climb to this height of odom first; never down [m]
-  double height_step_m = 0.6;    ///< climb by this much after each turn without success [m]
-  double climb_speed_mps = 0.3;  ///< [m/s]
-  int turns = 3;                 ///< full turns before giving up
-  int found_frames = 3;          ///< different images that must show the window
+  double yaw_rate_radps = 0.5;       ///< at most; slower where blur or few pictures ask for it [rad/s]
+  double max_blur_px = 2.0;          ///< that turning may bring into a picture [px]
+  double max_turn_per_image = 0.25;  ///< of the field of view, from picture to picture
+  double height_m = 1.0;             ///< climb to this height of odom first; never down [m]
+  double height_step_m = 0.6;        ///< climb by this much after each turn without success [m]
+  double climb_speed_mps = 0.3;      ///< [m/s]
+  int turns = 3;                     ///< full turns before giving up
+  int found_frames = 3;              ///< different images that must show the window
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("yaw_rate_radps", self.yaw_rate_radps, 0.05, 3.0);
+    field("max_blur_px", self.max_blur_px, 0.1, 50.0);
+    field("max_turn_per_image", self.max_turn_per_image, 0.01, 1.0);
     field("height_m", self.height_m, -1000.0, 1000.0);
     field("height_step_m", self.height_step_m, 0.0, 5.0);
     field("climb_speed_mps", self.climb_speed_mps, 0.05, 2.0);
@@ -98,19 +114,18 @@ struct SearchParams {
 /// ALIGN: onto the window's normal, the camera kept on the window; and the gains that APPROACH and COMMIT
 /// share.
 struct AlignParams {
-  double lateral_gain_hz = 0.9;     ///< sideways and upward velocity per offset [1/s]
+  double lateral_gain_hz = 1.0;     ///< sideways and upward velocity per offset [1/s]
   double lateral_speed_mps = 0.9;   ///< most sideways [m/s]
   double vertical_speed_mps = 0.5;  ///< most upward and downward [m/s]
-  double yaw_gain_hz = 1.8;         ///< yaw rate per bearing; keep above twice the lateral gain [1/s]
+  double yaw_gain_hz = 2.0;         ///< yaw rate per bearing; keep above twice the lateral gain [1/s]
   double min_distance_m = 2.0;      ///< to the window's plane while aligning; closer, it moves away [m]
   double dwell_sec = 0.2;           ///< within the funnel this long before going on [s]
   double settle_sec = 1.2;          ///< ambiguous for this long: probe [s]
   double probe_amplitude_m = 0.5;   ///< height of the probe, first up, then down, each back to the start [m]
   double probe_speed_mps = 0.4;     ///< [m/s]
   int max_probes = 4;               ///< then give up
-  bool stepped = false;             ///< the paper's small steps with a look after each, as a yardstick
-  double step_m = 0.25;             ///< length of such a step [m]
-  double step_pause_sec = 0.5;      ///< pause after such a step [s]
+  double step_m = 0.25;             ///< length of a step where the scheme is stepped [m]
+  double step_pause_sec = 0.5;      ///< look after such a step [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -124,7 +139,6 @@ struct AlignParams {
     field("probe_amplitude_m", self.probe_amplitude_m, 0.05, 2.0);
     field("probe_speed_mps", self.probe_speed_mps, 0.05, 2.0);
     field("max_probes", self.max_probes, 0, 20);
-    field("stepped", self.stepped);
     field("step_m", self.step_m, 0.05, 2.0);
     field("step_pause_sec", self.step_pause_sec, 0.0, 10.0);
   }
@@ -132,21 +146,25 @@ struct AlignParams {
 
 /// APPROACH: forward as far as the funnel allows.
 struct ApproachParams {
-  double speed_mps = 0.9;     ///< forward [m/s]
-  double funnel_slope = 0.7;  ///< the funnel widens by this much a metre from the commit line on [m/m]
+  double speed_mps = 1.0;     ///< forward [m/s]
+  double funnel_slope = 1.0;  ///< the funnel widens by this much a metre from the commit line on [m/m]
   double sigma_factor = 3.0;  ///< standard deviations that must lie within the funnel and the clearance
   double margin_m = 0.05;     ///< kept between body and border beyond all errors [m]
   double leave_factor = 1.3;  ///< out of the funnel by this factor: align again
   double leave_sec = 0.5;     ///< for this long [s]
   double patience_sec = 2.0;  ///< at the commit line without a contract: back off [s]
 
-  double wind_sec = 1.0;      ///< smoothing of the velocity that wind adds [s]
-  double max_wind_mps = 0.3;  ///< most that is taken off the command for it; 0: nothing [m/s]
+  double wind_sec = 0.6;         ///< smoothing of the velocity that wind adds [s]
+  double max_wind_mps = 0.6;     ///< most that is taken off the command for it; 0: nothing [m/s]
+  double gust_memory_sec = 3.0;  ///< over which the strength of gusts is measured [s]
+  double gust_carry_sec = 0.5;   ///< a gust carries the vehicle off by its velocity times this [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("wind_sec", self.wind_sec, 0.1, 20.0);
     field("max_wind_mps", self.max_wind_mps, 0.0, 2.0);
+    field("gust_memory_sec", self.gust_memory_sec, 0.1, 60.0);
+    field("gust_carry_sec", self.gust_carry_sec, 0.0, 10.0);
     field("speed_mps", self.speed_mps, 0.05, 5.0);
     field("funnel_slope", self.funnel_slope, 0.05, 2.0);
     field("sigma_factor", self.sigma_factor, 1.0, 10.0);
@@ -159,11 +177,11 @@ struct ApproachParams {
 
 /// COMMIT: through the opening on the last good estimate.
 struct CommitParams {
-  double speed_mps = 0.8;              ///< through the opening [m/s]
+  double speed_mps = 0.95;             ///< through the opening [m/s]
   double exit_distance_m = 1.0;        ///< behind the plane, where it stops [m]
   double standing_mps = 0.15;          ///< slower than this is standing still [m/s]
   double view_margin_m = 0.2;          ///< commit this much before the window leaves the view [m]
-  double drift_mps = 0.03;             ///< of the odometry, while nothing is seen [m/s]
+  double drift_m_per_sqrt_sec = 0.01;  ///< of the odometry, while nothing is seen [m/sqrt(s)]
   double max_heading_error_rad = 0.2;  ///< against the window's normal [rad]
   double max_lateral_speed_mps = 0.3;  ///< across the window's normal at the commit line [m/s]
   double max_blind_sec = 6.0;          ///< in front of the plane without seeing the window: turn back [s]
@@ -175,7 +193,7 @@ struct CommitParams {
     field("exit_distance_m", self.exit_distance_m, 0.1, 10.0);
     field("standing_mps", self.standing_mps, 0.01, 1.0);
     field("view_margin_m", self.view_margin_m, 0.0, 2.0);
-    field("drift_mps", self.drift_mps, 0.0, 1.0);
+    field("drift_m_per_sqrt_sec", self.drift_m_per_sqrt_sec, 0.0, 1.0);
     field("max_heading_error_rad", self.max_heading_error_rad, 0.01, 1.0);
     field("max_lateral_speed_mps", self.max_lateral_speed_mps, 0.01, 2.0);
     field("max_blind_sec", self.max_blind_sec, 0.5, 30.0);
@@ -197,14 +215,19 @@ struct BackOffParams {
   }
 };
 
-/// HOLD: zero velocity until the inputs are back.
+/// HOLD: zero velocity, then keeping the place, until the inputs are back. Wherever else the vehicle is to
+/// stay it keeps its place likewise.
 struct HoldParams {
+  double speed_mps = 0.3;     ///< back to its place, at most; 0: never [m/s]
+  double standing_mps = 0.2;  ///< its place is where it first is slower than this [m/s]
   double dwell_sec = 0.2;     ///< inputs good for this long before moving on [s]
   double patience_sec = 1.0;  ///< wait this long for the window before backing off [s]
   double timeout_sec = 5.0;   ///< then give up [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
+    field("speed_mps", self.speed_mps, 0.0, 1.0);
+    field("standing_mps", self.standing_mps, 0.01, 1.0);
     field("dwell_sec", self.dwell_sec, 0.0, 5.0);
     field("patience_sec", self.patience_sec, 0.0, 30.0);
     field("timeout_sec", self.timeout_sec, 0.2, 60.0);
@@ -235,6 +258,7 @@ struct TimeoutParams {
 };
 
 struct NavigatorParams {
+  std::string scheme = "continuous";  ///< continuous, or stepped: the paper's small steps, as a yardstick
   InputParams input;
   VehicleParams vehicle;
   LimitParams limits;
@@ -248,6 +272,7 @@ struct NavigatorParams {
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
+    field.choice("scheme", self.scheme, {"continuous", "stepped"});
     field.group("input", self.input);
     field.group("vehicle", self.vehicle);
     field.group("limits", self.limits);

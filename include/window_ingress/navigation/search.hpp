@@ -4,8 +4,8 @@
 
 namespace window_ingress::navigation {
 
-/// SEARCH (P14): turns on the spot, first towards where the window was last seen, and looks from a greater
-/// height after each turn without success. It never moves sideways or forward. Once something is seen it
+/// SEARCH (P14): turns in its place, first towards where the window was last seen, and looks from a greater
+/// height after each turn without success. It goes nowhere else. Once something is seen it
 /// stops turning away from it until enough images have shown it.
 class Search {
  public:
@@ -18,6 +18,8 @@ class Search {
 
  private:
   Decision lookAt(const Situation& situation);
+  /// So that a picture is neither smeared nor the window passed over between two (trap: faster finds less).
+  double fastestTurn(double image_period_sec) const;
   double sweep(const VehicleState& vehicle, const MissionMemory& memory);
   void countTurn(double heading_rad);
 

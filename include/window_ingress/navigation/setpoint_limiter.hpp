@@ -5,8 +5,8 @@
 
 namespace window_ingress::navigation {
 
-/// The last gate: whatever is wished, what comes out is finite and within speed, acceleration, yaw rate and
-/// yaw acceleration. Accelerations are measured against the setpoint before; `stop` and `cutTo` are the
+/// The last gate: whatever is wished, what comes out is finite and within speed, acceleration, jerk, yaw rate
+/// and yaw acceleration. Changes are measured against the setpoint before; `stop` and `cutTo` are the
 /// exceptions, they only take velocity away.
 class SetpointLimiter {
  public:
@@ -23,8 +23,11 @@ class SetpointLimiter {
   Setpoint cutTo(const Setpoint& setpoint);
 
  private:
+  const Eigen::Vector3d& accelerated(const Eigen::Vector3d& way_mps, double dt_sec);
+
   LimitParams limits_;
   Setpoint last_;
+  Eigen::Vector3d acceleration_mps2_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace window_ingress::navigation

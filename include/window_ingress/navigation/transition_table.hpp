@@ -103,10 +103,15 @@ constexpr std::optional<State> next(State state, Event event) {
 /// The mission is over; only a reset leads on.
 constexpr bool isEnd(State state) { return state == State::kPassed || state == State::kAborted; }
 
-/// The vehicle may be given a velocity other than zero.
+/// The vehicle may be given a velocity that leads somewhere.
 constexpr bool isMoving(State state) {
   return state == State::kSearch || state == State::kAlign || state == State::kApproach ||
          state == State::kCommit || state == State::kBackOff;
+}
+
+/// The vehicle may be given a velocity, be it only to stay where it is.
+constexpr bool mayHaveVelocity(State state) {
+  return isMoving(state) || state == State::kHold || state == State::kPassed;
 }
 
 /// The diagram (Mermaid) and the table of events as the text of doc/state_machine.md.

@@ -18,8 +18,11 @@ RelativeState at(double distance_m, double lateral_m = 0.0, double sigma_m = 0.0
 
 const geometry::OpeningSize kOpening{1.2, 1.0};
 
-Contract contractOf(const RelativeState& relative) {
-  return evaluateContract(relative, kOpening, 0.0, NavigatorParams());
+Contract contractOf(const RelativeState& relative, const geometry::OpeningSize& opening = kOpening) {
+  ContractInput input;
+  input.relative = relative;
+  input.opening = opening;
+  return evaluateContract(input, NavigatorParams());
 }
 
 TEST(StoppingSpeed, IsTheInverseOfTheStoppingDistance) {
@@ -53,11 +56,11 @@ TEST(CommitDistance, LeavesRoomToStopBeforeTheOpening) {
 
 TEST(Contract, HoldsOnTheAxisAndSaysWhyNotOffIt) {
   EXPECT_TRUE(contractOf(at(1.2)).holds) << contractOf(at(1.2)).unmet;
-  EXPECT_NE(contractOf(at(1.2, 0.3)).unmet.find("lateral miss"), std::string::npos);
+  EXPECT_NE(contractOf(at(1.2, 0.3)).unmet.find("lateral offset"), std::string::npos);
   EXPECT_NE(contractOf(at(1.2, 0.0, 0.1)).unmet.find("lateral miss"), std::string::npos);
   auto high = at(1.2);
   high.position_window_m.z() = 0.35;
-  EXPECT_NE(contractOf(high).unmet.find("vertical miss"), std::string::npos);
+  EXPECT_NE(contractOf(high).unmet.find("vertical offset"), std::string::npos);
   auto turned = at(1.2);
   turned.heading_error_rad = -0.3;
   EXPECT_NE(contractOf(turned).unmet.find("heading"), std::string::npos);
@@ -85,9 +88,41 @@ TEST(Contract, UnknownsNeverHold) {
   const double nan = std::nan("");
   EXPECT_FALSE(contractOf(at(1.2, nan)).holds && contractOf(at(1.2, nan)).in_funnel);
   EXPECT_FALSE(contractOf(at(1.2, 0.0, nan)).in_funnel);
-  NavigatorParams params;
-  EXPECT_FALSE(evaluateContract(at(1.2), {0.4, 0.4}, 0.0, params).holds);
-  EXPECT_FALSE(evaluateContract(at(1.2), {0.4, 0.4}, 0.0, params).in_funnel);
+  EXPECT_FALSE(contractOf(at(1.2), {0.4, 0.4}).holds);
+  EXPECT_FALSE(contractOf(at(1.2), {0.4, 0.4}).in_funnel);
+}
+
+TEST(Contract, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
+  const NavigatorParams params;
+  ContractInput input;
+  input.relative = at(0.8);
+  input.opening = kOpening;
+  const double blind_sec = 0.8 / params.commit.speed_mps;
+  const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
+  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
+
+  input.gust_lateral_mps = 0.4;
+  const double gust_m = 0.4 * params.approach.gust_carry_sec;
+  const auto gusty = evaluateContract(input, params);
+  EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
+  EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
+  EXPECT_FALSE(gusty.holds);
+
+  input.gust_lateral_mps = 0.0;
+  input.unseen_sec = 4.0;
+  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m,
+              3.0 * std::hypot(0.01, params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec + 4.0)), 1e-12);
+}
+
+TEST(Contract, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {
+  double before = 10.0;
+  for (double distance = 0.3; distance < 3.0; distance += 0.1) {
+    const double miss_m = contractOf(at(distance, 0.2, 0.0)).miss_lateral_m;
+    EXPECT_LE(miss_m, before + 0.02) << distance;
+    before = miss_m;
+  }
+  EXPECT_GT(contractOf(at(0.3, 0.2, 0.0)).miss_lateral_m, 0.2);
+  EXPECT_GT(contractOf(at(1.5, 0.2, 0.0)).miss_lateral_m, 0.05);
 }
 
 }  // namespace

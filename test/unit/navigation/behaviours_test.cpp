@@ -110,7 +110,7 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   for (double now = 0.0; now < 60.0 && !gave_up; now += 0.05) {
     auto situation = situationAt({-3.0, 0.0, height_m}, now, true);
     situation.target->approach_forbidden = "twist looks like world frame";
-    const Decision decision = align.step(situation);
+    const Decision decision = align.step(situation, MissionMemory());
     EXPECT_NE(decision.event, Event::kAligned);
     gave_up = decision.event == Event::kGiveUp;
     EXPECT_TRUE(!gave_up || decision.reason.find("world frame") != std::string::npos);
@@ -134,16 +134,41 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   EXPECT_NE(decision.reason.find("0.50 m"), std::string::npos);
 }
 
-TEST(StepPacer, PausesAfterEachStepOnlyIfAsked) {
-  AlignParams params;
-  const Eigen::Vector3d wish(0.5, 0, 0);
-  EXPECT_EQ(StepPacer(params).pace(wish, situationAt({0, 0, 0}, 0.0, false)), wish);
-  params.stepped = true;
+TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
+  NavigatorParams params;
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d wish(0.3, 0.5, 0);
+  EXPECT_EQ(StepPacer(params).pace(wish, axes, situationAt({0, 0, 0}, 0.0, false)), wish);
+  params.scheme = "stepped";
   StepPacer pacer(params);
-  EXPECT_EQ(pacer.pace(wish, situationAt({0, 0, 0}, 0.0, false)), wish);
-  EXPECT_EQ(pacer.pace(wish, situationAt({0.3, 0, 0}, 0.5, false)).norm(), 0.0);
-  EXPECT_EQ(pacer.pace(wish, situationAt({0.3, 0, 0}, 0.9, false)).norm(), 0.0);
-  EXPECT_EQ(pacer.pace(wish, situationAt({0.3, 0, 0}, 1.1, false)), wish);
+  EXPECT_EQ(pacer.pace(wish, axes, situationAt({0, 0, 0}, 0.0, false)).norm(), 0.0) << "looks first";
+  const Eigen::Vector3d step = pacer.pace(wish, axes, situationAt({0, 0, 0}, 0.6, false));
+  EXPECT_EQ(step.x(), 0.0);
+  EXPECT_GT(step.y(), 0.2);
+  const Eigen::Vector3d end = pacer.pace(wish, axes, situationAt({0, 0.2, 0}, 1.0, false));
+  EXPECT_GT(end.y(), 0.0);
+  EXPECT_LT(end.y(), step.y());
+  auto moving = situationAt({0, 0.25, 0}, 1.2, false);
+  moving.vehicle->velocity_odom_mps.y() = 0.3;
+  EXPECT_EQ(pacer.pace(wish, axes, moving).norm(), 0.0);
+  EXPECT_EQ(pacer.pace(wish, axes, situationAt({0, 0.27, 0}, 1.4, false)).norm(), 0.0);
+  EXPECT_EQ(pacer.pace(wish, axes, situationAt({0, 0.27, 0}, 1.8, false)).norm(), 0.0);
+  EXPECT_GT(pacer.pace(wish, axes, situationAt({0, 0.27, 0}, 1.95, false)).y(), 0.2);
+}
+
+TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
+  NavigatorParams params;
+  const auto rateWith = [&](double image_period_sec) {
+    Search search(params);
+    search.enter(false);
+    auto situation = situationAt({-4, 0, 1.5}, 0.0, false);
+    situation.image_period_sec = image_period_sec;
+    return search.step(situation, MissionMemory()).wish.yaw_rate_radps;
+  };
+  EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.yaw_rate_radps);
+  EXPECT_DOUBLE_EQ(rateWith(1.0), params.search.max_turn_per_image * params.vehicle.horizontal_fov_rad);
+  params.vehicle.exposure_sec = 0.02;
+  EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.max_blur_px * params.vehicle.pixel_rad / 0.02);
 }
 
 TEST(BackOffBehaviour, GoesStraightBackAlongTheNormalAndDoesNotTurnInTheReveal) {
@@ -158,7 +183,9 @@ TEST(BackOffBehaviour, GoesStraightBackAlongTheNormalAndDoesNotTurnInTheReveal) 
   EXPECT_NEAR(inside.wish.velocity_odom_mps.normalized().dot(normal), -1.0, 1e-12);
   const auto outside = back_off.step(situationAt({-1.2, 0.0, 1.5}, 0.0, false, 1.2), memory);
   EXPECT_LT(outside.wish.yaw_rate_radps, 0.0);
-  EXPECT_NEAR(outside.wish.velocity_odom_mps.normalized().dot(normal), -1.0, 1e-12);
+  EXPECT_NEAR(outside.wish.velocity_odom_mps.dot(normal), -NavigatorParams().back_off.speed_mps, 1e-12);
+  const Eigen::Vector3d left(-normal.y(), normal.x(), 0.0);
+  EXPECT_LT(outside.wish.velocity_odom_mps.dot(left), -0.1) << "clear of the reveal, back onto the normal";
 }
 
 TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {

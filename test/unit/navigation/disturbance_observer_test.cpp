@@ -51,7 +51,22 @@ TEST(DisturbanceObserver, IsBounded) {
 TEST(DisturbanceObserver, OneWildSampleIsForgottenAtOnce) {
   auto observe = observer();
   observe.update({0, 50, 0}, {0, 0, 0}, 0.033);
-  EXPECT_LT(observe.disturbance().norm(), 0.03);
+  const ApproachParams params;
+  EXPECT_LE(observe.disturbance().norm(), params.max_wind_mps * 0.033 / params.wind_sec);
+}
+
+TEST(DisturbanceObserver, TellsGustsFromWind) {
+  auto steady = observer(), gusty = observer();
+  for (int i = 0; i < 600; ++i) {
+    const double t = 0.033 * i;
+    steady.update({0, 0.3, 0}, {0, 0, 0}, 0.033);
+    gusty.update({0, 0.4 * std::sin(2.0 * t), 0}, {0, 0, 0}, 0.033);
+  }
+  EXPECT_LT(std::sqrt(steady.gusts()(1, 1)), 0.01);
+  EXPECT_NEAR(std::sqrt(gusty.gusts()(1, 1)), 0.2, 0.08);
+  EXPECT_LT(gusty.gusts()(0, 0), 1e-6);
+  steady.reset();
+  EXPECT_EQ(steady.gusts().norm(), 0.0);
 }
 
 TEST(DisturbanceObserver, IgnoresWhatIsNoNumber) {

@@ -58,8 +58,51 @@ TEST_F(MotionGuard, AlignGoesSidewaysAndBackButNeverForward) {
 
 TEST_F(MotionGuard, ApproachGoesForwardOnlyWithinTheFunnel) {
   EXPECT_EQ(permitted(State::kApproach), kWish);
-  situation_.vehicle = test::vehicleAt({-3.0, 2.5, 1.5}, 0.0);
+  situation_.vehicle = test::vehicleAt({-3.0, 3.5, 1.5}, 0.0);
   EXPECT_TRUE(permitted(State::kApproach).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
+}
+
+TEST_F(MotionGuard, NearTheWallOutsideTheFunnelOnlyAway) {
+  situation_.vehicle = test::vehicleAt({-0.8, 1.5, 1.5}, 0.0);
+  for (const auto state : {State::kAlign, State::kApproach}) {
+    EXPECT_EQ(permitted(state), kNothing);
+    const Eigen::Vector3d away = permittedVelocity(-kWish, state, situation_, memory_, params_);
+    EXPECT_TRUE(away.isApprox(Eigen::Vector3d(-0.5, 0.0, 0.0))) << away.transpose();
+  }
+}
+
+TEST_F(MotionGuard, APlaceIsGoneBackToSlowlyAndNotTowardsAWindow) {
+  const auto position = situation_.vehicle->T_odom_base.translation();
+  for (const auto state : {State::kSearch, State::kHold, State::kPassed}) {
+    memory_ = MissionMemory();
+    memory_.place_odom_m = position + Eigen::Vector3d(0.0, 0.5, 0.0);
+    const Eigen::Vector3d sideways = permitted(state);
+    EXPECT_NEAR(sideways.y(), params_.hold.speed_mps, 1e-12) << toString(state);
+    EXPECT_NEAR(sideways.x(), 0.0, 1e-12);
+    memory_.place_odom_m = position - Eigen::Vector3d(0.0, 0.5, 0.0);
+    EXPECT_EQ(permitted(state).head<2>().norm(), 0.0) << "it leads away from the place";
+    memory_.place_odom_m = position + Eigen::Vector3d(0.5, 0.5, 0.0);
+    memory_.trusted = situation_.target;
+    EXPECT_LE(permitted(state).x(), 1e-12) << "it leads towards a window";
+    EXPECT_GT(permitted(state).y(), 0.1);
+  }
+  memory_.place_odom_m = position + Eigen::Vector3d(0.0, 0.5, 0.0);
+  EXPECT_EQ(permitted(State::kAborted), kNothing);
+}
+
+TEST_F(MotionGuard, TheFenceLeavesRoomToStop) {
+  memory_.committed = situation_.target;
+  memory_.home_odom_m = situation_.vehicle->T_odom_base.translation();
+  EXPECT_EQ(permitted(State::kCommit), kWish);
+  for (double left_m = 0.5; left_m > -0.5; left_m -= 0.1) {
+    memory_.home_odom_m = situation_.vehicle->T_odom_base.translation() -
+                          Eigen::Vector3d(params_.limits.fence_radius_m - left_m, 0.0, 0.0);
+    const double outward = permitted(State::kCommit).x();
+    EXPECT_LE(stoppingDistance(outward, params_.vehicle.braking_mps2, params_.vehicle.response_sec),
+              std::max(0.0, left_m) + 1e-9);
+    EXPECT_NEAR(permitted(State::kCommit).y(), kWish.y(), 1e-12);
+    EXPECT_EQ(permittedVelocity(-kWish, State::kCommit, situation_, memory_, params_).x(), -kWish.x());
+  }
 }
 
 TEST_F(MotionGuard, CommitAndBackOffNeedWhatTheyFlyBy) {

@@ -211,7 +211,7 @@ TEST(NavigatorFlight, PaperStepsPassTooButTakeLonger) {
   PlantParams plant;
   plant.off_axis_rad = 0.5;
   NavigatorParams stepped;
-  stepped.align.stepped = true;
+  stepped.scheme = "stepped";
   const auto fast = flown(plant), slow = flown(plant, stepped);
   expectPassed(slow);
   EXPECT_GT(slow.duration_sec, 1.25 * fast.duration_sec);

@@ -50,7 +50,25 @@ TEST(SetpointLimiter, StopIsZeroAtOnceAndTheRampBeginsAnew) {
   SetpointLimiter limiter{LimitParams()};
   for (int i = 0; i < 50; ++i) limiter.limit(wish(1, 0, 0, 0.5), 0.05);
   EXPECT_TRUE(isZero(limiter.stop()));
-  EXPECT_NEAR(limiter.limit(wish(1, 0, 0, 0), 0.02).velocity_odom_mps.x(), 0.03, 1e-12);
+  const double first = LimitParams().jerk_mps3 * 0.02 * 0.02;
+  EXPECT_NEAR(limiter.limit(wish(1, 0, 0, 0), 0.02).velocity_odom_mps.x(), first, 1e-12);
+}
+
+TEST(SetpointLimiter, ReachesAWishWithinItsJerkAndWithoutOvershoot) {
+  const LimitParams limits;
+  for (const double dt : {0.01, 0.033, 0.1}) {
+    SetpointLimiter limiter(limits);
+    double before = 0.0, acceleration_before = 0.0, time_sec = 0.0;
+    while (before < 0.79 && time_sec < 5.0) {
+      const double now = limiter.limit(wish(0.8, 0, 0, 0), dt).velocity_odom_mps.x();
+      const double acceleration = (now - before) / dt;
+      EXPECT_LE(acceleration - acceleration_before, limits.jerk_mps3 * dt + 1e-9);
+      EXPECT_LE(now, 0.8 + 0.5 * limits.acceleration_mps2 * dt);
+      before = now, acceleration_before = acceleration, time_sec += dt;
+    }
+    EXPECT_LT(time_sec,
+              0.8 / limits.acceleration_mps2 + 2.0 * limits.acceleration_mps2 / limits.jerk_mps3 + 0.2);
+  }
 }
 
 TEST(SetpointLimiter, CutOnlyTakesAway) {

@@ -1,0 +1,57 @@
+#include "window_ingress/navigation/place_keeping.hpp"
+
+#include <algorithm>
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr double kThereM = 0.01;
+
+/// Direction in which the window lies, where that is known and the vehicle in front of it.
+std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionMemory& memory) {
+  if (memory.trusted) {
+    const Eigen::Vector3d normal = uprightRotation(*memory.trusted).col(0);
+    const bool is_behind = normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
+    return is_behind ? std::nullopt : std::optional(normal);
+  }
+  if (!memory.window_odom_m) return std::nullopt;
+  Eigen::Vector3d direction = *memory.window_odom_m - position_m;
+  direction.z() = 0.0;
+  return direction.normalized();
+}
+
+}  // namespace
+
+void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params,
+                   MissionMemory& memory) {
+  if (!is_kept || !situation.vehicle || situation.vehicle_jumped) {
+    memory.place_odom_m.reset();
+  } else if (!memory.place_odom_m && situation.vehicle->velocity_odom_mps.norm() < params.standing_mps) {
+    memory.place_odom_m = situation.vehicle->T_odom_base.translation();
+  }
+}
+
+Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionMemory& memory,
+                                const NavigatorParams& params) {
+  if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d way = *memory.place_odom_m - vehicle.T_odom_base.translation() -
+                              vehicle.velocity_odom_mps * params.vehicle.response_sec;
+  const double speed_mps = params.align.lateral_gain_hz * way.norm();
+  return speed_mps > params.hold.speed_mps ? Eigen::Vector3d(params.hold.speed_mps * way.normalized())
+                                           : Eigen::Vector3d(params.align.lateral_gain_hz * way);
+}
+
+Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const VehicleState& vehicle,
+                            const MissionMemory& memory, const HoldParams& params) {
+  if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
+  const Eigen::Vector3d way = *memory.place_odom_m - position_m;
+  if (way.norm() < kThereM) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d direction = way.normalized();
+  Eigen::Vector3d velocity = std::clamp(velocity_odom_mps.dot(direction), 0.0, params.speed_mps) * direction;
+  if (const auto forward = towardsWindow(position_m, memory))
+    velocity -= std::max(0.0, velocity.dot(*forward)) * *forward;
+  return velocity;
+}
+
+}  // namespace window_ingress::navigation
