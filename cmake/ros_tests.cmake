@@ -1,10 +1,16 @@
 # ROS tests: every test/ros/<name>.test is one rostest with a master of its own; <name>_test.py is what it runs.
 find_package(catkin REQUIRED COMPONENTS roslaunch rostest)
 
-roslaunch_add_file_check(launch IGNORE_UNSET_ARGS)
+# usb_cam.launch names a driver that need not be installed: test/tools/launch_files_test.py reads it.
+file(GLOB launch_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/launch/*.launch)
+list(FILTER launch_files EXCLUDE REGEX "usb_cam.launch$")
+foreach(launch_file ${launch_files})
+  roslaunch_add_file_check(${launch_file} IGNORE_UNSET_ARGS)
+endforeach()
 
 file(GLOB ros_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
 foreach(test ${ros_tests})
   add_rostest(${test} DEPENDENCIES ${PROJECT_NAME}_window_detector ${PROJECT_NAME}_homography_pose
-              ${PROJECT_NAME}_ingress_navigator ${PROJECT_NAME}_setpoint_guard ${PROJECT_NAME}_world)
+              ${PROJECT_NAME}_ingress_navigator ${PROJECT_NAME}_setpoint_guard ${PROJECT_NAME}_world
+              ${PROJECT_NAME}_camera_mounting)
 endforeach()

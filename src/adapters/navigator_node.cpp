@@ -167,6 +167,8 @@ bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
     const Health health = topic->health();
     if (!reply.success && health.level == Health::kError) reply.message += "; " + health.text;
   }
+  const Health engaged = engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
+  if (!reply.success && engaged.level == Health::kError) reply.message += "; " + engaged.text;
   return answer("start", reply, response);
 }
 

@@ -83,6 +83,15 @@ class RefusedStartTest(unittest.TestCase):
         self.assertEqual(process.returncode, 2, errors)
         self.assertIn("/nowhere/window.jpg", errors)
 
+    def test_a_mounting_that_has_not_six_numbers_is_refused(self):
+        for pose in ([], [0.1, 0.0, 0.02], [float("nan")] * 6):
+            rospy.set_param("/camera_mounting/pose", pose)
+            process = launch("camera_mounting")
+            _, errors = process.communicate(timeout=support.DEADLINE_S)
+            rospy.delete_param("/camera_mounting/pose")
+            self.assertEqual(process.returncode, 2, errors)
+            self.assertIn("pose", errors)
+
     def assert_stops(self, node, number, frame="odom"):
         setpoints = support.Listener("cmd_vel", TwistStamped)
         process = launch(node)

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Node: whether the autopilot follows setpoints, as std_msgs/Bool on `engaged`, from MAVROS's state.
+
+Subscribes `autopilot_state` (mavros_msgs/State: connected, armed, mode); says so once for each message, so that a silent
+autopilot is a silent topic. The message is read by the definition that comes with it: mavros_msgs need not be installed.
+Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED].
+"""
+import sys
+
+import genpy.dynamic
+import rospy
+from std_msgs.msg import Bool
+
+FIELDS = ("connected", "armed", "mode")
+
+
+class Relay:
+    def __init__(self, modes):
+        self._modes, self._class, self._said = modes, None, None
+        self._publisher = rospy.Publisher("engaged", Bool, queue_size=1, latch=False)
+        self._subscriber = rospy.Subscriber("autopilot_state", rospy.AnyMsg, self._receive, queue_size=1)
+
+    def _receive(self, message):
+        state = self._decode(message)
+        if state is None:
+            return
+        engaged = bool(state.connected and state.armed and state.mode in self._modes)
+        self._publisher.publish(engaged)
+        said = f"{'follows' if engaged else 'does not follow'} setpoints: " \
+               f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}"
+        if said != self._said:
+            rospy.loginfo("the autopilot %s", said)
+            self._said = said
+
+    def _decode(self, message):
+        header = message._connection_header
+        if self._class is None:
+            self._class = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])[header["type"]]
+        missing = [name for name in FIELDS if name not in self._class.__slots__]
+        if missing:
+            rospy.logerr_throttle(5.0, f"{self._subscriber.resolved_name} is {header['type']}, without "
+                                       f"{', '.join(missing)}; it must be mavros_msgs/State")
+            self._class = None
+            return None
+        return self._class().deserialize(message._buff)
+
+
+def main():
+    rospy.init_node("engaged_from_mavros")
+    modes = rospy.get_param("~modes", ["OFFBOARD", "GUIDED"])
+    if not isinstance(modes, list) or not modes or not all(isinstance(mode, str) for mode in modes):
+        print(f"engaged_from_mavros: ~modes is {modes!r}; give a list of mode names, e.g. [OFFBOARD]", file=sys.stderr)
+        sys.exit(2)
+    relay = Relay(modes)  # noqa: F841  (kept alive while the node spins)
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""px4.launch against a made-up MAVROS: stand-by, engagement, a pilot who takes over, and a navigator killed in flight."""
+import os
+import signal
+import sys
+import time
+import unittest
+import xmlrpc.client
+
+import genpy.dynamic
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu
+from std_msgs.msg import Header
+from std_srvs.srv import Trigger
+from window_ingress.msg import IngressState, WindowPose
+
+import support
+
+STATE = f"""std_msgs/Header header
+bool connected
+bool armed
+bool guided
+bool manual_input
+string mode
+uint8 system_status
+{80 * '='}
+MSG: std_msgs/Header
+{Header._full_text}"""
+State = genpy.dynamic.generate_dynamic("mavros_msgs/State", STATE)["mavros_msgs/State"]
+
+LATE_S, STOP_S = 0.2, 2.0  # of the guard; the second is set in autopilot.test
+MARGIN_S = 0.3             # a loaded machine
+
+
+def in_map(stamp):
+    message = support.odometry(stamp)
+    message.header.frame_id = "map"
+    return message
+
+
+def level(stamp):
+    message = Imu()
+    message.header.stamp = stamp
+    message.header.frame_id = "base_link"
+    message.orientation.w = 1.0
+    return message
+
+
+def no_window(stamp):
+    message = WindowPose(reject=WindowPose.NO_WINDOW, reject_reason="nothing in view", filtered_reason="nothing in view")
+    message.header.stamp = stamp
+    message.header.frame_id = "camera_optical_frame"
+    return message
+
+
+def is_zero(setpoint):
+    linear, angular = setpoint.twist.linear, setpoint.twist.angular
+    return not any((linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
+
+
+def pid_of(node):
+    uri = rosgraph.Master("/autopilot_test").lookupNode(node)
+    code, message, pid = xmlrpc.client.ServerProxy(uri).getPid("/autopilot_test")
+    assert code == 1, message
+    return pid
+
+
+class AutopilotTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.setpoints = support.Listener("/mavros/setpoint_velocity/cmd_vel", TwistStamped)
+        cls.states = support.Listener("/state", IngressState)
+        cls.armed, cls.mode = False, "POSCTL"
+        cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, in_map, 50.0),
+                       support.Stream("/mavros/imu/data", Imu, level, 50.0),
+                       support.Stream("/window_pose", WindowPose, no_window, 30.0)]
+        cls.states_of_autopilot = support.Stream("/mavros/state", State, cls.state, 5.0)
+
+    @classmethod
+    def tearDownClass(cls):
+        for stream in (*cls.streams, cls.states_of_autopilot):
+            stream.stop()
+
+    @classmethod
+    def state(cls, stamp):
+        message = State(connected=True, armed=cls.armed, mode=cls.mode)
+        message.header.stamp = stamp
+        return message
+
+    @staticmethod
+    def call(service):
+        name = f"/ingress_navigator/{service}"
+        rospy.wait_for_service(name, support.DEADLINE_S)
+        return rospy.ServiceProxy(name, Trigger)()
+
+    def fly(self):
+        type(self).armed, type(self).mode = True, "OFFBOARD"
+        support.wait_for(lambda: self.call("start").success, "a mission that starts")
+        return self.setpoints.wait(lambda s: not is_zero(s), "motion")
+
+    def zeros_from(self, begin, seconds):
+        support.wait_for(lambda: time.monotonic() > begin + seconds, "the time of the measurement")
+        setpoints = self.setpoints.since(begin)
+        self.assertTrue(setpoints and all(is_zero(s) for s in setpoints))
+        self.assertGreater(len(setpoints) / (time.monotonic() - begin), 20.0)
+        self.assertEqual({s.header.frame_id for s in setpoints}, {"map"})
+
+    def test_1_stands_by_with_zeros_and_starts_only_when_engaged(self):
+        self.call("reset")
+        self.setpoints.wait(what="a stream before the start")
+        self.zeros_from(time.monotonic(), LATE_S + STOP_S + 1.0)  # for longer than the guard bears silence
+        support.Diagnostics().wait("ingress_navigator: engaged", "not armed, or not in a mode")
+        for type(self).armed, type(self).mode in ((True, "POSCTL"), (False, "OFFBOARD")):
+            begin = time.monotonic() + 1.0  # five messages of the autopilot
+            support.wait_for(lambda: time.monotonic() > begin, "the autopilot's state to be heard")
+            reply = self.call("start")
+            self.assertFalse(reply.success)
+            self.assertIn("not armed or not in a mode", reply.message)
+        self.assertEqual(self.fly().header.frame_id, "map")
+
+    def test_2_a_pilot_who_takes_over_has_it_until_the_next_start(self):
+        type(self).mode = "POSCTL"
+        self.states.wait(lambda s: s.state_name == "IDLE", "IDLE after the take-over")
+        self.zeros_from(time.monotonic() + MARGIN_S, 1.0)
+        begin = time.monotonic() + MARGIN_S
+        type(self).mode = "OFFBOARD"
+        self.zeros_from(begin, 1.5)  # back in the mode alone starts nothing
+        self.fly()
+
+    def test_3_an_autopilot_that_falls_silent_is_out_of_control(self):
+        self.states_of_autopilot.stop()
+        self.states.wait(lambda s: s.state_name == "IDLE", "IDLE without the autopilot's state")
+        self.zeros_from(time.monotonic() + MARGIN_S, 0.5)
+        reply = self.call("start")
+        self.assertFalse(reply.success)
+        self.assertIn("/engaged has fallen silent", reply.message)
+        type(self).states_of_autopilot = support.Stream("/mavros/state", State, self.state, 5.0)
+        self.fly()
+
+    def test_4_the_guard_brakes_for_a_navigator_killed_in_flight_and_then_gives_way(self):
+        guard = pid_of("/setpoint_guard")
+        os.kill(pid_of("/ingress_navigator"), signal.SIGKILL)
+        killed = time.monotonic()
+        self.zeros_from(killed + LATE_S + MARGIN_S, STOP_S - 2 * MARGIN_S)
+        quiet = killed + LATE_S + STOP_S + MARGIN_S
+        support.wait_for(lambda: time.monotonic() > quiet + 1.5, "the silence of the guard")
+        self.assertEqual(self.setpoints.since(quiet), [])
+        self.assertEqual(pid_of("/setpoint_guard"), guard)
+        support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "failsafe has to act")
+
+
+if __name__ == "__main__":
+    rospy.init_node("autopilot_test")
+    rostest.rosrun("window_ingress", "autopilot_test", AutopilotTest, sys.argv)

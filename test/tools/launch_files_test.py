@@ -1,0 +1,100 @@
+"""Launch files: they load, and their remaps lead setpoints from the navigator over the guard to the autopilot, never past it."""
+import json
+import pathlib
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LAUNCH_FILES = sorted((ROOT / "launch").glob("*.launch"))
+NEEDED = {"replay": ["bag:=/tmp/none.bag"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
+CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"}
+
+
+def run(*command):
+    return subprocess.run([str(ROOT / "scripts/run"), *map(str, command)], capture_output=True, text=True, timeout=60,
+                          check=False)
+
+
+def dump(name, *arguments):
+    done = run("python3", ROOT / "test/tools/dump_launch.py", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), *arguments)
+    assert done.returncode == 0, done.stderr
+    launch = json.loads(done.stdout)
+    assert launch["errors"] == []
+    return launch
+
+
+def remaps(launch, node):
+    return launch["nodes"][f"/{node}"]["remaps"]
+
+
+@pytest.mark.parametrize("file", LAUNCH_FILES, ids=lambda file: file.stem)
+def test_each_is_xml_and_loads(file):
+    root = ElementTree.parse(file).getroot()
+    assert root.tag == "launch"
+    arguments = NEEDED.get(file.stem, [])
+    required = [arg.get("name") for arg in root.findall("arg") if arg.get("default") is None and arg.get("value") is None]
+    assert sorted(required) == sorted(text.split(":=")[0] for text in arguments)
+    for option in ("--nodes", "--files"):
+        done = run("roslaunch", option, file, *arguments)
+        assert done.returncode == 0 and done.stdout.strip(), done.stderr
+    assert dump(file.stem)["nodes"]
+
+
+@pytest.mark.parametrize("name", ["ingress", "sim", "demo", "mavros", "px4", "ardupilot"])
+def test_setpoints_go_from_the_navigator_over_the_guard_to_the_autopilot(name):
+    launch = dump(name)
+    assert CHAIN <= {node[1:] for node in launch["nodes"]}
+    autopilot = "/mavros/setpoint_velocity/cmd_vel" if name in ("mavros", "px4", "ardupilot") else "/cmd_vel"
+    between = remaps(launch, "ingress_navigator")["cmd_vel"]
+    assert between not in (autopilot, "/cmd_vel")
+    assert remaps(launch, "setpoint_guard") == {"cmd_vel_in": between, "cmd_vel": autopilot}
+    past = [node for node, what in launch["nodes"].items() if autopilot in what["remaps"].values()]
+    assert past == ["/setpoint_guard"]
+
+
+@pytest.mark.parametrize("name, mode", [("px4", "OFFBOARD"), ("ardupilot", "GUIDED")])
+def test_autopilots_are_wired_by_standard_topics_and_map_frame(name, mode):
+    launch = dump(name)
+    for node in ("homography_pose", "ingress_navigator"):
+        assert remaps(launch, node)["odom"] == "/mavros/local_position/odom"
+    assert remaps(launch, "homography_pose")["imu"] == "/mavros/imu/data"
+    params = launch["params"]
+    assert {params[f"/{key}"] for key in ("homography_pose/odom_frame", "ingress_navigator/odom_frame", "setpoint_guard/frame")} == {"map"}
+    assert params["/ingress_navigator/engagement/required"] is True
+    assert params["/engaged_from_mavros/modes"] == [mode]
+    relay = remaps(launch, "engaged_from_mavros")
+    assert relay == {"autopilot_state": "/mavros/state", "engaged": remaps(launch, "ingress_navigator")["engaged"]}
+    assert not any("mavros" in node["type"].split("/")[0] for node in launch["nodes"].values())
+
+
+def test_another_namespace_of_mavros_moves_everything():
+    launch = dump("px4", "mavros:=/uav1/mavros")
+    topics = {topic for node in launch["nodes"].values() for topic in node["remaps"].values()}
+    assert "/uav1/mavros/setpoint_velocity/cmd_vel" in topics
+    assert not any(topic.startswith("/mavros") for topic in topics)
+
+
+def test_the_users_file_lies_over_the_frames_and_without_flying_nothing_commands(tmp_path):
+    config = tmp_path / "drone.yaml"
+    config.write_text("setpoint_guard: {stop_streaming_after_sec: 3.0, frame: local}\n")
+    params = dump("ardupilot", f"config:={config}")["params"]
+    assert params["/setpoint_guard/frame"] == "local" and params["/setpoint_guard/stop_streaming_after_sec"] == 3.0
+    assert {node for node in dump("px4", "fly:=false")["nodes"]} == {"/window_detector", "/homography_pose"}
+
+
+def test_the_camera_is_mounted_where_it_is_said_to_be():
+    assert "/camera_mounting" not in dump("px4")["nodes"]
+    launch = dump("px4", "camera_pose:=[0.1, 0, 0.02, 0, 0.3, 0]", "image:=/eye/image_raw")
+    nodes = launch["nodes"]
+    assert launch["params"]["/camera_mounting/pose"] == [0.1, 0, 0.02, 0, 0.3, 0] and "/camera_mounting" in nodes
+    assert nodes["/window_detector"]["remaps"]["image_raw"] == "/eye/image_raw"
+
+
+def test_the_usb_camera_publishes_what_the_detector_takes():
+    camera, chain = dump("usb_cam"), dump("ingress")
+    own = camera["nodes"]["/usb_cam"]["remaps"]
+    for topic in ("image_raw", "camera_info"):
+        assert own[f"~{topic}"] == remaps(chain, "window_detector")[topic]
+    assert camera["params"]["/usb_cam/camera_frame_id"] == "camera_optical_frame"
