@@ -1,5 +1,6 @@
 #include "window_ingress/navigation/target_tracker.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -56,19 +57,26 @@ void TargetTracker::reset() {
 
 void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
                                 const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
-  constexpr double kFastestMps = 3.0;
-  if (!geometry::isValidPose(T_odom_base)) return;
+  if (!geometry::isValidPose(T_odom_base) || !std::isfinite(stamp_sec)) return;
   if (odometry_stamp_sec_) {
-    const double moved_m = (T_odom_base.translation() - odometry_position_m_).norm();
     const double dt_sec = stamp_sec - *odometry_stamp_sec_;
+    if (dt_sec < 0.0 && dt_sec > -pose::PoseBuffer::kLateSec) return;
     if (dt_sec < 0.0) reset();
-    if (moved_m > params_.max_jump_m + kFastestMps * dt_sec) forgetPlaces();
+    if (dt_sec >= 0.0 && isJump(dt_sec, T_odom_base)) forgetPlaces();
   }
   if (!odometry_.add(stamp_sec, T_odom_base)) return;
   if (velocity_odom_mps) frames_.twist().add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
-  odometry_position_m_ = T_odom_base.translation();
+  last_T_odom_base_ = T_odom_base;
   if (pending_ && pending_->window.stamp_sec <= stamp_sec) flush();
+}
+
+bool TargetTracker::isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const {
+  constexpr double kFastestMps = 3.0, kFastestRadps = 3.0;
+  const double moved_m = (T_odom_base.translation() - last_T_odom_base_.translation()).norm();
+  const Eigen::Quaterniond before(last_T_odom_base_.linear()), now(T_odom_base.linear());
+  return moved_m > params_.max_jump_m + kFastestMps * dt_sec ||
+         before.angularDistance(now) > params_.max_turn_jump_rad + kFastestRadps * dt_sec;
 }
 
 void TargetTracker::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base) {
@@ -87,7 +95,7 @@ void TargetTracker::flush() {
   pending_.reset();
 }
 
-pose::PoseResult TargetTracker::estimate(const Pending& pending) const {
+pose::PoseResult TargetTracker::estimate(const Pending& pending) {
   pose::PoseHints hints;
   hints.gravity = gravity(pending);
   hints.size = filter_.sizeOf(pending.window);
@@ -102,7 +110,8 @@ void TargetTracker::process(const Pending& pending) {
 
 std::string TargetTracker::whyNotUsed(const Pending& pending) {
   const auto& [window, camera, T_base_camera] = pending;
-  const bool is_whole = window.whole() && window.visibleSides() == 4;
+  const int sides = window.visibleSides();  // none: only corners are known
+  const bool is_whole = window.whole() && (sides == 4 || sides == 0);
   const auto T_odom_base = odometry_.at(window.stamp_sec, params_.max_pose_gap_sec);
   // A camera that is not mounted as said may give no pose at all.
   if (is_whole && T_odom_base && T_base_camera)
@@ -116,12 +125,21 @@ std::string TargetTracker::whyNotUsed(const Pending& pending) {
   return used ? "" : "gated out by the filter";
 }
 
-std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending) const {
+// That of the IMU, unless it has none or is in other axes.
+std::optional<Eigen::Matrix3d> TargetTracker::attitudeAt(double stamp_sec) {
+  const auto imu = attitude_.at(stamp_sec, params_.max_pose_gap_sec);
+  const auto odometry = odometry_.at(stamp_sec, params_.max_pose_gap_sec);
+  const bool agree = !imu || !odometry || frames_.attitude().see(imu->linear(), odometry->linear());
+  if (imu && agree) return imu->linear();
+  if (odometry) return odometry->linear();
+  return std::nullopt;
+}
+
+std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending) {
   if (!pending.T_base_camera) return std::nullopt;
-  const auto& source = attitude_.empty() ? odometry_ : attitude_;
-  const auto T_odom_base = source.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
-  if (!T_odom_base) return std::nullopt;
-  const Eigen::Matrix3d R_odom_camera = T_odom_base->linear() * pending.T_base_camera->linear();
+  const auto R_odom_base = attitudeAt(pending.window.stamp_sec);
+  if (!R_odom_base) return std::nullopt;
+  const Eigen::Matrix3d R_odom_camera = *R_odom_base * pending.T_base_camera->linear();
   return pose::GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
 }
 

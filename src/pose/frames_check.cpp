@@ -1,7 +1,7 @@
 #include "window_ingress/pose/frames_check.hpp"
 
-#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "window_ingress/parameters/fields.hpp"
 
@@ -18,22 +18,28 @@ FramesParams checked(const FramesParams& params) {
 
 FramesCheck::FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
                          const SizeBelief& size)
-    : twist_(checked(params)), mounting_(pose, filter, params, size) {}
+    : twist_(checked(params)), attitude_(params), mounting_(pose, filter, params, size) {}
 
 FramesVerdict FramesCheck::verdict() const {
-  const FramesVerdict mounting = mounting_.verdict(), twist = twist_.verdict();
-  const auto both = {mounting.state, twist.state};
+  const FramesVerdict mounting = mounting_.verdict(), twist = twist_.verdict(),
+                      attitude = attitude_.verdict();
+  const auto are = [&](FramesVerdict::State state) {
+    return (mounting.state == state) + (twist.state == state);
+  };
+  const bool wrong = are(FramesVerdict::kWrong) > 0 || attitude.state == FramesVerdict::kWrong;
   FramesVerdict out;
-  out.state = std::count(both.begin(), both.end(), FramesVerdict::kWrong) > 0  ? FramesVerdict::kWrong
-              : std::count(both.begin(), both.end(), FramesVerdict::kGood) > 1 ? FramesVerdict::kGood
-                                                                               : FramesVerdict::kOpen;
-  for (const FramesVerdict& part : {mounting, twist})
+  out.state = wrong                            ? FramesVerdict::kWrong
+              : are(FramesVerdict::kGood) == 2 ? FramesVerdict::kGood
+                                               : FramesVerdict::kOpen;
+  for (const FramesVerdict& part :
+       wrong ? std::vector{mounting, attitude, twist} : std::vector{mounting, twist})
     if (part.state == out.state) out.what += (out.what.empty() ? "" : "; ") + part.what;
   return out;
 }
 
 void FramesCheck::clear() {
   twist_.clear();
+  attitude_.clear();
   mounting_.clear();
 }
 

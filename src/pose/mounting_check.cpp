@@ -11,6 +11,7 @@
 namespace window_ingress::pose {
 namespace {
 
+constexpr char kNothingYet[] = "camera mounting: no way flown yet";
 constexpr double kLastingSec = 10000.0;  // a mounting does not change
 constexpr double kSpacingSec = 0.5, kGoodSpacingFactor = 3.0;
 constexpr std::size_t kMostImages = 16, kEnoughImages = 10;
@@ -131,7 +132,21 @@ void MountingCheck::clear() {
   forgetPlaces();
   filter_.reset();
   measured_size_.reset();
-  verdict_ = {FramesVerdict::kOpen, "camera mounting: no way flown yet"};
+  size_is_fault_ = false;
+  verdict_ = {FramesVerdict::kOpen, kNothingYet};
+}
+
+// What was measured of a window does not hold for another; what was found of the mounting does.
+void MountingCheck::startAnewForAnotherTarget(std::uint32_t seen_id) {
+  if (seen_id == 0) return;
+  if (target_id_ != 0 && seen_id != target_id_) {
+    forgetPlaces();
+    filter_.reset();
+    measured_size_.reset();
+    if (size_is_fault_) verdict_ = {FramesVerdict::kOpen, kNothingYet};
+    size_is_fault_ = false;
+  }
+  target_id_ = seen_id;
 }
 
 bool MountingCheck::isFarFromLast(const Image& image) const {
@@ -146,10 +161,10 @@ bool MountingCheck::isFarFromLast(const Image& image) const {
 
 void MountingCheck::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                         const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera) {
+  if (!window.whole() || !geometry::isValidPose(T_odom_base) || !geometry::isValidPose(T_base_camera)) return;
+  startAnewForAnotherTarget(window.target_id);
   const Image image{window, camera, T_odom_base, T_base_camera};
-  if (!window.whole() || !geometry::isValidPose(T_odom_base) || !geometry::isValidPose(T_base_camera) ||
-      !isFarFromLast(image))
-    return;
+  if (!isFarFromLast(image)) return;
   keep(image);
   if (feed(filter_, image, T_odom_base * T_base_camera)) {
     refused_ = 0;
@@ -196,12 +211,14 @@ void MountingCheck::judgeTurn(const FilteredWindow& found) {
     turn.most_rad = std::max(turn.most_rad, other.most_rad);
   }
   const std::string size_fault = faultOfSize(found.size);
+  const FramesVerdict before = verdict_;
   if (turn.least_rad > params_.max_mounting_rad)
     verdict_ = {FramesVerdict::kWrong, turnText(turn.roll_pitch_yaw_rad)};
   else if (!size_fault.empty())
     verdict_ = {FramesVerdict::kWrong, size_fault};
   else if (turn.most_rad < 2.0 * params_.max_mounting_rad)
     verdict_ = {FramesVerdict::kGood, ""};
+  if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
 }
 
 // Empty if the size is as it was said to be, or was not said to be known.

@@ -19,6 +19,7 @@ struct TrackerParams {
   double max_pose_gap_sec = 0.05;   ///< odometry may end this much before the exposure [s]
   double gravity_sigma_rad = 0.02;  ///< of the attitude, mounting included [rad]
   double max_jump_m = 0.5;          ///< odometry moving more than this beyond 3 m/s is a jump [m]
+  double max_turn_jump_rad = 0.35;  ///< odometry turning more than this beyond 3 rad/s is a jump [rad]
   pose::FitParams fit;
   pose::FramesParams frames;
 
@@ -27,6 +28,7 @@ struct TrackerParams {
     field("max_pose_gap_sec", self.max_pose_gap_sec, 0.0, 0.5);
     field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
     field("max_jump_m", self.max_jump_m, 0.05, 10.0);
+    field("max_turn_jump_rad", self.max_turn_jump_rad, 0.05, 3.2);
     field.group("fit", self.fit);
     field.group("frames", self.frames);
   }
@@ -42,7 +44,8 @@ struct TrackerUpdate {
 /// Observations, odometry and attitude to the target in odom: pose estimation at the attitude of the
 /// exposure, then the filter at the position of the exposure. Everything may arrive late; an observation
 /// waits until odometry has caught up with its exposure, at most until the next one comes. A jump of the
-/// odometry starts anew, but for the size of the opening; a clock that goes back starts everything anew.
+/// odometry, in place or heading, starts anew, but for the size of the opening; a clock that goes back by
+/// more than `PoseBuffer::kLateSec` starts everything anew (less is a sample that comes late, and left out).
 ///
 /// What is said of the camera's mounting, of the velocity's frame and of a known size is verified on the way.
 class TargetTracker {
@@ -84,9 +87,10 @@ class TargetTracker {
   void process(const Pending& pending);
   std::string whyNotUsed(const Pending& pending);
   void forgetPlaces();
-  std::optional<pose::GravityPrior> gravity(const Pending& pending) const;
-
-  pose::PoseResult estimate(const Pending& pending) const;
+  bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
+  std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
+  std::optional<pose::GravityPrior> gravity(const Pending& pending);
+  pose::PoseResult estimate(const Pending& pending);
 
   TrackerParams params_;
   pose::WindowPoseEstimator estimator_;
@@ -94,7 +98,7 @@ class TargetTracker {
   pose::FramesCheck frames_;
   pose::PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
-  Eigen::Vector3d odometry_position_m_ = Eigen::Vector3d::Zero();
+  Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
   std::optional<Pending> pending_;
   TrackerUpdate last_;
 };

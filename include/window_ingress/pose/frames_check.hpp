@@ -1,12 +1,13 @@
 #pragma once
 
+#include "window_ingress/pose/attitude_check.hpp"
 #include "window_ingress/pose/mounting_check.hpp"
 #include "window_ingress/pose/twist_check.hpp"
 
 namespace window_ingress::pose {
 
-/// Camera mounting and velocity frame, verified in the first metres of motion: what is predicted against what
-/// is seen and flown. A mismatch is named; with it nobody should fly towards anything.
+/// Camera mounting, attitude and velocity frame, verified in the first metres of motion: what is predicted
+/// against what is seen and flown. A mismatch is named; with it nobody should fly towards anything.
 class FramesCheck {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
@@ -14,10 +15,11 @@ class FramesCheck {
               const SizeBelief& size);
 
   TwistCheck& twist() { return twist_; }
+  AttitudeCheck& attitude() { return attitude_; }
   MountingCheck& mounting() { return mounting_; }
   const MountingCheck& mounting() const { return mounting_; }
 
-  /// Wrong if one of them is, good if both are.
+  /// Wrong if one of them is; good if mounting and velocity are (an imu need not be there).
   FramesVerdict verdict() const;
 
   void clear();
@@ -26,6 +28,7 @@ class FramesCheck {
 
  private:
   TwistCheck twist_;
+  AttitudeCheck attitude_;
   MountingCheck mounting_;
 };
 

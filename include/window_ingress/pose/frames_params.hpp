@@ -15,6 +15,9 @@ struct FramesParams {
   double least_way_m = 0.5;          ///< nothing is said of the velocity before this way [m]
   double max_velocity_error = 0.3;   ///< relative misfit of way and velocity, beyond which it is a fault
 
+  double max_attitude_gap_rad =
+      0.35;  ///< between "up" of imu and of odometry, beyond which it is a fault [rad]
+
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("mounting_prior_rad", self.mounting_prior_rad, 0.05, 0.5);
@@ -25,6 +28,7 @@ struct FramesParams {
     field("way_segment_m", self.way_segment_m, 0.05, 2.0);
     field("least_way_m", self.least_way_m, 0.1, 10.0);
     field("max_velocity_error", self.max_velocity_error, 0.1, 2.0);
+    field("max_attitude_gap_rad", self.max_attitude_gap_rad, 0.05, 1.5);
   }
 };
 

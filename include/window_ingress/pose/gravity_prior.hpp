@@ -11,9 +11,9 @@ struct GravityPrior {
   double sigma_rad = 0.02;                                ///< of the attitude, mounting included
 };
 
-/// True if the prior can be used: finite, a direction, a positive spread.
+/// True if the prior can be used: finite, a direction, a spread of more than 1e-6 rad.
 inline bool isUsable(const GravityPrior& prior) {
-  return prior.up_camera.allFinite() && prior.up_camera.norm() > 1e-6 && prior.sigma_rad > 0.0 &&
+  return prior.up_camera.allFinite() && prior.up_camera.norm() > 1e-6 && prior.sigma_rad > 1e-6 &&
          prior.sigma_rad < 1e6;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -42,6 +43,7 @@ class MountingCheck {
   struct Setup;
   struct Trial;
   static std::vector<Setup> setups();
+  void startAnewForAnotherTarget(std::uint32_t seen_id);
   bool isFarFromLast(const Image& image) const;
   bool feed(WindowFilter& filter, const Image& image, const Eigen::Isometry3d& T_odom_camera) const;
   void keep(const Image& image);
@@ -58,6 +60,8 @@ class MountingCheck {
   WindowFilter filter_;
   std::deque<Image> images_;
   int refused_ = 0;
+  std::uint32_t target_id_ = 0;
+  bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
   std::shared_ptr<Trial> trial_;  ///< other setups, a few with each image; nothing while all is well
   std::optional<SizeBelief> measured_size_;
   FramesVerdict verdict_{FramesVerdict::kOpen, "camera mounting: no way flown yet"};

@@ -155,6 +155,111 @@ TEST(TargetTracker, AJumpOfTheOdometryKeepsTheSizeAndWhatWasFoundOfTheFrames) {
   EXPECT_NEAR(track.target(3.2)->opening.width_m, 1.2, 0.1);
 }
 
+TargetTracker hovering(double until_sec) {
+  auto track = tracker();
+  for (int i = 0; i <= 30.0 * until_sec; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  return track;
+}
+
+TEST(TargetTracker, AnOdometrySampleThatComesLateChangesNothing) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double stamp : {0.98, 0.6, -infinity}) {
+    auto track = hovering(1.0);
+    const int updates = track.target(1.0)->updates;
+    track.addOdometry(stamp, vehicleAt(0.0));
+    track.addOdometry(1.03, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+    ASSERT_TRUE(track.target(1.03)) << stamp;
+    EXPECT_EQ(track.target(1.03)->updates, updates + 1) << stamp;
+  }
+  auto track = hovering(3.0);
+  track.addOdometry(1.0, vehicleAt(0.0));
+  EXPECT_FALSE(track.target(3.0)) << "two seconds back are another time";
+}
+
+TEST(TargetTracker, AHeadingThatJumpsStartsAnew) {
+  auto track = hovering(1.0);
+  Eigen::Isometry3d turned = vehicleAt(0.0);
+  turned.linear() = geometry::yawRotation(0.15) * turned.linear();
+  track.addOdometry(1.03, turned);
+  EXPECT_TRUE(track.target(1.03)) << "a vehicle can turn as fast";
+  turned.linear() = geometry::yawRotation(0.9) * turned.linear();
+  track.addOdometry(1.06, turned);
+  EXPECT_FALSE(track.target(1.06));
+}
+
+/// Noses down by this much.
+Eigen::Isometry3d pitched(double rad) {
+  Eigen::Isometry3d T = vehicleAt(0.0);
+  T.rotate(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitY()));
+  return T;
+}
+
+TEST(TargetTracker, WithoutRecentAttitudeThatOfTheOdometryCounts) {
+  auto with_imu = tracker(), without = tracker();
+  with_imu.addAttitude(0.0, Eigen::Quaterniond(pitched(0.0).linear()));
+  for (auto* track : {&with_imu, &without}) {
+    track->addOdometry(1.0, pitched(0.25));
+    track->see(sighting(pitched(0.25), 1.0), kCamera, kMounting);
+    ASSERT_TRUE(track->lastUpdate().pose.estimate) << track->lastUpdate().pose.detail;
+  }
+  EXPECT_NEAR(without.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.002);
+  EXPECT_EQ(with_imu.lastUpdate().pose.estimate->yaw_rad, without.lastUpdate().pose.estimate->yaw_rad);
+}
+
+TEST(TargetTracker, AnAttitudeInOtherAxesThanTheOdometryIsNamedAndNotUsed) {
+  const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));  // north-east-down
+  auto track = tracker();
+  for (int i = 0; i < 60; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.addAttitude(i / 30.0, down);
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(2.0)) << track.lastUpdate().why_not;
+  ASSERT_TRUE(track.lastUpdate().pose.estimate);
+  EXPECT_NEAR(track.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.01);
+  EXPECT_EQ(track.frames().state, pose::FramesVerdict::kWrong);
+  EXPECT_NE(track.target(2.0)->approach_forbidden.find("attitude"), std::string::npos);
+  for (int i = 60; i < 120; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.addAttitude(i / 30.0, Eigen::Quaterniond(vehicleAt(0.0).linear()));
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  EXPECT_NE(track.frames().state, pose::FramesVerdict::kWrong) << track.frames().what;
+}
+
+TEST(TargetTracker, AnObservationWithoutBordersThatGivesNoPoseIsNotUsed) {
+  auto track = hovering(1.0);
+  auto skewed = sighting(vehicleAt(0.0), 1.03);
+  track.addOdometry(1.03, vehicleAt(0.0));
+  for (int i = 0; i < 4; ++i) {
+    skewed.edges[i] = detection::Edge();
+    skewed.corner_covariance[i] = 50.0 * Eigen::Matrix2d::Identity();
+    skewed.corners[i].x() += i < 2 ? 6.0 : -6.0;
+  }
+  track.see(skewed, kCamera, kMounting);
+  EXPECT_FALSE(track.lastUpdate().pose.estimate);
+  EXPECT_FALSE(track.lastUpdate().used);
+  EXPECT_EQ(track.lastUpdate().why_not, track.lastUpdate().pose.detail);
+}
+
+TEST(TargetTracker, AnotherTargetHasNoMeasuredSizeYet) {
+  auto track = flownSideways(pose::PoseParams(), TrackerParams(), kMounting);
+  ASSERT_TRUE(track.measuredSize());
+  track.addOdometry(3.2, vehicleAt(1.8));
+  auto other = sighting(vehicleAt(1.8), 3.2);
+  other.target_id = 7;
+  track.see(other, kCamera, kMounting);
+  track.addOdometry(3.4, vehicleAt(2.0));
+  other = sighting(vehicleAt(2.0), 3.4);
+  other.target_id = 8;
+  track.see(other, kCamera, kMounting);
+  EXPECT_FALSE(track.measuredSize());
+}
+
 TEST(TargetTracker, BadInputIsRefusedWithAReason) {
   auto track = tracker();
   const double nan = std::numeric_limits<double>::quiet_NaN();

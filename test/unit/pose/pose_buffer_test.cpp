@@ -45,6 +45,26 @@ TEST(PoseBuffer, JumpBackInTimeClears) {
   EXPECT_EQ(buffer.at(5.0)->translation().x(), 2.0);
 }
 
+TEST(PoseBuffer, NothingIsKnownWithinALongGap) {
+  PoseBuffer buffer;
+  buffer.add(1.0, makePose(yawRotation(0), {0, 0, 0}));
+  buffer.add(1.25, makePose(yawRotation(0), {1, 0, 0}));
+  buffer.add(2.25, makePose(yawRotation(1), {2, 0, 0}));
+  EXPECT_TRUE(buffer.at(1.1, 0.05)) << "five a second are enough";
+  EXPECT_FALSE(buffer.at(1.7, 0.05)) << "where it was in between is a guess";
+  EXPECT_EQ(buffer.at(1.28, 0.05)->translation().x(), 1.0);
+  EXPECT_EQ(buffer.at(2.22, 0.05)->translation().x(), 2.0);
+  EXPECT_EQ(buffer.at(2.25)->translation().x(), 2.0);
+}
+
+TEST(PoseBuffer, ALateSampleIsNoJumpBackInTime) {
+  PoseBuffer buffer;
+  for (int i = 0; i < 10; ++i) buffer.add(1.0 + 0.02 * i, makePose(yawRotation(0), {0.02 * i, 0, 0}));
+  EXPECT_FALSE(buffer.add(1.17, makePose(yawRotation(0), {0.17, 0, 0})));
+  ASSERT_TRUE(buffer.at(1.05));
+  EXPECT_NEAR(buffer.at(1.05)->translation().x(), 0.05, 1e-12);
+}
+
 TEST(PoseBuffer, IsBoundedInSpanAndCount) {
   PoseBuffer by_span(1.0), by_count(1e9, 10);
   for (int i = 0; i < 100; ++i) {
