@@ -7,7 +7,7 @@ import rosbag
 from flight_data import Flight, FlightError, Images, yaw_of
 
 KINDS = {"state": "window_ingress/IngressState", "pose": "window_ingress/WindowPose", "odom": "nav_msgs/Odometry",
-         "truth": "nav_msgs/Odometry", "window": "geometry_msgs/PoseStamped"}
+         "truth": "nav_msgs/Odometry", "window": "geometry_msgs/PoseStamped", "verdict": "window_ingress/FlightVerdict"}
 
 
 def read_bag(file, topics):
@@ -62,6 +62,8 @@ def flight_of(file, messages, chosen):
                     filtered_angle(messages["pose"], messages["odom"] or vehicle, begin))
     flight.is_truth = is_truth
     flight.predicted_miss = next((m.predicted_miss for m in reversed(messages["state"]) if m.predicted_miss > 0), None)
+    flight.reason = messages["state"][-1].reason
+    flight.verdict = next((f"{m.outcome_name}: {m.reason}" for m in reversed(messages["verdict"]) if m.outcome != m.RUNNING), "")
     sizes = [(m.window_width, m.window_height) for m in messages["pose"] if m.window_width > 0]
     flight.window_size = sizes[-1] if sizes else None
     return flight

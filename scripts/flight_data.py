@@ -48,6 +48,7 @@ class Flight:
     time, x, y, z, heading, speed: of the vehicle, arrays; heading against the window's axis [rad].
     states: (time, name) of each step. images: see Images. filtered: (times, relative angle by the filter [rad]).
     predicted_miss: three sigma at the last commit [m], or None. window_size: (width, height) [m], or None.
+    reason: of the last state. verdict: of the simulated world's referee, or nothing.
     """
 
     def __init__(self, file, motion, states, images, filtered=((), ())):
@@ -58,9 +59,14 @@ class Flight:
         self.states = states
         self.filtered = tuple(np.array(column, float) for column in filtered)
         self.predicted_miss, self.window_size = None, None
+        self.reason, self.verdict = "", ""
 
     def at(self, times, values):
         return np.interp(times, self.time, values)
+
+    def knows(self, times, slack=0.05):
+        """Where it was at these times: whether the positions reach so far."""
+        return (times >= self.time[0] - slack) & (times <= self.time[-1] + slack)
 
     def spans(self):
         """(name, begin, end) of each stay in a state."""
@@ -124,7 +130,7 @@ def read_log(file):
         raise FlightError(f"{file}: cannot be read as csv: {error}; give a log of 'fly --log DIR' or a .bag") from error
     if "outcome" in columns:
         raise FlightError(f"{file}: is the table of a campaign; plot_miss draws it, plot_flight one log of 'fly --log DIR'")
-    missing = [name for name in ("state", *LOG_COLUMNS) if name not in columns]
+    missing = [name for name in ("state", "reason", *LOG_COLUMNS) if name not in columns]
     if missing:
         raise FlightError(f"{file}: no column {', '.join(missing)}; write the log with 'fly --log DIR' of this version")
     if len(rows) < 2:
@@ -144,6 +150,7 @@ def flight_of_log(file, rows):
     flight = Flight(file, motion, list(zip(table["time_s"], (row["state"] for row in rows))), Images(seen[first]), filtered)
     predictions = table["predicted_miss_m"][np.isfinite(table["predicted_miss_m"])]
     flight.predicted_miss = predictions[-1] if len(predictions) else None
+    flight.reason = rows[-1]["reason"] or ""
     return flight
 
 

@@ -14,7 +14,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import campaign_data  # noqa: E402
 import flight_data  # noqa: E402
 
-COLUMNS = ("time_s", "state", *flight_data.LOG_COLUMNS[1:])
+COLUMNS = ("time_s", "state", *flight_data.LOG_COLUMNS[1:], "reason")
 BAG_WRITER = pathlib.Path(__file__).with_name("write_flight_bag.py")
 
 
@@ -33,7 +33,7 @@ def rows_of_flight():
         t = 0.1 * i
         row = dict.fromkeys(COLUMNS, "")
         row.update(time_s=t, state=state_at(t), x_m=-5 + t, y_m=0.1 - 0.02 * t, z_m=0.05, heading_rad=-0.2 + 0.04 * t,
-                   vx_mps=1, vy_mps=0, vz_mps=0)
+                   vx_mps=1, vy_mps=0, vz_mps=0, reason=f"{t:.1f} s flown")
         if i % 3 == 0 and 1 < t < 4:
             row.update(image_s=t - 0.03, image_yaw_rad=0.2 - 0.04 * t, image_trusted=int(t > 2), image_width_m=1.2,
                        image_height_m=1.0, image_left_px=80, image_right_px=78, error_yaw_rad=0.001)
@@ -71,6 +71,7 @@ def test_a_log_is_read_as_it_was_flown(log):
     assert flight.images.time[0] == pytest.approx(1.17)
     times, angle = flight.filtered
     assert angle == pytest.approx(0.201 - 0.04 * times)
+    assert flight.knows(numpy.array([-0.2, 0.0, 6.9, 7.2])).tolist() == [False, True, True, False]
 
 
 def test_a_log_as_fly_writes_it_is_drawn_with_its_states(tmp_path):
@@ -96,7 +97,7 @@ def test_the_last_line_says_how_it_ended(log, tmp_path):
     done = run("plot_flight", log, "--output", tmp_path / "a.png", "--window-size", "1.2,1.0", "--title", "my flight")
     assert done.returncode == 0, done.stderr
     assert "crossed at 5.00 s" in done.stdout and "actual miss 5.0 cm, predicted 12.0 cm, within it by 2.4 times" in done.stdout
-    assert "APPROACH 3.0 s" in done.stdout
+    assert "APPROACH 3.0 s" in done.stdout and done.stdout.endswith("; ended in PASSED: 6.9 s flown\n")
     cut = run("plot_flight", log, "--output", tmp_path / "b.png", "--from", "1", "--to", "3")
     assert "never crossed the plane" in cut.stdout and "COMMIT" not in cut.stdout
     picture = cv2.imread(str(tmp_path / "b.png"))
@@ -108,6 +109,18 @@ def test_a_miss_beyond_the_prediction_is_said(tmp_path):
     rows = [dict(row, predicted_miss_m=0.02 if row["predicted_miss_m"] else "") for row in rows_of_flight()]
     done = run("plot_flight", write(tmp_path / "f.csv", rows))
     assert "NOT within it" in done.stdout
+
+
+def test_a_flight_that_never_saw_the_window_is_drawn_too(tmp_path):
+    blank = ("image_s", "image_yaw_rad", "image_trusted", "image_width_m", "image_height_m", "image_left_px", "image_right_px",
+             "error_yaw_rad", "predicted_miss_m")
+    rows = [dict(row, state="SEARCH", x_m=-5, y_m=0.1, **dict.fromkeys(blank, "")) for row in rows_of_flight()]
+    rows[-1].update(state="ABORTED", reason="turned 3 times; nothing found")
+    done = run("plot_flight", write(tmp_path / "f.csv", rows))
+    assert done.returncode == 0, done.stderr
+    assert "never crossed the plane; no prediction" in done.stdout
+    assert done.stdout.endswith("ended in ABORTED: turned 3 times; nothing found\n")
+    assert share_of(cv2.imread(str(tmp_path / "f.png")), flight_data.STATE_COLOURS["SEARCH"]) > 0.005
 
 
 def broken(name, log):
@@ -160,7 +173,8 @@ def test_bags_with_and_without_the_truth_tell_the_same(truth, tmp_path):
     assert done.returncode == 0, done.stderr
     assert "crossed at 5.00 s, y +0.100 m, z +0.050 m" in done.stdout, done.stdout
     assert "actual miss 10.0 cm, predicted 12.0 cm, within it by 1.2 times" in done.stdout
-    assert "SEARCH 1.0 s" in done.stdout
+    assert "SEARCH 1.0 s" in done.stdout and "ended in PASSED: as the test says" in done.stdout
+    assert ("referee: PASSED: went through" in done.stdout) == (truth == "truth")
     picture = cv2.imread(str(tmp_path / "flight.png"))
     assert share_of(picture, flight_data.STATE_COLOURS["COMMIT"]) > 1e-3
 

@@ -10,7 +10,7 @@ import rosbag
 import rospy
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
-from window_ingress.msg import IngressState, WindowPose
+from window_ingress.msg import FlightVerdict, IngressState, WindowPose
 
 START_S, YAW = 100.0, 0.3
 CENTRE = (10.0, 2.0, 1.5)
@@ -38,7 +38,7 @@ def window():
 
 def state(t):
     name = "IDLE" if t < 0 else "SEARCH" if t < 1 else "APPROACH" if t < 4 else "COMMIT" if t < 6 else "PASSED"
-    return IngressState(state_name=name, predicted_miss=0.12 if t >= 4 else 0.0)
+    return IngressState(state_name=name, reason="as the test says", predicted_miss=0.12 if t >= 4 else 0.0)
 
 
 def window_pose():
@@ -59,6 +59,9 @@ def main():
             messages += [("/ground_truth/odom", odometry(t - 5.0)), ("/ground_truth/window", window())] * (what == "truth")
             messages += [("/state", state(t))] * (what != "no_state")
             messages += [("/window_pose", window_pose())] * (what != "no_pose" and i % 2 == 0)
+            if what == "truth":
+                outcome = ("PASSED", FlightVerdict.PASSED) if t > 6 else ("RUNNING", FlightVerdict.RUNNING)
+                messages.append(("/referee", FlightVerdict(outcome_name=outcome[0], outcome=outcome[1], reason="went through")))
             for topic, message in messages:
                 message.header.stamp = rospy.Time.from_sec(START_S + t)
                 bag.write(topic, message, message.header.stamp)
