@@ -41,8 +41,14 @@ class SimulatedClock:
 
 
 class FrozenClockTest(unittest.TestCase):
+    def expect_zeros_of_the_guard(self, guarded, begin):
+        """Two seconds of wall time, at 20 Hz and more, whatever /clock does."""
+        support.wait_for(lambda: len(guarded.since(begin)) >= 40, "the guard's stream goes on", 2.0 + time.monotonic() - begin)
+        self.assertTrue(all(speed(s) == 0.0 for s in guarded.since(begin)))
+
     def test_absent_then_frozen_then_jumping_back(self):
         setpoints = support.Listener("cmd_vel", TwistStamped)
+        guarded = support.Listener("guarded", TwistStamped)
         states = support.Listener("state", IngressState)
         diagnostics = support.Diagnostics()
         rospy.wait_for_service("ingress_navigator/start")
@@ -53,17 +59,22 @@ class FrozenClockTest(unittest.TestCase):
         self.assertIn("/clock", reply.message)
         diagnostics.wait("ingress_navigator: clock", "nothing has come on /clock")
 
+        guarded.wait(what="the guard's stream without a clock")
+        self.expect_zeros_of_the_guard(guarded, time.monotonic())
+
         clock = SimulatedClock(1000.0)
         support.Stream("odom", Odometry, support.odometry, 50.0)
         support.Stream("window_pose", WindowPose, no_window, 30.0)
         support.wait_for(lambda: start().success, "a mission that starts")
         setpoints.wait(lambda s: speed(s) > 0.0, "motion")
+        guarded.wait(lambda s: speed(s) > 0.0, "motion behind the guard")
 
         clock.running = False
         frozen = time.monotonic() + 0.6
         diagnostics.wait("ingress_navigator: clock", "stands still")
         support.wait_for(lambda: len(setpoints.since(frozen)) > 40, "the stream goes on")
         self.assertTrue(all(speed(s) == 0.0 for s in setpoints.since(frozen)))
+        self.expect_zeros_of_the_guard(guarded, frozen)
 
         clock.now -= 51.0
         clock.running = True

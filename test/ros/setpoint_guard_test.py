@@ -50,6 +50,10 @@ class SetpointGuardTest(unittest.TestCase):
         self.expect_zeros_from(begin, 60)
         self.assertLess(time.monotonic() - begin, 60 / 20.0)
 
+    def test_an_output_that_nobody_takes_is_said(self):
+        self.output.stop()
+        support.Diagnostics().wait("setpoint_guard: cmd_vel", "nobody subscribes to /cmd_vel")
+
     def test_sane_input_passes_with_its_frame(self):
         self.send(lambda stamp: command(stamp, frame_id="base_link"))
         message = self.output.wait(lambda m: not is_zero(m), "the input at the output")
