@@ -5,10 +5,8 @@ import signal
 import sys
 import time
 import unittest
-import xmlrpc.client
 
 import genpy.dynamic
-import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
@@ -60,13 +58,6 @@ def no_window(stamp):
 def is_zero(setpoint):
     linear, angular = setpoint.twist.linear, setpoint.twist.angular
     return not any((linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
-
-
-def pid_of(node):
-    uri = rosgraph.Master("/autopilot_test").lookupNode(node)
-    code, message, pid = xmlrpc.client.ServerProxy(uri).getPid("/autopilot_test")
-    assert code == 1, message
-    return pid
 
 
 class AutopilotTest(unittest.TestCase):
@@ -142,14 +133,14 @@ class AutopilotTest(unittest.TestCase):
         self.fly()
 
     def test_4_the_guard_brakes_for_a_navigator_killed_in_flight_and_then_gives_way(self):
-        guard = pid_of("/setpoint_guard")
-        os.kill(pid_of("/ingress_navigator"), signal.SIGKILL)
+        guard = support.pid_of("/setpoint_guard")
+        os.kill(support.pid_of("/ingress_navigator"), signal.SIGKILL)
         killed = time.monotonic()
         self.zeros_from(killed + LATE_S + MARGIN_S, STOP_S - 2 * MARGIN_S)
         quiet = killed + LATE_S + STOP_S + MARGIN_S
         support.wait_for(lambda: time.monotonic() > quiet + 1.5, "the silence of the guard")
         self.assertEqual(self.setpoints.since(quiet), [])
-        self.assertEqual(pid_of("/setpoint_guard"), guard)
+        self.assertEqual(support.pid_of("/setpoint_guard"), guard)
         support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "failsafe has to act")
 
 

@@ -1,8 +1,10 @@
 """What the ROS tests share. Everything waits for a condition with a deadline in wall time; nothing sleeps for luck."""
 import threading
 import time
+import xmlrpc.client
 
 import numpy
+import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
@@ -21,6 +23,14 @@ def wait_for(condition, what, deadline_s=DEADLINE_S):
             return value
         time.sleep(POLL_S)
     raise AssertionError(f"not within {deadline_s} s: {what}")
+
+
+def pid_of(node):
+    """Process of a node, as the node itself says."""
+    uri = rosgraph.Master("/test").lookupNode(node)
+    code, message, pid = xmlrpc.client.ServerProxy(uri).getPid("/test")
+    assert code == 1, message
+    return pid
 
 
 class Listener:
