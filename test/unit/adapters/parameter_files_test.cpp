@@ -9,9 +9,9 @@
 #include <set>
 
 #include "adapters/detector_node.hpp"
-#include "adapters/setpoint_gate.hpp"
 #include "adapters/navigator_node.hpp"
 #include "adapters/pose_node.hpp"
+#include "adapters/setpoint_gate.hpp"
 #include "adapters/world_node.hpp"
 
 namespace window_ingress::adapters {

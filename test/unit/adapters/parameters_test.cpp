@@ -4,7 +4,6 @@
 
 #include <limits>
 
-
 namespace window_ingress::adapters {
 namespace {
 
