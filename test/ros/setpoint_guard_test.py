@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The last gate: sane input passes, everything else is zero, and it falls silent only when input has long gone."""
+import subprocess
 import sys
 import time
 import unittest
@@ -53,6 +54,16 @@ class SetpointGuardTest(unittest.TestCase):
     def test_an_output_that_nobody_takes_is_said(self):
         self.output.stop()
         support.Diagnostics().wait("setpoint_guard: cmd_vel", "nobody subscribes to /cmd_vel")
+
+    def test_a_second_source_is_said(self):
+        self.send(command)
+        other = subprocess.Popen(["rostopic", "pub", "-r", "10", "cmd_vel_in", "geometry_msgs/TwistStamped", "{}"],
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "several (2 publishers)", "only one must steer")
+        finally:
+            other.terminate()
+            other.wait(timeout=support.DEADLINE_S)
 
     def test_sane_input_passes_with_its_frame(self):
         self.send(lambda stamp: command(stamp, frame_id="base_link"))
