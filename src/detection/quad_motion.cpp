@@ -72,14 +72,17 @@ void QuadMotion::predict(const Eigen::Matrix3d& turn, double elapsed_sec, const 
       predicted_, {factor * spread.place_px, factor * spread.reshape_px, factor * spread.warp_px});
 }
 
-void QuadMotion::foretell(const geometry::Quadrilateral& quad, const QuadSpread& sigma) {
+bool QuadMotion::foretell(const geometry::Quadrilateral& quad, const QuadSpread& sigma, double max_squares) {
   const Matrix8d other = covarianceOf(quad, sigma) + Matrix8d::Identity() * kLeastSigmaPx * kLeastSigmaPx;
   const Matrix8d total = covariance_ + other;
-  const Matrix8d gain = covariance_ * total.inverse();
-  corners_ += gain * (asVector(quad) - corners_);
+  const Matrix8d inverse = total.inverse(), gain = covariance_ * inverse;
+  const Vector8d off = asVector(quad) - corners_;
+  if (!(off.dot(inverse * off) <= max_squares)) return false;
+  corners_ += gain * off;
   const Matrix8d left = covariance_ - gain * covariance_;
   covariance_ = 0.5 * (left + left.transpose());
   predicted_ = this->quad();
+  return true;
 }
 
 QuadMotion::Row QuadMotion::offsetRow(int side, const Line& line) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "window_ingress/detection/border_quartet.hpp"
 #include "window_ingress/detection/picture_sequence.hpp"
@@ -19,13 +20,14 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kFoundSigmaPx = 0.3;     // of corners just found
-constexpr double kQualityRate = 0.25;     // part of the certainty that a frame replaces
-constexpr double kUnlikePart = 0.7;       // of the quality while the ring does not look like the reference
-constexpr double kGivenWarp = 0.3;        // spread of the shape of a given prediction, of that of its place
-constexpr int kCompletionFrames = 10;     // between searches for a border that is in view and not found
-constexpr double kSameWindow = 0.6;       // overlap of two loops of one window, of their union
-constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
+constexpr double kFoundSigmaPx = 0.3;  // of corners just found
+constexpr double kQualityRate = 0.25;  // part of the certainty that a frame replaces
+constexpr double kUnlikePart = 0.7;    // of the quality while the ring does not look like the reference
+constexpr double kGivenWarp = 0.3;     // spread of the shape of a given prediction, of that of its place
+constexpr double kBelievableSquares = 26.0;  // of a place that is given: 99.9 % of right ones are nearer
+constexpr int kCompletionFrames = 10;        // between searches for a border that is in view and not found
+constexpr double kSameWindow = 0.6;          // overlap of two loops of one window, of their union
+constexpr double kVariantRadiusPx = 4.0;     // reach of the fit of a candidate that the search passed over
 
 }  // namespace
 
@@ -99,8 +101,9 @@ void WindowTracker::Impl::predict(const TrackInput& input) {
       input.predicted && geometry::isFinite(*input.predicted) && geometry::isConvex(*input.predicted);
   if (!place_given) return;
   const double sigma_px = params.track.given_sigma * pictures.longerSide();
-  motion.foretell(undistorted(*input.predicted, pictures.lens()),
-                  {sigma_px, sigma_px, kGivenWarp * sigma_px});
+  const double most = tracking ? kBelievableSquares : std::numeric_limits<double>::infinity();
+  place_given = motion.foretell(undistorted(*input.predicted, pictures.lens()),
+                                {sigma_px, sigma_px, kGivenWarp * sigma_px}, most);
 }
 
 bool WindowTracker::Impl::follow(const TrackInput& input) {

@@ -39,7 +39,9 @@ class QuadMotion {
   void predict(const Eigen::Matrix3d& turn, double elapsed_sec, const QuadSpread& spread);
 
   /// The corners as something else foretells them.
-  void foretell(const geometry::Quadrilateral& quad, const QuadSpread& sigma);
+  /// \param max_squares of the difference in standard deviations, eight degrees of freedom
+  /// \return false, and nothing changed, if they are further from where they are believed to be
+  bool foretell(const geometry::Quadrilateral& quad, const QuadSpread& sigma, double max_squares);
 
   /// The border of a side as seen. \return squared distance from the prediction in standard deviations, of
   /// two degrees of freedom

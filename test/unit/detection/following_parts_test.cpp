@@ -209,9 +209,11 @@ TEST(QuadMotion, AGivenPlaceCountsByItsSpread) {
   QuadMotion sure, unsure;
   sure.start(here, 0.1);
   unsure.start(here, 100.0);
-  for (QuadMotion* motion : {&sure, &unsure}) motion->foretell(there, {4.0, 4.0, 1.0});
+  for (QuadMotion* motion : {&sure, &unsure}) motion->foretell(there, {4.0, 4.0, 1.0}, 1e9);
   EXPECT_LT(test::worstCorner(sure.quad(), here), 0.5);
   EXPECT_LT(test::worstCorner(unsure.quad(), there), 0.5);
+  EXPECT_FALSE(sure.foretell(test::rectangle(200, 80, 300, 160), {4.0, 4.0, 1.0}, 50.0));
+  EXPECT_LT(test::worstCorner(sure.quad(), here), 0.5);
 }
 
 TEST(TargetIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
