@@ -22,6 +22,8 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
               limitsFor(params_.lockstep, params_.stamps),
               [this](const auto& header, const auto& picture) { receive(header, picture); }),
       tuning_(pnh, params_.detector, [this](const auto& params) { detector_.setParams(params); }) {
+  if (params_.use_imu)
+    attitude_.emplace(nh, diagnostics_, params_.base_frame, queueFor(params_.lockstep, 100));
   if (!params_.reference.picture.empty())
     use(loadReference(params_.reference, params_.detector), "photograph " + params_.reference.picture);
   window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);
@@ -39,12 +41,15 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
       [this](const auto& step) { lookInStep(step); });
   camera_.notify([this] { lockstep_->check(); });
+  if (attitude_) attitude_->notify([this] { lockstep_->check(); });
 }
 
 bool DetectorNode::isComplete(const Lockstep::Step& step) const {
-  const bool connected = images_.isConnected() && camera_.isConnected();
+  const bool connected = images_.isConnected() && camera_.isConnected() &&
+                         (!attitude_ || attitude_->isConnected(step.header.frame_id));
   return (step.has_image ? waiting_header_.stamp >= step.image : connected) &&
-         camera_.lastStamp() >= step.camera_info && reference_stamp_ >= step.reference;
+         (!attitude_ || attitude_->lastStamp() >= step.imu) && camera_.lastStamp() >= step.camera_info &&
+         reference_stamp_ >= step.reference;
 }
 
 // Before the first picture there is an answer, too: those who wait for it learn that this node is there.
@@ -75,6 +80,7 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   seen.image = image;
   seen.stamp_sec = header.stamp.toSec();
   seen.camera = camera ? &*camera.value : nullptr;
+  if (attitude_) seen.R_world_camera = attitude_->R_world_camera(seen.stamp_sec, header.frame_id);
   last_window_ = detector_.update(seen);
   last_picture_ = picture;
   window_ingress::WindowDetection message;

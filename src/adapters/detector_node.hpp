@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/attitude_source.hpp"
 #include "adapters/camera_source.hpp"
 #include "adapters/diagnostics.hpp"
 #include "adapters/image_source.hpp"
@@ -26,9 +27,11 @@
 namespace window_ingress::adapters {
 
 struct DetectorNodeParams {
-  std::string image_transport = "raw";  ///< raw, compressed, or a plugin of image_transport
-  bool image_is_rectified = false;      ///< pictures are rectified: P of camera_info counts
-  bool lockstep = false;                ///< with the simulated world, step by step; only with use_sim_time
+  std::string image_transport = "raw";   ///< raw, compressed, or a plugin of image_transport
+  bool image_is_rectified = false;       ///< pictures are rectified: P of camera_info counts
+  bool use_imu = true;                   ///< tracks are led by the attitude on `imu`, where there is one
+  std::string base_frame = "base_link";  ///< the vehicle's, in which `imu` must be
+  bool lockstep = false;                 ///< with the simulated world, step by step; only with use_sim_time
   ImageLimits image;
   StampLimits stamps;
   ReferenceParams reference;
@@ -37,6 +40,8 @@ struct DetectorNodeParams {
   static void visit(Self& self, Visitor&& field) {
     field("image_transport", self.image_transport);
     field("image_is_rectified", self.image_is_rectified);
+    field("use_imu", self.use_imu);
+    field("base_frame", self.base_frame);
     field("lockstep", self.lockstep);
     field.group("image", self.image);
     field.group("stamps", self.stamps);
@@ -72,6 +77,7 @@ class DetectorNode : public Node {
   Diagnostics diagnostics_;
   detection::WindowTracker detector_;
   CameraSource camera_;
+  std::optional<AttitudeSource> attitude_;
   ImageSource images_;
   Tuning tuning_;
   cv::Mat canvas_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "adapters/attitude_source.hpp"
 #include "adapters/guarded.hpp"
 #include "adapters/markers.hpp"
 #include "adapters/parameters.hpp"
@@ -205,15 +206,7 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
 }
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
-  const std::string which = "camera mounting " + params_.frames.base + " <- '" + camera_frame + "': ";
-  if (camera_frame.empty()) return {std::nullopt, which + "the image has no frame_id"};
-  try {
-    const auto found = tf_.lookupTransform(params_.frames.base, camera_frame, ros::Time(0));
-    const auto pose = fromMsg(found.transform);
-    return pose ? pose : Converted<Eigen::Isometry3d>{std::nullopt, which + pose.reason};
-  } catch (const tf2::TransformException& error) {
-    return {std::nullopt, which + "not in tf: " + error.what()};
-  }
+  return mountingOf(tf_, params_.frames.base, camera_frame);
 }
 
 void PoseNode::takeAttitudeFromTf(double stamp_sec) {

@@ -5,8 +5,7 @@ import unittest
 
 import rospy
 import rostest
-from genpy.dynamic import generate_dynamic
-from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped, TransformStamped
+from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Imu
 from window_ingress.msg import WindowDetection, WindowPose
@@ -15,7 +14,7 @@ import support
 
 DISTANCE = 4.0
 WINDOW_W, WINDOW_H = 1.2, 1.0  # defaults of config/pose.yaml
-VEHICLE_X, CAMERA_X = 0.0, 0.1
+VEHICLE_X, CAMERA_X = 0.0, support.CAMERA_X
 
 
 def detection(stamp, frame_id="camera_optical_frame"):
@@ -35,38 +34,27 @@ def detection(stamp, frame_id="camera_optical_frame"):
     return message
 
 
-def imu(stamp):
-    message = Imu()
-    message.header.stamp = stamp
-    message.header.frame_id = "base_link"
-    message.orientation.w = 1.0
-    return message
-
-
-def transforms_type():
-    """tf2_msgs/TFMessage, whose Python package need not be installed."""
-    text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
-            + TransformStamped._full_text)
-    return generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
-
-
-def mounting():
-    """The camera looks forward, a little ahead of the vehicle's centre."""
-    message = TransformStamped(child_frame_id="camera_optical_frame")
-    message.header.stamp = rospy.Time.now()
-    message.header.frame_id = "base_link"
-    message.transform.translation.x = CAMERA_X
-    rotation = message.transform.rotation
-    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+def partial(stamp):
+    """The same with its left and its right border alone, their ends out of the picture."""
+    message = detection(stamp)
+    message.edge_visible = [False, True, False, True]
+    for i in range(4):
+        if message.edge_visible[i]:
+            after = (i + 1) % 4
+            message.edge_a_x[i], message.edge_a_y[i] = message.corner_x[i], 24.0 + 0.9 * message.corner_y[i]
+            message.edge_b_x[i], message.edge_b_y[i] = message.corner_x[after], 24.0 + 0.9 * message.corner_y[after]
+        else:
+            message.edge_sigma_px[i] = message.edge_sigma_rad[i] = 0.0
+    message.corner_visible = [False] * 4
+    message.corner_x = message.corner_y = [0.0] * 4
+    message.corner_covariance = [0.0] * 16
     return message
 
 
 class HomographyPoseTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        kind = transforms_type()
-        cls.mounting = rospy.Publisher("/tf_static", kind, queue_size=1, latch=True)
-        cls.mounting.publish(kind([mounting()]))
+        cls.mounting = support.publish_mounting()
 
     def setUp(self):
         self.poses = support.Listener("window_pose", WindowPose)
@@ -83,7 +71,7 @@ class HomographyPoseTest(unittest.TestCase):
 
     def start_vehicle(self):
         self.stream("odom", Odometry, support.odometry, 50.0)
-        self.stream("imu", Imu, imu, 50.0)
+        self.stream("imu", Imu, support.imu, 50.0)
 
     def test_pose_in_camera_and_in_odom(self):
         self.start_vehicle()
@@ -99,6 +87,18 @@ class HomographyPoseTest(unittest.TestCase):
         self.assertAlmostEqual(pose.filtered.pose.position.z, 1.5, delta=0.05)
         self.assertGreater(pose.filtered.covariance[0], 0.0)
         self.assertEqual((pose.window_width, pose.window_height), (WINDOW_W, WINDOW_H))
+
+    def test_two_sides_near_the_window_update_the_filter(self):
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, support.camera_info)
+        windows = self.stream("window", WindowDetection, detection)
+        whole = self.poses.wait(lambda p: p.filtered_valid, "a filtered pose")
+        windows.make = partial
+        pose = self.poses.wait(lambda p: p.reject != WindowPose.OK and p.filtered_updates > whole.filtered_updates
+                               and p.filtered_age < 0.01, "an update by two sides")
+        self.assertIn("2 of 4 sides in view", pose.reject_reason)
+        self.assertEqual(pose.filtered_reason, "")
+        self.assertAlmostEqual(pose.filtered.pose.position.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.05)
 
     def test_polygon_and_covariance_stand_in_the_camera_frame(self):
         polygons = support.Listener("window_polygon", PolygonStamped)

@@ -7,8 +7,10 @@ import numpy
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
+from genpy.dynamic import generate_dynamic
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, Imu
 
 DEADLINE_S = 20.0
 POLL_S = 0.02
@@ -158,3 +160,40 @@ def odometry(stamp, x=0.0, speed=0.0):
     message.pose.pose.orientation.w = 1.0
     message.twist.twist.linear.x = speed
     return message
+
+
+CAMERA_X = 0.1  # the camera is mounted this far ahead of the vehicle's centre
+
+
+def imu(stamp):
+    message = Imu()
+    message.header.stamp = stamp
+    message.header.frame_id = "base_link"
+    message.orientation.w = 1.0
+    return message
+
+
+def transforms_type():
+    """tf2_msgs/TFMessage, whose Python package need not be installed."""
+    text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
+            + TransformStamped._full_text)
+    return generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
+
+
+def mounting():
+    """The camera looks forward, a little ahead of the vehicle's centre."""
+    message = TransformStamped(child_frame_id="camera_optical_frame")
+    message.header.stamp = rospy.Time.now()
+    message.header.frame_id = "base_link"
+    message.transform.translation.x = CAMERA_X
+    rotation = message.transform.rotation
+    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+    return message
+
+
+def publish_mounting():
+    """As tf_static says it. \return the publisher: it must live as long as it is to be heard"""
+    kind = transforms_type()
+    publisher = rospy.Publisher("/tf_static", kind, queue_size=1, latch=True)
+    publisher.publish(kind([mounting()]))
+    return publisher

@@ -10,7 +10,7 @@ import rospy
 import rostest
 import yaml
 from dynamic_reconfigure.client import Client
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, Imu
 from std_srvs.srv import Trigger
 from window_ingress.msg import WindowDetection
 
@@ -44,6 +44,28 @@ class WindowDetectorTest(unittest.TestCase):
         self.assertEqual((window.image_width, window.image_height), (support.WIDTH, support.HEIGHT))
         self.assertEqual(window.reject_reason, "")
         support.Diagnostics().wait("window_detector: camera_info", "no camera_info on /camera_info (0 publishers)")
+
+    def test_the_attitude_of_the_exposure_comes_from_imu_and_mounting(self):
+        pixels = support.picture()
+        diagnostics = support.Diagnostics()
+        self.stream(lambda stamp: support.image_message(pixels, stamp - rospy.Duration(0.03)))
+        self.stream(support.camera_info, "camera_info", CameraInfo)
+        self.windows.wait(lambda w: w.detected, "a window without attitude")
+        diagnostics.wait("window_detector: attitude", "image alone", "nothing on /imu")
+        imu = self.stream(support.imu, "imu", Imu, 100.0)
+        diagnostics.wait("window_detector: attitude", "image alone", "not in tf")
+        mounting = support.publish_mounting()
+        diagnostics.wait("window_detector: attitude", "known at the last picture")
+        self.windows.wait(lambda w: w.detected, "a window with attitude")
+
+        def elsewhere(stamp):
+            message = support.imu(stamp)
+            message.header.frame_id = "imu_link"
+            return message
+        imu.make = elsewhere
+        diagnostics.wait("window_detector: attitude", "image alone", "'imu_link', expected 'base_link'")
+        self.windows.wait(lambda w: w.detected, "a window all the same")
+        mounting.unregister()
 
     def test_stamp_is_that_of_the_image(self):
         pixels = support.picture()
