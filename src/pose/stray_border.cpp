@@ -9,7 +9,7 @@ namespace window_ingress::pose {
 namespace {
 
 constexpr double kStraySigma = 0.03;    // of a side's length
-constexpr double kLeastEvidence = 6.0;  // for a stray border [nats]
+constexpr double kLeastEvidence = 7.5;  // for a stray border [nats]
 
 // Where keystone alone knows the yaw far worse, the more evidence is needed: what looks like a stray border
 // is then more likely keystone's own noise.

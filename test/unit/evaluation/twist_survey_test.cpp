@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <random>
 
@@ -131,6 +133,10 @@ TEST(TwistSurvey, WrongAxesAreNamedWhateverTheOdometry) {
     for (const double heading : {0.15, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0}) {
       const Count world = count(kWorld, heading, false, "world frame", 5001, 20, bad);
       const Count twice = count(kTwice, heading, false, "twice", 6001, 20, bad);
+      std::printf(
+          "%s odometry, heading %.2f rad: of 40 found %d, still at the end %d, the latest after %.1f m\n",
+          bad ? "bad" : "good", heading, world.alarms + twice.alarms, world.lasting + twice.lasting,
+          std::max(world.latest_m, twice.latest_m));
       for (const Count& found : {world, twice}) {
         const bool must_be = heading >= 0.5 || (heading >= 0.4 && !bad);
         EXPECT_GE(found.alarms, must_be ? (bad ? 19 : 20) : 0) << heading << ' ' << bad;
