@@ -175,6 +175,8 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
     fill(out, *state);
     fill(out, tracker_.fit(*state));
     out.approach_forbidden = tracker_.approachForbidden(*state);
+    out.is_other_window = tracker_.otherWindow().has_value();
+    out.other_window_factor = tracker_.otherWindow().value_or(0.0);
   } else if (out.filtered_reason.empty()) {
     out.filtered_reason = "no image has contributed lately";
   }

@@ -234,6 +234,11 @@ Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, cons
   target.updates = static_cast<int>(std::min<std::uint32_t>(message.filtered_updates, 1u << 30));
   target.opening = {message.window_width, message.window_height};
   target.approach_forbidden = message.approach_forbidden;
+  if (message.is_other_window) {
+    if (!(message.other_window_factor > 0.0) || !std::isfinite(message.other_window_factor))
+      return {std::nullopt, "other_window_factor is not positive"};
+    target.other_window = message.other_window_factor;
+  }
   if (!message.approach_forbidden.empty())
     target.fit = message.fit == PoseMsg::FIT_NO_GO ? pose::Fit::kNoGo
                  : message.fit == PoseMsg::FIT_GO  ? pose::Fit::kGo

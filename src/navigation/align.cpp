@@ -55,7 +55,8 @@ void Align::enter(double now_sec) {
   ambiguous_since_sec_ = now_sec;
 }
 
-Decision Align::step(const Situation& situation, const MissionMemory& memory) {
+Decision Align::step(const Situation& situation, MissionMemory& memory) {
+  if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const RelativeState relative = relate(*situation.vehicle, *situation.target);
   if (!situation.target->sign_trusted) return resolveSign(situation, relative);
   ambiguous_since_sec_ = situation.now_sec;
@@ -86,7 +87,7 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
   return decision;
 }
 
-Decision Align::moveOntoAxis(const Situation& situation, const MissionMemory& memory,
+Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
   const Contract contract = contractWith(target, *situation.vehicle, memory, params_);

@@ -10,6 +10,33 @@ void MissionMemory::forgetPlaces() {
   committed.reset();
   window_odom_m.reset();
   place_odom_m.reset();
+  others_odom_m.clear();
+}
+
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {
+  const auto& target = *situation.target;
+  if (!target.other_window) return std::nullopt;
+  const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
+  memory.others_odom_m.push_back(position +
+                                 *target.other_window * (target.T_odom_window.translation() - position));
+  ++memory.others;
+  memory.trusted.reset();
+  memory.window_odom_m.reset();
+  Decision decision;
+  decision.keeps_place = true;
+  decision.event = Event::kOtherWindow;
+  decision.reason = target.approach_forbidden;
+  return decision;
+}
+
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory) {
+  constexpr double kSameDirectionRad = 0.12;
+  const Eigen::Vector3d position = vehicle.T_odom_base.translation();
+  const Eigen::Vector3d sight = (target.T_odom_window.translation() - position).normalized();
+  return std::any_of(memory.others_odom_m.begin(), memory.others_odom_m.end(),
+                     [&](const Eigen::Vector3d& other) {
+                       return sight.dot((other - position).normalized()) > std::cos(kSameDirectionRad);
+                     });
 }
 
 double pitchOf(const VehicleState& vehicle) {

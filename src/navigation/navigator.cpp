@@ -94,7 +94,8 @@ void Navigator::Impl::remember(const Situation& situation) {
   }
   if (state == State::kCommit) {
     memory.trusted = memory.committed;
-  } else if (situation.target) {
+  } else if (situation.target && situation.vehicle &&
+             !isKnownOther(*situation.target, *situation.vehicle, memory)) {
     memory.window_odom_m = situation.target->T_odom_window.translation();
     if (situation.target->sign_trusted) memory.trusted = situation.target;
   }

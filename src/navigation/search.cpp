@@ -7,6 +7,9 @@
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation {
+namespace {
+constexpr int kMostOthers = 8;
+}
 
 void Search::enter(bool may_climb) {
   *this = Search(params_);
@@ -14,12 +17,12 @@ void Search::enter(bool may_climb) {
   looks_back_ = true;
 }
 
-Decision Search::step(const Situation& situation, const MissionMemory& memory) {
+Decision Search::step(const Situation& situation, MissionMemory& memory) {
   const auto& vehicle = *situation.vehicle;
   const double height_m = vehicle.T_odom_base.translation().z();
   if (!height_m_) height_m_ = may_climb_ ? std::max(params_.search.height_m, height_m) : height_m;
   Decision decision;
-  if (situation.target) {
+  if (situation.target && !isKnownOther(*situation.target, vehicle, memory)) {
     decision = lookAt(situation);
   } else {
     frames_ = 0;
@@ -30,9 +33,10 @@ Decision Search::step(const Situation& situation, const MissionMemory& memory) {
   decision.keeps_place = true;
   decision.wish.velocity_odom_mps.z() =
       climbFor(*height_m_ - height_m, params_.search.climb_speed_mps, params_);
-  if (turns_ >= params_.search.turns) {
+  if (turns_ >= params_.search.turns || memory.others > kMostOthers) {
     decision.event = Event::kGiveUp;
     decision.reason = "window not found in " + std::to_string(turns_) + " turns";
+    if (memory.others > 0) decision.reason += ", but others " + std::to_string(memory.others) + " times";
   }
   return decision;
 }
@@ -57,7 +61,7 @@ double Search::fastestTurn(double image_period_sec) const {
   return fastest;
 }
 
-double Search::sweep(const VehicleState& vehicle, const MissionMemory& memory) {
+double Search::sweep(const VehicleState& vehicle, MissionMemory& memory) {
   const double heading_rad = geometry::yawOf(vehicle.T_odom_base.linear());
   if (looks_back_ && memory.window_odom_m) {
     const Eigen::Vector3d to_window = *memory.window_odom_m - vehicle.T_odom_base.translation();
@@ -66,16 +70,17 @@ double Search::sweep(const VehicleState& vehicle, const MissionMemory& memory) {
     if (std::abs(bearing_rad) > 0.1) return yawRateFor(bearing_rad, params_);
   }
   looks_back_ = false;
-  countTurn(heading_rad);
+  countTurn(heading_rad, memory);
   return direction_ * params_.search.yaw_rate_radps;
 }
 
-void Search::countTurn(double heading_rad) {
+void Search::countTurn(double heading_rad, MissionMemory& memory) {
   if (last_heading_rad_) turned_rad_ += geometry::wrapAngle(heading_rad - *last_heading_rad_);
   last_heading_rad_ = heading_rad;
   if (std::abs(turned_rad_) < 2.0 * M_PI) return;
   turned_rad_ = 0.0;
   ++turns_;
+  memory.others_odom_m.clear();  // one of them may have been misjudged
   if (may_climb_) height_m_ = *height_m_ + params_.search.height_step_m;
 }
 

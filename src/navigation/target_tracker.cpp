@@ -1,6 +1,7 @@
 #include "window_ingress/navigation/target_tracker.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -13,6 +14,12 @@ TrackerParams checked(const TrackerParams& params) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("tracker: " + parameters::joined(faults));
   return params;
+}
+
+std::string otherWindowText(double factor) {
+  char text[100];
+  std::snprintf(text, sizeof text, "another window: about %.1f times as large as the one looked for", factor);
+  return text;
 }
 
 pose::SizeBelief sizeSaid(const pose::PoseParams& pose) {
@@ -37,11 +44,13 @@ TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterPar
     : params_(checked(params)),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
-      frames_(pose, filter, params.frames, sizeSaid(pose)) {}
+      frames_(pose, filter, params.frames, sizeSaid(pose)),
+      size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
 
 void TargetTracker::forgetPlaces() {
   filter_.forgetPlaces();
   frames_.forgetPlaces();
+  parallax_.clear();
   odometry_.clear();
   attitude_.clear();
   odometry_stamp_sec_.reset();
@@ -102,7 +111,21 @@ pose::PoseResult TargetTracker::estimate(const Pending& pending) {
   return estimator_.estimate(pending.window, pending.camera, hints);
 }
 
+// What was found out about the size belongs to the window it was found out of.
+void TargetTracker::noticeTarget(std::uint32_t target_id) {
+  if (target_id == target_id_) return;
+  target_id_ = target_id;
+  parallax_.clear();
+}
+
+void TargetTracker::checkSize(const Pending& pending, const Eigen::Isometry3d& T_odom_camera) {
+  if (!size_is_known_ || !last_.pose.estimate || !pending.window.whole()) return;
+  parallax_.see(pending.window.stamp_sec, T_odom_camera.translation(),
+                T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
+}
+
 void TargetTracker::process(const Pending& pending) {
+  noticeTarget(pending.window.target_id);
   last_.pose = estimate(pending);
   last_.why_not = whyNotUsed(pending);
   last_.used = last_.why_not.empty();
@@ -120,6 +143,7 @@ std::string TargetTracker::whyNotUsed(const Pending& pending) {
   if (!T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_base) return "no odometry near the exposure";
   const Eigen::Isometry3d T_odom_camera = *T_odom_base * *T_base_camera;
+  checkSize(pending, T_odom_camera);
   const bool used = last_.pose.estimate ? filter_.update(*last_.pose.estimate, window, camera, T_odom_camera)
                                         : filter_.update(window, camera, T_odom_camera);
   return used ? "" : "gated out by the filter";
@@ -149,12 +173,22 @@ std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
   TargetEstimate target = targetFrom(*state);
   target.fit = fit(*state).fit;
   target.approach_forbidden = approachForbidden(*state);
+  target.other_window = otherWindow();
   return target;
+}
+
+// A factor out of all proportion speaks of the frames, not of the window.
+std::optional<double> TargetTracker::otherWindow() const {
+  constexpr double kLargest = 5.0;
+  if (parallax_.verdict() != pose::ParallaxCheck::Verdict::kOther) return std::nullopt;
+  const double factor = parallax_.factor();
+  return factor < kLargest && factor > 1.0 / kLargest ? std::optional(factor) : std::nullopt;
 }
 
 std::string TargetTracker::approachForbidden(const pose::FilteredWindow& window) const {
   const pose::FramesVerdict frames = frames_.verdict();
   if (frames.state == pose::FramesVerdict::kWrong) return frames.what;
+  if (const auto factor = otherWindow()) return otherWindowText(*factor);
   const pose::FitVerdict verdict = fit(window);
   if (verdict.fit == pose::Fit::kGo) return "";
   return std::string("fit ") + pose::toString(verdict.fit) + ": " + verdict.reason;

@@ -44,6 +44,8 @@ const char* toString(Event event) {
       return "contract unmet";
     case Event::kCrossed:
       return "crossed";
+    case Event::kOtherWindow:
+      return "other window";
     case Event::kWindowLost:
       return "window lost";
     case Event::kBackedOff:

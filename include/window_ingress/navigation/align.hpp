@@ -59,12 +59,11 @@ class Align {
   explicit Align(const NavigatorParams& params) : params_(params), probe_(params), pacer_(params) {}
 
   void enter(double now_sec);
-  Decision step(const Situation& situation, const MissionMemory& memory);
+  Decision step(const Situation& situation, MissionMemory& memory);
 
  private:
   Decision resolveSign(const Situation& situation, const RelativeState& relative);
-  Decision moveOntoAxis(const Situation& situation, const MissionMemory& memory,
-                        const RelativeState& relative);
+  Decision moveOntoAxis(const Situation& situation, MissionMemory& memory, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);
 
   NavigatorParams params_;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "window_ingress/navigation/approach_contract.hpp"
 #include "window_ingress/navigation/input_monitor.hpp"
@@ -28,6 +29,8 @@ struct MissionMemory {
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   std::optional<Eigen::Vector3d> home_odom_m;               ///< where the mission began
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
+  std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
+  int others = 0;                               ///< how often one of these was flown at
   int back_offs = 0;
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
@@ -35,6 +38,13 @@ struct MissionMemory {
   /// Everything that lives in an odometry frame.
   void forgetPlaces();
 };
+
+/// If the way flown has shown the target to be another window: remembers that, and says so.
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory);
+
+/// The target lies where a window is that is known to be another one: in the same direction, for its distance
+/// is computed with a size that it does not have.
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory);
 
 /// Nose-down pitch of the vehicle [rad].
 double pitchOf(const VehicleState& vehicle);

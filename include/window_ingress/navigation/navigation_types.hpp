@@ -32,6 +32,8 @@ struct TargetEstimate {
   /// the camera's mounting or the velocity's frame are not what they are said to be. Empty if there is no
   /// reason.
   std::string approach_forbidden;
+  /// The way flown has shown that it is not the window looked for, but one so many times as large.
+  std::optional<double> other_window;
 };
 
 /// Velocity wish for the vehicle: odometry axes, yaw rate about z.

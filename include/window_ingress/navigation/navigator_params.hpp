@@ -114,8 +114,8 @@ struct SearchParams {
 /// ALIGN: onto the window's normal, the camera kept on the window; and the gains that APPROACH and COMMIT
 /// share.
 struct AlignParams {
-  double lateral_gain_hz = 1.0;     ///< sideways and upward velocity per offset [1/s]
-  double lateral_speed_mps = 0.9;   ///< most sideways [m/s]
+  double lateral_gain_hz = 1.0;    ///< sideways and upward velocity per offset [1/s]
+  double lateral_speed_mps = 0.9;  ///< most sideways [m/s]
   double vertical_speed_mps = 0.5;  ///< most upward and downward [m/s]
   double yaw_gain_hz = 2.0;         ///< yaw rate per bearing; keep above twice the lateral gain [1/s]
   double min_distance_m = 2.0;      ///< to the window's plane while aligning; closer, it moves away [m]

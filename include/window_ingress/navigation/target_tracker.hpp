@@ -9,6 +9,7 @@
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/pose/frames_check.hpp"
 #include "window_ingress/pose/opening_fit.hpp"
+#include "window_ingress/pose/parallax_check.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
 #include "window_ingress/pose/window_filter.hpp"
 #include "window_ingress/pose/window_pose_estimator.hpp"
@@ -77,6 +78,8 @@ class TargetTracker {
   const std::optional<pose::SizeBelief>& measuredSize() const { return frames_.mounting().measuredSize(); }
   /// Why nobody should fly towards this window; empty if there is no reason.
   std::string approachForbidden(const pose::FilteredWindow& window) const;
+  /// The window seen is not the one looked for, but so many times as large.
+  std::optional<double> otherWindow() const;
 
  private:
   struct Pending {
@@ -87,6 +90,8 @@ class TargetTracker {
   void process(const Pending& pending);
   std::string whyNotUsed(const Pending& pending);
   void forgetPlaces();
+  void noticeTarget(std::uint32_t target_id);
+  void checkSize(const Pending& pending, const Eigen::Isometry3d& T_odom_camera);
   bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
   std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
   std::optional<pose::GravityPrior> gravity(const Pending& pending);
@@ -96,6 +101,9 @@ class TargetTracker {
   pose::WindowPoseEstimator estimator_;
   pose::WindowFilter filter_;
   pose::FramesCheck frames_;
+  pose::ParallaxCheck parallax_;
+  bool size_is_known_;
+  std::uint32_t target_id_ = 0;
   pose::PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
   Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();

@@ -20,6 +20,7 @@ enum class Event {
   kCommitReached,  ///< the window is about to leave the view and the contract holds
   kContractUnmet,  ///< close to the window and the predicted miss exceeds the clearance
   kCrossed,        ///< behind the window, standing still
+  kOtherWindow,    ///< the way flown has shown that it is not the window looked for
   kWindowLost,     ///< not seen for long, its normal is known
   kBackedOff,      ///< far enough away, the window still not in view
   kReacquired,     ///< seen again
@@ -31,7 +32,7 @@ enum class Event {
   kAbort,          ///< the operator asks for the end
   kReset           ///< the operator acknowledges the end
 };
-inline constexpr std::size_t kEventCount = 17;
+inline constexpr std::size_t kEventCount = 18;
 
 const char* toString(State state);
 const char* toString(Event event);
@@ -53,6 +54,7 @@ inline constexpr std::array kTransitions = {
     Transition{State::kSearch, Event::kAbort, State::kAborted},
 
     Transition{State::kAlign, Event::kAligned, State::kApproach},
+    Transition{State::kAlign, Event::kOtherWindow, State::kSearch},
     Transition{State::kAlign, Event::kInputStale, State::kHold},
     Transition{State::kAlign, Event::kGiveUp, State::kAborted},
     Transition{State::kAlign, Event::kDisengaged, State::kIdle},
@@ -60,6 +62,7 @@ inline constexpr std::array kTransitions = {
 
     Transition{State::kApproach, Event::kCommitReached, State::kCommit},
     Transition{State::kApproach, Event::kMisaligned, State::kAlign},
+    Transition{State::kApproach, Event::kOtherWindow, State::kSearch},
     Transition{State::kApproach, Event::kContractUnmet, State::kBackOff},
     Transition{State::kApproach, Event::kInputStale, State::kHold},
     Transition{State::kApproach, Event::kGiveUp, State::kAborted},

@@ -26,13 +26,14 @@ Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool wi
 }
 
 TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
+  MissionMemory memory;
   const NavigatorParams params;
   Search search(params);
   search.enter(true);
   double yaw = 0.0, height = 1.5, turned = 0.0;
   Decision decision;
   while (!decision.event) {
-    decision = search.step(situationAt({-4, 1, height}, 0.0, false, yaw), MissionMemory());
+    decision = search.step(situationAt({-4, 1, height}, 0.0, false, yaw), memory);
     ASSERT_EQ(decision.wish.velocity_odom_mps.head<2>().norm(), 0.0);
     ASSERT_LE(std::abs(decision.wish.velocity_odom_mps.z()), params.search.climb_speed_mps + 1e-12);
     yaw = geometry::wrapAngle(yaw + 0.03 * decision.wish.yaw_rate_radps);
@@ -45,18 +46,16 @@ TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
 }
 
 TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
+  MissionMemory memory;
   NavigatorParams params;
   params.search.height_m = 3.0;
   Search search(params);
   search.enter(false);
-  EXPECT_EQ(search.step(situationAt({-4, 1, 1.5}, 0.0, false), MissionMemory()).wish.velocity_odom_mps.z(),
-            0.0);
+  EXPECT_EQ(search.step(situationAt({-4, 1, 1.5}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
   search.enter(true);
-  EXPECT_GT(search.step(situationAt({-4, 1, 1.5}, 0.0, false), MissionMemory()).wish.velocity_odom_mps.z(),
-            0.0);
+  EXPECT_GT(search.step(situationAt({-4, 1, 1.5}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
   search.enter(true);
-  EXPECT_EQ(search.step(situationAt({-4, 1, 5.0}, 0.0, false), MissionMemory()).wish.velocity_odom_mps.z(),
-            0.0);
+  EXPECT_EQ(search.step(situationAt({-4, 1, 5.0}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
 }
 
 TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
@@ -71,13 +70,13 @@ TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
 }
 
 TEST(SearchBehaviour, OneImageIsNoWindow) {
+  MissionMemory memory;
   Search search{NavigatorParams()};
   search.enter(true);
-  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), MissionMemory()).event);
-  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), MissionMemory()).event);
-  for (int i = 0; i < 2; ++i)
-    EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.2, true), MissionMemory()).event);
-  EXPECT_EQ(search.step(situationAt({-4, 0, 1.5}, 0.3, true), MissionMemory()).event, Event::kWindowFound);
+  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), memory).event);
+  EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), memory).event);
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.2, true), memory).event);
+  EXPECT_EQ(search.step(situationAt({-4, 0, 1.5}, 0.3, true), memory).event, Event::kWindowFound);
 }
 
 TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
@@ -104,13 +103,14 @@ TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
 
 TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   Align align{NavigatorParams()};
+  MissionMemory memory;
   align.enter(0.0);
   bool climbed = false, gave_up = false;
   double height_m = 0.0;
   for (double now = 0.0; now < 60.0 && !gave_up; now += 0.05) {
     auto situation = situationAt({-3.0, 0.0, height_m}, now, true);
     situation.target->approach_forbidden = "twist looks like world frame";
-    const Decision decision = align.step(situation, MissionMemory());
+    const Decision decision = align.step(situation, memory);
     EXPECT_NE(decision.event, Event::kAligned);
     gave_up = decision.event == Event::kGiveUp;
     EXPECT_TRUE(!gave_up || decision.reason.find("world frame") != std::string::npos);
@@ -132,6 +132,53 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   EXPECT_EQ(decision.event, Event::kMisaligned);
   EXPECT_EQ(decision.wish.velocity_odom_mps, Eigen::Vector3d(0, 0, 0));
   EXPECT_NE(decision.reason.find("0.50 m"), std::string::npos);
+}
+
+TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
+  MissionMemory memory;
+  Align align{NavigatorParams()};
+  align.enter(0.0);
+  auto situation = situationAt({-5.0, 0.0, 1.5}, 0.0, true);
+  situation.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 2.0, 1.5);
+  memory.trusted = situation.target;
+  memory.window_odom_m = situation.target->T_odom_window.translation();
+  EXPECT_NE(align.step(situation, memory).event, Event::kOtherWindow);
+  situation.target->other_window = 0.5;
+  situation.target->approach_forbidden = "another window: about 0.5 times as large";
+  const Decision decision = align.step(situation, memory);
+  EXPECT_EQ(decision.event, Event::kOtherWindow);
+  EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
+  EXPECT_NE(decision.reason.find("0.5 times"), std::string::npos);
+  ASSERT_EQ(memory.others_odom_m.size(), 1u);
+  EXPECT_TRUE(memory.others_odom_m.front().isApprox(Eigen::Vector3d(0.0, 1.0, 1.5)));
+  EXPECT_FALSE(memory.trusted || memory.window_odom_m) << "nothing may be flown by it any more";
+
+  Search search{NavigatorParams()};
+  search.enter(false);
+  for (int i = 0; i < 10; ++i)
+    EXPECT_FALSE(search.step(situationAt({-5.0, -1.0, 1.5}, 0.1 * i, false), memory).event);
+  auto again = situationAt({-5.0, -1.0, 1.5}, 1.0, true);
+  again.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 3.1, 1.5);  // the same one, from elsewhere
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.step(again, memory).event);
+  auto right = situationAt({-5.0, -1.0, 1.5}, 2.0, true);
+  Decision found;
+  for (int i = 0; i < 3; ++i) found = search.step(right, memory);
+  EXPECT_EQ(found.event, Event::kWindowFound);
+}
+
+TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
+  MissionMemory memory;
+  memory.others_odom_m.push_back({0.0, 0.0, 1.5});
+  Search search{NavigatorParams()};
+  search.enter(false);
+  double yaw = 0.0;
+  for (int i = 0; i < 10; ++i) search.step(situationAt({-4, 0, 1.5}, 0.0, true, yaw), memory);
+  EXPECT_EQ(memory.others_odom_m.size(), 1u);
+  for (double turned = 0.0; turned < 2.0 * M_PI + 0.1; turned += 0.05) {
+    yaw = geometry::wrapAngle(yaw + 0.05);
+    search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), memory);
+  }
+  EXPECT_TRUE(memory.others_odom_m.empty());
 }
 
 TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
@@ -163,7 +210,8 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
     search.enter(false);
     auto situation = situationAt({-4, 0, 1.5}, 0.0, false);
     situation.image_period_sec = image_period_sec;
-    return search.step(situation, MissionMemory()).wish.yaw_rate_radps;
+    MissionMemory memory;
+    return search.step(situation, memory).wish.yaw_rate_radps;
   };
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.yaw_rate_radps);
   EXPECT_DOUBLE_EQ(rateWith(1.0), params.search.max_turn_per_image * params.vehicle.horizontal_fov_rad);

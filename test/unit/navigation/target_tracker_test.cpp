@@ -111,6 +111,31 @@ TEST(TargetTracker, FindsOutASizeThatIsNotKnown) {
   EXPECT_EQ(target->approach_forbidden, "");
 }
 
+TEST(TargetTracker, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
+  pose::PoseParams twice;  // looking for one twice as large
+  twice.opening_width_m = 2.4;
+  twice.opening_height_m = 2.0;
+  auto track = flownSideways(twice, TrackerParams(), kMounting);
+  auto target = track.target(3.0);
+  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  ASSERT_TRUE(target->other_window);
+  EXPECT_NEAR(*target->other_window, 0.5, 0.1);
+  EXPECT_NE(target->approach_forbidden, "");
+
+  auto next = sighting(vehicleAt(1.8), 3.03);
+  next.target_id = 7;
+  track.addOdometry(3.03, vehicleAt(1.8));
+  track.see(next, kCamera, kMounting);
+  target = track.target(3.03);
+  ASSERT_TRUE(target);
+  EXPECT_FALSE(target->other_window);
+  EXPECT_EQ(target->approach_forbidden, "");
+
+  const auto right = flownSideways(pose::PoseParams(), TrackerParams(), kMounting).target(3.0);
+  ASSERT_TRUE(right);
+  EXPECT_FALSE(right->other_window);
+}
+
 TEST(TargetTracker, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
   auto track = TargetTracker(unknownSize(), pose::FilterParams(), TrackerParams());
   for (int i = 0; i < 30; ++i) {
