@@ -43,7 +43,7 @@ bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilater
 
 bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral& followed,
                           WindowObservation& window) {
-  agreed_ = false;
+  agreed_ = compared_ = false;
   if (!reference_ || --frames_to_comparison_ > 0) return true;
   frames_to_comparison_ = params_.track.appearance_every;
   const bool in_place = !strays(input, followed);
@@ -51,6 +51,7 @@ bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral
   const auto match = reference_->compare(input.image, window.corners, params_.appearance);
   window.has_appearance = match.has_value();
   window.bhattacharyya = match ? match->distance : 0.0;
+  compared_ = window.has_appearance;
   unlike_ = match && match->distance > match->limit;
   agreed_ = match && !unlike_;
   return in_place && !unlike_;

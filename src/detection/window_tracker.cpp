@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "window_ingress/detection/border_quartet.hpp"
+#include "window_ingress/detection/known_likeness.hpp"
 #include "window_ingress/detection/picture_sequence.hpp"
 #include "window_ingress/detection/reference_watch.hpp"
 #include "window_ingress/detection/second_opinion.hpp"
@@ -41,6 +42,7 @@ struct WindowTracker::Impl {
         motion(),
         quartet(p.track, p.refinement),
         identity(p.track),
+        likeness(p.track),
         opinion(p.track) {}
 
   void begin(const TrackInput& input);
@@ -75,6 +77,7 @@ struct WindowTracker::Impl {
   QuadMotion motion;
   BorderQuartet quartet;
   TargetIdentity identity;
+  KnownLikeness likeness;
   SecondOpinion opinion;
   WindowObservation window;  // as followed last
   DetectionTrace own_trace;  // where the search's does not tell what happened
@@ -128,6 +131,7 @@ void WindowTracker::Impl::watch(const TrackInput& input) {
   if (reference.hasAgreed() && opinion.isConfirmed() && certainty > params.track.adapt_certainty &&
       quartet.fitted() == 4)
     reference.adapt(input, window);
+  if (reference.hasCompared() && opinion.isConfirmed()) likeness.note(window.bhattacharyya, input.stamp_sec);
 }
 
 // The search's window becomes the one that is own_trace.
@@ -173,6 +177,10 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   }
   if (remembers && !is_same && identity.settled()) {
     refuse(RejectReason::kOutscored, "another window is in view; the one that was followed is waited for");
+    return std::nullopt;
+  }
+  if (found->has_appearance && !likeness.allows(found->bhattacharyya, input.stamp_sec)) {
+    refuse(RejectReason::kAppearance, "less like the reference than the target was");
     return std::nullopt;
   }
   take(input, *found, is_same);
@@ -233,6 +241,7 @@ void WindowTracker::setParams(const DetectorParams& params) {
   impl_->opinion = SecondOpinion(params.track);
   impl_->reference.setParams(params);
   impl_->pictures = PictureSequence(params.track.max_gap_sec);
+  impl_->likeness = KnownLikeness(params.track);
   impl_->forget();
 }
 
@@ -240,16 +249,21 @@ void WindowTracker::setReference(const ReferenceAppearance& reference) {
   const auto shared = std::make_shared<ReferenceAppearance>(reference);
   impl_->detector.shareReference(shared);
   impl_->reference.setReference(shared);
+  impl_->likeness.forget();
   impl_->forget();
 }
 
 void WindowTracker::clearReference() {
   impl_->reference.setReference(nullptr);
   impl_->detector.clearReference();
+  impl_->likeness.forget();
   impl_->forget();
 }
 
-void WindowTracker::reset() { impl_->forget(); }
+void WindowTracker::reset() {
+  impl_->likeness.forget();
+  impl_->forget();
+}
 
 std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) {
   if (!isPicture(input.image) || !std::isfinite(input.stamp_sec)) {

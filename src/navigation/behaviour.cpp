@@ -5,12 +5,16 @@
 
 namespace window_ingress::navigation {
 
-void MissionMemory::forgetPlaces() {
+void MissionMemory::forgetWindow() {
   trusted.reset();
-  committed.reset();
   window_odom_m.reset();
-  place_odom_m.reset();
   others_odom_m.clear();
+}
+
+void MissionMemory::forgetPlaces() {
+  forgetWindow();
+  committed.reset();
+  place_odom_m.reset();
 }
 
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {

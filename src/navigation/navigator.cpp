@@ -1,6 +1,7 @@
 #include "window_ingress/navigation/navigator.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "window_ingress/navigation/align.hpp"
@@ -57,6 +58,7 @@ struct Navigator::Impl {
 
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   void passTime(double to_sec);
+  void keepToWindow(Situation& situation) const;
   void remember(const Situation& situation);
   void keepHome(const VehicleState& vehicle);
   Decision decide(const NavigatorInput& input, const Situation& situation);
@@ -99,6 +101,19 @@ void Navigator::Impl::remember(const Situation& situation) {
     memory.window_odom_m = situation.target->T_odom_window.translation();
     if (situation.target->sign_trusted) memory.trusted = situation.target;
   }
+}
+
+// A window once flown at is not exchanged for another one on the way. COMMIT judges for itself what it sees.
+void Navigator::Impl::keepToWindow(Situation& situation) const {
+  if (state == State::kCommit || situation.vehicle_jumped || !memory.trusted || !situation.target) return;
+  const double shift_m =
+      (situation.target->T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
+  if (shift_m <= params.input.max_window_shift_m) return;
+  char text[80];
+  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
+  situation.target.reset();
+  situation.target_is_new = false;
+  situation.target_fault = text;
 }
 
 // The odometry may jump, home does not: it stays where it was as seen from the vehicle.
@@ -268,7 +283,8 @@ Reply Navigator::reset() {
 
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
-  const Situation situation = self.monitor.judge(input, now_sec);
+  Situation situation = self.monitor.judge(input, now_sec);
+  self.keepToWindow(situation);
   self.passTime(now_sec);
   self.remember(situation);
   Decision decision = self.decide(input, situation);

@@ -80,7 +80,7 @@ void Search::countTurn(double heading_rad, MissionMemory& memory) {
   if (std::abs(turned_rad_) < 2.0 * M_PI) return;
   turned_rad_ = 0.0;
   ++turns_;
-  memory.others_odom_m.clear();  // one of them may have been misjudged
+  memory.forgetWindow();
   if (may_climb_) height_m_ = *height_m_ + params_.search.height_step_m;
 }
 

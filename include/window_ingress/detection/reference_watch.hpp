@@ -31,8 +31,9 @@ class ReferenceWatch {
   /// Right after a look that agreed: takes over part of what differs.
   void adapt(const TrackInput& input, const WindowObservation& window);
 
-  bool hasAgreed() const { return agreed_; }  ///< `look` has looked at the last picture, and it was alike
-  bool isUnlike() const { return unlike_; }   ///< the last time that it was looked at
+  bool hasCompared() const { return compared_; }  ///< `look` has compared the last picture
+  bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last picture, and it was alike
+  bool isUnlike() const { return unlike_; }       ///< the last time that it was looked at
   double drift() const { return reference_ ? reference_->drift() : 0.0; }
 
  private:
@@ -43,7 +44,7 @@ class ReferenceWatch {
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
   std::unique_ptr<ReferenceBorders> borders_;
   int frames_to_comparison_ = 0;
-  bool unlike_ = false, agreed_ = false;
+  bool unlike_ = false, agreed_ = false, compared_ = false;
 };
 
 }  // namespace window_ingress::detection

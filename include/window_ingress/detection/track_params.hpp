@@ -25,6 +25,9 @@ struct TrackParams {
   int settled = 5;            ///< frames after which a lost window is waited for before another one is taken
   int appearance_every = 15;  ///< frames between comparisons with the reference
   double adaptation = 0.1;    ///< part of a difference in appearance that such a comparison takes over
+  double likeness_margin =
+      0.2;  ///< a window less like the reference than the target was by this is another one
+  double likeness_sec = 10.0;    ///< so long after the target was last compared [s]
   double adapt_certainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
   int confirmations =
       3;  ///< searches that must agree with a new track, or name another place, to be believed
@@ -52,6 +55,8 @@ struct TrackParams {
     field("settled", self.settled, 1, 1000);
     field("appearance_every", self.appearance_every, 1, 100000);
     field("adaptation", self.adaptation, 0.0, 1.0);
+    field("likeness_margin", self.likeness_margin, 0.01, 1.0);
+    field("likeness_sec", self.likeness_sec, 0.0, 1000.0);
     field("adapt_certainty", self.adapt_certainty, 0.0, 1.0);
     field("confirmations", self.confirmations, 1, 100);
     field("question_every", self.question_every, 1, 1000);

@@ -35,6 +35,8 @@ struct MissionMemory {
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
 
+  /// Which window is flown at, and which not: one of them may have been misjudged.
+  void forgetWindow();
   /// Everything that lives in an odometry frame.
   void forgetPlaces();
 };

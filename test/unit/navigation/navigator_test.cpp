@@ -116,6 +116,25 @@ TEST_F(NavigatorSteps, GoesThroughTheStatesAsTheInputSays) {
   EXPECT_LE(output.setpoint.velocity_odom_mps.norm(), params_.hold.speed_mps) << "keeps its place";
 }
 
+TEST_F(NavigatorSteps, AWindowOnceFlownAtIsNotExchangedForAnother) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_EQ(steps(navigator, kFar, 20).state, State::kApproach);
+  NavigatorOutput output;
+  std::set<State> states;
+  for (int i = 0; i < 200; ++i) {
+    now_ += kStep;
+    auto input = inputAt(kFar, now_);
+    input.target->T_odom_window.translation().y() += 2.2;
+    output = navigator.step(input, now_);
+    states.insert(output.state);
+    const double most_mps = i > 12 ? params_.hold.speed_mps : params_.limits.speed_mps;
+    EXPECT_LE(output.setpoint.velocity_odom_mps.head<2>().norm(), most_mps + 1e-9) << i;
+  }
+  EXPECT_TRUE(states.count(State::kHold) && states.count(State::kSearch));
+  EXPECT_EQ(steps(navigator, kFar, 30).state, State::kApproach) << "the right one is taken again";
+}
+
 TEST_F(NavigatorSteps, TurnsBackFromACommitWhenTheWindowIsSeenElsewhere) {
   Navigator navigator(params_);
   start(navigator, kFar);
