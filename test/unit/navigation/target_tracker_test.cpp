@@ -28,6 +28,7 @@ detection::WindowObservation sighting(const Eigen::Isometry3d& T_odom_base, doub
   for (auto& edge : window.edges) edge = {true, 0.1, 0.001};
   window.stamp_sec = stamp_sec;
   window.score = 1.0;
+  window.target_id = 1;
   return window;
 }
 
