@@ -20,6 +20,7 @@ Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
   decision.reason = !situation.vehicle ? situation.vehicle_fault
                     : !is_good         ? situation.image_fault
                                        : situation.target_fault;
+  if (decision.reason.empty()) decision.reason = "inputs are back";
   if (is_good && situation.now_sec - *good_since_sec_ >= params_.hold.dwell_sec) {
     decision.event = wayOn(situation, memory, held_sec, decision.reason);
   }
@@ -35,7 +36,9 @@ std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory
   if (from_ == State::kCommit) {
     if (Commit::canResume(situation, memory, params_)) return Event::kResumed;
     reason = "the commit cannot be resumed";
-    return memory.trusted ? Event::kWindowLost : Event::kGiveUp;
+    if (memory.trusted) return Event::kWindowLost;
+    if (!memory.was_in_front) return Event::kGiveUp;  // where the opening is now is not known
+    return situation.target ? std::optional(Event::kReacquired) : std::nullopt;
   }
   if (situation.target) {
     reason = "window seen again";

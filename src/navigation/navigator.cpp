@@ -60,6 +60,7 @@ struct Navigator::Impl {
   void passTime(double to_sec);
   void keepToWindow(Situation& situation) const;
   void remember(const Situation& situation);
+  void noteSide(const Situation& situation);
   void keepHome(const VehicleState& vehicle);
   Decision decide(const NavigatorInput& input, const Situation& situation);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
@@ -94,6 +95,7 @@ void Navigator::Impl::remember(const Situation& situation) {
     memory.gusts_odom = observer.gusts();
     keepHome(*situation.vehicle);
   }
+  noteSide(situation);
   if (state == State::kCommit) {
     memory.trusted = memory.committed;
   } else if (situation.target && situation.vehicle &&
@@ -114,6 +116,12 @@ void Navigator::Impl::keepToWindow(Situation& situation) const {
   situation.target.reset();
   situation.target_is_new = false;
   situation.target_fault = text;
+}
+
+void Navigator::Impl::noteSide(const Situation& situation) {
+  if (!memory.trusted || !situation.vehicle) return;
+  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
+  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.approach.margin_m;
 }
 
 // The odometry may jump, home does not: it stays where it was as seen from the vehicle.

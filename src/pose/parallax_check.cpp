@@ -13,6 +13,8 @@ constexpr double kPlaceSigmaM = 0.015, kBearingSigmaRad = 0.005;  // of one imag
 constexpr double kSpanFactor =
     1.5;  // a line through noise at both ends of a way, little helped by those between
 constexpr double kSigmas = 2.5;
+constexpr double kLateM =
+    0.15;  // odometry a tenth of a second late: what it moves, and turns the sight, meanwhile
 constexpr double kDriftMPerSqrtSec = 0.02, kTurnRadPerSqrtSec = 0.003;
 constexpr double kOtherSlope = 0.35, kSameSlope = 0.5;
 
@@ -57,7 +59,7 @@ void ParallaxCheck::judge() {
   const double noise_m = std::hypot(kPlaceSigmaM, kBearingSigmaRad * distance_m);
   const double drift_m =
       std::hypot(kDriftMPerSqrtSec, kTurnRadPerSqrtSec * distance_m) * std::sqrt(elapsed_sec);
-  const double spread = kSigmas * std::hypot(kSpanFactor * noise_m, drift_m) / span_m;
+  const double spread = (kLateM + kSigmas * std::hypot(kSpanFactor * noise_m, drift_m)) / span_m;
   if (std::abs(slope) - spread > kOtherSlope) {
     verdict_ = Verdict::kOther;
     factor_ = 1.0 / std::max(0.01, 1.0 - slope);

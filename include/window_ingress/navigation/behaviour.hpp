@@ -30,7 +30,8 @@ struct MissionMemory {
   std::optional<Eigen::Vector3d> home_odom_m;               ///< where the mission began
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
-  int others = 0;                               ///< how often one of these was flown at
+  bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
+  int others = 0;            ///< how often one of these was flown at
   int back_offs = 0;
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane

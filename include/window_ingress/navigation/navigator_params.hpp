@@ -224,7 +224,7 @@ struct HoldParams {
   double standing_mps = 0.2;  ///< its place is where it first is slower than this [m/s]
   double dwell_sec = 0.2;     ///< inputs good for this long before moving on [s]
   double patience_sec = 1.0;  ///< wait this long for the window before backing off [s]
-  double timeout_sec = 5.0;   ///< then give up [s]
+  double timeout_sec = 8.0;   ///< then give up [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

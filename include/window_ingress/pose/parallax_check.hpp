@@ -5,7 +5,7 @@
 
 namespace window_ingress::pose {
 
-/// Whether a window is as large as it is said to be, from the first decimetres of motion across the line of
+/// Whether a window is as large as it is said to be, from the first half metre of motion across the line of
 /// sight. From one place a window half as large and half as far away looks the same; but as the camera moves
 /// by b, its place as computed with the wrong size moves by b (1 - 1/k), k being its true size over the one
 /// said. Quicker than `MountingCheck`, which must learn all else too, and made for what is much smaller

@@ -278,6 +278,8 @@ TEST(HoldBehaviour, GoesOnFromWhereItCan) {
   EXPECT_EQ(wayOutOf(State::kCommit, committed, true, false),
             Event::kWindowLost);  // odometry may be elsewhere
   EXPECT_EQ(wayOutOf(State::kCommit, known, true, true), Event::kWindowLost);
+  EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kReacquired);
+  nothing.was_in_front = false;
   EXPECT_EQ(wayOutOf(State::kCommit, nothing, true, true), Event::kGiveUp);
   EXPECT_EQ(wayOutOf(State::kCommit, committed, false, true), Event::kGiveUp);
 }

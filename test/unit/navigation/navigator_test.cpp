@@ -240,7 +240,8 @@ TEST_F(NavigatorSteps, HoldsAndGivesUpWithoutOdometry) {
   EXPECT_EQ(output.state, State::kHold);
   EXPECT_EQ(output.reason, "no odometry");
   EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
-  for (int i = 0; i < 160; ++i) output = navigator.step(input, now_ += kStep);
+  for (double held = 0.0; held < params_.hold.timeout_sec + 0.2; held += kStep)
+    output = navigator.step(input, now_ += kStep);
   EXPECT_EQ(output.state, State::kAborted);
   EXPECT_EQ(output.reason, "held too long: no odometry");
 }
