@@ -15,6 +15,7 @@ void MissionMemory::forgetPlaces() {
   forgetWindow();
   committed.reset();
   place_odom_m.reset();
+  keeping_since_sec.reset();
 }
 
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {

@@ -26,9 +26,14 @@ void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& p
                    MissionMemory& memory) {
   if (!is_kept || !situation.vehicle || situation.vehicle_jumped) {
     memory.place_odom_m.reset();
-  } else if (!memory.place_odom_m && situation.vehicle->velocity_odom_mps.norm() < params.standing_mps) {
-    memory.place_odom_m = situation.vehicle->T_odom_base.translation();
+    memory.keeping_since_sec.reset();
+    return;
   }
+  if (!memory.keeping_since_sec) memory.keeping_since_sec = situation.now_sec;
+  const bool stands = situation.vehicle->velocity_odom_mps.norm() < params.standing_mps;
+  const bool has_settled = situation.now_sec - *memory.keeping_since_sec >= params.settle_sec;
+  if (!memory.place_odom_m && (stands || has_settled))
+    memory.place_odom_m = situation.vehicle->T_odom_base.translation();
 }
 
 Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionMemory& memory,

@@ -28,6 +28,7 @@ struct MissionMemory {
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   std::optional<Eigen::Vector3d> home_odom_m;               ///< where the mission began
+  std::optional<double> keeping_since_sec;                  ///< a place is wanted
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was

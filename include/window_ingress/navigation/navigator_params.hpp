@@ -220,8 +220,9 @@ struct BackOffParams {
 /// HOLD: zero velocity, then keeping the place, until the inputs are back. Wherever else the vehicle is to
 /// stay it keeps its place likewise.
 struct HoldParams {
-  double speed_mps = 0.3;     ///< back to its place, at most; 0: never [m/s]
+  double speed_mps = 0.6;     ///< back to its place, at most; 0: never [m/s]
   double standing_mps = 0.2;  ///< its place is where it first is slower than this [m/s]
+  double settle_sec = 0.8;    ///< or where it is after this time [s]
   double dwell_sec = 0.2;     ///< inputs good for this long before moving on [s]
   double patience_sec = 1.0;  ///< wait this long for the window before backing off [s]
   double timeout_sec = 8.0;   ///< then give up [s]
@@ -230,6 +231,7 @@ struct HoldParams {
   static void visit(Self& self, Visitor&& field) {
     field("speed_mps", self.speed_mps, 0.0, 1.0);
     field("standing_mps", self.standing_mps, 0.01, 1.0);
+    field("settle_sec", self.settle_sec, 0.0, 10.0);
     field("dwell_sec", self.dwell_sec, 0.0, 5.0);
     field("patience_sec", self.patience_sec, 0.0, 30.0);
     field("timeout_sec", self.timeout_sec, 0.2, 60.0);

@@ -5,8 +5,9 @@
 
 namespace window_ingress::navigation {
 
-/// The place is where the vehicle first stands; it is forgotten as soon as nobody wants it kept, and with the
-/// odometry it was known in. By odometry alone: no estimate of any window takes part.
+/// The place is where the vehicle first stands, or where it is when it still does not after a while; it is
+/// forgotten as soon as nobody wants it kept, and with the odometry it was known in. By odometry alone: no
+/// estimate of any window takes part.
 void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params, MissionMemory& memory);
 
 /// Velocity back to the place, in odom axes; zero without a place.

@@ -25,6 +25,19 @@ TEST(PlaceKeeping, ThePlaceIsWhereTheVehicleFirstStands) {
   EXPECT_EQ(*memory.place_odom_m, Eigen::Vector3d(0.3, 0, 1));
 }
 
+TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
+  const HoldParams params;
+  MissionMemory memory;
+  double now = 10.0;
+  for (; !memory.place_odom_m && now < 20.0; now += 0.1) {
+    auto situation = standingAt({0.5 * (now - 10.0), 0, 1}, 0.5);
+    situation.now_sec = now;
+    rememberPlace(true, situation, params, memory);
+  }
+  ASSERT_TRUE(memory.place_odom_m);
+  EXPECT_NEAR(now - 10.0, params.settle_sec + 0.1, 0.11);
+}
+
 TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
   const HoldParams params;
   MissionMemory memory;
