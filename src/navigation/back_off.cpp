@@ -8,6 +8,7 @@ namespace window_ingress::navigation {
 void BackOff::enter() { *this = BackOff(params_); }
 
 Decision BackOff::step(const Situation& situation, const MissionMemory& memory) {
+  if (!memory.trusted) return withoutNormal(memory);
   const auto& target = *memory.trusted;
   const RelativeState relative = relate(*situation.vehicle, target);
   const double room_m = params_.back_off.distance_m - relative.distance();
@@ -25,6 +26,15 @@ Decision BackOff::step(const Situation& situation, const MissionMemory& memory) 
     decision.keeps_place = true;
     decision.event = judge(situation, memory, relative, decision.reason);
   }
+  return decision;
+}
+
+Decision BackOff::withoutNormal(const MissionMemory& memory) const {
+  Decision decision;
+  decision.keeps_place = true;
+  const bool has_tries = memory.back_offs <= params_.back_off.max_retries;
+  decision.event = has_tries ? Event::kBackedOff : Event::kGiveUp;
+  decision.reason = "no trusted normal to go back along";
   return decision;
 }
 

@@ -30,6 +30,11 @@ bool canStop(const RelativeState& relative, const NavigatorParams& params) {
   return relative.distance() - params.vehicle.half_length_m > stop_m;
 }
 
+/// Of the velocity that wind adds, what leads along the window's normal [m/s].
+double windAlong(const TargetEstimate& target, const MissionMemory& memory) {
+  return uprightRotation(target).col(0).dot(memory.wind_odom_mps);
+}
+
 /// The window is seen, and where it was committed. Odometry that was gone may have come back elsewhere.
 bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
                    const NavigatorParams& params) {
@@ -58,8 +63,8 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
   decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, params_);
   decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
-    decision.wish = Setpoint();
-    decision.keeps_place = true;
+    decision.wish.velocity_odom_mps =
+        velocityAlongAxis(relative, target, -windAlong(target, memory), memory.wind_odom_mps, params_);
     decision.reason = text("%.2f m behind the window", -relative.distance());
     if (situation.vehicle->velocity_odom_mps.norm() < params_.commit.standing_mps)
       decision.event = Event::kCrossed;
@@ -77,6 +82,9 @@ void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decisi
   } else if (disagreements_ >= kDisagreementsToTurnBack) {
     decision.event = Event::kContractUnmet;
     decision.reason = text("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
+  } else if (forbidden_ >= kDisagreementsToTurnBack) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = "turning back: " + why_forbidden_;
   } else if (blind_sec > params_.commit.max_blind_sec) {
     decision.event = Event::kContractUnmet;
     decision.reason = text("turning back: window not seen for %.2f s", blind_sec);
@@ -85,6 +93,7 @@ void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decisi
 
 void Commit::refine(const Situation& situation, MissionMemory& memory) {
   if (!entry_odom_m_) entry_odom_m_ = memory.committed->T_odom_window.translation();
+  if (situation.target && situation.target_is_new) heedForbidden(*situation.target);
   if (!situation.target || !situation.target->sign_trusted) return;
   const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
   disagreement_m_ = moved.norm();
@@ -95,6 +104,11 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
   } else if (situation.target_is_new) {
     ++disagreements_;
   }
+}
+
+void Commit::heedForbidden(const TargetEstimate& target) {
+  forbidden_ = target.approach_forbidden.empty() ? 0 : forbidden_ + 1;
+  if (forbidden_ > 0) why_forbidden_ = target.approach_forbidden;
 }
 
 double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {

@@ -6,6 +6,8 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kStrongestGustMps = 3.0;
+constexpr double kWorthComparingMps = 0.3;
+constexpr double kEnoughM2ps = 0.3;  // about half a second at 0.8 m/s
 constexpr double kSteadyMps = 0.15;  // a vehicle that is asked to change answers otherwise than its model
 
 /// Share of a first-order step that is made in this time.
@@ -25,12 +27,28 @@ void DisturbanceObserver::reset() {
   disturbance_mps_.setZero();
   gust_mps_.setZero();
   gusts_.setZero();
+  told_.setZero();
+  told_m2ps_ = 0.0;
+}
+
+double DisturbanceObserver::turnedRad() const {
+  return told_m2ps_ > kEnoughM2ps ? std::atan2(told_.y(), told_.x()) : 0.0;
+}
+
+// Both in the plane: what was said as the real axis, what was done beside it.
+void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec) {
+  const Eigen::Vector2d said = model_mps_.head<2>(), done = measured_mps.head<2>();
+  if (said.norm() < kWorthComparingMps) return;
+  const double keep = 1.0 - share(dt_sec, approach_.gust_memory_sec);
+  told_ = keep * told_ + dt_sec * Eigen::Vector2d(said.dot(done), said.x() * done.y() - said.y() * done.x());
+  told_m2ps_ = keep * told_m2ps_ + dt_sec * said.squaredNorm();
 }
 
 void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,
                                  double dt_sec) {
   if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
   model_mps_ += share(dt_sec, vehicle_.response_sec) * (commanded_mps - model_mps_);
+  compareDirections(measured_mps, dt_sec);
   const Eigen::Vector3d surprise_mps = measured_mps - model_mps_ - disturbance_mps_;
   disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
   disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);

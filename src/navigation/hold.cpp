@@ -4,34 +4,41 @@
 
 namespace window_ingress::navigation {
 
-void Hold::enter(State from, double now_sec) {
+void Hold::enter(State from) {
   *this = Hold(params_);
   from_ = from;
-  since_sec_ = now_sec;
 }
 
 Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
-  const double held_sec = situation.now_sec - since_sec_;
-  const bool is_good = situation.vehicle && situation.image_fault.empty();
-  if (!is_good) good_since_sec_.reset();
-  if (is_good && !good_since_sec_) good_since_sec_ = situation.now_sec;
+  held_sec_ += situation.dt_sec;
+  const bool needs_image = from_ != State::kCommit;  // which flies on without
+  const bool is_good = situation.vehicle && (situation.image_fault.empty() || !needs_image);
+  good_sec_ = is_good ? good_sec_ + situation.dt_sec : 0.0;
   Decision decision;
   decision.keeps_place = true;
   decision.reason = !situation.vehicle ? situation.vehicle_fault
                     : !is_good         ? situation.image_fault
                                        : situation.target_fault;
   if (decision.reason.empty()) decision.reason = "inputs are back";
-  if (is_good && situation.now_sec - *good_since_sec_ >= params_.hold.dwell_sec) {
-    decision.event = wayOn(situation, memory, held_sec, decision.reason);
+  if (is_good && good_sec_ >= params_.hold.dwell_sec) {
+    decision.event = wayOn(situation, memory, decision.reason);
+  } else if (!is_good && mayRetreat(situation, memory)) {
+    decision.event = Event::kWindowLost;
   }
-  if (!decision.event && held_sec > params_.hold.timeout_sec) {
+  if (!decision.event && held_sec_ > params_.hold.timeout_sec) {
     decision.event = Event::kGiveUp;
     decision.reason = "held too long: " + decision.reason;
   }
   return decision;
 }
 
-std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory& memory, double held_sec,
+// Without pictures nothing leads on, but odometry and the normal still lead away from the wall.
+bool Hold::mayRetreat(const Situation& situation, const MissionMemory& memory) const {
+  return from_ != State::kSearch && situation.vehicle && memory.trusted &&
+         held_sec_ > params_.hold.patience_sec;
+}
+
+std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory& memory,
                                  std::string& reason) const {
   if (from_ == State::kCommit) {
     if (Commit::canResume(situation, memory, params_)) return Event::kResumed;
@@ -47,7 +54,7 @@ std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory
   if (from_ == State::kSearch || from_ == State::kBackOff) {
     return memory.trusted && from_ == State::kBackOff ? Event::kWindowLost : Event::kInputFresh;
   }
-  if (held_sec < params_.hold.patience_sec) return std::nullopt;
+  if (held_sec_ < params_.hold.patience_sec) return std::nullopt;
   return memory.trusted ? Event::kWindowLost : Event::kInputFresh;
 }
 

@@ -35,16 +35,20 @@ double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 constexpr double kFarAwayM = 1e5;
 constexpr double kFasterThanAnyMps = 20.0;
 constexpr double kLongestGapSec = 0.2;  // motion during a longer gap is no excuse for a jump
+constexpr double kMoving = 0.1;         // [m/s], [rad/s]
+constexpr double kDeadTimeSec = 0.5;    // after which no vehicle that is told to move stands as before
 constexpr double kTrustedYawJumpRad = 0.35;
 
 bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
   constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
+  constexpr double kAlike = 1e-6;
   if (!covariance.allFinite()) return false;
   Eigen::Matrix4d block;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
       block(row, column) = covariance(kUpright[row], kUpright[column]);
-  return block.llt().info() == Eigen::Success;
+  const bool is_symmetric = block.isApprox(block.transpose(), kAlike);
+  return is_symmetric && block.llt().info() == Eigen::Success;  // which reads one half only
 }
 
 }  // namespace
@@ -112,6 +116,12 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
   situation.vehicle_fault = ageFault("odometry", sample.stamp_sec, situation.now_sec,
                                      params_.max_vehicle_age_sec, params_.max_future_sec);
   if (!situation.vehicle_fault.empty()) return;
+  if (is_newer && isStuck(sample)) {
+    vehicle_ = sample;
+    const double for_sec = sample.stamp_sec - unchanged_since_sec_;
+    situation.vehicle_fault = format("odometry stuck for %.2f s", for_sec);
+    return;
+  }
   const bool jumped = is_newer && hasJumped(sample, situation);
   vehicle_ = sample;
   if (jumped) {
@@ -124,6 +134,25 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
   situation.vehicle = sample;
   const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
   situation.vehicle->T_odom_base.translation() += sample.velocity_odom_mps * ahead_sec;
+}
+
+void InputMonitor::told(const Setpoint& setpoint, double now_sec) {
+  const bool moves = std::max(setpoint.velocity_odom_mps.norm(), std::abs(setpoint.yaw_rate_radps)) > kMoving;
+  if (!moves || !std::isfinite(now_sec)) told_to_move_sec_.reset();
+  if (moves && !told_to_move_sec_ && std::isfinite(now_sec)) told_to_move_sec_ = now_sec;
+}
+
+// The noise of a sensor that works never repeats itself, and nothing moves without changing its place.
+bool InputMonitor::isStuck(const VehicleState& vehicle) {
+  const bool repeats = vehicle_ && vehicle.T_odom_base.matrix() == vehicle_->T_odom_base.matrix() &&
+                       vehicle.velocity_odom_mps == vehicle_->velocity_odom_mps;
+  if (!repeats) unchanged_since_sec_ = vehicle.stamp_sec;
+  const double for_sec = vehicle.stamp_sec - unchanged_since_sec_;
+  const bool says_to_move = vehicle.velocity_odom_mps.norm() > kMoving;
+  const bool ought_to_move = told_to_move_sec_ && vehicle.stamp_sec - *told_to_move_sec_ > kDeadTimeSec;
+  is_stuck_ = repeats && (is_stuck_ || (says_to_move && for_sec > params_.max_vehicle_age_sec) ||
+                          (ought_to_move && for_sec > kDeadTimeSec));
+  return is_stuck_;
 }
 
 bool InputMonitor::hasJumped(const VehicleState& vehicle, Situation& situation) const {

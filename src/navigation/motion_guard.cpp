@@ -22,14 +22,17 @@ Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situat
   return permitted;
 }
 
+Eigen::Vector3d onlyAway(const Eigen::Vector3d& velocity, const TargetEstimate& target) {
+  const Eigen::Vector3d normal = uprightRotation(target).col(0);
+  return std::min(0.0, velocity.dot(normal)) * normal;
+}
+
 /// Of a velocity that leads nowhere forward, what is permitted this near the wall outside the funnel.
 Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& situation,
                              const Contract& contract, const NavigatorParams& params) {
   const auto& target = *situation.target;
   const bool is_near = relate(*situation.vehicle, target).distance() < params.limits.wall_distance_m;
-  if (!is_near || contract.in_funnel) return velocity;
-  const Eigen::Vector3d normal = uprightRotation(target).col(0);
-  return std::min(0.0, velocity.dot(normal)) * normal;
+  return is_near && !contract.in_funnel ? onlyAway(velocity, target) : velocity;
 }
 
 Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
@@ -37,11 +40,21 @@ Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State sta
                                       const NavigatorParams& params) {
   const auto& target = *situation.target;
   const Contract contract = contractWith(target, *situation.vehicle, memory, params);
-  const bool before_line = relate(*situation.vehicle, target).distance() > contract.commit_distance_m;
-  const bool may_advance =
-      state == State::kApproach && (contract.holds || (before_line && contract.in_funnel));
+  const double distance_m = relate(*situation.vehicle, target).distance();
+  if (distance_m <= 0.0) return verticalAndToPlace(velocity, situation, memory, params);
+  const bool before_line = distance_m > contract.commit_distance_m;
+  const bool may_advance = state == State::kApproach && target.approach_forbidden.empty() &&
+                           (contract.holds || (before_line && contract.in_funnel));
   if (may_advance) return velocity;
   return awayFromWall(withoutForward(velocity, target), situation, contract, params);
+}
+
+Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situation& situation,
+                                   const MissionMemory& memory, const NavigatorParams& params) {
+  if (!memory.trusted) return Eigen::Vector3d::Zero();
+  const bool in_reveal =
+      relate(*situation.vehicle, *memory.trusted).distance() < params.vehicle.half_length_m;
+  return in_reveal ? onlyAway(velocity, *memory.trusted) : withoutForward(velocity, *memory.trusted);
 }
 
 Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,
@@ -58,8 +71,7 @@ Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, c
     case State::kCommit:
       return memory.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());
     case State::kBackOff:
-      return memory.trusted ? withoutForward(velocity, *memory.trusted)
-                            : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      return permittedBackwards(velocity, situation, memory, params);
     case State::kHold:
     case State::kPassed:
       return onlyToPlace(velocity, *situation.vehicle, memory, params.hold);

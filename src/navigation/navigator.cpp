@@ -1,5 +1,6 @@
 #include "window_ingress/navigation/navigator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -20,7 +21,14 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr double kBeyondFenceM = 1.0;
+
+std::string goesAstray(double turned_rad) {
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
+  return text;
 }
+}  // namespace
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
@@ -52,20 +60,24 @@ struct Navigator::Impl {
   std::optional<Eigen::Vector3d> position_odom_m;  ///< of the step before, in the present odometry frame
   Eigen::Vector3d from_home_m = Eigen::Vector3d::Zero();
   bool was_near = false;
+  bool stands_down = false;  ///< aborted when it had ended already: keeps no place any more
   double now_sec = 0.0;
   double started_sec = 0.0;
   double since_sec = 0.0;  ///< in this state
 
+  bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
+  bool isInOpening(const Situation& situation) const;
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   void passTime(double to_sec);
   void keepToWindow(Situation& situation) const;
+  std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle) const;
   void remember(const Situation& situation);
   void noteSide(const Situation& situation);
   void keepHome(const VehicleState& vehicle);
   Decision decide(const NavigatorInput& input, const Situation& situation);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
   Decision behave(const Situation& situation);
-  Decision staying() const { return {{}, state == State::kPassed, std::nullopt, reason}; }
+  Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
   void change(State to, const std::string& why);
   void enter(State from);
   Setpoint output(const Decision& decision, const Situation& situation);
@@ -73,11 +85,11 @@ struct Navigator::Impl {
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
 };
 
-/// A clock that jumps ahead makes the inputs stale, but uses up no time of the mission.
+/// A clock that jumps makes the inputs stale, but uses up no time of the mission and gives none back.
 void Navigator::Impl::passTime(double to_sec) {
   constexpr double kLongestStepSec = 1.0;
   if (!std::isfinite(to_sec)) return;
-  const double jump_sec = std::max(0.0, to_sec - now_sec - kLongestStepSec);
+  const double jump_sec = to_sec - now_sec - std::clamp(to_sec - now_sec, 0.0, kLongestStepSec);
   started_sec += jump_sec;
   since_sec += jump_sec;
   now_sec = to_sec;
@@ -99,23 +111,35 @@ void Navigator::Impl::remember(const Situation& situation) {
   if (state == State::kCommit) {
     memory.trusted = memory.committed;
   } else if (situation.target && situation.vehicle &&
-             !isKnownOther(*situation.target, *situation.vehicle, memory)) {
+             (isFlownAt() || !isKnownOther(*situation.target, *situation.vehicle, memory))) {
     memory.window_odom_m = situation.target->T_odom_window.translation();
     if (situation.target->sign_trusted) memory.trusted = situation.target;
   }
 }
 
-// A window once flown at is not exchanged for another one on the way. COMMIT judges for itself what it sees.
+// A window once flown at is not exchanged for another one on the way, and none is flown at from behind.
+// COMMIT judges for itself what it sees.
 void Navigator::Impl::keepToWindow(Situation& situation) const {
-  if (state == State::kCommit || situation.vehicle_jumped || !memory.trusted || !situation.target) return;
-  const double shift_m =
-      (situation.target->T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
-  if (shift_m <= params.input.max_window_shift_m) return;
-  char text[80];
-  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
+  if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle) return;
+  const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle);
+  if (why_not.empty()) return;
   situation.target.reset();
   situation.target_is_new = false;
-  situation.target_fault = text;
+  situation.target_fault = why_not;
+}
+
+std::string Navigator::Impl::whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle) const {
+  if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
+  if (!memory.trusted) {
+    const bool is_left = state == State::kHold || state == State::kBackOff;
+    return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
+  }
+  const double shift_m =
+      (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
+  if (shift_m <= params.input.max_window_shift_m) return "";
+  char text[80];
+  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
+  return text;
 }
 
 void Navigator::Impl::noteSide(const Situation& situation) {
@@ -138,6 +162,11 @@ Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& s
   return behave(situation);
 }
 
+bool Navigator::Impl::isInOpening(const Situation& situation) const {
+  if (state != State::kCommit || !situation.vehicle || !memory.committed) return false;
+  return relate(*situation.vehicle, *memory.committed).distance() < params.vehicle.half_length_m;
+}
+
 std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
                                                   const Situation& situation) const {
   if (!isLive()) return staying();
@@ -150,6 +179,9 @@ std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
     return Decision{{}, false, Event::kGiveUp, name + " timed out"};
   if (from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
     return Decision{{}, false, Event::kGiveUp, "outside the fence"};
+  const double turned_rad = observer.turnedRad();
+  if (!isInOpening(situation) && std::abs(turned_rad) > params.input.max_turned_rad)
+    return Decision{{}, false, Event::kGiveUp, goesAstray(turned_rad)};
   if (!isMoving(state)) return std::nullopt;
   const std::string missing = missingInput(state, situation);
   if (!missing.empty()) return Decision{{}, false, Event::kInputStale, missing};
@@ -206,7 +238,7 @@ void Navigator::Impl::enter(State from) {
       ++memory.back_offs;
       break;
     case State::kHold:
-      hold.enter(from, now_sec);
+      hold.enter(from);
       observer.reset();  // what moves the vehicle now is not known to be wind
       break;
     case State::kIdle:
@@ -263,7 +295,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
   self.memory = MissionMemory();
   self.observer.reset();
   self.position_odom_m.reset();
-  self.was_near = false;
+  self.was_near = self.stands_down = false;
   self.limiter.stop();
   self.now_sec = self.started_sec = now_sec;
   self.change(*next(self.state, Event::kStart), "started");
@@ -273,8 +305,9 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
 Reply Navigator::abort() {
   auto& self = *impl_;
   const auto to = next(self.state, Event::kAbort);
-  if (!to) return {true, std::string("already ended as ") + toString(self.state)};
   self.limiter.stop();
+  self.stands_down = true;
+  if (!to) return {true, std::string("already ended as ") + toString(self.state)};
   self.change(*to, "aborted by the operator");
   return {true, self.reason};
 }
@@ -305,6 +338,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   rememberPlace(decision.keeps_place && input.engaged, situation, self.params.hold, self.memory);
   NavigatorOutput output;
   output.setpoint = self.last_setpoint = self.output(decision, situation);
+  self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
   output.reason = self.reason;
   output.report = self.report(situation);

@@ -20,11 +20,18 @@ std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, 
   return direction.normalized();
 }
 
+/// Neither wind nor its own errors take a vehicle so far that keeps its place.
+bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionMemory& memory) {
+  return memory.place_odom_m &&
+         (*memory.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;
+}
+
 }  // namespace
 
 void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params,
                    MissionMemory& memory) {
-  if (!is_kept || !situation.vehicle || situation.vehicle_jumped) {
+  if (!is_kept || !situation.vehicle || situation.vehicle_jumped ||
+      isTorn(*situation.vehicle, params, memory)) {
     memory.place_odom_m.reset();
     memory.keeping_since_sec.reset();
     return;

@@ -1,6 +1,8 @@
 /// Good samples to spoil in tests of the navigator.
 #pragma once
 
+#include <cmath>
+
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/input_monitor.hpp"
 
@@ -29,6 +31,7 @@ inline navigation::NavigatorInput inputAt(const Eigen::Vector3d& position_m, dou
                                           bool with_target = true) {
   navigation::NavigatorInput input;
   input.vehicle = vehicleAt(position_m, now_sec);
+  input.vehicle->T_odom_base.translation().z() += 1e-7 * std::sin(1e3 * now_sec);  // it never repeats itself
   input.image_stamp_sec = now_sec;
   if (with_target) input.target = targetAtOrigin(now_sec);
   return input;

@@ -15,6 +15,7 @@ class BackOff {
   Decision step(const Situation& situation, const MissionMemory& memory);
 
  private:
+  Decision withoutNormal(const MissionMemory& memory) const;
   std::optional<Event> judge(const Situation& situation, const MissionMemory& memory,
                              const RelativeState& relative, std::string& reason);
 

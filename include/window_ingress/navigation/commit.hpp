@@ -5,9 +5,9 @@
 namespace window_ingress::navigation {
 
 /// COMMIT: through the opening on `MissionMemory::committed`, which is frozen in odom; sightings on the way
-/// that agree with it refine it, a few in a row that do not turn it back. Heading along the normal. Ends
-/// standing still behind the window; turns back only while the nose can still be stopped in front of the
-/// plane.
+/// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back.
+/// Heading along the normal. Ends standing still behind the window; turns back only while the nose can still
+/// be stopped in front of the plane.
 class Commit {
  public:
   explicit Commit(const NavigatorParams& params) : params_(params) {}
@@ -21,6 +21,7 @@ class Commit {
                         const NavigatorParams& params);
 
  private:
+  void heedForbidden(const TargetEstimate& target);
   void refine(const Situation& situation, MissionMemory& memory);
   void turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const;
   double forwardSpeed(const Contract& contract, const RelativeState& relative);
@@ -30,7 +31,9 @@ class Commit {
       entry_odom_m_;             ///< the window at the commit: no series of updates leads far from it
   int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere
   double disagreement_m_ = 0.0;  ///< of the last sighting
-  bool is_through_ = false;      ///< has reached the exit distance once
+  int forbidden_ = 0;            ///< new sightings in a row that say not to fly there
+  std::string why_forbidden_;
+  bool is_through_ = false;  ///< has reached the exit distance once
 };
 
 }  // namespace window_ingress::navigation

@@ -22,13 +22,20 @@ class DisturbanceObserver {
   const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
   /// Mean square of what remains beyond it, over `gust_memory_sec` of steady commands: gusts.
   const Eigen::Matrix3d& gusts() const { return gusts_; }
+  /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
+  /// plane; 0 as long as it moved too little to tell [rad].
+  double turnedRad() const;
 
  private:
+  void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
+
   VehicleParams vehicle_;
   ApproachParams approach_;
   Eigen::Vector3d model_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
+  Eigen::Vector2d told_ = Eigen::Vector2d::Zero();      ///< of what was told, done: along it, to its left
+  double told_m2ps_ = 0.0;                              ///< how much was told [m^2/s]
   Eigen::Matrix3d gusts_ = Eigen::Matrix3d::Zero();
 };
 

@@ -4,24 +4,26 @@
 
 namespace window_ingress::navigation {
 
-/// HOLD: zero velocity. Once the inputs are back for a while, goes on from where it can: the commit, the
-/// window, its memory, or a new search. Gives up when they do not come back.
+/// HOLD: zero velocity. Where pictures alone are missing, back from the window after a while. Once the inputs
+/// are back for a while, goes on from where it can: the commit, the window, its memory, or a new search.
+/// Gives up when they do not come back.
 class Hold {
  public:
   explicit Hold(const NavigatorParams& params) : params_(params) {}
 
   /// \param from the state that was left for the hold
-  void enter(State from, double now_sec);
+  void enter(State from);
   Decision step(const Situation& situation, const MissionMemory& memory);
 
  private:
-  std::optional<Event> wayOn(const Situation& situation, const MissionMemory& memory, double held_sec,
+  bool mayRetreat(const Situation& situation, const MissionMemory& memory) const;
+  std::optional<Event> wayOn(const Situation& situation, const MissionMemory& memory,
                              std::string& reason) const;
 
   NavigatorParams params_;
   State from_ = State::kSearch;
-  double since_sec_ = 0.0;
-  std::optional<double> good_since_sec_;
+  double held_sec_ = 0.0;
+  double good_sec_ = 0.0;
 };
 
 }  // namespace window_ingress::navigation

@@ -43,6 +43,8 @@ class InputMonitor {
       : params_(params), limits_(limits) {}
 
   Situation judge(const NavigatorInput& input, double now_sec);
+  /// What the vehicle was told last: odometry that repeats itself to the bit meanwhile is stuck.
+  void told(const Setpoint& setpoint, double now_sec);
   void reset();
 
  private:
@@ -50,6 +52,7 @@ class InputMonitor {
   void judgeVehicle(const NavigatorInput& input, Situation& situation);
   void judgeTarget(const NavigatorInput& input, Situation& situation);
   void judgeImage(const NavigatorInput& input, Situation& situation);
+  bool isStuck(const VehicleState& vehicle);
   void measurePeriod(double image_stamp_sec);
   bool hasJumped(const VehicleState& vehicle, Situation& situation) const;
   bool staysAtNewPlace(const TargetEstimate& target) const;
@@ -64,6 +67,9 @@ class InputMonitor {
   double moved_since_sec_ = 0.0;
   std::optional<double> image_stamp_sec_;
   double image_period_sec_ = 0.0;
+  double unchanged_since_sec_ = 0.0;        ///< stamp of the first of the samples that are all the same
+  std::optional<double> told_to_move_sec_;  ///< since then, without a pause
+  bool is_stuck_ = false;                   ///< until a sample differs
   double not_before_sec_ = -1e300;  ///< targets of images up to this stamp belong to an old odometry frame
 };
 

@@ -10,10 +10,11 @@ namespace window_ingress::navigation {
 /// - no odometry, or a state that does not move: nothing
 /// - SEARCH: upward and downward, and back to the place that is kept
 /// - ALIGN, APPROACH: normal not trusted: as SEARCH; outside the funnel: nothing towards the window, and near
-///   the wall only away from it
-/// - APPROACH: towards the window only with a fresh, trusted estimate and within the funnel
+///   the wall only away from it; behind the window: as SEARCH
+/// - APPROACH: towards the window only with a fresh, trusted estimate that does not forbid it, and within the
+///   funnel
 /// - COMMIT: only with a committed window
-/// - BACK_OFF: only with a trusted normal in memory, nothing towards the window
+/// - BACK_OFF: only with a trusted normal in memory, nothing towards the window, within the reveal only away
 /// - HOLD, PASSED: back to the place that is kept
 /// - nowhere beyond the height limits and the fence, with room to stop
 /// Back to a place means: never towards a window in front.

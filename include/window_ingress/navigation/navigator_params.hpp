@@ -14,7 +14,8 @@ struct InputParams {
   double max_future_sec = 0.2;  ///< stamps this far ahead of now are believed (clock synchronisation) [s]
   double max_vehicle_jump_m =
       0.2;  ///< odometry moving this much more than its velocity explains is a jump [m]
-  double max_vehicle_jump_rad = 0.5;  ///< likewise its heading, between two samples [rad]
+  double max_vehicle_jump_rad = 0.2;  ///< likewise its heading, between two samples [rad]
+  double max_turned_rad = 0.7;        ///< the vehicle going so far beside what it is told: give up [rad]
   double max_target_jump_m = 0.4;     ///< window moving this far in odom between two estimates is a jump [m]
   double max_window_shift_m = 0.8;    ///< a window this far from the one flown at is another one [m]
   double target_jump_persist_sec = 0.5;  ///< a window that stays at its new place this long is believed [s]
@@ -28,6 +29,7 @@ struct InputParams {
     field("max_future_sec", self.max_future_sec, 0.0, 0.5);
     field("max_vehicle_jump_m", self.max_vehicle_jump_m, 0.05, 5.0);
     field("max_vehicle_jump_rad", self.max_vehicle_jump_rad, 0.05, 3.0);
+    field("max_turned_rad", self.max_turned_rad, 0.1, 3.2);
     field("max_target_jump_m", self.max_target_jump_m, 0.05, 5.0);
     field("max_window_shift_m", self.max_window_shift_m, 0.1, 10.0);
     field("target_jump_persist_sec", self.target_jump_persist_sec, 0.0, 5.0);
@@ -223,6 +225,7 @@ struct HoldParams {
   double speed_mps = 0.6;     ///< back to its place, at most; 0: never [m/s]
   double standing_mps = 0.2;  ///< its place is where it first is slower than this [m/s]
   double settle_sec = 0.8;    ///< or where it is after this time [s]
+  double leash_m = 2.0;       ///< further from its place than this, somebody has moved it: another place [m]
   double dwell_sec = 0.2;     ///< inputs good for this long before moving on [s]
   double patience_sec = 1.0;  ///< wait this long for the window before backing off [s]
   double timeout_sec = 8.0;   ///< then give up [s]
@@ -232,6 +235,7 @@ struct HoldParams {
     field("speed_mps", self.speed_mps, 0.0, 1.0);
     field("standing_mps", self.standing_mps, 0.01, 1.0);
     field("settle_sec", self.settle_sec, 0.0, 10.0);
+    field("leash_m", self.leash_m, 0.1, 100.0);
     field("dwell_sec", self.dwell_sec, 0.0, 5.0);
     field("patience_sec", self.patience_sec, 0.0, 30.0);
     field("timeout_sec", self.timeout_sec, 0.2, 60.0);

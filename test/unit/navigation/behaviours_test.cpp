@@ -8,6 +8,7 @@
 #include "window_ingress/navigation/align.hpp"
 #include "window_ingress/navigation/approach.hpp"
 #include "window_ingress/navigation/back_off.hpp"
+#include "window_ingress/navigation/commit.hpp"
 #include "window_ingress/navigation/hold.hpp"
 #include "window_ingress/navigation/search.hpp"
 
@@ -251,10 +252,48 @@ TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
   EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, true), memory).event, Event::kGiveUp);
 }
 
+TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
+  MissionMemory memory;
+  BackOff back_off{NavigatorParams()};
+  back_off.enter();
+  const auto decision = back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory);
+  EXPECT_EQ(decision.event, Event::kBackedOff);
+  EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
+  memory.back_offs = BackOffParams().max_retries + 1;
+  EXPECT_EQ(back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory).event, Event::kGiveUp);
+}
+
+TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
+  MissionMemory memory;
+  memory.committed = test::targetAtOrigin(0.0);
+  memory.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
+  Commit commit{NavigatorParams()};
+  commit.enter();
+  const auto decision = commit.step(situationAt({1.1, 0.0, 1.5}, 0.0, false), memory);
+  EXPECT_NEAR(decision.wish.velocity_odom_mps.x(), 0.4, 1e-9);
+  EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
+}
+
+TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyThePicturesAreMissing) {
+  for (const auto from : {State::kAlign, State::kApproach, State::kSearch}) {
+    MissionMemory memory;
+    memory.trusted = test::targetAtOrigin(0.0);
+    Hold hold{NavigatorParams()};
+    hold.enter(from);
+    std::optional<Event> event;
+    for (double now = 0.0; now < 10.0 && !event; now += 0.03) {
+      auto situation = situationAt({-1.0, 0, 1.5}, now, false);
+      situation.image_fault = "last image 2.00 s old";
+      event = hold.step(situation, memory).event;
+    }
+    EXPECT_EQ(event, from == State::kSearch ? Event::kGiveUp : Event::kWindowLost) << toString(from);
+  }
+}
+
 /// The first event of a hold that began at 0 s with these inputs standing still, or none within 10 s.
 std::optional<Event> wayOutOf(State from, const MissionMemory& memory, bool with_vehicle, bool with_target) {
   Hold hold{NavigatorParams()};
-  hold.enter(from, 0.0);
+  hold.enter(from);
   for (double now = 0.0; now < 10.0; now += 0.03) {
     auto situation = situationAt({-0.8, 0, 1.5}, now, with_target);
     if (!with_vehicle) situation.vehicle.reset();

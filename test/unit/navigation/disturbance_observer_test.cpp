@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "window_ingress/geometry/frames.hpp"
+
 namespace window_ingress::navigation {
 namespace {
 
@@ -77,6 +79,22 @@ TEST(DisturbanceObserver, IgnoresWhatIsNoNumber) {
   observe.update({1, 0, 0}, {0, 0, 0}, nan);
   observe.update({1, 0, 0}, {0, 0, 0}, -1.0);
   EXPECT_EQ(observe.disturbance().norm(), 0.0);
+}
+
+TEST(DisturbanceObserver, TellsAVehicleThatGoesBesideWhatItIsToldFromOneInWind) {
+  const NavigatorParams params;
+  const auto turnedBy = [&](double turn_rad, const Eigen::Vector3d& wind_mps) {
+    DisturbanceObserver observer(params.vehicle, params.approach);
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector3d told(0.8, 0.0, 0.0);
+      observer.update(geometry::yawRotation(turn_rad) * told + wind_mps, told, 0.03);
+    }
+    return observer.turnedRad();
+  };
+  EXPECT_NEAR(turnedBy(1.2, Eigen::Vector3d::Zero()), 1.2, 0.05);
+  EXPECT_NEAR(turnedBy(-2.5, Eigen::Vector3d::Zero()), -2.5, 0.05);
+  EXPECT_LT(std::abs(turnedBy(0.0, {0.0, params.approach.max_wind_mps, 0.0})), params.input.max_turned_rad);
+  EXPECT_EQ(DisturbanceObserver(params.vehicle, params.approach).turnedRad(), 0.0);
 }
 
 }  // namespace

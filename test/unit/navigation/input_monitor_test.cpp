@@ -182,5 +182,12 @@ TEST(InputMonitor, AClockThatRunsBackVoidsEverything) {
   EXPECT_TRUE(judge.judge(inputAt(kThere, 50.03), 50.03).vehicle);
 }
 
+TEST(InputFaults, ACovarianceWithHalvesThatDifferIsNone) {
+  auto target = test::targetAtOrigin(0.0);
+  EXPECT_EQ(faultOf(target, 0.26), "");
+  target.covariance(0, 1) = -1e3;  // above the diagonal, where a Cholesky decomposition does not look
+  EXPECT_NE(faultOf(target, 0.26), "");
+}
+
 }  // namespace
 }  // namespace window_ingress::navigation

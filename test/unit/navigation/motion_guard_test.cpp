@@ -113,6 +113,35 @@ TEST_F(MotionGuard, CommitAndBackOffNeedWhatTheyFlyBy) {
   EXPECT_TRUE(permitted(State::kBackOff).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
 }
 
+TEST_F(MotionGuard, ApproachHeedsWhatForbidsIt) {
+  situation_.target->approach_forbidden = "fit NO_GO";
+  EXPECT_TRUE(permitted(State::kApproach).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
+}
+
+TEST_F(MotionGuard, AtTheCommitLineOnlyByTheContract) {
+  for (const double y_m : {0.0, 0.33}) {
+    situation_.vehicle = test::vehicleAt({-1.0, y_m, 1.5}, 0.0);
+    const bool holds = contractWith(*situation_.target, *situation_.vehicle, memory_, params_).holds;
+    ASSERT_EQ(holds, y_m == 0.0);
+    EXPECT_EQ(permitted(State::kApproach).x() > 0.0, holds);
+  }
+}
+
+TEST_F(MotionGuard, AWindowSeenFromBehindIsNotFlownAt) {
+  situation_.target->T_odom_window.linear() = geometry::yawRotation(M_PI);
+  for (const auto state : {State::kAlign, State::kApproach})
+    for (const Eigen::Vector3d& wish : {kWish, Eigen::Vector3d(-kWish)})
+      EXPECT_EQ(permittedVelocity(wish, state, situation_, memory_, params_).head<2>().norm(), 0.0);
+}
+
+TEST_F(MotionGuard, WithinTheRevealBackOffLeadsOnlyAway) {
+  memory_.trusted = situation_.target;
+  situation_.vehicle = test::vehicleAt({-0.1, 0.0, 1.5}, 0.0);
+  EXPECT_EQ(permitted(State::kBackOff), kNothing);
+  const Eigen::Vector3d away = permittedVelocity(-kWish, State::kBackOff, situation_, memory_, params_);
+  EXPECT_TRUE(away.isApprox(Eigen::Vector3d(-0.5, 0.0, 0.0))) << away.transpose();
+}
+
 TEST_F(MotionGuard, HeightLimitsLeaveRoomToStop) {
   situation_.vehicle = test::vehicleAt({-3.0, 0.0, params_.limits.max_height_m - 0.02}, 0.0);
   EXPECT_LT(permitted(State::kSearch).z(), 0.1);

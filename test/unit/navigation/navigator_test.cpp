@@ -211,6 +211,104 @@ TEST_F(NavigatorSteps, YieldsToThePilotInEveryState) {
   }
 }
 
+TEST_F(NavigatorSteps, NeverFliesAtAWindowFromBehind) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  for (int i = 0; i < 200; ++i) {
+    now_ += kStep;
+    auto input = inputAt(kFar, now_);
+    input.target->T_odom_window.linear() = geometry::yawRotation(M_PI);
+    EXPECT_LE(navigator.step(input, now_).setpoint.velocity_odom_mps.head<2>().norm(), 1e-3) << i;
+  }
+}
+
+TEST_F(NavigatorSteps, TurnsBackFromACommitThatIsForbidden) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  walk(navigator, kFar, kFar);
+  NavigatorOutput output = walk(navigator, kFar, kLine);
+  ASSERT_EQ(output.state, State::kCommit);
+  for (int i = 0; i < 3; ++i) {
+    auto input = inputAt(kLine, now_ += kStep);
+    input.target->approach_forbidden = "fit NO_GO: width 0.50 m";
+    output = navigator.step(input, now_);
+  }
+  EXPECT_EQ(output.state, State::kBackOff) << output.reason;
+}
+
+TEST_F(NavigatorSteps, AHoldDoesNotLeadBackToAnotherWindow) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_EQ(steps(navigator, kFar, 4).state, State::kAlign);
+  const auto input = [&](bool has_images) {
+    auto input = inputAt(kFar, now_ += kStep);
+    input.target->other_window = 0.6;
+    input.target->approach_forbidden = "another window";
+    if (!has_images) input.image_stamp_sec = now_ - 2.0;
+    return input;
+  };
+  EXPECT_EQ(navigator.step(input(true), now_).state, State::kSearch);
+  EXPECT_EQ(navigator.step(input(false), now_).state, State::kHold);
+  for (int i = 0; i < 30; ++i) EXPECT_NE(navigator.step(input(true), now_).state, State::kAlign);
+}
+
+TEST_F(NavigatorSteps, AbortAfterTheEndKeepsNoPlace) {
+  for (const bool aborts : {false, true}) {
+    Navigator navigator(params_);
+    now_ += 100.0;
+    start(navigator, kFar);
+    walk(navigator, kFar, kLine);
+    const Eigen::Vector3d inside(1.0, 0.0, 1.5);
+    ASSERT_EQ(walk(navigator, kLine, inside).state, State::kPassed);
+    steps(navigator, inside, 10);
+    if (aborts) navigator.abort();
+    const auto output = walk(navigator, inside, inside + Eigen::Vector3d(0.0, 0.5, 0.0));
+    EXPECT_EQ(output.setpoint.velocity_odom_mps.norm() > 0.05, !aborts);
+  }
+}
+
+TEST_F(NavigatorSteps, GoesBackToNoPlaceThatSomebodyTookItFarAwayFrom) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  walk(navigator, kFar, kLine);
+  const Eigen::Vector3d inside(1.0, 0.0, 1.5), elsewhere(4.0, 0.0, 1.5);
+  ASSERT_EQ(walk(navigator, kLine, inside).state, State::kPassed);
+  for (int i = 0; i < 60; ++i) {
+    auto input = inputAt(inside + (elsewhere - inside) * i / 60.0, now_ += kStep);
+    input.vehicle->velocity_odom_mps.x() = 1.5;
+    navigator.step(input, now_);
+  }
+  EXPECT_LT(steps(navigator, elsewhere, 20).setpoint.velocity_odom_mps.norm(), 1e-3);
+}
+
+TEST_F(NavigatorSteps, AClockThatJumpsBackGivesNoTimeBack) {
+  params_.timeouts.total_sec = 5.0;
+  Navigator navigator(params_);
+  now_ = 1000.0;
+  start(navigator, kFar);
+  steps(navigator, kFar, 30, false);
+  now_ = 100.0;
+  EXPECT_EQ(steps(navigator, kFar, 160, false).state, State::kAborted);
+}
+
+TEST_F(NavigatorSteps, OdometryThatRepeatsItselfWhileTheVehicleIsToldToMoveIsStuck) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  EXPECT_EQ(steps(navigator, kFar, 20).state, State::kApproach);
+  const auto frozen = inputAt(kFar, now_).vehicle;
+  NavigatorOutput output;
+  for (int i = 0; i < 300; ++i) {
+    auto input = inputAt(kFar, now_ += kStep);
+    input.vehicle->T_odom_base = frozen->T_odom_base;
+    output = navigator.step(input, now_);
+    if (i > 20) {
+      EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0) << i;
+    }
+  }
+  EXPECT_EQ(output.state, State::kAborted);
+  EXPECT_NE(output.reason.find("stuck"), std::string::npos) << output.reason;
+}
+
 TEST_F(NavigatorSteps, EveryStateTimesOutByName) {
   params_.timeouts.search_sec = params_.timeouts.align_sec = params_.timeouts.approach_sec = 1.0;
   params_.timeouts.commit_sec = 1.0;
