@@ -127,6 +127,13 @@ TEST_F(MotionGuard, AtTheCommitLineOnlyByTheContract) {
   }
 }
 
+TEST_F(MotionGuard, BehindTheCommitLineTheFunnelIsNotEnough) {
+  situation_.vehicle = test::vehicleAt({-1.0, 0.0, 1.5}, 0.0, 0.5);  // heading off the normal
+  const Contract contract = contractWith(*situation_.target, *situation_.vehicle, memory_, params_);
+  ASSERT_TRUE(contract.in_funnel && !contract.holds);
+  EXPECT_EQ(permitted(State::kApproach).x(), 0.0);
+}
+
 TEST_F(MotionGuard, AWindowSeenFromBehindIsNotFlownAt) {
   situation_.target->T_odom_window.linear() = geometry::yawRotation(M_PI);
   for (const auto state : {State::kAlign, State::kApproach})

@@ -1,0 +1,147 @@
+/// The edges that lead out of every live state, from each of these states.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "navigation_samples.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr double kStep = 1.0 / 30.0;
+const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kAside(-4.0, 3.8, 1.5),
+    kInside(1.0, 0.0, 1.5);
+constexpr State kLive[] = {State::kSearch, State::kAlign,   State::kApproach,
+                           State::kCommit, State::kBackOff, State::kHold};
+
+/// A mission that has been led into a state.
+struct Mission {
+  explicit Mission(const NavigatorParams& params = {}) : navigator(params) {}
+
+  Navigator navigator;
+  double now = 10.0;
+  Eigen::Vector3d at = kFar;
+  NavigatorOutput output;
+
+  void stay(int steps, bool with_target = true) {
+    for (int i = 0; i < steps; ++i) step(test::inputAt(at, now + kStep, with_target));
+  }
+  void step(const NavigatorInput& input) { output = navigator.step(input, now += kStep); }
+  void walk(const Eigen::Vector3d& to) {
+    const Eigen::Vector3d from = at;
+    for (int i = 1; i <= 60; ++i) {
+      at = from + (to - from) * i / 60.0;
+      stay(1);
+    }
+  }
+  void start(const Eigen::Vector3d& from) {
+    at = from;
+    ASSERT_TRUE(navigator.start(test::inputAt(at, now), now).success);
+  }
+  void leadInto(State state) {
+    start(state == State::kAlign ? kAside : kFar);
+    if (state == State::kSearch) return stay(2, false);
+    stay(20);
+    if (state == State::kCommit || state == State::kPassed) walk(kLine);
+    if (state == State::kPassed) walk(kInside);
+    if (state == State::kBackOff) walk({-2.0, 0.0, 1.5});
+    if (state == State::kHold || state == State::kBackOff) stay(12, false);
+    if (state == State::kBackOff) stay(35, false);
+  }
+};
+
+TEST(NavigatorEdges, EveryLiveStateIsAbortedByTheOperator) {
+  for (const State state : kLive) {
+    Mission mission;
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state) << toString(state) << ": " << mission.output.reason;
+    EXPECT_TRUE(mission.navigator.abort().success);
+    mission.stay(1);
+    EXPECT_EQ(mission.output.state, State::kAborted);
+    EXPECT_EQ(mission.output.setpoint.velocity_odom_mps.norm(), 0.0);
+  }
+  Mission idle;
+  EXPECT_TRUE(idle.navigator.abort().success);
+  idle.stay(1);
+  EXPECT_EQ(idle.output.state, State::kAborted);
+}
+
+TEST(NavigatorEdges, EveryLiveStateYieldsToThePilotAndFliesNothingWhenHeGivesItBack) {
+  for (const State state : kLive) {
+    Mission mission;
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state);
+    auto input = test::inputAt(mission.at, mission.now + kStep);
+    input.engaged = false;
+    mission.step(input);
+    EXPECT_EQ(mission.output.state, State::kIdle);
+    mission.stay(30);
+    EXPECT_EQ(mission.output.state, State::kIdle);
+    EXPECT_FALSE(mission.output.enabled);
+    EXPECT_EQ(mission.output.setpoint.velocity_odom_mps.norm(), 0.0);
+  }
+}
+
+TEST(NavigatorEdges, EveryMovingStateHoldsWithoutOdometry) {
+  for (const State state : kLive) {
+    Mission mission;
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state);
+    auto input = test::inputAt(mission.at, mission.now + kStep);
+    input.vehicle.reset();
+    mission.step(input);
+    EXPECT_EQ(mission.output.state, State::kHold) << toString(state);
+    EXPECT_EQ(mission.output.setpoint.velocity_odom_mps.norm(), 0.0);
+  }
+}
+
+TEST(NavigatorEdges, EveryLiveStateGivesUpWhenTheMissionTakesTooLong) {
+  for (const State state : kLive) {
+    NavigatorParams params;
+    params.timeouts.total_sec = 30.0;
+    Mission mission(params);
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state);
+    for (int i = 0; i < 40; ++i) {
+      mission.now += 0.9;  // no jump of the clock
+      mission.stay(1);
+    }
+    EXPECT_EQ(mission.output.state, State::kAborted) << toString(state);
+  }
+}
+
+TEST(NavigatorEdges, CommitAndBackOffTimeOutByName) {
+  for (const State state : {State::kCommit, State::kBackOff}) {
+    NavigatorParams params;
+    params.timeouts.commit_sec = params.timeouts.back_off_sec = 1.0;
+    Mission mission(params);
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state);
+    mission.stay(31, state == State::kCommit);
+    EXPECT_EQ(mission.output.reason, std::string(toString(state)) + " timed out");
+  }
+}
+
+TEST(NavigatorEdges, ApproachLeavesAnotherWindow) {
+  Mission mission;
+  mission.leadInto(State::kApproach);
+  ASSERT_EQ(mission.output.state, State::kApproach);
+  auto input = test::inputAt(mission.at, mission.now + kStep);
+  input.target->other_window = 0.6;
+  input.target->approach_forbidden = "another window";
+  mission.step(input);
+  EXPECT_EQ(mission.output.state, State::kSearch);
+}
+
+TEST(NavigatorEdges, AResetLeadsOnFromAPassedWindow) {
+  Mission mission;
+  mission.leadInto(State::kPassed);
+  ASSERT_EQ(mission.output.state, State::kPassed) << mission.output.reason;
+  EXPECT_TRUE(mission.navigator.reset().success);
+  mission.stay(1);
+  EXPECT_EQ(mission.output.state, State::kIdle);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
