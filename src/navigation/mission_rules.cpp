@@ -1,6 +1,7 @@
 #include "window_ingress/navigation/mission_rules.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "window_ingress/parameters/fields.hpp"
@@ -44,6 +45,27 @@ std::string missingInput(State state, const Situation& situation) {
   return needs_target && !situation.target ? situation.target_fault : "";
 }
 
+std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
+                          const MissionMemory& memory, const InputParams& params) {
+  if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
+  if (!memory.trusted) {
+    const bool is_left = state == State::kHold || state == State::kBackOff;
+    return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
+  }
+  const double shift_m =
+      (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
+  if (shift_m <= params.max_window_shift_m) return "";
+  char text[80];
+  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
+  return text;
+}
+
+std::string goesAstray(double turned_rad) {
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
+  return text;
+}
 std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
                                       const NavigatorParams& params) {
   std::vector<std::string> faults;

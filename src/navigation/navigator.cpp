@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "window_ingress/navigation/align.hpp"
@@ -22,12 +21,6 @@ namespace window_ingress::navigation {
 namespace {
 constexpr double kBeyondFenceM = 1.0;
 
-std::string goesAstray(double turned_rad) {
-  char text[120];
-  std::snprintf(text, sizeof text,
-                "goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
-  return text;
-}
 }  // namespace
 
 struct Navigator::Impl {
@@ -70,7 +63,6 @@ struct Navigator::Impl {
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   void passTime(double to_sec);
   void keepToWindow(Situation& situation) const;
-  std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle) const;
   void remember(const Situation& situation);
   void noteSide(const Situation& situation);
   void keepHome(const VehicleState& vehicle);
@@ -121,25 +113,12 @@ void Navigator::Impl::remember(const Situation& situation) {
 // COMMIT judges for itself what it sees.
 void Navigator::Impl::keepToWindow(Situation& situation) const {
   if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle) return;
-  const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle);
+  const std::string why_not =
+      whyNotFlownAt(*situation.target, *situation.vehicle, state, memory, params.input);
   if (why_not.empty()) return;
   situation.target.reset();
   situation.target_is_new = false;
   situation.target_fault = why_not;
-}
-
-std::string Navigator::Impl::whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle) const {
-  if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
-  if (!memory.trusted) {
-    const bool is_left = state == State::kHold || state == State::kBackOff;
-    return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
-  }
-  const double shift_m =
-      (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
-  if (shift_m <= params.input.max_window_shift_m) return "";
-  char text[80];
-  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
-  return text;
 }
 
 void Navigator::Impl::noteSide(const Situation& situation) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/navigation/behaviour.hpp"
 #include "window_ingress/navigation/input_monitor.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
@@ -18,6 +19,14 @@ double timeoutOf(State state, const TimeoutParams& timeouts);
 
 /// What this state needs and does not have; empty if it has all.
 std::string missingInput(State state, const Situation& situation);
+
+/// Why a state other than COMMIT must not fly at this target: seen from behind, or another window than the
+/// one flown at before; empty if nothing speaks against it.
+std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
+                          const MissionMemory& memory, const InputParams& params);
+
+/// For people: the vehicle goes beside what it is told.
+std::string goesAstray(double turned_rad);
 
 /// What speaks against a start, all of it; empty if nothing does.
 std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,

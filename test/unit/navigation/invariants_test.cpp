@@ -70,6 +70,8 @@ class HostileWorld {
       target.covariance(static_cast<int>(6 * uniform()), static_cast<int>(6 * uniform())) = spoilt();
     if (chance(0.01)) target.opening.width_m = spoilt();
     if (chance(0.01)) target.stamp_sec = spoilt();
+    if (chance(0.005)) target.other_window = chance(0.1) ? spoilt() : 0.6;
+    if (chance(0.01) || target.other_window) target.approach_forbidden = "not there";
     return target;
   }
 
