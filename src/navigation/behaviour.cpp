@@ -18,6 +18,12 @@ void MissionMemory::forgetPlaces() {
   keeping_since_sec.reset();
 }
 
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionMemory& memory) {
+  if (!memory.trusted || !situation.vehicle) return;
+  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
+  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.approach.margin_m;
+}
+
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {
   const auto& target = *situation.target;
   if (!target.other_window) return std::nullopt;

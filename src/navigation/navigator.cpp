@@ -10,6 +10,8 @@
 #include "window_ingress/navigation/commit.hpp"
 #include "window_ingress/navigation/disturbance_observer.hpp"
 #include "window_ingress/navigation/hold.hpp"
+#include "window_ingress/navigation/home.hpp"
+#include "window_ingress/navigation/mission_clock.hpp"
 #include "window_ingress/navigation/mission_rules.hpp"
 #include "window_ingress/navigation/motion_guard.hpp"
 #include "window_ingress/navigation/place_keeping.hpp"
@@ -50,22 +52,16 @@ struct Navigator::Impl {
   std::string reason = "waiting for start";
   MissionMemory memory;
   Setpoint last_setpoint;
-  std::optional<Eigen::Vector3d> position_odom_m;  ///< of the step before, in the present odometry frame
-  Eigen::Vector3d from_home_m = Eigen::Vector3d::Zero();
+  Home home;
+  MissionClock clock;
   bool was_near = false;
   bool stands_down = false;  ///< aborted when it had ended already: keeps no place any more
-  double now_sec = 0.0;
-  double started_sec = 0.0;
-  double since_sec = 0.0;  ///< in this state
 
   bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
   bool isInOpening(const Situation& situation) const;
   bool isLive() const { return isMoving(state) || state == State::kHold; }
-  void passTime(double to_sec);
   void keepToWindow(Situation& situation) const;
   void remember(const Situation& situation);
-  void noteSide(const Situation& situation);
-  void keepHome(const VehicleState& vehicle);
   Decision decide(const NavigatorInput& input, const Situation& situation);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
   Decision behave(const Situation& situation);
@@ -77,29 +73,19 @@ struct Navigator::Impl {
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
 };
 
-/// A clock that jumps makes the inputs stale, but uses up no time of the mission and gives none back.
-void Navigator::Impl::passTime(double to_sec) {
-  constexpr double kLongestStepSec = 1.0;
-  if (!std::isfinite(to_sec)) return;
-  const double jump_sec = to_sec - now_sec - std::clamp(to_sec - now_sec, 0.0, kLongestStepSec);
-  started_sec += jump_sec;
-  since_sec += jump_sec;
-  now_sec = to_sec;
-}
-
 void Navigator::Impl::remember(const Situation& situation) {
   if (situation.vehicle_jumped) {
     memory.forgetPlaces();
     observer.reset();
-    position_odom_m.reset();
+    home.odometryJumped();
   }
   if (situation.vehicle) {
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
-    keepHome(*situation.vehicle);
+    home.follow(*situation.vehicle, memory);
   }
-  noteSide(situation);
+  noteSide(situation, params, memory);
   if (state == State::kCommit) {
     memory.trusted = memory.committed;
   } else if (situation.target && situation.vehicle &&
@@ -121,21 +107,6 @@ void Navigator::Impl::keepToWindow(Situation& situation) const {
   situation.target_fault = why_not;
 }
 
-void Navigator::Impl::noteSide(const Situation& situation) {
-  if (!memory.trusted || !situation.vehicle) return;
-  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
-  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.approach.margin_m;
-}
-
-// The odometry may jump, home does not: it stays where it was as seen from the vehicle.
-void Navigator::Impl::keepHome(const VehicleState& vehicle) {
-  const Eigen::Vector3d position = vehicle.T_odom_base.translation();
-  if (!memory.home_odom_m) from_home_m = Eigen::Vector3d::Zero();
-  if (!position_odom_m) memory.home_odom_m = position - from_home_m;
-  position_odom_m = position;
-  from_home_m = position - *memory.home_odom_m;
-}
-
 Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& situation) {
   if (auto overruled = overrule(input, situation)) return *overruled;
   return behave(situation);
@@ -152,11 +123,11 @@ std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
   if (!input.engaged)
     return Decision{{}, false, Event::kDisengaged, "the vehicle no longer follows setpoints"};
   const std::string name = toString(state);
-  if (now_sec - started_sec > params.timeouts.total_sec)
+  if (clock.inMissionSec() > params.timeouts.total_sec)
     return Decision{{}, false, Event::kGiveUp, "mission timed out in " + name};
-  if (now_sec - since_sec > timeoutOf(state, params.timeouts))
+  if (clock.inStateSec() > timeoutOf(state, params.timeouts))
     return Decision{{}, false, Event::kGiveUp, name + " timed out"};
-  if (from_home_m.head<2>().norm() > params.limits.fence_radius_m + kBeyondFenceM)
+  if (home.awayM() > params.limits.fence_radius_m + kBeyondFenceM)
     return Decision{{}, false, Event::kGiveUp, "outside the fence"};
   const double turned_rad = observer.turnedRad();
   if (!isInOpening(situation) && std::abs(turned_rad) > params.input.max_turned_rad)
@@ -192,7 +163,7 @@ Decision Navigator::Impl::behave(const Situation& situation) {
 void Navigator::Impl::change(State to, const std::string& why) {
   const State from = state;
   state = to;
-  since_sec = now_sec;
+  clock.enterState();
   reason = why;
   enter(from);
 }
@@ -203,7 +174,7 @@ void Navigator::Impl::enter(State from) {
       search.enter(!was_near);
       break;
     case State::kAlign:
-      align.enter(now_sec);
+      align.enter(clock.nowSec());
       break;
     case State::kApproach:
       approach.enter();
@@ -273,10 +244,10 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.memory = MissionMemory();
   self.observer.reset();
-  self.position_odom_m.reset();
+  self.home = Home();
   self.was_near = self.stands_down = false;
   self.limiter.stop();
-  self.now_sec = self.started_sec = now_sec;
+  self.clock.startMission(now_sec);
   self.change(*next(self.state, Event::kStart), "started");
   return {true, "started"};
 }
@@ -305,7 +276,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
   Situation situation = self.monitor.judge(input, now_sec);
   self.keepToWindow(situation);
-  self.passTime(now_sec);
+  self.clock.pass(now_sec);
   self.remember(situation);
   Decision decision = self.decide(input, situation);
   self.reason = decision.reason;
@@ -322,7 +293,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   output.reason = self.reason;
   output.report = self.report(situation);
   const bool streams =
-      self.state != State::kAborted || self.now_sec - self.since_sec <= self.params.timeouts.stream_sec;
+      self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;
   output.enabled = self.state != State::kIdle && streams;
   return output;
 }

@@ -43,6 +43,9 @@ struct MissionMemory {
   void forgetPlaces();
 };
 
+/// On which side of the window the vehicle is, for when its place will be forgotten.
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionMemory& memory);
+
 /// If the way flown has shown the target to be another window: remembers that, and says so.
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory);
 
