@@ -58,7 +58,7 @@ struct VehicleParams {
     field("camera_forward_m", self.camera_forward_m, -1.0, 1.0);
     field("horizontal_fov_rad", self.horizontal_fov_rad, 0.3, 2.8);
     field("vertical_fov_rad", self.vertical_fov_rad, 0.3, 2.8);
-    field("pixel_rad", self.pixel_rad, 1e-4, 0.02);
+    field("pixel_rad", self.pixel_rad, 1e-4, 0.1);
     field("exposure_sec", self.exposure_sec, 0.0, 0.5);
     field("response_sec", self.response_sec, 0.0, 2.0);
     field("braking_mps2", self.braking_mps2, 0.2, 10.0);
