@@ -20,10 +20,7 @@
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
-namespace {
 constexpr double kBeyondFenceM = 1.0;
-
-}  // namespace
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
