@@ -14,20 +14,6 @@ using Vector7d = Eigen::Matrix<double, 7, 1>;
 
 constexpr double kSmallestVariance = 1e-300;
 
-// Spread of offset and slope of a line through one sample a pixel.
-void fitBorder(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double sample_sigma_px,
-               std::mt19937& random, detection::Edge& edge) {
-  std::normal_distribution<double> normal;
-  const double length = (b - a).norm();
-  const Eigen::Vector2d along = (b - a) / length, across(-along.y(), along.x());
-  edge.visible = true;
-  edge.sigma_px = sample_sigma_px / std::sqrt(length);
-  edge.sigma_rad = edge.sigma_px * std::sqrt(12.0) / length;
-  const double offset = edge.sigma_px * normal(random), turn = 0.5 * length * edge.sigma_rad * normal(random);
-  edge.a = a + (offset - turn) * across;
-  edge.b = b + (offset + turn) * across;
-}
-
 Eigen::Vector3d lineOf(const detection::Edge& edge) {
   return edge.a.homogeneous().cross(edge.b.homogeneous());
 }
@@ -76,20 +62,40 @@ double spread(const Eigen::MatrixXd& information, const Eigen::VectorXd& by_para
 
 }  // namespace
 
+detection::Edge noisyBorder(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double sample_sigma_px,
+                            double offset, double turn) {
+  const double length = (b - a).norm();
+  const Eigen::Vector2d along = (b - a) / length, across(-along.y(), along.x());
+  detection::Edge edge;
+  edge.visible = true;
+  edge.sigma_px = sample_sigma_px / std::sqrt(length);
+  edge.sigma_rad = edge.sigma_px * std::sqrt(12.0) / length;
+  const double offset_px = edge.sigma_px * offset, at_end_px = 0.5 * length * edge.sigma_rad * turn;
+  edge.a = a + (offset_px - at_end_px) * across;
+  edge.b = b + (offset_px + at_end_px) * across;
+  return edge;
+}
+
+void crossBorders(const detection::Edge& before, const detection::Edge& after, Eigen::Vector2d& corner,
+                  Eigen::Matrix2d& covariance) {
+  corner = lineOf(before).cross(lineOf(after)).hnormalized();
+  covariance = covarianceOf(before, after);
+}
+
 std::optional<detection::WindowObservation> noisyBorders(const geometry::PinholeCamera& camera,
                                                          const Eigen::Isometry3d& T_camera_window,
                                                          const geometry::OpeningSize& opening,
                                                          double sample_sigma_px, std::mt19937& random) {
   const auto truth = geometry::projectOpening(camera, T_camera_window, opening);
   if (!truth) return std::nullopt;
+  std::normal_distribution<double> normal;
   detection::WindowObservation window;
-  for (int i = 0; i < 4; ++i)
-    fitBorder((*truth)[i], (*truth)[(i + 1) % 4], sample_sigma_px, random, window.edges[i]);
   for (int i = 0; i < 4; ++i) {
-    const detection::Edge &before = window.edges[(i + 3) % 4], &after = window.edges[i];
-    window.corners[i] = lineOf(before).cross(lineOf(after)).hnormalized();
-    window.corner_covariance[i] = covarianceOf(before, after);
+    const double offset = normal(random), turn = normal(random);
+    window.edges[i] = noisyBorder((*truth)[i], (*truth)[(i + 1) % 4], sample_sigma_px, offset, turn);
   }
+  for (int i = 0; i < 4; ++i)
+    crossBorders(window.edges[(i + 3) % 4], window.edges[i], window.corners[i], window.corner_covariance[i]);
   return window;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "window_ingress/evaluation/noisy_borders.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::evaluation {
@@ -48,34 +49,12 @@ Stretch visibleStretch(const geometry::PinholeCamera& camera, const Eigen::Vecto
 
 detection::Edge fitted(const Stretch& stretch, double sample_sigma_px, double lasting_px,
                        simulation::RandomStream& random) {
-  detection::Edge edge;
-  const double length = stretch.lengthPx();
-  const Eigen::Vector2d along = (stretch.b - stretch.a) / length, across(-along.y(), along.x());
-  edge.visible = true;
-  edge.sigma_px = sample_sigma_px / std::sqrt(length);
-  edge.sigma_rad = edge.sigma_px * std::sqrt(12.0) / length;
-  const double offset = lasting_px + random.normal(edge.sigma_px);
-  const double turn = 0.5 * length * random.normal(edge.sigma_rad);
-  edge.a = stretch.a + (offset - turn) * across;
-  edge.b = stretch.b + (offset + turn) * across;
+  const double offset = random.normal(), turn = random.normal();
+  detection::Edge edge = noisyBorder(stretch.a, stretch.b, sample_sigma_px, offset, turn);
+  const Eigen::Vector2d along = (stretch.b - stretch.a).normalized(), across(-along.y(), along.x());
+  edge.a += lasting_px * across;
+  edge.b += lasting_px * across;
   return edge;
-}
-
-void setCorner(const detection::Edge& before, const detection::Edge& after, Eigen::Vector2d& corner,
-               Eigen::Matrix2d& covariance) {
-  Eigen::Matrix2d normals;
-  Eigen::Vector2d offsets, variances;
-  for (int k = 0; k < 2; ++k) {
-    const detection::Edge& edge = k == 0 ? before : after;
-    const Eigen::Vector2d along = (edge.b - edge.a).normalized(), across(-along.y(), along.x());
-    const double at_end = 0.5 * (edge.b - edge.a).norm() * edge.sigma_rad;
-    normals.row(k) = across.transpose();
-    offsets(k) = across.dot(edge.a);
-    variances(k) = edge.sigma_px * edge.sigma_px + at_end * at_end;
-  }
-  const Eigen::Matrix2d inverse = normals.inverse();
-  corner = inverse * offsets;
-  covariance = inverse * variances.asDiagonal() * inverse.transpose();
 }
 
 SightParams checked(const SightParams& params) {
@@ -123,7 +102,7 @@ std::optional<detection::WindowObservation> ProjectedSight::look(const geometry:
     window.corner_visible[i] = window.edges[before].visible && window.edges[i].visible &&
                                stretches[before].hasEnd() && stretches[i].hasStart();
     if (window.corner_visible[i])
-      setCorner(window.edges[before], window.edges[i], window.corners[i], window.corner_covariance[i]);
+      crossBorders(window.edges[before], window.edges[i], window.corners[i], window.corner_covariance[i]);
   }
   seen_whole_ = (seen_whole_ || window.whole()) && window.visibleSides() > 0;
   return seen_whole_ && window.visibleSides() >= 2 ? std::optional(window) : std::nullopt;

@@ -10,6 +10,15 @@
 
 namespace window_ingress::evaluation {
 
+/// A line fitted to one sample a pixel between two points, each with this noise across; states its spreads.
+/// \param offset, turn drawn with unit variance
+detection::Edge noisyBorder(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double sample_sigma_px,
+                            double offset, double turn);
+
+/// The corner in which two borders meet, and its covariance from their spreads.
+void crossBorders(const detection::Edge& before, const detection::Edge& after, Eigen::Vector2d& corner,
+                  Eigen::Matrix2d& covariance);
+
 /// What a detector that fits lines sees of an opening if each pixel along a border is one sample of it with
 /// independent noise across: the four lines fitted to the samples, stating their spreads, and the corners
 /// where they cross. Without distortion. Nothing unless the opening lies in front of the camera.
