@@ -14,3 +14,4 @@ foreach(test ${ros_tests})
               ${PROJECT_NAME}_ingress_navigator ${PROJECT_NAME}_setpoint_guard ${PROJECT_NAME}_world
               ${PROJECT_NAME}_camera_mounting)
 endforeach()
+install(DIRECTORY test/ros DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/test USE_SOURCE_PERMISSIONS)
