@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes config/*.yaml, config/WindowDetector.cfg and the tables of doc/scenarios.md from the parameter structs of the
-headers.
+"""Writes config/*.yaml, config/WindowDetector.cfg, doc/parameters.md and the tables of doc/scenarios.md from the
+parameter structs of the headers.
 
 Every struct lists its fields once, in `visit`, with range; default and meaning stand at the member. This copies them
 into the files that users edit and that ROS reads. Run it after a change of a parameter; a unit test fails if files and
@@ -189,7 +189,7 @@ def doc_row(struct, visit):
         allowed = " … ".join(f"{float(limit):g}" for limit in visit[3:5]) + (" (whole)" if kind == "int" else "")
     else:
         allowed = {"bool": "true, false", "std::string": "text"}.get(kind, "")
-    default = f"{float(default):g}" if kind in ("double", "int") else default.strip('"')
+    default = f"{float(default):g}" if kind in ("double", "int") else (default_of(kind, default) or "").strip('"')
     return f"| `{visit[1]}` | {unit[1] if unit else ''} | {default} | {allowed} | {meaning[:1].upper() + meaning[1:]} |"
 
 
@@ -217,15 +217,60 @@ def scenarios_page(structs):
     return text
 
 
+NODES = {  # node -> its struct and file
+    "window_detector": ("DetectorNodeParams", "detector.yaml"),
+    "homography_pose": ("PoseNodeParams", "pose.yaml"),
+    "ingress_navigator": ("NavigatorNodeParams", "navigator.yaml"),
+    "setpoint_guard": ("GuardParams", "guard.yaml"),
+    "world": ("WorldNodeParams", "world.yaml"),
+}
+PARAMETERS_HEAD = """# Parameters
+
+Every parameter of every node, as `rosparam` knows it below the node's name; written by `scripts/write_parameter_files.py`
+from the parameter structs of the headers, like the yaml files in `config/`. Keys that are unknown and values out of range
+are refused by name when a node starts. How to choose them: [tuning](../README.md#on-a-drone),
+[navigation](navigation.md), [pose](pose.md). The detector's own (`detector/…`) can be changed while it runs, by dynamic_reconfigure.
+"""
+
+
+def parameter_rows(structs, struct, prefix):
+    """Rows of one struct, and below them, each with its own heading, those of the structs it holds."""
+    rows, inner = [], []
+    for visit in struct.visits:
+        if visit[0] in ("field", "choice"):
+            rows.append(doc_row(struct, visit).replace("| `", f"| `{prefix}", 1))
+            continue
+        _, name, member = visit
+        kind = struct.members[member][0] if visit[0] == "group" else name
+        child = find(structs, struct.space, kind)
+        child_rows, below = parameter_rows(structs, child, prefix if visit[0] == "inline" else f"{prefix}{name}/")
+        if visit[0] == "inline":
+            rows += child_rows
+        elif child_rows:
+            inner.append((f"{prefix}{name}", child.about, child_rows))
+        inner += below
+    return rows, inner
+
+
+def parameters_page(structs):
+    table = "| parameter | unit | default | allowed | meaning |\n|---|---|---|---|---|\n"
+    text = PARAMETERS_HEAD
+    for node, (kind, file) in NODES.items():
+        rows, inner = parameter_rows(structs, find(structs, "adapters", kind), "")
+        text += f"\n## {node}\n\n`config/{file}`\n"
+        for title, about, section in [(None, "", rows), *inner]:
+            if section:
+                text += (f"\n### `{title}`\n" if title else "") + (f"\n{about}\n" if about else "") + "\n" + table
+                text += "\n".join(section) + "\n"
+    return text
+
+
 def main():
     structs = read_structs()
     files = {
         "../doc/scenarios.md": scenarios_page(structs),
-        "detector.yaml": yaml_file(structs, "DetectorNodeParams", "Parameters of the node window_detector."),
-        "pose.yaml": yaml_file(structs, "PoseNodeParams", "Parameters of the node homography_pose."),
-        "navigator.yaml": yaml_file(structs, "NavigatorNodeParams", "Parameters of the node ingress_navigator."),
-        "guard.yaml": yaml_file(structs, "GuardParams", "Parameters of the node setpoint_guard."),
-        "world.yaml": yaml_file(structs, "WorldNodeParams", "Parameters of the node world."),
+        "../doc/parameters.md": parameters_page(structs),
+        **{file: yaml_file(structs, kind, f"Parameters of the node {node}.") for node, (kind, file) in NODES.items()},
         "WindowDetector.cfg": cfg_file(structs),
     }
     stale = [name for name, text in files.items()

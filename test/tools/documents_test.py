@@ -1,0 +1,128 @@
+"""Documents: every link leads somewhere, every command of the README runs, Doxygen has nothing to say."""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCUMENTS = sorted([ROOT / "README.md", *ROOT.glob("doc/**/*.md")])
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def run(*command, cwd=ROOT, seconds=600):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=seconds, check=False, cwd=cwd)
+
+
+def outside_code(text):
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S))
+
+
+def anchors(text):
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.*)$", text, flags=re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda file: file.name)
+def test_links_lead_somewhere(document):
+    for link in LINK.findall(outside_code(document.read_text())):
+        path, _, anchor = link.partition("#")
+        if path.startswith(("http://", "https://")):
+            continue
+        target = (document.parent / path).resolve() if path else document
+        assert target.exists(), f"{document.name}: {link}"
+        assert not anchor or anchor in anchors(target.read_text()), f"{document.name}: {link}"
+
+
+def test_every_document_is_reached_from_the_readme():
+    reached, ahead = set(), [ROOT / "README.md"]
+    while ahead:
+        document = ahead.pop()
+        if document in reached or document.suffix != ".md":
+            continue
+        reached.add(document)
+        ahead += [(document.parent / link.partition("#")[0]).resolve() for link in LINK.findall(document.read_text())
+                  if not link.startswith(("http", "#"))]
+    assert set(DOCUMENTS) <= reached, set(DOCUMENTS) - reached
+
+
+def test_doxygen_has_nothing_to_say(tmp_path):
+    if not shutil.which("doxygen"):
+        pytest.skip("doxygen is not installed")
+    settings = (ROOT / "doc/Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {tmp_path}\n"
+    (tmp_path / "Doxyfile").write_text(settings)
+    done = run("doxygen", tmp_path / "Doxyfile")
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    assert (tmp_path / "html/index.html").is_file()
+
+
+# --- commands of the README ----------------------------------------------------------------------------------------
+def readme_commands():
+    blocks = re.findall(r"^ *```bash\n(.*?)^ *```", (ROOT / "README.md").read_text(), flags=re.M | re.S)
+    lines = "\n".join(blocks).replace("\\\n", " ").splitlines()
+    return [" ".join(shlex.split(line, comments=True)) for line in lines if shlex.split(line, comments=True)]
+
+
+def checked_elsewhere(command, _):
+    """What builds or tests everything: here only that it is there; scripts/test runs it, or is it."""
+    done = run("bash", "-n", command.split()[0])
+    assert done.returncode == 0, done.stderr
+
+
+def runs_a_tool(command, folder):
+    """The very command, with the user's own files stood in for, fewer flights, and its output elsewhere."""
+    words = command.replace("1..20", "1..1").replace("my_photos/", "doc/detection.png").split()
+    words = [str(folder / word) if word.startswith("out/") else word for word in words]
+    done = run(*words)
+    assert done.returncode == 0, f"{words}\n{done.stderr}"
+
+
+def launches(command, folder):
+    (folder / "my_drone.yaml").write_text("{}\n")
+    words = command.replace("/home/me", str(folder)).split()
+    done = run("scripts/run", "roslaunch", "--nodes", *words[1:])
+    assert done.returncode == 0 and "/setpoint_guard" in done.stdout, done.stderr
+
+
+def calls_a_service(command, folder):
+    """Of the nodes of the simulated world."""
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        port = probe.getsockname()[1]
+    environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOSTNAME": "localhost",
+                   "ROS_HOME": str(folder), "ROS_LOG_DIR": str(folder / "log")}
+    with open(folder / "launch.log", "w", encoding="utf-8") as log:
+        launched = subprocess.Popen([ROOT / "scripts/run", "roslaunch", "-p", str(port), "window_ingress", "sim.launch"],
+                                    env=environment, stdout=log, stderr=log)
+    try:
+        end = time.monotonic() + 60.0
+        while True:
+            done = subprocess.run([ROOT / "scripts/run", *command.split()], env=environment, capture_output=True, text=True,
+                                  timeout=60, check=False)
+            if done.returncode == 0 or time.monotonic() > end:
+                break
+            time.sleep(0.5)  # until the nodes are up
+        assert done.returncode == 0 and "message: " in done.stdout, done.stdout + done.stderr
+    finally:
+        launched.send_signal(signal.SIGINT)
+        launched.wait(30)
+
+
+CHECKS = [(r"\./scripts/(demo|test|bench|build|build_deb|check_deb|check_install)\b", checked_elsewhere),
+          (r"\./scripts/run \w+", runs_a_tool),
+          (r"roslaunch window_ingress", launches),
+          (r"rosservice call", calls_a_service)]
+
+
+@pytest.mark.parametrize("command", readme_commands())
+def test_commands_of_the_readme(command, tmp_path):
+    checks = [check for pattern, check in CHECKS if re.match(pattern, command)]
+    assert checks, f"no rule tells how to check: {command}"
+    checks[0](command, tmp_path)
