@@ -56,6 +56,8 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       "abort", &NavigatorNode::abort, this);
   reset_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
       "reset", &NavigatorNode::reset, this);
+  confirm_opening_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "confirm_opening", &NavigatorNode::confirmOpening, this);
   if (params_.lockstep)
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -178,6 +180,10 @@ bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
 
 bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
   return answer("reset", navigator_.reset(), response);
+}
+
+bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& response) {
+  return answer("confirm_opening", navigator_.confirmOpening(), response);
 }
 
 bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Trigger::Response& response) {

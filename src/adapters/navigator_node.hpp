@@ -76,6 +76,7 @@ class NavigatorNode : public Node {
   bool start(Trigger::Request& request, Trigger::Response& response);
   bool abort(Trigger::Request& request, Trigger::Response& response);
   bool reset(Trigger::Request& request, Trigger::Response& response);
+  bool confirmOpening(Trigger::Request& request, Trigger::Response& response);
   static bool answer(const char* service, const navigation::Reply& reply, Trigger::Response& response);
   void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
@@ -100,7 +101,7 @@ class NavigatorNode : public Node {
 
   ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
-  ros::ServiceServer start_, abort_, reset_;
+  ros::ServiceServer start_, abort_, reset_, confirm_opening_;
   ros::SteadyTimer timer_;
 };
 

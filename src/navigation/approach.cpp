@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/navigation/opening_policy.hpp"
+
 namespace window_ingress::navigation {
 namespace {
+
+constexpr double kLooksWithinM = 0.4;
 
 /// For how long a condition has held, updating when it began.
 double heldSec(bool condition, double now_sec, std::optional<double>& since_sec) {
@@ -37,8 +41,10 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
     return decision;
   }
   const Contract contract = contractWith(target, *situation.vehicle, memory, params_);
+  RelativeState to_goal = relative;
+  to_goal.position_window_m.y() -= asideM(contract, situation.now_sec);
   decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_),
+      velocityAlongAxis(to_goal, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_),
       uprightRotation(target), situation);
   decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
   decision.event = judge(contract, relative, situation, decision.reason);
@@ -60,14 +66,27 @@ double Approach::forwardSpeed(const Contract& contract, const RelativeState& rel
                   stoppingSpeed(room_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec));
 }
 
+double Approach::asideM(const Contract& contract, double now_sec) const {
+  if (!looks_ || !waiting_since_sec_ || !contract.opening_unverified) return 0.0;
+  return lookAside(now_sec - *waiting_since_sec_, contract, params_.commit);
+}
+
+double Approach::patienceSec() const {
+  if (!looks_) return params_.approach.patience_sec;
+  return params_.commit.unverified_opening == "ask" ? params_.commit.ask_sec : params_.commit.look_sec;
+}
+
 std::optional<Event> Approach::judge(const Contract& contract, const RelativeState& relative,
                                      const Situation& situation, std::string& reason) {
   const bool at_line = relative.distance() <= contract.commit_distance_m + 0.05;
   if (at_line && contract.holds) return Event::kCommitReached;
   const double outside_sec =
       heldSec(isOutside(contract, params_.approach.leave_factor), situation.now_sec, outside_since_sec_);
-  const double waiting_sec = heldSec(at_line, situation.now_sec, waiting_since_sec_);
-  if (waiting_sec > params_.approach.patience_sec) return Event::kContractUnmet;
+  // Aside the line is further away from the window.
+  const bool waits = at_line || (looks_ && relative.distance() <= contract.commit_distance_m + kLooksWithinM);
+  const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);
+  looks_ = waits && (looks_ || contract.opening_unverified);
+  if (waiting_sec > patienceSec()) return Event::kContractUnmet;
   if (outside_sec > params_.approach.leave_sec) {
     reason = "out of the funnel: " + contract.unmet;
     return at_line ? Event::kContractUnmet : Event::kMisaligned;

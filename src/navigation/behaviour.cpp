@@ -3,17 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/navigation/opening_policy.hpp"
+
 namespace window_ingress::navigation {
 
-void MissionMemory::forgetWindow() {
+void MissionMemory::leaveWindow() {
   trusted.reset();
   window_odom_m.reset();
+  opening_confirmed = false;
+}
+
+void MissionMemory::forgetWindow() {
+  leaveWindow();
   others_odom_m.clear();
 }
 
 void MissionMemory::forgetPlaces() {
   forgetWindow();
   committed.reset();
+  closed_odom_m.clear();
   place_odom_m.reset();
   keeping_since_sec.reset();
 }
@@ -26,13 +34,12 @@ void noteSide(const Situation& situation, const NavigatorParams& params, Mission
 
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {
   const auto& target = *situation.target;
-  if (!target.other_window) return std::nullopt;
+  if (!target.other_window) return leaveClosedOpening(situation, memory);
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
   memory.others_odom_m.push_back(position +
                                  *target.other_window * (target.T_odom_window.translation() - position));
   ++memory.others;
-  memory.trusted.reset();
-  memory.window_odom_m.reset();
+  memory.leaveWindow();
   Decision decision;
   decision.keeps_place = true;
   decision.event = Event::kOtherWindow;
@@ -41,6 +48,7 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemo
 }
 
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory) {
+  if (isKnownClosed(target, memory)) return true;
   constexpr double kSameDirectionRad = 0.12;
   const Eigen::Vector3d position = vehicle.T_odom_base.translation();
   const Eigen::Vector3d sight = (target.T_odom_window.translation() - position).normalized();
@@ -68,7 +76,12 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   input.unseen_sec = unseen_sec;
   input.gust_lateral_mps = along(1);
   input.gust_vertical_mps = along(2);
-  return evaluateContract(input, params);
+  Contract contract = evaluateContract(input, params);
+  const std::string why_not = whyNotEntered(target, memory, params.commit);
+  contract.opening_unverified = !why_not.empty();
+  if (contract.holds) contract.unmet = why_not;
+  contract.holds = contract.unmet.empty();
+  return contract;
 }
 
 double yawRateFor(double error_rad, const NavigatorParams& params) {

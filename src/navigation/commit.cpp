@@ -107,8 +107,10 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
 }
 
 void Commit::heedForbidden(const TargetEstimate& target) {
-  forbidden_ = target.approach_forbidden.empty() ? 0 : forbidden_ + 1;
-  if (forbidden_ > 0) why_forbidden_ = target.approach_forbidden;
+  const bool is_closed = target.openness.openness == openness::Openness::kClosed;
+  forbidden_ = target.approach_forbidden.empty() && !is_closed ? 0 : forbidden_ + 1;
+  if (is_closed) why_forbidden_ = "the opening is closed: " + target.openness.reason;
+  if (!target.approach_forbidden.empty()) why_forbidden_ = target.approach_forbidden;
 }
 
 double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {

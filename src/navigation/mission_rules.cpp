@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "window_ingress/navigation/opening_policy.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
@@ -48,8 +49,9 @@ std::string missingInput(State state, const Situation& situation) {
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
                           const MissionMemory& memory, const InputParams& params) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
+  const bool is_left = state == State::kHold || state == State::kBackOff;
+  if (is_left && isKnownClosed(target, memory)) return "a closed window";
   if (!memory.trusted) {
-    const bool is_left = state == State::kHold || state == State::kBackOff;
     return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
   }
   const double shift_m =

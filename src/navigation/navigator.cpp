@@ -12,6 +12,7 @@
 #include "window_ingress/navigation/hold.hpp"
 #include "window_ingress/navigation/home.hpp"
 #include "window_ingress/navigation/mission_clock.hpp"
+#include "window_ingress/navigation/mission_report.hpp"
 #include "window_ingress/navigation/mission_rules.hpp"
 #include "window_ingress/navigation/motion_guard.hpp"
 #include "window_ingress/navigation/place_keeping.hpp"
@@ -66,7 +67,6 @@ struct Navigator::Impl {
   void change(State to, const std::string& why);
   void enter(State from);
   Setpoint output(const Decision& decision, const Situation& situation);
-  NavigatorReport report(const Situation& situation) const;
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
 };
 
@@ -208,22 +208,6 @@ Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situ
   return limiter.cutTo(limited);
 }
 
-NavigatorReport Navigator::Impl::report(const Situation& situation) const {
-  NavigatorReport report;
-  report.predicted_miss_m = memory.predicted_miss_m;
-  report.blind_sec = memory.blind_sec;
-  report.retries = memory.back_offs;
-  const auto& target = memory.committed ? memory.committed : situation.target;
-  if (!target || !situation.vehicle) return report;
-  const RelativeState relative = relate(*situation.vehicle, *target);
-  report.has_relative = true;
-  report.lateral_m = relative.lateral();
-  report.vertical_m = relative.vertical();
-  report.distance_m = relative.distance();
-  report.commit_distance_m = commitDistance(relative, target->opening, pitchOf(*situation.vehicle), params);
-  return report;
-}
-
 std::vector<std::string> Navigator::Impl::unmet(const NavigatorInput& input, double at_sec) const {
   InputMonitor judge = monitor;
   return unmetToStart(judge.judge(input, at_sec), input.engaged, params);
@@ -269,6 +253,14 @@ Reply Navigator::reset() {
   return {true, "reset"};
 }
 
+Reply Navigator::confirmOpening() {
+  auto& self = *impl_;
+  if (!self.isFlownAt() || !self.memory.trusted)
+    return {false, std::string("no window is flown at: ") + toString(self.state)};
+  self.memory.opening_confirmed = true;
+  return {true, "confirmed: the window flown at is open"};
+}
+
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
   Situation situation = self.monitor.judge(input, now_sec);
@@ -288,7 +280,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
   output.reason = self.reason;
-  output.report = self.report(situation);
+  output.report = reportOn(situation, self.memory, self.params);
   const bool streams =
       self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;
   output.enabled = self.state != State::kIdle && streams;

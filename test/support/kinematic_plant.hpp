@@ -30,13 +30,15 @@ struct PlantParams {
   bool is_ambiguous = false;             ///< the sign is not trusted until the height has changed by 0.4 m
   unsigned seed = 1;
   geometry::OpeningSize opening{1.2, 1.0};
+  openness::Openness openness = openness::Openness::kOpen;  ///< as it is seen
 };
 
 class KinematicPlant {
  public:
   static constexpr double kStepSec = 1.0 / 30.0;
 
-  explicit KinematicPlant(const PlantParams& params) : params_(params), random_(params.seed) {
+  explicit KinematicPlant(const PlantParams& params)
+      : openness(params.openness), params_(params), random_(params.seed) {
     T_odom_window_ = geometry::makePose(geometry::yawRotation(0.7), Eigen::Vector3d(3.0, -2.0, 1.5));
     const double a = params.off_axis_rad;
     const Eigen::Vector3d start(-params.start_distance_m * std::cos(a), params.start_distance_m * std::sin(a),
@@ -84,6 +86,7 @@ class KinematicPlant {
   void push(const Eigen::Vector3d& by_m) { position_ += by_m; }
   void shiftOdometry(const Eigen::Vector3d& by_m) { drift_ += by_m; }
 
+  openness::Openness openness;
   bool hides_window = false;
   bool hides_odometry = false;
 
@@ -125,6 +128,8 @@ class KinematicPlant {
     estimate.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m),
         Eigen::Vector3d::Constant(sigma_yaw * sigma_yaw);
     estimate.opening = params_.opening;
+    estimate.openness.openness = openness;
+    estimate.openness.reason = "as the plant says";
     estimate.stamp_sec = time_;
     pending_.push_back(estimate);
     while (!pending_.empty() && pending_.front().stamp_sec <= time_ - params_.camera_latency_sec) {

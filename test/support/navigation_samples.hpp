@@ -16,7 +16,7 @@ inline navigation::VehicleState vehicleAt(const Eigen::Vector3d& position_m, dou
   return vehicle;
 }
 
-/// A window at the origin of odom, 1.5 m high, flown into along odom's x axis.
+/// An open window at the origin of odom, 1.5 m high, flown into along odom's x axis.
 inline navigation::TargetEstimate targetAtOrigin(double stamp_sec, bool sign_trusted = true) {
   navigation::TargetEstimate target;
   target.stamp_sec = stamp_sec;
@@ -24,6 +24,7 @@ inline navigation::TargetEstimate targetAtOrigin(double stamp_sec, bool sign_tru
   target.covariance.diagonal() << 1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5;
   target.sign_trusted = sign_trusted;
   target.opening = {1.2, 1.0};
+  target.openness.openness = openness::Openness::kOpen;
   return target;
 }
 

@@ -17,6 +17,9 @@ class Approach {
 
  private:
   double forwardSpeed(const Contract& contract, const RelativeState& relative) const;
+  /// Beside the axis, to see whether the opening is open.
+  double asideM(const Contract& contract, double now_sec) const;
+  double patienceSec() const;
   std::optional<Event> judge(const Contract& contract, const RelativeState& relative,
                              const Situation& situation, std::string& reason);
 
@@ -24,6 +27,7 @@ class Approach {
   StepPacer pacer_;
   std::optional<double> outside_since_sec_;
   std::optional<double> waiting_since_sec_;
+  bool looks_ = false;  ///< at the line, to see whether the opening is open
 };
 
 }  // namespace window_ingress::navigation

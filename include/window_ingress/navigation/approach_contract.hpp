@@ -50,6 +50,8 @@ struct Contract {
   /// normal, little sideways speed.
   bool holds = false;
   std::string unmet;  ///< why it does not hold, with numbers; empty if it does
+  /// It is not known whether the opening is open, and that counts.
+  bool opening_unverified = false;
 
   double missM() const { return miss_lateral_m > miss_vertical_m ? miss_lateral_m : miss_vertical_m; }
 };

@@ -31,12 +31,16 @@ struct MissionMemory {
   std::optional<double> keeping_since_sec;                  ///< a place is wanted
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
+  std::vector<Eigen::Vector3d> closed_odom_m;   ///< openings that were seen to be closed
+  bool opening_confirmed = false;               ///< the operator says that the window flown at is open
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
   int others = 0;            ///< how often one of these was flown at
   int back_offs = 0;
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
 
+  /// The window flown at is given up.
+  void leaveWindow();
   /// Which window is flown at, and which not: one of them may have been misjudged.
   void forgetWindow();
   /// Everything that lives in an odometry frame.
@@ -46,11 +50,11 @@ struct MissionMemory {
 /// On which side of the window the vehicle is, for when its place will be forgotten.
 void noteSide(const Situation& situation, const NavigatorParams& params, MissionMemory& memory);
 
-/// If the way flown has shown the target to be another window: remembers that, and says so.
+/// If the way flown has shown the target to be another window, or closed: remembers that, and says so.
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory);
 
-/// The target lies where a window is that is known to be another one: in the same direction, for its distance
-/// is computed with a size that it does not have.
+/// The target is known to be closed; or it lies where a window is that is known to be another one: in the
+/// same direction, for its distance is computed with a size that it does not have.
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory);
 
 /// Nose-down pitch of the vehicle [rad].

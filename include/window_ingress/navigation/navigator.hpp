@@ -4,23 +4,12 @@
 #include <string>
 
 #include "window_ingress/navigation/input_monitor.hpp"
+#include "window_ingress/navigation/mission_report.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
 
 namespace window_ingress::navigation {
-
-/// Figures for people and reports; zero where the state has nothing to say.
-struct NavigatorReport {
-  bool has_relative = false;       ///< the next three are set
-  double lateral_m = 0.0;          ///< of the vehicle in the window frame: y, left positive [m]
-  double vertical_m = 0.0;         ///< z, up positive [m]
-  double distance_m = 0.0;         ///< to the window's plane, positive in front [m]
-  double commit_distance_m = 0.0;  ///< where COMMIT would begin now [m]
-  double predicted_miss_m = 0.0;   ///< at the commit: offset, 3 sigma and drift, of the worse axis [m]
-  double blind_sec = 0.0;  ///< longest time in COMMIT without sight of the window, up to its plane [s]
-  int retries = 0;         ///< back-offs so far
-};
 
 struct NavigatorOutput {
   State state = State::kIdle;
@@ -56,6 +45,9 @@ class Navigator {
   Reply start(const NavigatorInput& input, double now_sec);  ///< refused with all unmet conditions listed
   Reply abort();  ///< from everywhere, any number of times; zero from the next step on
   Reply reset();  ///< from any end state back to IDLE
+  /// The operator says that the window flown at now is open; forgotten when it is given up. Refused where
+  /// none is. What was seen to be closed is left all the same.
+  Reply confirmOpening();
 
   NavigatorOutput step(const NavigatorInput& input, double now_sec);
 

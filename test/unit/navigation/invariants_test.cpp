@@ -38,6 +38,7 @@ class HostileWorld {
     yaw_ += setpoint.yaw_rate_radps * 0.033;
     if (chance(0.002)) position_ = Eigen::Vector3d(-6 * uniform(), 6 * uniform() - 3, 3 * uniform());
     if (chance(0.01)) is_trusted_ = !is_trusted_;
+    if (chance(0.002)) is_unverified_ = !is_unverified_;
     if (chance(0.01)) is_seen_ = !is_seen_ || chance(0.5);
     if (is_seen_) seen_sec_ = now_ - 0.05 * uniform();
   }
@@ -70,6 +71,8 @@ class HostileWorld {
       target.covariance(static_cast<int>(6 * uniform()), static_cast<int>(6 * uniform())) = spoilt();
     if (chance(0.01)) target.opening.width_m = spoilt();
     if (chance(0.01)) target.stamp_sec = spoilt();
+    target.openness.openness = is_unverified_ ? openness::Openness::kUnknown : openness::Openness::kOpen;
+    if (chance(0.003)) target.openness.openness = openness::Openness::kClosed;
     if (chance(0.005)) target.other_window = chance(0.1) ? spoilt() : 0.6;
     if (chance(0.01) || target.other_window) target.approach_forbidden = "not there";
     return target;
@@ -79,7 +82,7 @@ class HostileWorld {
   std::uniform_real_distribution<double> uniform_;
   Eigen::Vector3d position_{-4, 1, 1.5}, velocity_ = Eigen::Vector3d::Zero();
   double yaw_ = 0.0, now_ = 100.0, seen_sec_ = 100.0;
-  bool is_trusted_ = true, is_seen_ = true;
+  bool is_trusted_ = true, is_seen_ = true, is_unverified_ = false;
 };
 
 /// Odometry given so far: usable if the newest sample is fresh and the one of this step is not broken.

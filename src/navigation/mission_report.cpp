@@ -1,0 +1,22 @@
+#include "window_ingress/navigation/mission_report.hpp"
+
+namespace window_ingress::navigation {
+
+NavigatorReport reportOn(const Situation& situation, const MissionMemory& memory,
+                         const NavigatorParams& params) {
+  NavigatorReport report;
+  report.predicted_miss_m = memory.predicted_miss_m;
+  report.blind_sec = memory.blind_sec;
+  report.retries = memory.back_offs;
+  const auto& target = memory.committed ? memory.committed : situation.target;
+  if (!target || !situation.vehicle) return report;
+  const RelativeState relative = relate(*situation.vehicle, *target);
+  report.has_relative = true;
+  report.lateral_m = relative.lateral();
+  report.vertical_m = relative.vertical();
+  report.distance_m = relative.distance();
+  report.commit_distance_m = commitDistance(relative, target->opening, pitchOf(*situation.vehicle), params);
+  return report;
+}
+
+}  // namespace window_ingress::navigation

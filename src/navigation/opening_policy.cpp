@@ -1,0 +1,47 @@
+#include "window_ingress/navigation/opening_policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+
+using openness::Openness;
+
+std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& memory,
+                          const CommitParams& params) {
+  const auto& seen = target.openness;
+  if (seen.openness == Openness::kClosed) return "the opening is closed: " + seen.reason;
+  if (seen.openness == Openness::kOpen || memory.opening_confirmed || params.unverified_opening == "allow")
+    return "";
+  const std::string why = "not seen to be open: " + seen.reason;
+  return params.unverified_opening == "ask" ? "is it open? ~confirm_opening says yes; " + why : why;
+}
+
+std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMemory& memory) {
+  const auto& target = *situation.target;
+  if (target.openness.openness != Openness::kClosed) return std::nullopt;
+  memory.closed_odom_m.push_back(target.T_odom_window.translation());
+  memory.leaveWindow();
+  Decision decision;
+  decision.keeps_place = true;
+  decision.event = Event::kOtherWindow;
+  decision.reason = "the opening is closed: " + target.openness.reason;
+  return decision;
+}
+
+bool isKnownClosed(const TargetEstimate& target, const MissionMemory& memory) {
+  constexpr double kSamePlaceM = 0.5;
+  return std::any_of(memory.closed_odom_m.begin(), memory.closed_odom_m.end(),
+                     [&](const Eigen::Vector3d& closed) {
+                       return (closed - target.T_odom_window.translation()).norm() < kSamePlaceM;
+                     });
+}
+
+double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params) {
+  constexpr double kSideSec = 2.0, kPartOfClearance = 0.7;
+  const double aside_m =
+      std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, contract.clearance_lateral_m));
+  return std::fmod(waiting_sec, 2.0 * kSideSec) < kSideSec ? aside_m : -aside_m;
+}
+
+}  // namespace window_ingress::navigation
