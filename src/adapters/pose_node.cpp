@@ -8,6 +8,7 @@
 
 #include "adapters/attitude_source.hpp"
 #include "adapters/guarded.hpp"
+#include "adapters/marker_sketch.hpp"
 #include "adapters/markers.hpp"
 #include "adapters/parameters.hpp"
 
@@ -30,10 +31,15 @@ PoseNodeParams checked(PoseNodeParams params) {
 std::string labelOf(const window_ingress::WindowPose& message) {
   static const char* const kFits[] = {"fit?", "GO", "NO GO"};
   constexpr double kDegrees = 180.0 / M_PI;
-  char text[160];
-  std::snprintf(text, sizeof text, "yaw %+.1f +- %.1f deg%s\n%.2f x %.2f m: %s%s", message.yaw * kDegrees,
-                message.yaw_sigma * kDegrees, message.filtered_sign_trusted ? "" : " (sign open)",
-                message.window_width, message.window_height, kFits[std::min<int>(message.fit, 2)],
+  const bool is_seen = message.reject == window_ingress::WindowPose::OK;
+  char sight[80], text[240];
+  if (is_seen)
+    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", message.yaw * kDegrees,
+                  message.yaw_sigma * kDegrees);
+  else
+    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered_age);
+  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.window_width,
+                message.window_height, kFits[std::min<int>(message.fit, 2)],
                 message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
   return text;
 }
@@ -256,6 +262,7 @@ void PoseNode::restartIfClockJumpedBack() {
   pending_.reset();
   tracker_.reset();
   tf_.clear();
+  marker_publisher_.publish(allGone(ros::Time::now(), params_.frames.odom));
 }
 
 Health PoseNode::mountingHealth() const {
