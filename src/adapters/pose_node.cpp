@@ -77,6 +77,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
   diagnostics_.add("frames check", [this] { return framesHealth(); });
   diagnostics_.add("consistency", [this] { return consistencyHealth(); });
+  diagnostics_.add("openness", [this] { return opennessHealth(); });
   if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -175,6 +176,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.window_height = params_.pose.opening_height_m;
   estimate(message, out);
   fill(out, tracker_.frames());
+  fill(out, tracker_.openness());
   if (const auto& measured = tracker_.measuredSize()) fill(out, *measured);
   const auto state = tracker_.filtered(message.header.stamp.toSec());
   if (state) {
@@ -276,6 +278,15 @@ Health PoseNode::framesHealth() const {
   if (frames.state == pose::FramesVerdict::kWrong) return {Health::kError, frames.what + "; no approach"};
   if (frames.state == pose::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
   return {Health::kOk, "camera mounting and velocity frame verified"};
+}
+
+// Closed is no fault of this node's: it is for the navigator to act upon.
+Health PoseNode::opennessHealth() const {
+  const openness::OpennessVerdict& verdict = tracker_.openness();
+  return {Health::kOk, std::string(openness::toString(verdict.openness)) + ": " + verdict.reason +
+                           (verdict.openness == openness::Openness::kOpen
+                                ? "; a mirroring pane that shows a nearby scene cannot be told from a room"
+                                : "")};
 }
 
 Health PoseNode::consistencyHealth() const {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/openness/openness_verdict.hpp"
 #include "window_ingress/pose/opening_fit.hpp"
 
 namespace window_ingress::navigation {
@@ -34,6 +35,8 @@ struct TargetEstimate {
   std::string approach_forbidden;
   /// The way flown has shown that it is not the window looked for, but one so many times as large.
   std::optional<double> other_window;
+  /// Whether it is open, by parallax; UNKNOWN until that is seen.
+  openness::OpennessVerdict openness;
 };
 
 /// Velocity wish for the vehicle: odometry axes, yaw rate about z.
