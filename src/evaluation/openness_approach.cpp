@@ -61,7 +61,8 @@ std::optional<detection::WindowObservation> OpennessApproach::look(const geometr
     b += border_bias_px_[i] * outwards;
   }
   for (int i = 0; i < 4; ++i) {
-    crossBorders(window->edges[(i + 3) % 4], window->edges[i], window->corners[i], window->corner_covariance[i]);
+    crossBorders(window->edges[(i + 3) % 4], window->edges[i], window->corners[i],
+                 window->corner_covariance[i]);
     window->corners[i] = camera.distort(window->corners[i]);
     if (!camera.contains(window->corners[i], kSeen_px)) return std::nullopt;
   }
@@ -70,8 +71,8 @@ std::optional<detection::WindowObservation> OpennessApproach::look(const geometr
   return window;
 }
 
-void OpennessApproach::judge(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                             int step) {
+void OpennessApproach::judge(const detection::WindowObservation& window,
+                             const geometry::PinholeCamera& camera, int step) {
   drift_m_ += spread(random_, range_.drift_m_per_sqrt_sec / std::sqrt(range_.rate_hz));
   Eigen::Isometry3d T_odom_camera = motion(step).T_window_camera;
   T_odom_camera.translation() += drift_m_ + spread(random_, range_.position_noise_m);

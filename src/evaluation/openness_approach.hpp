@@ -1,4 +1,5 @@
-/// An approach as those see it who survey openness: true camera poses, and what odometry, filter and detector say.
+/// An approach as those see it who survey openness: true camera poses, and what odometry, filter and detector
+/// say.
 #pragma once
 
 #include <optional>

@@ -23,7 +23,8 @@ OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed
   result.room_m = result.is_open ? scenario.house.room_depth_m : 0.0;
   int pictures = 0;
   for (int i = 0; i < approach.steps(); ++i) {
-    const cv::Mat image = sensor.expose(approach.motion(i), static_cast<std::uint64_t>(i), approach.timeSec(i));
+    const cv::Mat image =
+        sensor.expose(approach.motion(i), static_cast<std::uint64_t>(i), approach.timeSec(i));
     auto window = approach.look(camera, i);
     if (!window) continue;
     const auto begun = Clock::now();

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 using simulation::RandomStream;
 
 constexpr double kGrowth = 1.35, kOldest_sec = 4.0, kShared = 0.4, kMargin = 0.07;
-constexpr double kBoard_m = 0.02;  // behind the border
+constexpr double kBoard_m = 0.02;     // behind the border
 constexpr double kWrongWay_px = 4.0;  // of a point that is followed wrongly
 
 /// What is seen within the border, in the window's axes.
@@ -159,8 +159,8 @@ class SyntheticFollower {
       const auto key_px = pixelOf(T_window_camera, *place, window.stamp_sec);
       if (!key_px) continue;
       const bool is_wrong = random_.uniform(0.0, 1.0) < wrong_part_;
-      points_.push_back({*place, *key_px, noise(range_.flow_noise_px),
-                         is_wrong ? noise(kWrongWay_px) : Vector2d(0, 0)});
+      points_.push_back(
+          {*place, *key_px, noise(range_.flow_noise_px), is_wrong ? noise(kWrongWay_px) : Vector2d(0, 0)});
     }
   }
 

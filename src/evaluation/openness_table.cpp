@@ -22,7 +22,8 @@ std::string rate(int count, int trials) {
 }  // namespace
 
 void OpennessTable::add(const OpennessResult& result) {
-  auto found = std::find_if(rows_.begin(), rows_.end(), [&](const auto& row) { return row.first == result.kind; });
+  auto found =
+      std::find_if(rows_.begin(), rows_.end(), [&](const auto& row) { return row.first == result.kind; });
   if (found == rows_.end()) found = rows_.insert(rows_.end(), {result.kind, {}});
   Row& row = found->second;
   row.is_open = result.is_open;
@@ -37,13 +38,14 @@ void OpennessTable::add(const OpennessResult& result) {
 
 std::string OpennessTable::markdown() const {
   std::string out =
-      "| within the border | is | approaches | OPEN at the decision | CLOSED | UNKNOWN | ever OPEN | ever CLOSED | "
+      "| within the border | is | approaches | OPEN at the decision | CLOSED | UNKNOWN | ever OPEN | ever "
+      "CLOSED | "
       "OPEN from, median m | ms a picture |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [kind, row] : rows_)
     out += "| " + kind + " | " + (row.is_open ? "open" : "not open") + " | " + std::to_string(row.flights) +
            " | " + rate(row.open, row.flights) + " | " + rate(row.closed, row.flights) + " | " +
-           std::to_string(row.flights - row.open - row.closed) + " | " + std::to_string(row.ever_open) + " | " +
-           std::to_string(row.ever_closed) + " | " +
+           std::to_string(row.flights - row.open - row.closed) + " | " + std::to_string(row.ever_open) +
+           " | " + std::to_string(row.ever_closed) + " | " +
            (row.open_from_m.empty() ? "" : text("%.2f", quantile(row.open_from_m, 0.5))) + " | " +
            text("%.3f", quantile(row.milliseconds, 0.5)) + " |\n";
   return out;

@@ -121,7 +121,8 @@ void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservati
 void InteriorFollower::Impl::findPoints() {
   points.clear();
   cv::cornerMinEigenVal(straight, contrast, kGradientBlock);
-  const int side = std::max(2, static_cast<int>(std::lround(params.margin * std::max(size.width, size.height))));
+  const int side =
+      std::max(2, static_cast<int>(std::lround(params.margin * std::max(size.width, size.height))));
   const cv::Rect inner(side, side, size.width - 2 * side, size.height - 2 * side);
   if (inner.width < kReach || inner.height < kReach) return;
   mask = cv::Mat::zeros(size, CV_8UC1);

@@ -6,8 +6,6 @@
 namespace window_ingress::openness {
 namespace {
 
-constexpr double kFootprint = 0.0;  // half of what a followed patch covers, part of the opening's side
-
 struct Range {
   int first, last;
 };
@@ -19,7 +17,8 @@ Range cellsBetween(double from, double to, int side) {
 
 // Cells that a middle part of the side reaches into.
 Range middle(double needed, double whole, int side) {
-  const double half = 0.5 * std::clamp(whole > 0.0 ? needed / whole : 1.0, 0.0, 1.0);
+  const double part = needed / whole;
+  const double half = std::isfinite(part) ? 0.5 * std::clamp(part, 0.0, 1.0) : 0.5;
   constexpr double kTouch = 1e-6;
   Range range = cellsBetween(0.5 - half + kTouch, 0.5 + half - kTouch, side);
   range.first = std::min(range.first, side / 2 - 1);
@@ -33,14 +32,11 @@ void OpeningCells::see(const Eigen::Vector2d& place, double log_odds) {
   if (!place.allFinite() || !std::isfinite(log_odds) || (place.array() < 0.0).any() ||
       (place.array() > 1.0).any())
     return;
-  const Range across = cellsBetween(place.x() - kFootprint, place.x() + kFootprint, kSide);
-  const Range down = cellsBetween(place.y() - kFootprint, place.y() + kFootprint, kSide);
+  const int x = std::min(kSide - 1, static_cast<int>(place.x() * kSide));
+  const int y = std::min(kSide - 1, static_cast<int>(place.y() * kSide));
   auto& cells = log_odds > 0.0 ? open_ : closed_;
-  for (int y = down.first; y <= down.last; ++y)
-    for (int x = across.first; x <= across.last; ++x) {
-      float& cell = cells[static_cast<std::size_t>(y * kSide + x)];
-      cell = std::max(cell, static_cast<float>(std::abs(log_odds)));
-    }
+  float& cell = cells[static_cast<std::size_t>(y * kSide + x)];
+  cell = std::max(cell, static_cast<float>(std::abs(log_odds)));
 }
 
 OpeningCells::Share OpeningCells::shareOf(const geometry::OpeningSize& needed,

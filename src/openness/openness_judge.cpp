@@ -15,8 +15,8 @@ using geometry::Quadrilateral;
 
 constexpr double kSameStamp_sec = 1e-6, kLongest_sec = 10.0;
 constexpr std::size_t kMostLooks = 600;
-constexpr double kSays = 1.0;        // log odds below which a stretch has said nothing
-constexpr double kMisfit_px = 1.5;   // of corners against the filtered window, beside the part of its size
+constexpr double kSays = 1.0;         // log odds below which a stretch has said nothing
+constexpr double kMisfit_px = 1.5;    // of corners against the filtered window, beside the part of its size
 constexpr double kMostClosed = 0.15;  // of the middle that is needed
 constexpr double kLeastQuarter = 0.5;
 constexpr double kMostTotal = 12.0;
@@ -117,7 +117,8 @@ void OpennessJudge::see(const OpennessView& view) {
   if (is_other || (!looks_.empty() && window.stamp_sec < looks_.back().stamp_sec)) reset();
   target_id_ = window.target_id;
   if (!window.whole() || !std::isfinite(window.stamp_sec) || !geometry::isValidPose(view.T_odom_camera) ||
-      !geometry::isValidPose(view.T_odom_window) || !(view.opening.width_m > 0.0 && view.opening.height_m > 0.0))
+      !geometry::isValidPose(view.T_odom_window) ||
+      !(view.opening.width_m > 0.0 && view.opening.height_m > 0.0))
     return;
   if (!agrees(undistorted(window.corners, view.camera), view, params_.max_border_misfit)) return;
   remember(view);
@@ -178,8 +179,8 @@ void OpennessJudge::conclude() {
   } else if (!sure_open) {
     verdict.reason = text("%.0f points followed, log odds %.1f", says_.points, all.log_odds);
   } else if (share.closed > kMostClosed) {
-    verdict.reason = text("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed,
-                          100 * share.open);
+    verdict.reason =
+        text("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
   } else if (share.open < params_.min_open_share || share.least_quarter_open < kLeastQuarter) {
     verdict.reason = text("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
   } else {

@@ -109,8 +109,7 @@ std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vec
   const double way = 2.0 * std::pow(point.part * errors_.position_sigma_m, 2);
   point.part_sigma = std::sqrt((flow + borderVariance(point.place, along)) / std::pow(point.gain_px, 2) +
                                way / std::pow(baseline_m_, 2));
-  point.across_sigma_px =
-      std::sqrt(flow + borderVariance(point.place, across) + way * px_per_m_ * px_per_m_);
+  point.across_sigma_px = std::sqrt(flow + borderVariance(point.place, across) + way * px_per_m_ * px_per_m_);
   return point;
 }
 

@@ -8,9 +8,7 @@ namespace {
 
 constexpr double kBeforePlane_m = 0.1;  // of what closes: nothing stands further out
 
-double outside(double value, double low, double high) {
-  return std::max({0.0, low - value, value - high});
-}
+double outside(double value, double low, double high) { return std::max({0.0, low - value, value - high}); }
 
 }  // namespace
 
@@ -29,8 +27,7 @@ double DepthParts::logOdds(double part, double sigma) const {
 void TrackEvidence::see(const PointParallax& look) {
   last_ = look;
   if (looks_++ == 0 || look.part_sigma < best_.part_sigma) best_ = look;
-  const bool further =
-      samples_ == 0 || look.gain_px > kGrowth * ring_[(samples_ - 1) % kSamples].gain_px;
+  const bool further = samples_ == 0 || look.gain_px > kGrowth * ring_[(samples_ - 1) % kSamples].gain_px;
   if (further) ring_[samples_++ % kSamples] = {look.part, look.part_sigma, look.gain_px};
 }
 

@@ -30,9 +30,12 @@ struct Options {
 
 po::options_description describe(Options& o) {
   po::options_description description(
-      "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--scenario FILE.yaml...] --output DIR\n"
-      "Approaches random windows and asks whether they are open. Writes DIR/openness.csv with a row an approach and\n"
-      "prints a table with Wilson intervals (95 %). Exit code 1 if anything closed was ever called open.\n\nOptions");
+      "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--scenario FILE.yaml...] --output "
+      "DIR\n"
+      "Approaches random windows and asks whether they are open. Writes DIR/openness.csv with a row an "
+      "approach and\n"
+      "prints a table with Wilson intervals (95 %). Exit code 1 if anything closed was ever called "
+      "open.\n\nOptions");
   auto add = description.add_options();
   add("help,h", "this text");
   add("open", po::value(&o.open)->default_value(o.open), "drawn approaches to open windows");
@@ -41,7 +44,8 @@ po::options_description describe(Options& o) {
       "approaches of each kind without pictures");
   add("scenario", po::value(&o.scenarios)->composing()->multitoken(),
       "scenario files instead of random windows, --open approaches each");
-  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first approach; each further one has the next");
+  add("seed", po::value(&o.seed)->default_value(o.seed),
+      "of the first approach; each further one has the next");
   add("params", po::value(&o.params), "yaml file with sections 'interior' and 'openness'");
   add("rate", po::value(&o.range.rate_hz)->default_value(o.range.rate_hz), "of the pictures [1/s]");
   add("decide", po::value(&o.range.decide_m)->default_value(o.range.decide_m),
@@ -138,7 +142,8 @@ class Survey {
     return [this, seed](double plane_m, const openness::OpennessVerdict& v) {
       char text[400];
       std::snprintf(text, sizeof text, "%u,%.3f,%s,%.3f,%.3f,%.3f,\"%s\"", seed, plane_m,
-                    openness::toString(v.openness), v.log_odds, v.depth_behind_m, v.open_share, v.reason.c_str());
+                    openness::toString(v.openness), v.log_odds, v.depth_behind_m, v.open_share,
+                    v.reason.c_str());
       lines_.push_back(text);
     };
   }

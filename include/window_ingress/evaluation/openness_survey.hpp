@@ -26,14 +26,14 @@ struct OpennessRange {
   double position_noise_m = 0.006, drift_m_per_sqrt_sec = 0.015;
   double attitude_noise_rad = 0.004, attitude_bias_rad = 0.01;
   double window_error_m = 0.05, window_error_rad = 0.03;  ///< of the filtered window, lasting
-  double flow_noise_px = 0.3;    ///< of synthetic points [px]
+  double flow_noise_px = 0.3;                             ///< of synthetic points [px]
 };
 
 /// What one approach ended with.
 struct OpennessResult {
   std::string kind;
-  bool is_open = false;        ///< the truth
-  double room_m = 0.0;         ///< depth behind the border of what is seen, if known; else 0
+  bool is_open = false;  ///< the truth
+  double room_m = 0.0;   ///< depth behind the border of what is seen, if known; else 0
   std::uint32_t seed = 0;
   openness::OpennessVerdict at_decision;
   bool ever_open = false, ever_closed = false;
@@ -52,15 +52,15 @@ OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed
 
 /// What synthetic points within the border lie on.
 enum class Interior {
-  kPoster,    ///< the plane itself
-  kPane,      ///< a plane up to 0.15 m behind it
-  kCurtain,   ///< folds up to 0.3 m behind it, that sway
-  kTilted,    ///< a shutter not quite shut: a plane that reaches up to 0.3 m in
-  kPartly,    ///< half of it a board, half a room: not open
-  kDirt,      ///< stuck to the lens
-  kJump,      ///< a poster; the border jumps to another edge on the way: not open
-  kMirror,    ///< a mirrored scene, 2 to 40 m behind the pane
-  kRoom       ///< a room 1 to 6 m deep with things in it: open
+  kPoster,   ///< the plane itself
+  kPane,     ///< a plane up to 0.15 m behind it
+  kCurtain,  ///< folds up to 0.3 m behind it, that sway
+  kTilted,   ///< a shutter not quite shut: a plane that reaches up to 0.3 m in
+  kPartly,   ///< half of it a board, half a room: not open
+  kDirt,     ///< stuck to the lens
+  kJump,     ///< a poster; the border jumps to another edge on the way: not open
+  kMirror,   ///< a mirrored scene, 2 to 40 m behind the pane
+  kRoom      ///< a room 1 to 6 m deep with things in it: open
 };
 constexpr int kInteriors = static_cast<int>(Interior::kRoom) + 1;
 const char* toString(Interior interior);

@@ -11,11 +11,11 @@ namespace window_ingress::openness {
 /// Follows the texture within the opening from a key picture to each later one.
 ///
 /// The opening is straightened by the homography of its four corners, in both pictures to the same rectangle:
-/// what lies in the plane of the border stays where it is in there, what lies behind moves. So the flow between
-/// the two (pyramidal Lucas-Kanade, forth and back) is small whatever the vehicle does, and starts where the
-/// picture before ended. The straightening is but an aid: what is handed out are points of the images as they
-/// came. A new key picture is taken when the points get lost, the window has grown, or the key is old; so the
-/// stretches of the flight between key pictures are disjoint.
+/// what lies in the plane of the border stays where it is in there, what lies behind moves. So the flow
+/// between the two (pyramidal Lucas-Kanade, forth and back) is small whatever the vehicle does, and starts
+/// where the picture before ended. The straightening is but an aid: what is handed out are points of the
+/// images as they came. A new key picture is taken when the points get lost, the window has grown, or the key
+/// is old; so the stretches of the flight between key pictures are disjoint.
 ///
 /// Keeps its memory from picture to picture. One object a thread.
 class InteriorFollower {

@@ -8,8 +8,8 @@
 namespace window_ingress::openness {
 
 /// The opening as a grid of cells: through which of them the sight went into depth, and where it ended in the
-/// plane. A sight that goes through a cell shows that nothing closes it; as the vehicle moves, the same point of
-/// the room is seen through one cell after another.
+/// plane. A sight that goes through a cell shows that nothing closes it; as the vehicle moves, the same point
+/// of the room is seen through one cell after another.
 class OpeningCells {
  public:
   static constexpr int kSide = 6;
@@ -19,8 +19,8 @@ class OpeningCells {
   void clear() { open_.fill(0.0f), closed_.fill(0.0f); }
 
   struct Share {
-    double open = 0.0, closed = 0.0;   ///< parts of the cells that are needed, 0 to 1
-    double least_quarter_open = 0.0;   ///< of its four quarters, the one that was seen open least
+    double open = 0.0, closed = 0.0;  ///< parts of the cells that are needed, 0 to 1
+    double least_quarter_open = 0.0;  ///< of its four quarters, the one that was seen open least
   };
   /// \param needed size of the middle that must be free
   Share shareOf(const geometry::OpeningSize& needed, const geometry::OpeningSize& opening) const;

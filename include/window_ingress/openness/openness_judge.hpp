@@ -26,10 +26,11 @@ struct OpennessView {
 
 /// Whether the opening is open, by how the texture within it moves against the plane of its border.
 ///
-/// The flight falls into stretches, one from each key picture to the next. Within a stretch nothing adds up: the best
-/// look at each point counts, its median is the stretch's word, and that word is capped. Stretches do add up, for each
-/// has borders of its own; an opening is never called open or closed by a single one. Open needs more: seen through
-/// all four quarters of the middle that the vehicle needs, hardly anything of it closed, no deeper than a room is.
+/// The flight falls into stretches, one from each key picture to the next. Within a stretch nothing adds up:
+/// the best look at each point counts, its median is the stretch's word, and that word is capped. Stretches
+/// do add up, for each has borders of its own; an opening is never called open or closed by a single one.
+/// Open needs more: seen through all four quarters of the middle that the vehicle needs, hardly anything of
+/// it closed, no deeper than a room is.
 ///
 /// No clock, no picture. The caller resets it when the odometry is another one.
 class OpennessJudge {

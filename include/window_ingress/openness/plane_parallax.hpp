@@ -15,25 +15,28 @@ struct SeenBorder {
   std::array<Eigen::Matrix2d, 4> covariance;
 };
 
-/// The homography by which a plane's picture becomes another, from four corners of it in both. Nothing if they
-/// determine none.
+/// The homography by which a plane's picture becomes another, from four corners of it in both. Nothing if
+/// they determine none.
 std::optional<Eigen::Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
                                                  const geometry::Quadrilateral& to);
 
 /// How far behind the plane a point lies, by two pictures of it.
 struct PointParallax {
-  /// Depth D behind the plane over its distance from the key camera: D / (d + D), 0 in the plane, 1 at infinity.
+  /// Depth D behind the plane over its distance from the key camera: D / (d + D), 0 in the plane, 1 at
+  /// infinity.
   double part = 0.0;
   double part_sigma = 0.0;  ///< with all errors; those of the borders are common to all points of the pair
   double gain_px = 0.0;     ///< what a part of 1 moves the point [px]
   double across_px = 0.0;   ///< what no depth explains: deviation across the direction of parallax [px]
   double across_sigma_px = 0.0;
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< where the sight crosses the plane now: 0 to 1, right, down
+  Eigen::Vector2d place =
+      Eigen::Vector2d::Zero();  ///< where the sight crosses the plane now: 0 to 1, right, down
 };
 
 /// Plane and parallax between a key picture and a later one: a point at depth D behind the plane moves to
-/// H p - part * K t (n . x) / d (Irani and Anandan 1996), where the plane moves by H. H comes from the borders
-/// alone and so bears no error of attitude; the odometry gives the way t, which only scales the depth.
+/// H p - part * K t (n . x) / d (Irani and Anandan 1996), where the plane moves by H. H comes from the
+/// borders alone and so bears no error of attitude; the odometry gives the way t, which only scales the
+/// depth.
 class PlaneParallax {
  public:
   struct Errors {

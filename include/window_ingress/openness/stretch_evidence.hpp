@@ -10,17 +10,17 @@ namespace window_ingress::openness {
 
 /// What one stretch of the flight, from a key picture to the next, says.
 struct StretchSays {
-  double log_odds = 0.0;   ///< open over closed, within `OpennessParams::max_log_odds`; 0: nothing
-  int points = 0;          ///< that stand still and were seen from places enough
-  int unsteady = 0;        ///< that do not stand still
-  int too_deep = 0;        ///< that lie behind any room
+  double log_odds = 0.0;  ///< open over closed, within `OpennessParams::max_log_odds`; 0: nothing
+  int points = 0;         ///< that stand still and were seen from places enough
+  int unsteady = 0;       ///< that do not stand still
+  int too_deep = 0;       ///< that lie behind any room
   double depth_m = 0.0, depth_sigma_m = 0.0;  ///< median of the points; both 0 without any
   bool is_too_deep = false;  ///< so much of it lies behind any room that it does not speak for an open way
-  bool is_moving = false;  ///< so much does not stand still that nothing is said
+  bool is_moving = false;    ///< so much does not stand still that nothing is said
 };
 
-/// The points of one stretch. Errors of the borders are common to all of them: the verdict of the stretch is that of
-/// its median point, however many there are.
+/// The points of one stretch. Errors of the borders are common to all of them: the verdict of the stretch is
+/// that of its median point, however many there are.
 class StretchEvidence {
  public:
   void begin(double key_stamp_sec);
