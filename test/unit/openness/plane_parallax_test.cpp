@@ -120,8 +120,8 @@ TEST(PlaneParallax, refusesWhatCannotBeUsed) {
   Isometry3d broken = now.inverse();
   broken.translation().x() = nan;
   EXPECT_FALSE(PlaneParallax::between(kCamera, borderFrom(key), borderFrom(now), key.inverse(), broken, {}));
-  Isometry3d behind = Isometry3d::Identity();
-  behind.translation() = Vector3d(1.0, 0.0, 0.0);
+  Isometry3d behind(geometry::R_optical_flu());
+  behind.translation() = Vector3d(0.0, 0.0, -1.0);
   EXPECT_FALSE(PlaneParallax::between(kCamera, borderFrom(key), borderFrom(now), behind, now.inverse(), {}));
 }
 
