@@ -17,6 +17,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<DetectorNodeParams>(pnh, {"tuning"})),
       diagnostics_(nh, pnh),
       detector_(params_.detector),
+      interior_(params_.interior),
       camera_(nh, diagnostics_, params_.image_is_rectified),
       images_(nh, diagnostics_, params_.image_transport, params_.image,
               limitsFor(params_.lockstep, params_.stamps),
@@ -82,6 +83,7 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   seen.camera = camera ? &*camera.value : nullptr;
   if (attitude_) seen.R_world_camera = attitude_->R_world_camera(seen.stamp_sec, header.frame_id);
   last_window_ = detector_.update(seen);
+  if (last_window_) interior_.follow(image, *last_window_);
   last_picture_ = picture;
   window_ingress::WindowDetection message;
   if (last_window_)
@@ -163,6 +165,7 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
 
 bool DetectorNode::reset(Trigger::Request&, Trigger::Response& response) {
   detector_.reset();
+  interior_.reset();
   response.success = true;
   response.message = "the track is forgotten; the next image is searched";
   return true;

@@ -23,6 +23,7 @@
 #include "adapters/run_node.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
+#include "window_ingress/openness/interior_follower.hpp"
 
 namespace window_ingress::adapters {
 
@@ -36,6 +37,7 @@ struct DetectorNodeParams {
   StampLimits stamps;
   ReferenceParams reference;
   detection::DetectorParams detector;
+  openness::FollowerParams interior;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("image_transport", self.image_transport);
@@ -47,6 +49,7 @@ struct DetectorNodeParams {
     field.group("stamps", self.stamps);
     field.group("reference", self.reference);
     field.group("detector", self.detector);
+    field.group("interior", self.interior);
   }
 };
 
@@ -76,6 +79,7 @@ class DetectorNode : public Node {
   DetectorNodeParams params_;
   Diagnostics diagnostics_;
   detection::WindowTracker detector_;
+  openness::InteriorFollower interior_;
   CameraSource camera_;
   std::optional<AttitudeSource> attitude_;
   ImageSource images_;

@@ -1,50 +1,88 @@
 #include "adapters/markers.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "adapters/marker_colours.hpp"
+#include "adapters/marker_sketch.hpp"
+
 namespace window_ingress::adapters {
 namespace {
 
-using visualization_msgs::Marker;
+constexpr double kArrowM = 0.9, kFanM = 0.75;
+constexpr double kSigmas = 3.0;
+constexpr double kWallM = 1.2;        // shown beyond the opening's border
+constexpr double kTextBesideM = 1.1;  // left of the opening's border
+constexpr double kFaintest = 0.5;     // of the less likely hypothesis
+constexpr int kFanParts = 12;
 
-constexpr double kLineWidthM = 0.03;
-constexpr double kArrowLengthM = 0.8;
-constexpr double kTextHeightM = 0.15, kTextAboveM = 0.4;
-constexpr double kLifetimeSec = 1.0;
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
+Points cornersOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
+  Points corners;
+  for (const Eigen::Vector3d& corner : geometry::openingCorners(size)) corners.push_back(T * corner);
+  return corners;
 }
 
-std_msgs::ColorRGBA colour(float r, float g, float b) {
-  std_msgs::ColorRGBA rgba;
-  rgba.r = r;
-  rgba.g = g;
-  rgba.b = b;
-  rgba.a = 1.0F;
-  return rgba;
+Points closed(Points corners) {
+  corners.push_back(corners.front());
+  return corners;
 }
 
-Marker makeMarker(const std::string& name, int type, const ros::Time& stamp, const std::string& frame_id) {
-  Marker marker;
-  marker.header.stamp = stamp;
-  marker.header.frame_id = frame_id;
-  marker.ns = name;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.lifetime = ros::Duration(kLifetimeSec);
-  return marker;
+// Between the headings that lie `half_angle_rad` to both sides of the window's.
+Points fanOf(const Eigen::Isometry3d& T, double half_angle_rad) {
+  const auto at = [&](int part) -> Eigen::Vector3d {
+    const double angle_rad = half_angle_rad * (2.0 * part / kFanParts - 1.0);
+    return T * Eigen::Vector3d(kFanM * std::cos(angle_rad), kFanM * std::sin(angle_rad), 0.0);
+  };
+  Points triangles;
+  for (int part = 0; part < kFanParts; ++part)
+    for (const Eigen::Vector3d& corner : {Eigen::Vector3d(T.translation()), at(part), at(part + 1)})
+      triangles.push_back(corner);
+  return triangles;
 }
 
-Marker makeArrow(Marker marker, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  marker.points = {toPoint(from), toPoint(to)};
-  marker.scale.x = kLineWidthM;
-  marker.scale.y = 2.0 * kLineWidthM;
-  marker.scale.z = 4.0 * kLineWidthM;
-  return marker;
+// Four plates round the opening.
+Points wallOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
+  const Points inner = cornersOf(T, size);
+  const Points outer = cornersOf(T, {size.width_m + 2.0 * kWallM, size.height_m + 2.0 * kWallM});
+  Points triangles;
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    appendFace(triangles, inner[i], inner[next], outer[next], outer[i]);
+  }
+  return triangles;
+}
+
+double yawSpread(const pose::Matrix6d& covariance) {
+  return std::min(kSigmas * std::sqrt(std::max(0.0, covariance(5, 5))), M_PI);
+}
+
+struct Look {
+  std::string name;
+  int rgb;
+  double alpha;
+};
+
+void drawHypothesis(MarkerSketch& sketch, const Look& look, const Eigen::Isometry3d& T,
+                    const pose::Matrix6d& covariance, const geometry::OpeningSize& size) {
+  const auto colour = colourOf(look.rgb, look.alpha), faint = colourOf(look.rgb, 0.35 * look.alpha);
+  sketch.line(look.name, closed(cornersOf(T, size)), colour);
+  sketch.arrow(look.name + ": way through", T.translation(), T * Eigen::Vector3d(kArrowM, 0.0, 0.0), colour);
+  sketch.surface(look.name + ": heading, 3 sigma", fanOf(T, yawSpread(covariance)), faint);
+  sketch.ellipsoid(look.name + ": centre, 3 sigma", T.translation(), covariance.topLeftCorner<3, 3>(),
+                   kSigmas, faint);
+}
+
+void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
+  for (const char* part : {"", ": way through", ": heading, 3 sigma", ": centre, 3 sigma"})
+    sketch.gone(name + part);
+}
+
+std::string chances(const pose::FilteredWindow& window) {
+  char text[80];
+  std::snprintf(text, sizeof text, "\namber or violet: %.1f : %.1f %%", 100.0 * window.hypothesis_weight,
+                100.0 * (1.0 - window.hypothesis_weight));
+  return text;
 }
 
 }  // namespace
@@ -68,48 +106,26 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
 
 visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id) {
-  visualization_msgs::MarkerArray markers;
-  const auto add = [&](const std::string& name, const Eigen::Isometry3d& T,
-                       const std_msgs::ColorRGBA& shade) {
-    Marker border = makeMarker(name + "_border", Marker::LINE_STRIP, stamp, frame_id);
-    for (const Eigen::Vector3d& corner : geometry::openingCorners(window.size.size))
-      border.points.push_back(toPoint(T * corner));
-    border.points.push_back(border.points.front());
-    border.scale.x = kLineWidthM;
-    Marker normal = makeArrow(makeMarker(name + "_normal", Marker::ARROW, stamp, frame_id), T.translation(),
-                              T * Eigen::Vector3d(kArrowLengthM, 0.0, 0.0));
-    border.color = normal.color = shade;
-    markers.markers.push_back(border);
-    markers.markers.push_back(normal);
-  };
-  add("window", window.T_odom_window,
-      window.sign_trusted ? colour(0.1F, 0.8F, 0.2F) : colour(1.0F, 0.6F, 0.0F));
-  if (window.alternative) add("alternative", window.alternative->T_odom_window, colour(0.5F, 0.5F, 0.5F));
-  Marker label = makeMarker("window_text", Marker::TEXT_VIEW_FACING, stamp, frame_id);
-  const double above_m = 0.5 * window.size.size.height_m + kTextAboveM;
-  label.pose.position = toPoint(window.T_odom_window.translation() + Eigen::Vector3d(0.0, 0.0, above_m));
-  label.text = text;
-  label.scale.z = kTextHeightM;
-  label.color = colour(1.0F, 1.0F, 1.0F);
-  markers.markers.push_back(label);
-  return markers;
-}
-
-visualization_msgs::MarkerArray flightMarkers(const navigation::NavigatorOutput& output,
-                                              const navigation::VehicleState& vehicle, const ros::Time& stamp,
-                                              const std::string& odom_frame) {
-  const Eigen::Vector3d position = vehicle.T_odom_base.translation();
-  Marker wish = makeArrow(makeMarker("setpoint", Marker::ARROW, stamp, odom_frame), position,
-                          position + output.setpoint.velocity_odom_mps);
-  wish.color = colour(0.2F, 0.4F, 1.0F);
-  Marker text = makeMarker("state", Marker::TEXT_VIEW_FACING, stamp, odom_frame);
-  text.pose.position = toPoint(position + Eigen::Vector3d(0.0, 0.0, kTextAboveM));
-  text.text = std::string(navigation::toString(output.state)) + "\n" + output.reason;
-  text.scale.z = kTextHeightM;
-  text.color = colour(1.0F, 1.0F, 1.0F);
-  visualization_msgs::MarkerArray markers;
-  markers.markers = {wish, text};
-  return markers;
+  MarkerSketch sketch(stamp, frame_id);
+  const geometry::OpeningSize& size = window.size.size;
+  const int rgb = window.sign_trusted ? kTrustedRgb : kOpenRgb;
+  drawHypothesis(sketch, {"window", rgb, 1.0}, window.T_odom_window, window.covariance, size);
+  const bool is_open = window.alternative && !window.sign_trusted;
+  if (is_open) {
+    const double alpha = kFaintest + (1.0 - kFaintest) * (1.0 - window.hypothesis_weight);
+    drawHypothesis(sketch, {"mirrored window", kMirroredRgb, alpha}, window.alternative->T_odom_window,
+                   window.alternative->covariance, size);
+  } else {
+    drawNoHypothesis(sketch, "mirrored window");
+  }
+  if (window.sign_trusted)
+    sketch.surface("wall", wallOf(window.T_odom_window, size), colourOf(kWallRgb, 0.45));
+  else
+    sketch.gone("wall");
+  const double left_m = 0.5 * size.width_m + kTextBesideM;
+  sketch.text("window: text", window.T_odom_window * Eigen::Vector3d(0.0, left_m, 0.0),
+              is_open ? text + chances(window) : text);
+  return sketch.markers();
 }
 
 }  // namespace window_ingress::adapters

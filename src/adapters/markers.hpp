@@ -1,4 +1,4 @@
-/// What rviz shows of the window and of the flight.
+/// What rviz shows of the window.
 #pragma once
 
 #include <geometry_msgs/PolygonStamped.h>
@@ -9,7 +9,6 @@
 #include <string>
 
 #include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/pose/window_filter.hpp"
 
 namespace window_ingress::adapters {
@@ -19,14 +18,10 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
                                              const geometry::OpeningSize& opening, const ros::Time& stamp,
                                              const std::string& frame_id);
 
-/// Border and direction of flight, green while the normal is trusted, else amber; the other planar solution
-/// in grey while it lives; and above the window, `text`.
+/// The filtered window: its border; the way through it as an arrow, with a fan of three standard deviations
+/// of its heading; the ellipsoid of three standard deviations of its centre; `text` below it. Once the normal
+/// is trusted the plane of the wall; until then the other hypothesis, the fainter the less likely it is.
 visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id);
-
-/// The velocity wished for, as an arrow at the vehicle, and the state in words.
-visualization_msgs::MarkerArray flightMarkers(const navigation::NavigatorOutput& output,
-                                              const navigation::VehicleState& vehicle, const ros::Time& stamp,
-                                              const std::string& odom_frame);
 
 }  // namespace window_ingress::adapters

@@ -20,6 +20,7 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/openness/openness_verdict.hpp"
 #include "window_ingress/pose/frames_params.hpp"
 #include "window_ingress/pose/opening_fit.hpp"
 #include "window_ingress/pose/window_filter.hpp"
@@ -88,6 +89,7 @@ void fill(window_ingress::WindowPose& message, const pose::FilteredWindow& filte
 void fill(window_ingress::WindowPose& message, const pose::SizeBelief& measured);
 void fill(window_ingress::WindowPose& message, const pose::FitVerdict& fit);
 void fill(window_ingress::WindowPose& message, const pose::FramesVerdict& frames);
+void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "adapters/guarded.hpp"
-#include "adapters/markers.hpp"
+#include "adapters/marker_sketch.hpp"
 #include "adapters/parameters.hpp"
 
 namespace window_ingress::adapters {
@@ -15,6 +15,7 @@ namespace {
 constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
 constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
+constexpr double kMarkerPeriodSec = 0.095;
 
 NavigatorNodeParams checked(NavigatorNodeParams params) {
   if (params.start_at_once && !params.lockstep)
@@ -147,6 +148,8 @@ void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
   if (!clock_.jumpedBack(now_sec)) return;
   ROS_WARN("the clock jumped back: inputs forgotten%s", last_.enabled ? ", mission aborted" : "");
   input_ = {};
+  trail_.clear();
+  marker_publisher_.publish(allGone(toStamp(now_sec), params_.frames.odom));
   if (last_.enabled) navigator_.abort();
 }
 
@@ -199,8 +202,19 @@ void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros
     publishSetpoint(output.enabled ? output.setpoint : navigation::Setpoint(), now);
   was_enabled_ = output.enabled;
   publishState(output, now);
-  if (marker_publisher_.getNumSubscribers() > 0 && input_.vehicle)
-    marker_publisher_.publish(flightMarkers(output, *input_.vehicle, now, params_.frames.odom));
+  publishMarkers(output, now);
+}
+
+// The way flown is noted all the time, so that who looks later sees it, too.
+void NavigatorNode::publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  if (!input_.vehicle) return;
+  trail_.add(input_.vehicle->T_odom_base.translation(), output.state);
+  const double since_sec = now.toSec() - drawn_sec_;
+  if (marker_publisher_.getNumSubscribers() == 0 || (since_sec >= 0.0 && since_sec < kMarkerPeriodSec))
+    return;
+  drawn_sec_ = now.toSec();
+  marker_publisher_.publish(
+      flightMarkers(output, input_, trail_, params_.navigator, now, params_.frames.odom));
 }
 
 void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {

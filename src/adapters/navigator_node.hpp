@@ -13,6 +13,7 @@
 
 #include "adapters/diagnostics.hpp"
 #include "adapters/engagement.hpp"
+#include "adapters/flight_markers.hpp"
 #include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
@@ -81,6 +82,7 @@ class NavigatorNode : public Node {
   void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
   Health missionHealth() const;
 
   NavigatorNodeParams params_;
@@ -92,6 +94,8 @@ class NavigatorNode : public Node {
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput last_;
+  FlightTrail trail_;
+  double drawn_sec_ = 0.0;
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
   bool was_enabled_ = false;

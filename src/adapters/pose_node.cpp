@@ -8,6 +8,7 @@
 
 #include "adapters/attitude_source.hpp"
 #include "adapters/guarded.hpp"
+#include "adapters/marker_sketch.hpp"
 #include "adapters/markers.hpp"
 #include "adapters/parameters.hpp"
 
@@ -30,10 +31,15 @@ PoseNodeParams checked(PoseNodeParams params) {
 std::string labelOf(const window_ingress::WindowPose& message) {
   static const char* const kFits[] = {"fit?", "GO", "NO GO"};
   constexpr double kDegrees = 180.0 / M_PI;
-  char text[160];
-  std::snprintf(text, sizeof text, "yaw %+.1f +- %.1f deg%s\n%.2f x %.2f m: %s%s", message.yaw * kDegrees,
-                message.yaw_sigma * kDegrees, message.filtered_sign_trusted ? "" : " (sign open)",
-                message.window_width, message.window_height, kFits[std::min<int>(message.fit, 2)],
+  const bool is_seen = message.reject == window_ingress::WindowPose::OK;
+  char sight[80], text[240];
+  if (is_seen)
+    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", message.yaw * kDegrees,
+                  message.yaw_sigma * kDegrees);
+  else
+    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered_age);
+  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.window_width,
+                message.window_height, kFits[std::min<int>(message.fit, 2)],
                 message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
   return text;
 }
@@ -71,6 +77,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
   diagnostics_.add("frames check", [this] { return framesHealth(); });
   diagnostics_.add("consistency", [this] { return consistencyHealth(); });
+  diagnostics_.add("openness", [this] { return opennessHealth(); });
   if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -169,6 +176,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.window_height = params_.pose.opening_height_m;
   estimate(message, out);
   fill(out, tracker_.frames());
+  fill(out, tracker_.openness());
   if (const auto& measured = tracker_.measuredSize()) fill(out, *measured);
   const auto state = tracker_.filtered(message.header.stamp.toSec());
   if (state) {
@@ -256,6 +264,7 @@ void PoseNode::restartIfClockJumpedBack() {
   pending_.reset();
   tracker_.reset();
   tf_.clear();
+  marker_publisher_.publish(allGone(ros::Time::now(), params_.frames.odom));
 }
 
 Health PoseNode::mountingHealth() const {
@@ -269,6 +278,15 @@ Health PoseNode::framesHealth() const {
   if (frames.state == pose::FramesVerdict::kWrong) return {Health::kError, frames.what + "; no approach"};
   if (frames.state == pose::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
   return {Health::kOk, "camera mounting and velocity frame verified"};
+}
+
+// Closed is no fault of this node's: it is for the navigator to act upon.
+Health PoseNode::opennessHealth() const {
+  const openness::OpennessVerdict& verdict = tracker_.openness();
+  return {Health::kOk, std::string(openness::toString(verdict.openness)) + ": " + verdict.reason +
+                           (verdict.openness == openness::Openness::kOpen
+                                ? "; a mirroring pane that shows a nearby scene cannot be told from a room"
+                                : "")};
 }
 
 Health PoseNode::consistencyHealth() const {

@@ -75,6 +75,7 @@ class PoseNode : public Node {
   Health mountingHealth() const;
   Health framesHealth() const;
   Health consistencyHealth() const;
+  Health opennessHealth() const;
 
   PoseNodeParams params_;
   Diagnostics diagnostics_;

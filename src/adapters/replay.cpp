@@ -32,6 +32,7 @@ class Replay {
       : params_(params),
         each_(each),
         detector_(params.detector),
+        interior_(params.interior),
         tracker_(params.pose, params.filter, params.tracker) {
     if (params.reference) detector_.setReference(*params.reference);
   }
@@ -70,6 +71,7 @@ class Replay {
   const ReplayParams& params_;
   const std::function<void(const ReplayedFrame&)>& each_;
   detection::WindowTracker detector_;
+  openness::InteriorFollower interior_;
   pose::PoseBuffer attitude_;
   navigation::TargetTracker tracker_;
   Converted<geometry::PinholeCamera> camera_;
@@ -177,6 +179,7 @@ void Replay::processFirst() {
   frame.camera = camera.value;
   const double begun_ms = nowMs();
   frame.row.window = detector_.update(inputOf(picture.image, waiting.header, camera));
+  if (frame.row.window && params_.with_pose) interior_.follow(picture.image, *frame.row.window);
   if (!frame.row.window) frame.row.reject_reason = detection::toString(detector_.trace().outcome);
   if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
   summary_.milliseconds += nowMs() - begun_ms;
@@ -210,6 +213,7 @@ void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
     if (!result.estimate) frame.row.reject_reason = std::string("pose_") + pose::toString(result.reject);
   }
   frame.filtered = tracker_.filtered(frame.stamp.toSec());
+  frame.openness = tracker_.openness();
 }
 
 }  // namespace

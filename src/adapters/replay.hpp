@@ -15,6 +15,7 @@
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/evaluation/detection_table.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/openness/interior_follower.hpp"
 #include "window_ingress/pose/window_filter.hpp"
 
 namespace window_ingress::adapters {
@@ -24,6 +25,7 @@ struct ReplayParams {
   FrameNames frames;
   ImageLimits image;
   detection::DetectorParams detector;
+  openness::FollowerParams interior;
   std::optional<detection::ReferenceAppearance> reference;
   bool with_pose = false;  ///< the window's size is known
   pose::PoseParams pose;
@@ -36,6 +38,7 @@ struct ReplayedFrame {
   ros::Time stamp;
   evaluation::DetectionRow row;
   std::optional<pose::FilteredWindow> filtered;
+  openness::OpennessVerdict openness;  ///< UNKNOWN without poses
   std::optional<geometry::PinholeCamera> camera;
   std::optional<Eigen::Isometry3d> truth;  ///< T_camera_window, if the bag holds it for this image
 };

@@ -35,6 +35,9 @@ static_assert(same(PoseMsg::FIT_UNKNOWN, pose::Fit::kUnknown) && same(PoseMsg::F
 static_assert(same(PoseMsg::FRAMES_OPEN, pose::FramesVerdict::kOpen) &&
               same(PoseMsg::FRAMES_GOOD, pose::FramesVerdict::kGood) &&
               same(PoseMsg::FRAMES_WRONG, pose::FramesVerdict::kWrong));
+static_assert(same(PoseMsg::OPENNESS_UNKNOWN, openness::Openness::kUnknown) &&
+              same(PoseMsg::OPENNESS_OPEN, openness::Openness::kOpen) &&
+              same(PoseMsg::OPENNESS_CLOSED, openness::Openness::kClosed));
 static_assert(same(StateMsg::IDLE, navigation::State::kIdle) &&
               same(StateMsg::SEARCH, navigation::State::kSearch) &&
               same(StateMsg::ALIGN, navigation::State::kAlign) &&
@@ -51,7 +54,10 @@ bool isFinite(const DetectionMsg& m) {
   const auto all = [&](const auto& numbers) { return std::all_of(numbers.begin(), numbers.end(), finite); };
   return all(m.corner_x) && all(m.corner_y) && all(m.corner_covariance) && all(m.edge_sigma_px) &&
          all(m.edge_sigma_rad) && all(m.edge_a_x) && all(m.edge_a_y) && all(m.edge_b_x) && all(m.edge_b_y) &&
-         finite(m.score) && finite(m.bhattacharyya);
+         finite(m.score) && finite(m.bhattacharyya) && all(m.interior_key_corner_x) &&
+         all(m.interior_key_corner_y) && all(m.interior_key_corner_covariance) &&
+         finite(m.interior_sigma_px) && all(m.interior_key_x) && all(m.interior_key_y) && all(m.interior_x) &&
+         all(m.interior_y);
 }
 
 bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
@@ -105,6 +111,46 @@ detection::Edge readEdge(const DetectionMsg& message, int i) {
           {message.edge_b_x[i], message.edge_b_y[i]}};
 }
 
+void fillInterior(DetectionMsg& message, const detection::InteriorTracks& interior) {
+  message.interior_key_stamp = toStamp(interior.key_stamp_sec);
+  message.interior_sigma_px = interior.sigma_px;
+  for (int i = 0; i < 4; ++i) {
+    message.interior_key_corner_x[i] = interior.key_corners[i].x();
+    message.interior_key_corner_y[i] = interior.key_corners[i].y();
+    const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> covariance = interior.key_covariance[i];
+    std::copy(covariance.data(), covariance.data() + 4, message.interior_key_corner_covariance.begin() + 4 * i);
+  }
+  for (const detection::InteriorPoint& point : interior.points) {
+    message.interior_id.push_back(point.id);
+    message.interior_key_x.push_back(static_cast<float>(point.key_px.x()));
+    message.interior_key_y.push_back(static_cast<float>(point.key_px.y()));
+    message.interior_x.push_back(static_cast<float>(point.now_px.x()));
+    message.interior_y.push_back(static_cast<float>(point.now_px.y()));
+  }
+}
+
+// None if the lists are not of one length or there is no key picture.
+detection::InteriorTracks readInterior(const DetectionMsg& m) {
+  detection::InteriorTracks interior;
+  const std::size_t points = m.interior_id.size();
+  const auto key_stamp_sec = stampSec(m.interior_key_stamp);
+  if (points == 0 || !key_stamp_sec || m.interior_key_x.size() != points || m.interior_key_y.size() != points ||
+      m.interior_x.size() != points || m.interior_y.size() != points)
+    return interior;
+  interior.key_stamp_sec = *key_stamp_sec;
+  interior.sigma_px = m.interior_sigma_px;
+  for (int i = 0; i < 4; ++i) {
+    interior.key_corners[i] = {m.interior_key_corner_x[i], m.interior_key_corner_y[i]};
+    interior.key_covariance[i] = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
+        m.interior_key_corner_covariance.data() + 4 * i);
+  }
+  for (std::size_t i = 0; i < points; ++i)
+    interior.points.push_back({m.interior_id[i],
+                               {m.interior_key_x[i], m.interior_key_y[i]},
+                               {m.interior_x[i], m.interior_y[i]}});
+  return interior;
+}
+
 }  // namespace
 
 DetectionMsg toMsg(const detection::WindowObservation& window) {
@@ -118,6 +164,7 @@ DetectionMsg toMsg(const detection::WindowObservation& window) {
   message.score = window.score;
   message.has_appearance = window.has_appearance;
   message.bhattacharyya = window.has_appearance ? window.bhattacharyya : 0.0;
+  if (!window.interior.empty()) fillInterior(message, window.interior);
   return message;
 }
 
@@ -136,6 +183,7 @@ Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
   window.score = message.score;
   window.has_appearance = message.has_appearance != 0;
   window.bhattacharyya = message.bhattacharyya;
+  window.interior = readInterior(message);
   return {window, ""};
 }
 
@@ -213,6 +261,33 @@ void fill(PoseMsg& message, const pose::FramesVerdict& frames) {
   message.frames_reason = frames.what;
 }
 
+void fill(PoseMsg& message, const openness::OpennessVerdict& verdict) {
+  message.openness = static_cast<std::uint8_t>(verdict.openness);
+  message.openness_log_odds = verdict.log_odds;
+  message.has_depth_behind = verdict.has_depth;
+  message.depth_behind = verdict.has_depth ? verdict.depth_behind_m : 0.0;
+  message.depth_behind_sigma = verdict.has_depth ? verdict.depth_sigma_m : 0.0;
+  message.open_share = verdict.open_share;
+  message.openness_reason = verdict.reason;
+}
+
+// What is not a verdict is none.
+openness::OpennessVerdict opennessFromMsg(const PoseMsg& message) {
+  openness::OpennessVerdict verdict;
+  if (message.openness > PoseMsg::OPENNESS_CLOSED || !std::isfinite(message.openness_log_odds) ||
+      !std::isfinite(message.depth_behind) || !std::isfinite(message.depth_behind_sigma) ||
+      !std::isfinite(message.open_share))
+    return verdict;
+  verdict.openness = static_cast<openness::Openness>(message.openness);
+  verdict.log_odds = message.openness_log_odds;
+  verdict.has_depth = message.has_depth_behind != 0;
+  verdict.depth_behind_m = message.depth_behind;
+  verdict.depth_sigma_m = message.depth_behind_sigma;
+  verdict.open_share = message.open_share;
+  verdict.reason = message.openness_reason;
+  return verdict;
+}
+
 Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, const std::string& odom_frame) {
   if (!message.filtered_valid) return {std::nullopt, "no filtered window: " + message.filtered_reason};
   if (message.filtered_frame_id != odom_frame)
@@ -234,6 +309,7 @@ Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, cons
   target.updates = static_cast<int>(std::min<std::uint32_t>(message.filtered_updates, 1u << 30));
   target.opening = {message.window_width, message.window_height};
   target.approach_forbidden = message.approach_forbidden;
+  target.openness = opennessFromMsg(message);
   if (message.is_other_window) {
     if (!(message.other_window_factor > 0.0) || !std::isfinite(message.other_window_factor))
       return {std::nullopt, "other_window_factor is not positive"};

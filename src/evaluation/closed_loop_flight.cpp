@@ -5,6 +5,7 @@
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/openness/interior_follower.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
 #include "window_ingress/simulation/world.hpp"
 
@@ -65,6 +66,7 @@ class Flight {
         world_(flyable(scenario), seed, picturesFor(params)),
         params_(withFactsOf(world_, params)),
         detector_(params_.detector),
+        interior_(params_.interior),
         sight_(params_.sight, seed),
         tracker_(params_.pose, params_.filter, params_.tracker),
         navigator_(params_.navigator) {
@@ -114,6 +116,7 @@ class Flight {
   simulation::World world_;
   FlightParams params_;
   detection::WindowTracker detector_;
+  openness::InteriorFollower interior_;
   ProjectedSight sight_;
   pose::PoseBuffer attitude_;
   navigation::TargetTracker tracker_;
@@ -167,7 +170,9 @@ std::optional<detection::WindowObservation> Flight::detect(const simulation::Cam
   seen.camera = camera_ ? &*camera_ : nullptr;
   if (const auto T_odom_base = attitude_.at(frame.stamp_sec, kMaxAttitudeGap_sec))
     seen.R_world_camera = T_odom_base->linear() * world_.T_base_camera().linear();
-  return detector_.update(seen);
+  auto window = detector_.update(seen);
+  if (window) interior_.follow(frame.image, *window);
+  return window;
 }
 
 void Flight::look(const simulation::CameraFrame& frame) {

@@ -22,6 +22,10 @@ std::string otherWindowText(double factor) {
   return text;
 }
 
+geometry::OpeningSize neededBy(const pose::FitParams& fit) {
+  return {fit.vehicle_width_m + 2.0 * fit.margin_m, fit.vehicle_height_m + 2.0 * fit.margin_m};
+}
+
 pose::SizeBelief sizeSaid(const pose::PoseParams& pose) {
   return pose::sizeBelief({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
 }
@@ -45,12 +49,14 @@ TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterPar
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
       frames_(pose, filter, params.frames, sizeSaid(pose)),
+      judge_(params.openness, neededBy(params.fit)),
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
 
 void TargetTracker::forgetPlaces() {
   filter_.forgetPlaces();
   frames_.forgetPlaces();
   parallax_.clear();
+  judge_.reset();
   odometry_.clear();
   attitude_.clear();
   odometry_stamp_sec_.reset();
@@ -129,6 +135,15 @@ void TargetTracker::process(const Pending& pending) {
   last_.pose = estimate(pending);
   last_.why_not = whyNotUsed(pending);
   last_.used = last_.why_not.empty();
+  if (last_.used) judgeOpenness(pending);
+}
+
+void TargetTracker::judgeOpenness(const Pending& pending) {
+  const auto window = filter_.state(pending.window.stamp_sec);
+  const auto T_odom_base = odometry_.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
+  if (!window || !T_odom_base || !pending.T_base_camera) return;
+  judge_.see({pending.window, pending.camera, *T_odom_base * *pending.T_base_camera, window->T_odom_window,
+              window->size.size});
 }
 
 std::string TargetTracker::whyNotUsed(const Pending& pending) {
@@ -174,6 +189,7 @@ std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
   target.fit = fit(*state).fit;
   target.approach_forbidden = approachForbidden(*state);
   target.other_window = otherWindow();
+  target.openness = openness();
   return target;
 }
 

@@ -50,7 +50,7 @@ Options parse(int argc, char** argv) {
       ("reference", po::value(&o.reference.picture), "picture of the target with its frame")              //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; without it no poses")      //
-      ("params", po::value(&o.params), "yaml file with sections 'detector', 'pose', 'filter'")            //
+      ("params", po::value(&o.params), "yaml file with sections 'detector', 'pose', 'filter', 'tracker', 'interior'")            //
       ("truth", po::value(&o.topics.truth), "PoseStamped with the true T_camera_window, by stamp");
   po::variables_map values;
   try {
@@ -77,6 +77,8 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
     parameters::readYamlFile(o.params, "detector", params.detector);
     parameters::readYamlFile(o.params, "pose", params.pose);
     parameters::readYamlFile(o.params, "filter", params.filter);
+    parameters::readYamlFile(o.params, "tracker", params.tracker);
+    parameters::readYamlFile(o.params, "interior", params.interior);
   }
   if (!o.reference.picture.empty()) params.reference = adapters::loadReference(o.reference, params.detector);
   params.with_pose = !o.size.empty();
@@ -133,20 +135,27 @@ std::string truthValues(const evaluation::TruthErrors& errors) {
 /// The time that an image took is not of the bag: its column stays empty.
 std::string withoutMilliseconds(const std::string& values) { return values.substr(0, values.rfind(',') + 1); }
 
+constexpr const char* kOpennessColumns = ",openness,openness_log_odds,depth_behind_m";
+
+std::string opennessValues(const openness::OpennessVerdict& verdict) {
+  return "," + std::string(openness::toString(verdict.openness)) + "," + text("%.4f", verdict.log_odds) + "," +
+         (verdict.has_depth ? text("%.4f", verdict.depth_behind_m) : "");
+}
+
 class Table {
  public:
   Table(const fs::path& file, const adapters::ReplayParams& params)
       : params_(params), has_truth_(!params.topics.truth.empty()), file_(file) {
     if (!file_) throw UsageError(file.string() + ": cannot be written");
     file_ << "stamp," << evaluation::detectionColumns() << kFilteredColumns
-          << (has_truth_ ? kTruthColumns : "") << "\n";
+          << (has_truth_ ? kTruthColumns : "") << kOpennessColumns << "\n";
   }
 
   void add(const adapters::ReplayedFrame& frame) {
     file_ << exact(frame.stamp) << "," << withoutMilliseconds(evaluation::detectionValues(frame.row))
           << filteredValues(frame.filtered);
     if (has_truth_) file_ << compare(frame);
-    file_ << "\n";
+    file_ << opennessValues(frame.openness) << "\n";
   }
 
   void close() {

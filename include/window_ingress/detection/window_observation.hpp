@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "window_ingress/detection/interior_tracks.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
@@ -39,6 +40,7 @@ struct WindowObservation {
   double score = 0.0;           ///< 0 (barely passed the gates) to 1 (certain)
   bool has_appearance = false;  ///< a reference was given and enough pixels could be compared
   double bhattacharyya = 0.0;   ///< 0 identical to 1 disjoint; only if has_appearance
+  InteriorTracks interior;      ///< what the texture within the opening did; empty unless it was followed
 
   /// All four corners are seen: `corners` may be read as a quadrilateral.
   bool whole() const {

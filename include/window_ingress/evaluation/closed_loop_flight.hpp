@@ -11,6 +11,7 @@
 #include "window_ingress/evaluation/projected_sight.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/openness/follower_params.hpp"
 #include "window_ingress/pose/filter_params.hpp"
 #include "window_ingress/pose/pose_params.hpp"
 #include "window_ingress/simulation/scenario.hpp"
@@ -20,6 +21,7 @@ namespace window_ingress::evaluation {
 /// Everything that flies. In a yaml file each group is a section; missing ones keep their defaults.
 struct FlightParams {
   detection::DetectorParams detector;
+  openness::FollowerParams interior;
   pose::PoseParams pose;
   pose::FilterParams filter;
   navigation::TrackerParams tracker;
@@ -31,6 +33,7 @@ struct FlightParams {
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.group("detector", self.detector);
+    field.group("interior", self.interior);
     field.group("pose", self.pose);
     field.group("filter", self.filter);
     field.group("tracker", self.tracker);

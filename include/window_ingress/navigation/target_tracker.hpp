@@ -7,6 +7,7 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
+#include "window_ingress/openness/openness_judge.hpp"
 #include "window_ingress/pose/frames_check.hpp"
 #include "window_ingress/pose/opening_fit.hpp"
 #include "window_ingress/pose/parallax_check.hpp"
@@ -23,6 +24,7 @@ struct TrackerParams {
   double max_turn_jump_rad = 0.35;  ///< odometry turning more than this beyond 3 rad/s is a jump [rad]
   pose::FitParams fit;
   pose::FramesParams frames;
+  openness::OpennessParams openness;
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -32,6 +34,7 @@ struct TrackerParams {
     field("max_turn_jump_rad", self.max_turn_jump_rad, 0.05, 3.2);
     field.group("fit", self.fit);
     field.group("frames", self.frames);
+    field.group("openness", self.openness);
   }
 };
 
@@ -73,6 +76,8 @@ class TargetTracker {
   pose::FitVerdict fit(const pose::FilteredWindow& window) const {
     return pose::fitVerdict(window.size, params_.fit);
   }
+  /// Whether it is open, as far as the texture within its border has shown.
+  const openness::OpennessVerdict& openness() const { return judge_.verdict(); }
   pose::FramesVerdict frames() const { return frames_.verdict(); }
   /// The opening's size as measured on the way flown, whatever it is said to be.
   const std::optional<pose::SizeBelief>& measuredSize() const { return frames_.mounting().measuredSize(); }
@@ -96,12 +101,14 @@ class TargetTracker {
   std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
   std::optional<pose::GravityPrior> gravity(const Pending& pending);
   pose::PoseResult estimate(const Pending& pending);
+  void judgeOpenness(const Pending& pending);
 
   TrackerParams params_;
   pose::WindowPoseEstimator estimator_;
   pose::WindowFilter filter_;
   pose::FramesCheck frames_;
   pose::ParallaxCheck parallax_;
+  openness::OpennessJudge judge_;
   bool size_is_known_;
   std::uint32_t target_id_ = 0;
   pose::PoseBuffer odometry_, attitude_;

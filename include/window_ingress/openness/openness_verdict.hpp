@@ -16,8 +16,8 @@ const char* toString(Openness openness);  ///< UNKNOWN, OPEN, CLOSED
 /// room's.
 struct OpennessVerdict {
   Openness openness = Openness::kUnknown;
-  double log_odds = 0.0;      ///< open over closed, natural logarithm
-  bool has_depth = false;     ///< false: the two below are zero and invalid
+  double log_odds = 0.0;        ///< open over closed, natural logarithm
+  bool has_depth = false;       ///< false: the two below are zero and invalid
   double depth_behind_m = 0.0;  ///< of what is seen, behind the plane of the border, median [m]
   double depth_sigma_m = 0.0;   ///< standard deviation of that depth [m]
   double open_share = 0.0;  ///< of the middle that the vehicle needs: how much was seen to be open, 0 to 1

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/openness/follower_params.hpp"
+
+namespace window_ingress::openness {
+
+/// Follows the texture within the opening from a key picture to each later one.
+///
+/// The opening is straightened by the homography of its four corners, in both pictures to the same rectangle:
+/// what lies in the plane of the border stays where it is in there, what lies behind moves. So the flow
+/// between the two (pyramidal Lucas-Kanade, forth and back) is small whatever the vehicle does, and starts
+/// where the picture before ended. The straightening is but an aid: what is handed out are points of the
+/// images as they came. A new key picture is taken when the points get lost, the window has grown, or the key
+/// is old; so the stretches of the flight between key pictures are disjoint.
+///
+/// Keeps its memory from picture to picture. One object a thread.
+class InteriorFollower {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit InteriorFollower(const FollowerParams& params);
+  ~InteriorFollower();
+  InteriorFollower(InteriorFollower&&) noexcept;
+  InteriorFollower& operator=(InteriorFollower&&) noexcept;
+
+  /// \param image CV_8UC1 or CV_8UC3 (BGR), in which the window was seen; not kept
+  /// \param window receives `interior`. A window that is not whole gets none; another `target_id`, or time
+  ///        that goes back, begins anew.
+  void follow(const cv::Mat& image, detection::WindowObservation& window);
+  void reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::openness

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "window_ingress/geometry/opening.hpp"
+
+namespace window_ingress::openness {
+
+/// The opening as a grid of cells: through which of them the sight went into depth, and where it ended in the
+/// plane. A sight that goes through a cell shows that nothing closes it; as the vehicle moves, the same point
+/// of the room is seen through one cell after another.
+class OpeningCells {
+ public:
+  static constexpr int kSide = 6;
+
+  /// \param place within the opening, 0 to 1, right and down; outside of it nothing happens
+  void see(const Eigen::Vector2d& place, double log_odds);
+  void clear() { open_.fill(0.0f), closed_.fill(0.0f); }
+
+  struct Share {
+    double open = 0.0, closed = 0.0;  ///< parts of the cells that are needed, 0 to 1
+    double least_quarter_open = 0.0;  ///< of its four quarters, the one that was seen open least
+  };
+  /// \param needed size of the middle that must be free
+  Share shareOf(const geometry::OpeningSize& needed, const geometry::OpeningSize& opening) const;
+
+ private:
+  static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
+  std::array<float, kSide * kSide> open_{}, closed_{};
+};
+
+}  // namespace window_ingress::openness

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "window_ingress/detection/interior_tracks.hpp"
+#include "window_ingress/openness/opening_cells.hpp"
+#include "window_ingress/openness/track_evidence.hpp"
+
+namespace window_ingress::openness {
+
+/// What one stretch of the flight, from a key picture to the next, says.
+struct StretchSays {
+  double log_odds = 0.0;  ///< open over closed, within `OpennessParams::max_log_odds`; 0: nothing
+  int points = 0;         ///< that stand still and were seen from places enough
+  int unsteady = 0;       ///< that do not stand still
+  int too_deep = 0;       ///< that lie behind any room
+  double depth_m = 0.0, depth_sigma_m = 0.0;  ///< median of the points; both 0 without any
+  bool is_too_deep = false;  ///< so much of it lies behind any room that it does not speak for an open way
+  bool is_moving = false;    ///< so much does not stand still that nothing is said
+};
+
+/// The points of one stretch. Errors of the borders are common to all of them: the verdict of the stretch is
+/// that of its median point, however many there are.
+class StretchEvidence {
+ public:
+  void begin(double key_stamp_sec);
+  double keyStamp() const { return key_stamp_sec_; }
+
+  /// \param through for each point: its sight would reach the room past the opening's inner faces
+  void see(int id, const PointParallax& look, bool through);
+  /// Takes what a point showed into the cells, if it stands still.
+  void mark(const DepthParts& parts, const OpennessParams& params, OpeningCells& cells);
+  StretchSays says(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
+
+ private:
+  struct Entry {
+    TrackEvidence track;
+    bool through = false, current = false;
+  };
+  double key_stamp_sec_ = -1.0;
+  std::vector<Entry> entries_;  // by the point's number
+};
+
+}  // namespace window_ingress::openness

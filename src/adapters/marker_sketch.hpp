@@ -1,0 +1,62 @@
+/// Shapes as rviz draws them.
+#pragma once
+
+#include <ros/time.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace window_ingress::adapters {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// Collects shapes of one frame at one time. A shape is known by its name: one of the same name replaces it,
+/// and if none comes, it vanishes after `kLifetimeSec`. What cannot be drawn (not finite, empty) is taken
+/// away.
+class MarkerSketch {
+ public:
+  static constexpr double kLifetimeSec = 1.0;
+
+  MarkerSketch(const ros::Time& stamp, const std::string& frame_id);
+
+  void line(const std::string& name, const Points& points, const std_msgs::ColorRGBA& colour);
+  /// \param colours one a point
+  void line(const std::string& name, const Points& points, std::vector<std_msgs::ColorRGBA> colours);
+  /// \param ends two a stroke
+  void strokes(const std::string& name, const Points& ends, const std_msgs::ColorRGBA& colour);
+  /// \param corners three a triangle; seen from both sides
+  void surface(const std::string& name, const Points& corners, const std_msgs::ColorRGBA& colour);
+  void arrow(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+             const std_msgs::ColorRGBA& colour);
+  void box(const std::string& name, const Eigen::Isometry3d& T_frame_box,
+           const Eigen::Vector3d& half_extents_m, const std_msgs::ColorRGBA& colour);
+  /// Surface of `sigmas` standard deviations.
+  void ellipsoid(const std::string& name, const Eigen::Vector3d& centre, const Eigen::Matrix3d& covariance,
+                 double sigmas, const std_msgs::ColorRGBA& colour);
+  /// Always upright towards the observer; its middle is at `centre`.
+  void text(const std::string& name, const Eigen::Vector3d& centre, const std::string& text);
+  void gone(const std::string& name);
+
+  const visualization_msgs::MarkerArray& markers() const { return markers_; }
+
+ private:
+  visualization_msgs::Marker& add(const std::string& name, int type);
+  bool draws(const std::string& name, const Points& points, std::size_t at_least);
+
+  std_msgs::Header header_;
+  visualization_msgs::MarkerArray markers_;
+};
+
+/// Takes everything away that was ever drawn on this topic.
+visualization_msgs::MarkerArray allGone(const ros::Time& stamp, const std::string& frame_id);
+
+/// The four corners of a plane face as two triangles, appended.
+void appendFace(Points& triangles, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                const Eigen::Vector3d& c, const Eigen::Vector3d& d);
+
+/// Lines of at most so many characters, broken between words.
+std::string wrapped(const std::string& text, std::size_t most);
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,194 @@
+#include "window_ingress/openness/openness_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::openness {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kSameStamp_sec = 1e-6, kLongest_sec = 10.0;
+constexpr std::size_t kMostLooks = 600;
+constexpr double kSays = 1.0;         // log odds below which a stretch has said nothing
+constexpr double kMisfit_px = 1.5;    // of corners against the filtered window, beside the part of its size
+constexpr double kMostClosed = 0.15;  // of the middle that is needed
+constexpr double kLeastQuarter = 0.5;
+constexpr double kMostTotal = 12.0;
+constexpr int kOutvoted = 3;  // stretches that outweigh one that says the opposite
+
+Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera& camera) {
+  for (auto& corner : quad) corner = camera.undistort(corner);
+  return quad;
+}
+
+geometry::PinholeCamera ideal(geometry::PinholeCamera camera) {
+  camera.distortion.fill(0.0);
+  return camera;
+}
+
+// The corners lie as the filtered window's would, but for what a turn of the camera moves.
+bool agrees(const Quadrilateral& seen, const OpennessView& view, double max_misfit) {
+  const auto expected = geometry::projectOpening(
+      ideal(view.camera), view.T_odom_camera.inverse() * view.T_odom_window, view.opening);
+  if (!expected || !geometry::isFinite(seen)) return false;
+  const Eigen::Vector2d shift = geometry::centroid(seen) - geometry::centroid(*expected);
+  double worst_px = 0.0;
+  for (int i = 0; i < 4; ++i) worst_px = std::max(worst_px, (seen[i] - (*expected)[i] - shift).norm());
+  const double size_px = std::sqrt(std::max(0.0, geometry::signedArea(*expected)));
+  return worst_px < max_misfit * size_px + kMisfit_px;
+}
+
+// The sight through this place of the border's plane also passes the opening at the end of its inner faces.
+bool passesReveal(const Eigen::Vector2d& place, const Eigen::Vector3d& eye_window,
+                  const geometry::OpeningSize& opening, double reveal_m) {
+  const Eigen::Vector3d front(0.0, (0.5 - place.x()) * opening.width_m, (0.5 - place.y()) * opening.height_m);
+  const Eigen::Vector3d way = front - eye_window;
+  if (!(way.x() > 0.0)) return false;
+  const Eigen::Vector3d back = front + reveal_m / way.x() * way;
+  return std::abs(back.y()) < 0.5 * opening.width_m && std::abs(back.z()) < 0.5 * opening.height_m;
+}
+
+std::string text(const char* format, double a, double b = 0.0) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+}  // namespace
+
+const char* toString(Openness openness) {
+  switch (openness) {
+    case Openness::kUnknown:
+      return "UNKNOWN";
+    case Openness::kOpen:
+      return "OPEN";
+    case Openness::kClosed:
+      return "CLOSED";
+  }
+  return "UNKNOWN";
+}
+
+OpennessJudge::OpennessJudge(const OpennessParams& params, const geometry::OpeningSize& needed)
+    : params_(params), needed_(needed) {
+  auto faults = parameters::outOfRange(params);
+  if (params.max_depth_closed_m >= params.min_depth_behind_m)
+    faults.push_back("max_depth_closed_m is not below min_depth_behind_m");
+  if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
+}
+
+void OpennessJudge::reset() {
+  looks_.clear();
+  stretch_.begin(-1.0);
+  says_ = StretchSays();
+  past_ = Count();
+  cells_.clear();
+  verdict_ = OpennessVerdict();
+}
+
+OpennessJudge::Count OpennessJudge::counted() const {
+  Count all = past_;
+  all.log_odds = std::clamp(all.log_odds + says_.log_odds, -kMostTotal, kMostTotal);
+  all.open += says_.log_odds >= kSays;
+  all.closed += says_.log_odds <= -kSays;
+  return all;
+}
+
+// A stretch is over: what it said last stays.
+void OpennessJudge::close() {
+  past_ = counted();
+  says_ = StretchSays();
+}
+
+void OpennessJudge::remember(const OpennessView& view) {
+  looks_.push_back({view.window.stamp_sec, view.T_odom_camera});
+  while (looks_.size() > kMostLooks || view.window.stamp_sec - looks_.front().stamp_sec > kLongest_sec)
+    looks_.pop_front();
+}
+
+void OpennessJudge::see(const OpennessView& view) {
+  const detection::WindowObservation& window = view.window;
+  const bool is_other = window.target_id != target_id_;
+  if (is_other || (!looks_.empty() && window.stamp_sec < looks_.back().stamp_sec)) reset();
+  target_id_ = window.target_id;
+  if (!window.whole() || !std::isfinite(window.stamp_sec) || !geometry::isValidPose(view.T_odom_camera) ||
+      !geometry::isValidPose(view.T_odom_window) ||
+      !(view.opening.width_m > 0.0 && view.opening.height_m > 0.0))
+    return;
+  if (!agrees(undistorted(window.corners, view.camera), view, params_.max_border_misfit)) return;
+  remember(view);
+  if (window.interior.empty()) return;
+  const double key_sec = window.interior.key_stamp_sec;
+  if (std::abs(key_sec - stretch_.keyStamp()) > kSameStamp_sec) close(), stretch_.begin(key_sec);
+  const auto key = std::find_if(looks_.begin(), looks_.end(), [&](const Look& look) {
+    return std::abs(look.stamp_sec - key_sec) < kSameStamp_sec;
+  });
+  if (key != looks_.end() && window.stamp_sec > key_sec) compare(view, key->T_odom_camera);
+  conclude();
+}
+
+void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T_odom_camera_key) {
+  const auto& [window, camera, T_odom_camera, T_odom_window, opening] = view;
+  opening_ = opening;
+  const SeenBorder key{undistorted(window.interior.key_corners, camera), window.interior.key_covariance};
+  const SeenBorder now{undistorted(window.corners, camera), window.corner_covariance};
+  const auto pair = PlaneParallax::between(
+      camera, key, now, T_odom_camera_key.inverse() * T_odom_window, T_odom_camera.inverse() * T_odom_window,
+      {params_.border_sigma_px, params_.position_sigma_m, window.interior.sigma_px});
+  if (!pair || pair->baselineM() < params_.min_baseline_m) return;
+  const Eigen::Vector3d eye = T_odom_window.inverse() * T_odom_camera.translation();
+  for (const detection::InteriorPoint& point : window.interior.points) {
+    const auto look = pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px));
+    if (look) stretch_.see(point.id, *look, passesReveal(look->place, eye, opening, params_.reveal_depth_m));
+  }
+  const DepthParts parts = DepthParts::at(pair->distanceM(), params_);
+  stretch_.mark(parts, params_, cells_);
+  says_ = stretch_.says(parts, pair->distanceM(), params_);
+}
+
+void OpennessJudge::conclude() {
+  const Count all = counted();
+  const OpeningCells::Share share = cells_.shareOf(needed_, opening_);
+  OpennessVerdict verdict;
+  verdict.log_odds = all.log_odds;
+  verdict.open_share = share.open;
+  verdict.points = says_.points;
+  verdict.stretches = all.open + all.closed;
+  verdict.has_depth = says_.depth_sigma_m > 0.0 || verdict_.has_depth;
+  const bool is_new = says_.depth_sigma_m > 0.0;
+  verdict.depth_behind_m = is_new ? says_.depth_m : verdict_.depth_behind_m;
+  verdict.depth_sigma_m = is_new ? says_.depth_sigma_m : verdict_.depth_sigma_m;
+  const bool sure_open = all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed;
+  const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
+  if (sure_closed) {
+    verdict.openness = Openness::kClosed;
+    verdict.reason = text("what is within the border moves with it: %.2f +- %.2f m behind it",
+                          verdict.depth_behind_m, verdict.depth_sigma_m);
+  } else if (says_.is_moving) {
+    verdict.reason = text("%.0f of %.0f points do not move as anything that stands still", says_.unsteady,
+                          says_.unsteady + says_.points);
+  } else if (says_.is_too_deep) {
+    verdict.reason = text("deeper than a room: %.1f m; a mirror shows that, too", verdict.depth_behind_m);
+  } else if (all.open > 0 && all.closed > 0 && !sure_open) {
+    verdict.reason = text("%.0f stretches of the flight say open, %.0f closed", all.open, all.closed);
+  } else if (!sure_open) {
+    verdict.reason = text("%.0f points followed, log odds %.1f", says_.points, all.log_odds);
+  } else if (share.closed > kMostClosed) {
+    verdict.reason =
+        text("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
+  } else if (share.open < params_.min_open_share || share.least_quarter_open < kLeastQuarter) {
+    verdict.reason = text("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
+  } else {
+    verdict.openness = Openness::kOpen;
+    verdict.reason = text("what is within the border lies %.1f +- %.1f m behind it", verdict.depth_behind_m,
+                          verdict.depth_sigma_m);
+  }
+  verdict_ = verdict;
+}
+
+}  // namespace window_ingress::openness

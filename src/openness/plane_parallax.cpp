@@ -1,0 +1,116 @@
+#include "window_ingress/openness/plane_parallax.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace window_ingress::openness {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kLeastDistance_m = 0.2;
+constexpr double kLeastGain_px = 0.5;
+
+const geometry::Quadrilateral& unitSquare() {
+  static const geometry::Quadrilateral corners{Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1),
+                                               Vector2d(0, 1)};
+  return corners;
+}
+
+// How much each corner's error moves a point of the plane.
+Eigen::Vector4d weightsAt(const Vector2d& place) {
+  const double u = place.x(), v = place.y();
+  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+}
+
+}  // namespace
+
+std::optional<Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
+                                          const geometry::Quadrilateral& to) {
+  if (!geometry::isFinite(from) || !geometry::isFinite(to) || !geometry::isConvex(from) ||
+      !geometry::isConvex(to))
+    return std::nullopt;
+  Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
+  Eigen::Matrix<double, 8, 1> b;
+  for (int i = 0; i < 4; ++i) {
+    const double x = from[i].x(), y = from[i].y(), u = to[i].x(), v = to[i].y();
+    A.row(2 * i) << x, y, 1, 0, 0, 0, -u * x, -u * y;
+    A.row(2 * i + 1) << 0, 0, 0, x, y, 1, -v * x, -v * y;
+    b.segment<2>(2 * i) << u, v;
+  }
+  const Eigen::Matrix<double, 8, 1> h = A.partialPivLu().solve(b);
+  if (!h.allFinite()) return std::nullopt;
+  Matrix3d H;
+  H << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1.0;
+  return H;
+}
+
+std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamera& camera,
+                                                    const SeenBorder& key, const SeenBorder& now,
+                                                    const Eigen::Isometry3d& T_camera_window_key,
+                                                    const Eigen::Isometry3d& T_camera_window_now,
+                                                    const Errors& errors) {
+  const auto H = homographyBetween(key.corners, now.corners);
+  const auto unit = homographyBetween(now.corners, unitSquare());
+  if (!H || !unit || !T_camera_window_key.matrix().allFinite() || !T_camera_window_now.matrix().allFinite())
+    return std::nullopt;
+  PlaneParallax pair;
+  pair.normal_ = T_camera_window_key.linear().col(0);
+  pair.distance_m_ = pair.normal_.dot(T_camera_window_key.translation());
+  const double now_m = T_camera_window_now.linear().col(0).dot(T_camera_window_now.translation());
+  const double determinant = H->determinant();
+  if (!(pair.distance_m_ > kLeastDistance_m && now_m > kLeastDistance_m && determinant > 0.0))
+    return std::nullopt;
+  // The homography of calibrated rays, R + t n^T / d, has the determinant d_now / d.
+  pair.H_ = std::cbrt(now_m / pair.distance_m_ / determinant) * *H;
+  const Vector3d way = (T_camera_window_now * T_camera_window_key.inverse()).translation();
+  pair.epipole_ = camera.K() * way / pair.distance_m_;
+  pair.K_inverse_ = camera.K().inverse();
+  pair.unit_from_now_ = *unit;
+  pair.key_ = key, pair.now_ = now, pair.errors_ = errors;
+  pair.growth_ = std::sqrt(geometry::signedArea(now.corners) / geometry::signedArea(key.corners));
+  pair.baseline_m_ = way.norm();
+  pair.px_per_m_ = camera.fx / now_m;
+  return pair;
+}
+
+// Both pictures' borders, as they move this point along a direction.
+double PlaneParallax::borderVariance(const Vector2d& place, const Vector2d& along) const {
+  const Eigen::Vector4d weights = weightsAt(place);
+  const double common = std::pow(errors_.border_sigma_px, 2);
+  double variance = 0.5 * common * (1.0 + growth_ * growth_);
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Matrix2d both = now_.covariance[i] + growth_ * growth_ * key_.covariance[i];
+    variance += weights(i) * weights(i) * along.dot(both * along);
+  }
+  return variance;
+}
+
+std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vector2d& now_px) const {
+  const Vector3d plane = H_ * key_px.homogeneous();
+  const Vector3d shift = epipole_ * normal_.dot(K_inverse_ * key_px.homogeneous());
+  // now x (plane - part * shift) = 0, divided by the point's own depth: two equations in pixels.
+  const Vector2d by_part = shift.head<2>() - now_px * shift.z();
+  const Vector2d off = plane.head<2>() - now_px * plane.z();
+  const double squares = by_part.squaredNorm();
+  PointParallax point;
+  point.part = by_part.dot(off) / squares;
+  const double depth = plane.z() - point.part * shift.z();
+  if (!std::isfinite(point.part) || !(depth > 0.05 * plane.z())) return std::nullopt;
+  point.gain_px = std::sqrt(squares) / depth;
+  if (!(point.gain_px > kLeastGain_px)) return std::nullopt;
+  const Vector2d along = by_part.normalized(), across(-along.y(), along.x());
+  point.across_px = across.dot(off) / depth;
+  point.place = (unit_from_now_ * now_px.homogeneous()).hnormalized();
+  const double flow = std::pow(errors_.flow_sigma_px, 2);
+  // The way is known from two positions.
+  const double way = 2.0 * std::pow(point.part * errors_.position_sigma_m, 2);
+  point.part_sigma = std::sqrt((flow + borderVariance(point.place, along)) / std::pow(point.gain_px, 2) +
+                               way / std::pow(baseline_m_, 2));
+  point.across_sigma_px = std::sqrt(flow + borderVariance(point.place, across) + way * px_per_m_ * px_per_m_);
+  return point;
+}
+
+}  // namespace window_ingress::openness

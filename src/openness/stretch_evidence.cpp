@@ -1,0 +1,80 @@
+#include "window_ingress/openness/stretch_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::openness {
+namespace {
+
+constexpr int kMostIds = 1000;
+constexpr double kMostTooDeep = 0.3;  // of the points
+
+template <typename Value>
+Value medianOf(std::vector<Value>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// How a depth moves with its part: D = d part / (1 - part).
+double depthOf(double part, double distance_m) { return distance_m * part / std::max(1e-3, 1.0 - part); }
+double depthSigma(double part, double sigma, double distance_m) {
+  return distance_m * sigma / std::pow(std::max(1e-3, 1.0 - part), 2);
+}
+
+}  // namespace
+
+void StretchEvidence::begin(double key_stamp_sec) {
+  key_stamp_sec_ = key_stamp_sec;
+  entries_.clear();
+}
+
+void StretchEvidence::see(int id, const PointParallax& look, bool through) {
+  if (id < 0 || id >= kMostIds) return;
+  if (static_cast<std::size_t>(id) >= entries_.size()) entries_.resize(static_cast<std::size_t>(id) + 1);
+  Entry& entry = entries_[static_cast<std::size_t>(id)];
+  entry.track.see(look);
+  entry.through = through;
+  entry.current = true;
+}
+
+void StretchEvidence::mark(const DepthParts& parts, const OpennessParams& params, OpeningCells& cells) {
+  for (Entry& entry : entries_) {
+    const bool is_new = entry.current;
+    entry.current = false;
+    if (!is_new || !entry.track.isTested() || !entry.track.isSteady(params.max_sigmas)) continue;
+    const double log_odds = parts.logOdds(entry.track.best().part, entry.track.best().part_sigma);
+    if (log_odds > 0.0 || entry.through) cells.see(entry.track.last().place, log_odds);
+  }
+}
+
+StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
+                                  const OpennessParams& params) const {
+  StretchSays says;
+  std::vector<double> odds, depths, sigmas;
+  for (const Entry& entry : entries_) {
+    if (!entry.track.isTested()) continue;
+    const PointParallax& best = entry.track.best();
+    if (!entry.track.isSteady(params.max_sigmas)) {
+      ++says.unsteady;
+      continue;
+    }
+    const double log_odds = parts.logOdds(best.part, best.part_sigma);
+    if (log_odds < 0.0 && !entry.through) continue;
+    odds.push_back(log_odds);
+    depths.push_back(depthOf(best.part, distance_m));
+    sigmas.push_back(depthSigma(best.part, best.part_sigma, distance_m));
+    says.too_deep += best.part - best.part_sigma > parts.open_to;
+  }
+  says.points = static_cast<int>(odds.size());
+  says.is_moving = says.unsteady > params.max_unsteady * (says.points + says.unsteady);
+  if (says.points < params.min_points) return says;
+  says.depth_m = medianOf(depths);
+  says.depth_sigma_m = medianOf(sigmas);
+  says.is_too_deep = says.too_deep > kMostTooDeep * says.points;
+  if (!says.is_moving) says.log_odds = std::clamp(medianOf(odds), -params.max_log_odds, params.max_log_odds);
+  if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
+  return says;
+}
+
+}  // namespace window_ingress::openness

@@ -1,0 +1,184 @@
+/// Measures the verdict on openness on approaches to windows that are open or closed; see --help.
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "window_ingress/evaluation/openness_survey.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/simulation/random_stream.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using namespace window_ingress;
+using tools::UsageError;
+
+struct Options {
+  std::vector<std::string> scenarios;
+  std::string output, params, trace;
+  int open = 0, closed = 0, synthetic = 0;
+  std::uint32_t seed = 1;
+  evaluation::OpennessRange range;
+};
+
+po::options_description describe(Options& o) {
+  po::options_description description(
+      "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--scenario FILE.yaml...] --output "
+      "DIR\n"
+      "Approaches random windows and asks whether they are open. Writes DIR/openness.csv with a row an "
+      "approach and\n"
+      "prints a table with Wilson intervals (95 %). Exit code 1 if anything closed was ever called "
+      "open.\n\nOptions");
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("open", po::value(&o.open)->default_value(o.open), "drawn approaches to open windows");
+  add("closed", po::value(&o.closed)->default_value(o.closed), "drawn approaches to closed ones");
+  add("synthetic", po::value(&o.synthetic)->default_value(o.synthetic),
+      "approaches of each kind without pictures");
+  add("scenario", po::value(&o.scenarios)->composing()->multitoken(),
+      "scenario files instead of random windows, --open approaches each");
+  add("seed", po::value(&o.seed)->default_value(o.seed),
+      "of the first approach; each further one has the next");
+  add("params", po::value(&o.params), "yaml file with sections 'interior' and 'openness'");
+  add("rate", po::value(&o.range.rate_hz)->default_value(o.range.rate_hz), "of the pictures [1/s]");
+  add("decide", po::value(&o.range.decide_m)->default_value(o.range.decide_m),
+      "distance at which the verdict counts [m]");
+  add("trace", po::value(&o.trace), "csv file: the verdict over each approach");
+  add("output,o", po::value(&o.output), "folder of the results");
+  return description;
+}
+
+std::string oneOf(simulation::RandomStream& random, const std::vector<std::string>& words) {
+  return words[static_cast<std::size_t>(random.uniformInt(0, static_cast<int>(words.size()) - 1))];
+}
+
+simulation::ColourParams anyColour(simulation::RandomStream& random) {
+  simulation::ColourParams colour;
+  colour.r = random.uniform(30, 245), colour.g = random.uniform(30, 245), colour.b = random.uniform(30, 245);
+  return colour;
+}
+
+/// A window of any size, colour, light and surroundings.
+simulation::Scenario anyWindow(std::uint32_t seed, bool is_open) {
+  simulation::RandomStream random(seed, is_open ? "open window" : "closed window");
+  simulation::Scenario scenario;
+  auto& window = scenario.window;
+  window.width_m = random.uniform(0.9, 1.6);
+  window.height_m = random.uniform(0.8, 1.3);
+  window.frame = anyColour(random);
+  window.frame_width_m = random.uniform(0.0, 1.0) < 0.2 ? 0.0 : random.uniform(0.03, 0.1);
+  auto& house = scenario.house;
+  house.wall_texture = oneOf(random, {"plaster", "brick", "siding", "stone", "paint"});
+  house.wall = anyColour(random);
+  house.wall_thickness_m = random.uniform(0.1, 0.35);
+  house.texture_seed = random.uniformInt(1, 1000000);
+  house.sun_azimuth_rad = random.uniform(-1.2, 1.2);
+  house.room_depth_m = random.uniform(2.0, 6.0);
+  house.room_light = random.uniform(0.3, 0.9);
+  house.room_texture = oneOf(random, {"plaster", "brick", "siding", "stone"});
+  house.furniture = oneOf(random, {"some", "full"});
+  scenario.camera.noise_grey = random.uniform(0.5, 4.0);
+  scenario.camera.horizontal_fov_rad = random.uniform(1.0, 1.4);
+  if (is_open) return scenario;
+  window.closed_by = oneOf(random, {"glass", "curtain", "blinds", "shutter", "board", "poster"});
+  window.bars = oneOf(random, {"none", "none", "vertical", "cross"});
+  if (window.closed_by != "poster") return scenario;
+  window.closed_by = "none", window.present = false, window.frame_width_m = 0.0;
+  simulation::PosterParams poster;
+  poster.y_m = poster.z_m = 0.0;
+  poster.border_m = random.uniform(0.03, 0.1);
+  poster.width_m = window.width_m + 2.0 * poster.border_m;
+  poster.height_m = window.height_m + 2.0 * poster.border_m;
+  poster.border = anyColour(random);
+  poster.look = oneOf(random, {"picture", "window"});
+  scenario.posters.push_back(poster);
+  return scenario;
+}
+
+class Survey {
+ public:
+  explicit Survey(const Options& o) : options_(o), csv_(fs::path(o.output) / "openness.csv") {
+    csv_ << evaluation::opennessColumns() << "\n";
+    if (!o.params.empty()) {
+      parameters::readYamlFile(o.params, "interior", follower_);
+      parameters::readYamlFile(o.params, "openness", params_);
+    }
+    if (o.trace.empty()) return;
+    trace_.open(o.trace);
+    trace_ << "kind,seed,plane_m,verdict,log_odds,depth_behind_m,open_share,reason\n";
+  }
+
+  void draw(const simulation::Scenario& scenario, std::uint32_t seed, const std::string& kind = "") {
+    auto result = evaluation::flyDrawn(scenario, seed, options_.range, follower_, params_, tracer(seed));
+    if (!kind.empty()) result.kind = kind;
+    take(result);
+  }
+  void synthesise(evaluation::Interior interior, std::uint32_t seed) {
+    take(evaluation::flySynthetic(interior, seed, options_.range, params_, tracer(seed)));
+  }
+  int finish() {
+    if (!csv_.flush()) throw std::runtime_error(options_.output + ": cannot be written; is the disk full?");
+    std::cout << table_.markdown() << "called open though it is not: " << table_.falseOpen() << std::endl;
+    return table_.falseOpen() > 0 ? 1 : 0;
+  }
+
+ private:
+  void take(const evaluation::OpennessResult& result) {
+    table_.add(result);
+    csv_ << evaluation::opennessRow(result) << "\n";
+    for (const std::string& line : lines_) trace_ << result.kind << "," << line << "\n";
+    lines_.clear();
+    if (++done_ % 100 == 0) std::cerr << "survey_openness: " << done_ << " approaches\n";
+  }
+  evaluation::OpennessStep tracer(std::uint32_t seed) {
+    if (options_.trace.empty()) return {};
+    return [this, seed](double plane_m, const openness::OpennessVerdict& v) {
+      char text[400];
+      std::snprintf(text, sizeof text, "%u,%.3f,%s,%.3f,%.3f,%.3f,\"%s\"", seed, plane_m,
+                    openness::toString(v.openness), v.log_odds, v.depth_behind_m, v.open_share,
+                    v.reason.c_str());
+      lines_.push_back(text);
+    };
+  }
+
+  const Options& options_;
+  openness::FollowerParams follower_;
+  openness::OpennessParams params_;
+  evaluation::OpennessTable table_;
+  std::ofstream csv_, trace_;
+  std::vector<std::string> lines_;
+  int done_ = 0;
+};
+
+int run(const Options& o) {
+  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.open + o.closed + o.synthetic < 1) throw UsageError("nothing to do: --open, --closed or --synthetic");
+  if (!(o.range.rate_hz >= 1.0 && o.range.rate_hz <= 120.0)) throw UsageError("--rate: needs 1 to 120");
+  tools::makeFolder(o.output);
+  Survey survey(o);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.open); ++i) {
+    if (o.scenarios.empty()) survey.draw(anyWindow(o.seed + i, true), o.seed + i);
+    for (const std::string& file : o.scenarios)
+      survey.draw(simulation::loadScenario(file, o.seed + i), o.seed + i, fs::path(file).stem().string());
+  }
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.closed); ++i)
+    survey.draw(anyWindow(o.seed + i, false), o.seed + i);
+  for (int kind = 0; kind < evaluation::kInteriors; ++kind)
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.synthetic); ++i)
+      survey.synthesise(static_cast<evaluation::Interior>(kind), o.seed + i);
+  return survey.finish();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  return tools::runTool("survey_openness", argc, argv, describe, run);
+}
