@@ -32,6 +32,8 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   vehicle.vertical_fov_rad = 2.0 * std::atan(camera.height / (2.0 * camera.fy));
   vehicle.pixel_rad = 1.0 / camera.fx;
   vehicle.exposure_sec = world.scenario().camera.exposure_sec;
+  const std::string& opening_policy = world.scenario().unverified_opening;
+  if (opening_policy != "as_set") params.navigator.commit.unverified_opening = opening_policy;
   if (params.without_pictures) params.navigator.commit.unverified_opening = "allow";  // nothing shows it
   auto& fit = params.tracker.fit;
   fit.vehicle_width_m = 2.0 * half.y();

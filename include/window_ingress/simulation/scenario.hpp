@@ -47,6 +47,8 @@ struct StartParams {
 /// One world. A plain `Scenario` is a calm day: 5 m straight in front of the window, facing it.
 struct Scenario {
   double time_limit_sec = 60.0;  ///< of the flight [s]
+  std::string unverified_opening =
+      "as_set";  ///< `commit/unverified_opening` of the navigator in `fly`; as_set: as its parameters say
   StartParams start;
   WindowParams window;
   std::vector<DecoyParams> decoys;
@@ -62,6 +64,7 @@ struct Scenario {
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("time_limit_sec", self.time_limit_sec, 1.0, 3600.0);
+    field.choice("unverified_opening", self.unverified_opening, {"as_set", "allow", "ask", "deny"});
     field.group("start", self.start);
     field.group("window", self.window);
     field.list("decoys", self.decoys);
