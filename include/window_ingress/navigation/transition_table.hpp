@@ -20,7 +20,7 @@ enum class Event {
   kCommitReached,  ///< the window is about to leave the view and the contract holds
   kContractUnmet,  ///< close to the window and the predicted miss exceeds the clearance
   kCrossed,        ///< behind the window, standing still
-  kOtherWindow,    ///< the way flown has shown that it is not the window looked for
+  kOtherWindow,    ///< the way flown has shown that it is not the window looked for, or that it is closed
   kWindowLost,     ///< not seen for long, its normal is known
   kBackedOff,      ///< far enough away, the window still not in view
   kReacquired,     ///< seen again
