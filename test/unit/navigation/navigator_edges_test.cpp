@@ -134,6 +134,51 @@ TEST(NavigatorEdges, ApproachLeavesAnotherWindow) {
   EXPECT_EQ(mission.output.state, State::kSearch);
 }
 
+/// Odometry is gone for a moment during COMMIT; there are no pictures any more, before or after.
+NavigatorOutput interruptedAt(const Eigen::Vector3d& place) {
+  Mission mission;
+  mission.leadInto(State::kCommit);
+  mission.walk(place);
+  const double last_image_sec = mission.now;
+  for (int i = 0; i < 90; ++i) {
+    auto input = test::inputAt(mission.at, mission.now + kStep, false);
+    input.image_stamp_sec = last_image_sec;
+    if (i > 30 && i < 35) input.vehicle.reset();
+    mission.step(input);
+    if (i == 34) {
+      EXPECT_EQ(mission.output.state, State::kHold) << mission.output.reason;
+    }
+    if (mission.output.state == State::kCommit) mission.at.x() += 0.02;
+  }
+  return mission.output;
+}
+
+TEST(NavigatorEdges, BehindThePlaneACommitIsResumedWithoutPictures) {
+  const auto output = interruptedAt({0.0, 0.0, 1.5});
+  EXPECT_EQ(output.state, State::kPassed) << output.reason;
+}
+
+TEST(NavigatorEdges, InFrontOfThePlaneItIsNot) {
+  const auto output = interruptedAt({-1.1, 0.0, 1.5});
+  EXPECT_NE(output.state, State::kCommit);
+  EXPECT_NE(output.state, State::kPassed);
+  EXPECT_LE(output.setpoint.velocity_odom_mps.x(), 0.0);
+}
+
+TEST(NavigatorEdges, WhenTheClockLeapsAheadEverythingIsOldAndNothingMoves) {
+  for (const State state : kLive) {
+    Mission mission;
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state);
+    const auto before = test::inputAt(mission.at, mission.now + kStep);
+    mission.now += 5.0;
+    mission.step(before);
+    EXPECT_EQ(mission.output.setpoint.velocity_odom_mps.norm(), 0.0) << toString(state);
+    EXPECT_TRUE(mission.output.state == State::kHold || isEnd(mission.output.state))
+        << toString(mission.output.state);
+  }
+}
+
 TEST(NavigatorEdges, AResetLeadsOnFromAPassedWindow) {
   Mission mission;
   mission.leadInto(State::kPassed);
