@@ -1,11 +1,15 @@
 #include "adapters/camera_source.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "adapters/guarded.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kSilenceSec = 2.0;
+constexpr double kNearSec = 0.2;   // stamps of a picture and of its calibration, be it one frame off
+constexpr double kApartSec = 1.2;  // so long may no stamp be near: camera_info may come once a second
 
 std::string size(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -16,6 +20,7 @@ CameraSource::CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool r
   subscriber_ = subscribeGuarded<sensor_msgs::CameraInfo>(nh, "camera_info", 1, diagnostics,
                                                           [this](const auto& message) { receive(*message); });
   health_.watch(subscriber_);
+  diagnostics.add("calibration", [this] { return fitHealth(); });
   camera_.reason = "no camera_info on " + subscriber_.getTopic() + " so far";
 }
 
@@ -31,21 +36,40 @@ void CameraSource::receive(const sensor_msgs::CameraInfo& message) {
   if (came_) came_();
 }
 
-std::string CameraSource::fault(int width_px, int height_px, const std::string& frame_id) const {
-  if (!camera_) return camera_.reason;
+std::string CameraSource::misfit(int width_px, int height_px, const std::string& frame_id) const {
+  const std::string topic = "camera_info on " + subscriber_.getTopic();
   if (camera_.value->width != width_px || camera_.value->height != height_px)
-    return "sizes differ: the image has " + size(width_px, height_px) + " pixels, camera_info is for " +
+    return "sizes differ: the image has " + size(width_px, height_px) + " pixels, " + topic + " is for " +
            size(camera_.value->width, camera_.value->height);
   if (!frame_id.empty() && frame_id != frame_id_)
-    return "frames differ: the image has frame_id '" + frame_id + "', camera_info '" + frame_id_ + "'";
+    return "frames differ: the image has frame_id '" + frame_id + "', " + topic + " '" + frame_id_ + "'";
   return "";
 }
 
+void CameraSource::compareStamps(const ros::Time& picture) {
+  apart_sec_ = picture.toSec() - stamp_.toSec();
+  if (std::abs(apart_sec_) <= kNearSec || together_sec_ == 0.0) together_sec_ = steadyNowSec();
+}
+
 Converted<geometry::PinholeCamera> CameraSource::cameraOf(int width_px, int height_px,
-                                                          const std::string& frame_id) const {
-  const std::string reason = fault(width_px, height_px, frame_id);
-  if (!reason.empty()) return {std::nullopt, reason};
-  return camera_;
+                                                          const std_msgs::Header& picture) {
+  misfit_ = camera_ ? misfit(width_px, height_px, picture.frame_id) : "";
+  if (camera_) compareStamps(picture.stamp);
+  return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
+}
+
+Health CameraSource::fitHealth() const {
+  if (!camera_) return {Health::kOk, "none so far"};
+  if (!misfit_.empty()) return {Health::kError, misfit_};
+  const bool apart = std::abs(apart_sec_) > kNearSec && steadyNowSec() - together_sec_ > kApartSec;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f s", std::abs(apart_sec_));
+  const std::string topic = "camera_info on " + subscriber_.getTopic();
+  if (apart && stamp_.isZero()) return {Health::kWarn, topic + " is not stamped"};
+  if (apart)
+    return {Health::kWarn, "stamps of image and " + topic + " are " + text + " apart, " +
+                               (apart_sec_ > 0.0 ? "the image is newer" : "the image is older")};
+  return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};
 }
 
 }  // namespace window_ingress::adapters

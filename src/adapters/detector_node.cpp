@@ -22,7 +22,9 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       images_(nh, diagnostics_, params_.image_transport, params_.image,
               limitsFor(params_.lockstep, params_.stamps),
               [this](const auto& header, const auto& picture) { receive(header, picture); }),
-      tuning_(pnh, params_.detector, [this](const auto& params) { detector_.setParams(params); }) {
+      tuning_(pnh, params_.detector, [this](const auto& params) { detector_.setParams(params); }),
+      times_(params_.budget_ms, steadyNowSec) {
+  detector_.setWatch(&times_.watch());
   if (params_.use_imu)
     attitude_.emplace(nh, diagnostics_, params_.base_frame, queueFor(params_.lockstep, 100));
   if (!params_.reference.picture.empty())
@@ -35,6 +37,8 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       nh, "window_pose", 1, diagnostics_, [this](const auto& message) { last_pose_ = message; });
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
   reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);
+  diagnostics_.addOutput("window", {window_publisher_});
+  diagnostics_.add("time", [this] { return times_.health(); });
   diagnostics_.add("detection", [this] { return detectionHealth(); });
   diagnostics_.add("reference", [this] { return referenceHealth(); });
   if (!params_.lockstep) return;
@@ -74,9 +78,9 @@ void DetectorNode::receive(const std_msgs::Header& header, const GuardedImage& p
 }
 
 void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& picture) {
-  const double begun_sec = steadyNowSec();
+  times_.begin(header, picture.decode_ms);
   const cv::Mat& image = picture.image;
-  const auto camera = camera_.cameraOf(image.cols, image.rows, header.frame_id);
+  const auto camera = camera_.cameraOf(image.cols, image.rows, header);
   detection::TrackInput seen;
   seen.image = image;
   seen.stamp_sec = header.stamp.toSec();
@@ -93,10 +97,10 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   message.header = header;
   message.image_width = static_cast<std::uint32_t>(image.cols);
   message.image_height = static_cast<std::uint32_t>(image.rows);
-  message.milliseconds = (steadyNowSec() - begun_sec) * 1e3;
-  slowest_ms_ = std::max(slowest_ms_, message.milliseconds);
+  message.milliseconds = times_.sinceBegin();
   window_publisher_.publish(message);
   if (debug_publisher_.getNumSubscribers() > 0) publishDebugImage(header, image, message.milliseconds);
+  times_.end();
 }
 
 void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::Mat& image,
@@ -149,12 +153,12 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
   response.message = captureFault();
   response.success = response.message.empty();
   if (!response.success) return true;
-  const geometry::Quadrilateral corners = last_window_->corners;
-  use({last_picture_.image, corners}, "live image");
+  const detection::ReferenceAppearance reference(last_picture_.image, last_window_->corners);
+  use(reference, "live image");
   response.message = "the window in the last image is the reference now";
   if (params_.reference.capture_file.empty()) return true;
   try {
-    saveReference(params_.reference.capture_file, last_picture_.image, corners);
+    saveReference(params_.reference.capture_file, reference, params_.detector);
     response.message += "; written to " + params_.reference.capture_file;
   } catch (const ParameterError& error) {
     response.success = false;
@@ -172,10 +176,8 @@ bool DetectorNode::reset(Trigger::Request&, Trigger::Response& response) {
 }
 
 Health DetectorNode::detectionHealth() const {
-  const std::string slowest = "slowest image " + std::to_string(slowest_ms_) + " ms";
   if (last_picture_.image.empty()) return {Health::kOk, "no image so far"};
-  return {Health::kOk,
-          (last_window_ ? "window in view; " : "no window: " + detector_.trace().detail + "; ") + slowest};
+  return {Health::kOk, last_window_ ? "window in view" : "no window: " + detector_.trace().detail};
 }
 
 Health DetectorNode::referenceHealth() const {

@@ -18,6 +18,7 @@
 #include "adapters/diagnostics.hpp"
 #include "adapters/image_source.hpp"
 #include "adapters/lockstep.hpp"
+#include "adapters/picture_times.hpp"
 #include "adapters/reconfigure.hpp"
 #include "adapters/reference_source.hpp"
 #include "adapters/run_node.hpp"
@@ -32,7 +33,9 @@ struct DetectorNodeParams {
   bool image_is_rectified = false;       ///< pictures are rectified: P of camera_info counts
   bool use_imu = true;                   ///< tracks are led by the attitude on `imu`, where there is one
   std::string base_frame = "base_link";  ///< the vehicle's, in which `imu` must be
-  bool lockstep = false;                 ///< with the simulated world, step by step; only with use_sim_time
+  double budget_ms =
+      0.0;  ///< diagnostics warn if a picture takes longer; 0: the time between two pictures [ms]
+  bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
   ImageLimits image;
   StampLimits stamps;
   ReferenceParams reference;
@@ -44,6 +47,7 @@ struct DetectorNodeParams {
     field("image_is_rectified", self.image_is_rectified);
     field("use_imu", self.use_imu);
     field("base_frame", self.base_frame);
+    field("budget_ms", self.budget_ms, 0.0, 10000.0);
     field("lockstep", self.lockstep);
     field.group("image", self.image);
     field.group("stamps", self.stamps);
@@ -89,7 +93,7 @@ class DetectorNode : public Node {
   std::optional<detection::WindowObservation> last_window_;
   bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference
-  double slowest_ms_ = 0.0;
+  PictureTimes times_;
   std::optional<Lockstep> lockstep_;
   std_msgs::Header waiting_header_;  // in lockstep: of the picture that waits for its step
   std::optional<GuardedImage> waiting_;

@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <utility>
 
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kPeriodSec = 1.0;
+constexpr double kPeriodSec = 1.0;  // of messages while nothing changes
+constexpr double kLookSec = 0.2;
 constexpr double kFrozenClockSec = 1.0;
-constexpr double kStartUpSec = 2.0;  // a clock that comes within this time is not missed
-constexpr double kQuietSec = 5.0;    // between two warnings about one topic
+constexpr double kQuietSec = 5.0;   // between two warnings about one topic
+constexpr double kSmoothing = 0.1;  // of the period of messages
 
 std::string withTwoDecimals(double value) {
   char text[32];
@@ -28,37 +30,76 @@ double steadyNowSec() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+std::string withoutNumbers(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    if (std::strchr("0123456789.+-", c) == nullptr) result += c;
+  return result;
+}
+
+Health outputHealth(int listeners, const std::string& topics, double running_sec) {
+  const std::vector<std::pair<std::string, double>> values = {{"subscribers", listeners}};
+  if (listeners > 0 || running_sec < kSilenceSec) return {Health::kOk, "ok", values};
+  return {Health::kWarn, "nobody subscribes to " + topics, values};
+}
+
 Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
     : updater_(nh, pnh, pnh.getNamespace()), started_sec_(steadyNowSec()), clock_moved_sec_(started_sec_) {
   updater_.setHardwareID("none");
   add("callbacks", [this] { return failures_.health(); });
   add("clock", [this] { return clockHealth(); });
-  timer_ = ros::NodeHandle(nh).createSteadyTimer(ros::WallDuration(kPeriodSec),
+  timer_ = ros::NodeHandle(nh).createSteadyTimer(ros::WallDuration(kLookSec),
                                                  [this](const ros::SteadyTimerEvent&) {
                                                    try {
-                                                     updater_.force_update();
+                                                     look();
                                                    } catch (const std::exception& error) {
                                                      ROS_ERROR("diagnostics: %s", error.what());
                                                    }
                                                  });
 }
 
+double Diagnostics::runningSec() const { return steadyNowSec() - started_sec_; }
+
 void Diagnostics::add(const std::string& name, std::function<Health()> check) {
-  updater_.add(name, [this, name, check = std::move(check)](
-                         diagnostic_updater::DiagnosticStatusWrapper& status) { run(name, check, status); });
+  items_[name].check = std::move(check);
+  updater_.add(name, [this, name](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    const Health& health = items_[name].now;
+    status.summary(static_cast<unsigned char>(health.level), health.text);
+    for (const auto& [key, value] : health.values) status.add(key, value);
+  });
 }
 
-void Diagnostics::run(const std::string& name, const std::function<Health()>& check,
-                      diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const Health health = check();
-  status.summary(static_cast<unsigned char>(health.level), health.text);
-  Health& before = said_[name];
-  if (before.level != health.level) {
-    if (health.level == Health::kError) ROS_ERROR("%s: %s", name.c_str(), health.text.c_str());
-    if (health.level == Health::kWarn) ROS_WARN("%s: %s", name.c_str(), health.text.c_str());
-    if (health.level == Health::kOk) ROS_INFO("%s: %s", name.c_str(), health.text.c_str());
+void Diagnostics::addOutput(const std::string& name, const std::vector<ros::Publisher>& outputs) {
+  add(name, [this, outputs] {
+    int listeners = 0;
+    for (const ros::Publisher& output : outputs) listeners += static_cast<int>(output.getNumSubscribers());
+    const std::string others = outputs.size() > 1 ? " nor to what else comes of it" : "";
+    return outputHealth(listeners, outputs.front().getTopic() + others, runningSec());
+  });
+}
+
+void Diagnostics::look() {
+  bool news = false;
+  for (auto& [name, item] : items_) news = lookAt(name, item) || news;
+  if (!news && steadyNowSec() - published_sec_ < kPeriodSec) return;
+  published_sec_ = steadyNowSec();
+  updater_.force_update();
+}
+
+// True if something else is the matter than before.
+bool Diagnostics::lookAt(const std::string& name, Item& item) {
+  const Health::Level before = item.now.level;
+  item.now = item.check();
+  const Health& now = item.now;
+  if (before != now.level) {
+    if (now.level == Health::kError) ROS_ERROR("%s: %s", name.c_str(), now.text.c_str());
+    if (now.level == Health::kWarn) ROS_WARN("%s: %s", name.c_str(), now.text.c_str());
+    if (now.level == Health::kOk) ROS_INFO("%s: %s", name.c_str(), now.text.c_str());
   }
-  before = health;
+  const std::string said = withoutNumbers(now.text);
+  const bool news = before != now.level || (now.level != Health::kOk && said != item.said);
+  item.said = said;
+  return news;
 }
 
 bool FailureCount::failed(const std::string& callback, const std::string& what) {
@@ -91,7 +132,7 @@ Health Diagnostics::clockHealth() {
     clock_moved_sec_ = steady_sec;
   }
   if (!ros::Time::isSimTime()) return {};
-  if (now_sec == 0.0 && steady_sec - started_sec_ < kStartUpSec) return {Health::kOk, "waiting for /clock"};
+  if (now_sec == 0.0 && steady_sec - started_sec_ < kSilenceSec) return {Health::kOk, "waiting for /clock"};
   if (now_sec == 0.0)
     return {Health::kError,
             "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the "
@@ -117,10 +158,20 @@ void TopicHealth::watch(const ros::Subscriber& subscriber) {
         [subscriber] { return static_cast<int>(subscriber.getNumPublishers()); });
 }
 
+void TopicHealth::arrived() {
+  const double now_sec = steadyNowSec(), since_sec = now_sec - arrived_sec_;
+  if (arrived_sec_ >= 0.0)
+    period_sec_ = period_sec_ > 0.0 ? period_sec_ + kSmoothing * (since_sec - period_sec_) : since_sec;
+  arrived_sec_ = now_sec;
+  ++messages_;
+}
+
 void TopicHealth::accepted(const std::string& warning) {
   accepted_sec_ = steadyNowSec();
   warning_ = warning;
 }
+
+void TopicHealth::stamped(double stamp_sec) { age_sec_ = ros::Time::now().toSec() - stamp_sec; }
 
 void TopicHealth::refused(const std::string& why) {
   ++refusals_;
@@ -136,13 +187,25 @@ double TopicHealth::silentSec() const {
 }
 
 Health TopicHealth::health() const {
+  Health health = verdict();
+  const bool silent = arrived_sec_ < 0.0 || steadyNowSec() - arrived_sec_ > silence_sec_;
+  health.values = {{"publishers", publishers_ ? publishers_() : 0},
+                   {"messages", messages_},
+                   {"refused", refusals_},
+                   {"rate_hz", silent || period_sec_ <= 0.0 ? 0.0 : 1.0 / period_sec_},
+                   {"age_s", age_sec_}};
+  return health;
+}
+
+Health TopicHealth::verdict() const {
   const double now_sec = steadyNowSec();
   const std::string topic = topic_ ? topic_() : name_;
   const int publishers = publishers_ ? publishers_() : 0;
   const std::string from =
       topic + " (" + std::to_string(publishers) + (publishers == 1 ? " publisher)" : " publishers)");
   if (now_sec - (arrived_sec_ < 0.0 ? started_sec_ : arrived_sec_) > silence_sec_) {
-    const std::string hint = publishers == 0 ? "; check the remapping and the message type" : "";
+    const char* const hint = publishers == 0 ? "; check the remapping and the message type"
+                                             : "; it is advertised, but nothing is sent";
     return {Health::kError, (arrived_sec_ < 0.0 ? "no " : "no more ") + name_ + " on " + from + hint};
   }
   if (arrived_sec_ >= 0.0 && now_sec - (accepted_sec_ < 0.0 ? started_sec_ : accepted_sec_) > silence_sec_)

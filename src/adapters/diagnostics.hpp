@@ -7,15 +7,28 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace window_ingress::adapters {
+
+/// A topic that says nothing for this long, on the steady clock, is silent [s].
+constexpr double kSilenceSec = 1.4;
 
 /// One thing to know about a node.
 struct Health {
   enum Level { kOk = 0, kWarn = 1, kError = 2 };
   Level level = kOk;
   std::string text = "ok";
+  std::vector<std::pair<std::string, double>> values = {};  ///< numbers beside it, with unit in the name
 };
+
+/// The text without its numbers: what remains the same while the same thing is the matter.
+std::string withoutNumbers(const std::string& text);
+
+/// Whether an output is heard by anybody. Start-up is forgiven.
+/// \param listeners in all, of the topics named \param topics for people \param running_sec since the start
+Health outputHealth(int listeners, const std::string& topics, double running_sec);
 
 /// Seconds on the steady clock, which neither /clock nor NTP moves.
 double steadyNowSec();
@@ -37,26 +50,37 @@ class FailureCount {
   std::string last_;
 };
 
-/// Collects what is wrong, publishes it once a second, and says on the console what has changed.
+/// Collects what is wrong, publishes it once a second and as soon as something else is the matter, and says
+/// on the console what has changed.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh);
 
-  /// Asks `check` for its state each second.
+  /// Asks `check` for its state five times a second.
   void add(const std::string& name, std::function<Health()> check);
+  /// Warns while nobody subscribes to any of these outputs; the first is named.
+  void addOutput(const std::string& name, const std::vector<ros::Publisher>& outputs);
+
+  double runningSec() const;  ///< since the start, on the steady clock
 
   void succeeded(const std::string& callback) { failures_.succeeded(callback); }
   void caught(const std::string& callback, const std::string& what);  ///< counted, and said on the console
   const FailureCount& failures() const { return failures_; }
 
  private:
-  void run(const std::string& name, const std::function<Health()>& check,
-           diagnostic_updater::DiagnosticStatusWrapper& status);
+  struct Item {
+    std::function<Health()> check;
+    Health now;
+    std::string said = "ok";  // without numbers
+  };
+  void look();
+  bool lookAt(const std::string& name, Item& item);
   Health clockHealth();
 
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
-  std::map<std::string, Health> said_;
+  std::map<std::string, Item> items_;
+  double published_sec_ = 0.0;
   FailureCount failures_;
   double started_sec_ = 0.0;
   double clock_sec_ = -1.0, clock_moved_sec_ = 0.0;
@@ -72,12 +96,11 @@ class TopicHealth {
   void watch(std::function<std::string()> topic, std::function<int()> publishers);
   void watch(const ros::Subscriber& subscriber);
 
-  void arrived() {
-    arrived_sec_ = steadyNowSec();
-    ++messages_;
-  }
+  void arrived();
   /// \param warning what is odd about the message, or nothing
   void accepted(const std::string& warning = "");
+  /// Stamp of a message that was accepted, beside the clock: its age is told.
+  void stamped(double stamp_sec);
   void refused(const std::string& why);  ///< also says so on the console, at most every 5 s
 
   /// Since the last message that could be used [s], on the steady clock; infinite before the first.
@@ -85,11 +108,14 @@ class TopicHealth {
   Health health() const;
 
  private:
+  Health verdict() const;
+
   std::string name_;
   double silence_sec_;
   std::function<std::string()> topic_;
   std::function<int()> publishers_;
   double started_sec_, arrived_sec_ = -1.0, accepted_sec_ = -1.0, said_sec_ = -1.0;
+  double age_sec_ = 0.0, period_sec_ = 0.0;  // the latter smoothed
   long messages_ = 0, refusals_ = 0;
   std::string refusal_, warning_;
 };

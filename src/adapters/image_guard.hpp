@@ -26,6 +26,7 @@ struct GuardedImage {
   std::shared_ptr<const void> owner;  ///< keeps shared bytes alive
   std::string reason;                 ///< why it was refused; empty if it was not
   std::string warning;                ///< it was read, but look at this
+  double decode_ms = 0.0;             ///< what it took to decode it [ms]
 };
 
 /// Notices pictures that stay the same to the last bit, as those of a stuck camera do under new stamps.

@@ -11,7 +11,6 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kSilenceSec = 2.0;
 constexpr double kStuckSec = 1.0;
 
 std::string available(const image_transport::ImageTransport& transport) {
@@ -66,11 +65,14 @@ void ImageSource::receive(const std_msgs::Header& header, const std::function<Gu
   health_.arrived();
   const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
   if (late) return health_.refused(*late);
+  const double begun_sec = steadyNowSec();
   GuardedImage picture = decode();
+  picture.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
   if (!picture.reason.empty()) return health_.refused(picture.reason);
   if (stuck_.sameForSec(picture.image, steadyNowSec()) > kStuckSec)
     picture.warning = "the picture does not change any more: is the camera stuck?";
   health_.accepted(picture.warning);
+  health_.stamped(header.stamp.toSec());
   callback_(header, picture);
 }
 

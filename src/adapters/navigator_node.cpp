@@ -29,8 +29,8 @@ NavigatorNodeParams checked(NavigatorNodeParams params) {
 NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(checked(readParameters<NavigatorNodeParams>(pnh))),
       diagnostics_(nh, pnh),
-      odom_health_(diagnostics_, "odom", 2.0),
-      pose_health_(diagnostics_, "window_pose", 2.0),
+      odom_health_(diagnostics_, "odom", kSilenceSec),
+      pose_health_(diagnostics_, "window_pose", kSilenceSec),
       odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
       pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
       engagement_(params_.engagement),
@@ -50,6 +50,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
                    [this] { return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec()); });
   odom_health_.watch(odom_subscriber_);
   pose_health_.watch(pose_subscriber_);
+  diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
   diagnostics_.add("mission", [this] { return missionHealth(); });
   start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
       "start", &NavigatorNode::start, this);
@@ -104,6 +105,7 @@ void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   const auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
+  odom_health_.stamped(vehicle.value->stamp_sec);
   input_.vehicle = vehicle.value;
 }
 
@@ -112,6 +114,7 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   const auto late = pose_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return pose_health_.refused(*late);
   input_.image_stamp_sec = stampSec(message->header.stamp);
+  pose_health_.stamped(*input_.image_stamp_sec);
   if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
   const auto target = targetFromMsg(*message, params_.frames.odom);
   if (!target) return pose_health_.refused(target.reason);

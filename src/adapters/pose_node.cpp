@@ -15,7 +15,6 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kSilenceSec = 2.0;
 constexpr double kPendingPeriodSec = 0.01;
 constexpr double kOdometryGoneSec = 0.3;
 
@@ -74,6 +73,13 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
         nh, "imu", queue, diagnostics_, [this](const auto& message) { receiveImu(message); });
     imu_health_->watch(imu_subscriber_);
   }
+  if (params_.gravity_source == "tf") {
+    tf_attitude_.emplace(tf_, params_.frames.odom, params_.frames.base);
+    diagnostics_.add("attitude", [this] { return tf_attitude_->health(); });
+  }
+  if (!params_.publish_tf)
+    diagnostics_.addOutput("window_pose",
+                           {pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_});
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
   diagnostics_.add("frames check", [this] { return framesHealth(); });
   diagnostics_.add("consistency", [this] { return consistencyHealth(); });
@@ -112,6 +118,7 @@ void PoseNode::receiveWindow(const window_ingress::WindowDetectionConstPtr& mess
   const auto late = window_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return window_health_.refused(*late);
   window_health_.accepted();
+  window_health_.stamped(message->header.stamp.toSec());
   if (!lockstep_) processPending(true);
   pending_ = message;
   pending_since_sec_ = steadyNowSec();
@@ -132,6 +139,7 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   const auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
+  odom_health_.stamped(vehicle.value->stamp_sec);
   tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
                        vehicle.value->velocity_odom_mps);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
@@ -153,6 +161,7 @@ void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
   const auto rotation = attitudeFromMsg(*message);
   if (!rotation) return imu_health_->refused(rotation.reason);
   imu_health_->accepted();
+  imu_health_->stamped(*stamp_sec);
   tracker_.addAttitude(*stamp_sec, *rotation.value);
 }
 
@@ -202,13 +211,15 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
     return;
   }
   const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
-                                       static_cast<int>(message.image_height), message.header.frame_id);
+                                       static_cast<int>(message.image_height), message.header);
   if (!camera) {
     out.reject = window_ingress::WindowPose::NO_CALIBRATION;
     out.reject_reason = out.filtered_reason = camera.reason;
     return;
   }
-  if (params_.gravity_source == "tf") takeAttitudeFromTf(window.value->stamp_sec);
+  if (tf_attitude_)
+    if (const auto R_odom_base = tf_attitude_->at(window.value->stamp_sec))
+      tracker_.addAttitude(window.value->stamp_sec, *R_odom_base);
   tracker_.see(*window.value, *camera.value, T_base_camera_.value);
   tracker_.flush();
   fill(out, tracker_.lastUpdate().pose);
@@ -217,15 +228,6 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
   return mountingOf(tf_, params_.frames.base, camera_frame);
-}
-
-void PoseNode::takeAttitudeFromTf(double stamp_sec) {
-  try {
-    const auto found = tf_.lookupTransform(params_.frames.odom, params_.frames.base, toStamp(stamp_sec));
-    const auto rotation = fromMsg(found.transform.rotation);
-    if (rotation) tracker_.addAttitude(stamp_sec, *rotation.value);
-  } catch (const tf2::TransformException&) {  // not there yet: this image goes without
-  }
 }
 
 void PoseNode::publish(const window_ingress::WindowPose& message) {

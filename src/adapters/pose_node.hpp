@@ -18,6 +18,7 @@
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/stamps.hpp"
+#include "adapters/tf_attitude.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
 
 namespace window_ingress::adapters {
@@ -70,7 +71,6 @@ class PoseNode : public Node {
   void publishFiltered(const window_ingress::WindowPose& message, const pose::FilteredWindow& window);
 
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
-  void takeAttitudeFromTf(double stamp_sec);
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
   Health framesHealth() const;
@@ -94,6 +94,7 @@ class PoseNode : public Node {
   Converted<Eigen::Isometry3d> T_base_camera_;
 
   tf2_ros::Buffer tf_;
+  std::optional<TfAttitude> tf_attitude_;
   tf2_ros::TransformListener tf_listener_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Subscriber window_subscriber_, odom_subscriber_, imu_subscriber_;

@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "adapters/parameters.hpp"
+#include "window_ingress/detection/reference_drawing.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::adapters {
@@ -50,20 +51,25 @@ detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
   return makeReference(picture, reference.corners, params);
 }
 
-void saveReference(const std::string& file, const cv::Mat& picture, const geometry::Quadrilateral& opening) {
+void saveReference(const std::string& file, const detection::ReferenceAppearance& reference,
+                   const detection::DetectorParams& params) {
   namespace fs = std::filesystem;
   const fs::path path = fs::absolute(file);
+  const geometry::Quadrilateral& opening = reference.opening();
   std::error_code ignored;
   fs::create_directories(path.parent_path(), ignored);
-  if (!writePicture(path.string(), picture))
-    throw ParameterError("reference/capture_file: cannot write '" + path.string() + "' as a picture");
+  const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
+  if (!writePicture(path.string(), reference.picture()) ||
+      !writePicture(understood.string(), detection::drawReference(reference, params.appearance)))
+    throw ParameterError("reference: cannot write '" + path.string() +
+                         "' as a picture, or what is beside it");
   const fs::path text = fs::path(path).replace_extension(".yaml");
   std::ofstream output(text);
-  output << "reference:\n  picture: " << quoted(path.string()) << "\n  corners: [";
+  output << "window_detector:\n  reference:\n    picture: " << quoted(path.string()) << "\n    corners: [";
   for (int i = 0; i < 4; ++i) output << (i ? ", " : "") << opening[i].x() << ", " << opening[i].y();
   output << "]\n";
   output.close();
-  if (!output) throw ParameterError("reference/capture_file: cannot write '" + text.string() + "'");
+  if (!output) throw ParameterError("reference: cannot write '" + text.string() + "'");
 }
 
 }  // namespace window_ingress::adapters

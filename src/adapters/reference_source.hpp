@@ -16,8 +16,8 @@ struct ReferenceParams {
   std::string picture;          ///< file; empty: no reference
   std::vector<double> corners;  ///< of the opening's inner border in it, x1 y1 .. x4 y4 from top left,
                                 ///< clockwise [px]; empty: the whole picture is the target with its frame
-  std::string capture_file;  ///< picture that ~capture_reference writes; beside it, .yaml, these parameters
-                             ///< for it; empty: nothing is written
+  std::string capture_file;     ///< picture that ~capture_reference writes; beside it .yaml, these parameters
+                             ///< for it, and _understood.png, what is made of it; empty: nothing is written
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("picture", self.picture);
@@ -34,8 +34,11 @@ detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params);
 
-/// Writes a captured reference: the picture, and in a file of the same name that ends in .yaml the parameters
-/// `reference` that load it. \throws ParameterError that says which file could not be written
-void saveReference(const std::string& file, const cv::Mat& picture, const geometry::Quadrilateral& opening);
+/// Writes a reference: the picture; in a file of the same name that ends in .yaml the parameters that load
+/// it, below the node's name, so that it can be laid over the defaults as `config:=`; and in one that ends in
+/// _understood.png what is made of it (`detection::drawReference`). \throws ParameterError that says which
+/// file could not be written
+void saveReference(const std::string& file, const detection::ReferenceAppearance& reference,
+                   const detection::DetectorParams& params);
 
 }  // namespace window_ingress::adapters

@@ -39,6 +39,10 @@ std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double 
         age_sec / 86400.0, limits_.max_age_sec);
   if (age_sec > limits_.max_age_sec)
     return withNumber("stamp is %.2f s old, limit %.2f s", age_sec, limits_.max_age_sec);
+  if (-age_sec > 86400.0)
+    return withNumber(
+        "stamp is %.0f days ahead of the clock; is use_sim_time set beside a real source? (limit %.2f s)",
+        -age_sec / 86400.0, limits_.max_future_sec);
   if (-age_sec > limits_.max_future_sec)
     return withNumber("stamp is %.2f s ahead of the clock, limit %.2f s", -age_sec, limits_.max_future_sec);
   if (clock_.jumpedBack(now_sec)) last_sec_.reset();

@@ -1,6 +1,7 @@
 #include "adapters/world_messages.hpp"
 
 #include "adapters/image_message.hpp"
+#include "adapters/parameters.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
@@ -94,6 +95,14 @@ std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d&
       geometry::makePose(R_optical_flu.transpose(), Eigen::Vector3d::Zero());
   return {toTransformStampedMsg(T_base_link, headerOf(stamp, frames.base), "camera_link"),
           toTransformStampedMsg(T_link_optical, headerOf(stamp, "camera_link"), camera_frame)};
+}
+
+std::string checkedUrl(const std::string& url) {
+  for (const char* scheme : {"file:///", "package://"})
+    if (url.rfind(scheme, 0) == 0) return url;
+  if (!url.empty())
+    throw ParameterError("camera_info_url is '" + url + "', must begin with file:/// or package://");
+  return url;
 }
 
 }  // namespace window_ingress::adapters

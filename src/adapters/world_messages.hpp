@@ -38,4 +38,7 @@ std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d&
                                                         const ros::Time& stamp, const FrameNames& frames,
                                                         const std::string& camera_frame);
 
+/// The address of a calibration file as camera_info_manager has it, or none. \throws ParameterError
+std::string checkedUrl(const std::string& url);
+
 }  // namespace window_ingress::adapters

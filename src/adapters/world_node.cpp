@@ -5,6 +5,7 @@
 #include "adapters/guarded.hpp"
 #include "adapters/parameters.hpp"
 #include "adapters/stamps.hpp"
+#include "adapters/world_messages.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -37,7 +38,7 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       epoch_sec_(params_.start_time_sec),
       created_sec_(steadyNowSec()),
       ticked_sec_(created_sec_),
-      camera_info_(nh, "world"),
+      camera_info_(nh, "world", checkedUrl(params_.camera_info_url)),
       publishers_(nh, params_.frames, params_.camera_frame, params_.lockstep),
       referee_(nh, params_.verdict_file) {
   const simulation::Scenario scenario = load(params_);
@@ -46,13 +47,19 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     lockstep_.emplace(nh, params_.camera_frame, params_.lockstep_timeout_sec);
     diagnostics_.add("lockstep", [this] { return lockstep_->health(); });
   }
-  camera_info_.setCameraInfo(toMsg(scenario.camera.model()));
+  calibrate(scenario);
   restart();
   subscribe(nh);
   diagnostics_.add("speed", [this] { return speedHealth(); });
   reset_ = pnh.advertiseService("reset", &WorldNode::reset, this);
   inject_ = pnh.advertiseService("inject", &WorldNode::inject, this);
   timer_ = createGuardedTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
+}
+
+// What somebody has found out about this camera, or else the truth.
+void WorldNode::calibrate(const simulation::Scenario& scenario) {
+  if (!params_.camera_info_url.empty() && camera_info_.isCalibrated()) return;
+  camera_info_.setCameraInfo(toMsg(scenario.camera.model()));
 }
 
 void WorldNode::subscribe(ros::NodeHandle& nh) {

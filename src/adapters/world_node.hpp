@@ -35,8 +35,10 @@ struct WorldNodeParams {
       false;  ///< the world waits at each picture until the vehicle has answered: runs repeat exactly
   bool realtime = false;  ///< in lockstep: not faster than real_time_factor, instead of as fast as it goes
   double lockstep_timeout_sec =
-      2.0;                   ///< in lockstep, on the steady clock: longer than this it does not wait [s]
-  std::string verdict_file;  ///< json with the referee's verdict, written at the end; empty: none
+      2.0;                      ///< in lockstep, on the steady clock: longer than this it does not wait [s]
+  std::string camera_info_url;  ///< calibration that camera_info tells, and where set_camera_info saves one:
+                                ///< file:///.. or package://..; empty: the true one is told
+  std::string verdict_file;     ///< json with the referee's verdict, written at the end; empty: none
   std::string camera_frame = "camera_optical_frame";
   FrameNames frames;
   template <typename Self, typename Visitor>
@@ -50,6 +52,7 @@ struct WorldNodeParams {
     field("lockstep", self.lockstep);
     field("realtime", self.realtime);
     field("lockstep_timeout_sec", self.lockstep_timeout_sec, 0.05, 600.0);
+    field("camera_info_url", self.camera_info_url);
     field("verdict_file", self.verdict_file);
     field("camera_frame", self.camera_frame);
     FrameNames::visit(self.frames, field);
@@ -70,6 +73,7 @@ class WorldNode : public Node {
   using Inject = window_ingress::Inject;
 
   void subscribe(ros::NodeHandle& nh);
+  void calibrate(const simulation::Scenario& scenario);
   void restart();
   void tick();
   void tickLockstep();

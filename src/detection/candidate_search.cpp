@@ -66,6 +66,7 @@ const std::vector<Rival>& CandidateSearch::run(const cv::Mat& image, const geome
   factor_ = level.factor;
   level_size_ = level.image.size();
   lens_.set(camera, level_size_, factor_);
+  done(watch_, Stage::kPreprocess);
   look(level.image);
   return combine(SegmentQuads::kQuick, trace);
 }
@@ -73,18 +74,22 @@ const std::vector<Rival>& CandidateSearch::run(const cv::Mat& image, const geome
 // From edges to segments and outlines.
 void CandidateSearch::look(const cv::Mat& level) {
   map_ = &edges_.run(level);
+  done(watch_, Stage::kEdges);
   segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
+  done(watch_, Stage::kLines);
   keepOnSegments(runs_, lines_, level_size_, straight_);
   outlines_ = contours_.run(closing_.run(straight_), closing_.radiusPx(level_size_));
   for (CandidateTrace& rejected : outlines_.rejected) rejected.quad = inFullImage(rejected.quad, factor_);
   for (Candidate& outline : outlines_.candidates)
     for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
+  done(watch_, Stage::kOutlines);
 }
 
 const std::vector<Rival>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
   kept_.clear();
   if (colours.empty()) return kept_;
+  done(watch_, Stage::kPreprocess);
   look(colours);
   return combine(SegmentQuads::kThorough, trace);
 }
@@ -106,6 +111,7 @@ const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& e
   admit(quads.candidates, trace);
   admit(outlines_.candidates, trace);
   keepBest(trace);
+  done(watch_, Stage::kCandidates);
   return kept_;
 }
 

@@ -130,4 +130,13 @@ void sampleRing(const cv::Mat& image, const Quadrilateral& quad, double near_wid
   samples.darkest = dark.darkest();
 }
 
+geometry::Quadrilateral ringLine(const Quadrilateral& quad, double distance) {
+  const Measured opening(quad);
+  const auto corners = ringCorners(opening.inUnits(distance));
+  Quadrilateral line;
+  for (int i = 0; i < 4; ++i)
+    line[i] = Eigen::Vector3d(opening.map.matrix() * corners[i].homogeneous()).hnormalized();
+  return line;
+}
+
 }  // namespace window_ingress::detection

@@ -57,6 +57,7 @@ struct WindowDetector::Impl {
   BorderRefinement refinement;
   DetectionTrace trace;
   std::vector<Rival> rivals;
+  StageWatch* watch = nullptr;
 };
 
 double WindowDetector::Impl::leastScore(const Rival& rival) const {
@@ -120,7 +121,10 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
                                                              const geometry::PinholeCamera* camera) {
   const bool compared = reference.judge(image, camera, rivals);
   if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
-  return choose(image, stamp_sec, camera);
+  done(watch, Stage::kReference);
+  auto window = choose(image, stamp_sec, camera);
+  done(watch, Stage::kBorders);
+  return window;
 }
 
 WindowDetector::WindowDetector(const DetectorParams& params) {
@@ -134,7 +138,14 @@ void WindowDetector::setParams(const DetectorParams& params) {
   check(params);
   auto next = std::make_unique<Impl>(params);
   next->reference.learn(impl_->reference.reference());
+  StageWatch* const watch = impl_->watch;
   impl_ = std::move(next);
+  setWatch(watch);
+}
+
+void WindowDetector::setWatch(StageWatch* watch) {
+  impl_->watch = watch;
+  impl_->search.setWatch(watch);
 }
 
 void WindowDetector::setReference(const ReferenceAppearance& reference) {
@@ -169,6 +180,8 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   explain(impl_->trace);
   return window;
 }
+
+StageWatch* WindowDetector::watch() const { return impl_->watch; }
 
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
 

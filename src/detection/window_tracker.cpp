@@ -260,6 +260,8 @@ void WindowTracker::clearReference() {
   impl_->forget();
 }
 
+void WindowTracker::setWatch(StageWatch* watch) { impl_->detector.setWatch(watch); }
+
 void WindowTracker::reset() {
   impl_->likeness.forget();
   impl_->forget();
@@ -272,7 +274,9 @@ std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) 
     return impl_->detector.detect(input.image, input.stamp_sec, input.camera);
   }
   impl_->begin(input);
-  if (impl_->tracking && impl_->follow(input)) {
+  const bool followed = impl_->tracking && impl_->follow(input);
+  done(impl_->detector.watch(), Stage::kTrack);
+  if (followed) {
     impl_->has_own_trace = true;
     traceFollowed(impl_->window, impl_->own_trace);
     if (auto whole = impl_->complete(input)) return whole;

@@ -72,12 +72,28 @@ std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
 
 void YamlReader::refuseUnknownKeys() const { impl_->mapping.refuseUnknownKeys(); }
 
+namespace {
+
+// At the top of the file, or below the name of a node, as in the files that launch files lay over the
+// defaults.
+YAML::Node sectionOf(const YAML::Node& root, const std::string& section) {
+  if (const YAML::Node found = root[section]; found.IsDefined()) return found;
+  for (const auto& node : root) {
+    if (!node.second.IsMap()) continue;
+    const YAML::Node& below = node.second;
+    if (const YAML::Node found = below[section]; found.IsDefined()) return found;
+  }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+}  // namespace
+
 bool visitYamlFile(const std::string& file, const std::string& section,
                    const std::function<void(YamlReader&)>& visit) {
   YAML::Node root = loadYaml(file);
   if (!section.empty()) {
     if (!root.IsMap()) throw YamlError(file + ":1: must be a mapping of keys to values");
-    const YAML::Node found = static_cast<const YAML::Node&>(root)[section];
+    const YAML::Node found = sectionOf(root, section);
     if (!found.IsDefined()) return false;
     root.reset(found);
   }

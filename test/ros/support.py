@@ -39,6 +39,7 @@ class Listener:
     """Messages of a topic with the wall time at which they came."""
 
     def __init__(self, topic, kind):
+        self.kind = kind
         self._lock = threading.Lock()
         self._messages = []
         self._subscriber = rospy.Subscriber(topic, kind, self._receive)
@@ -78,13 +79,20 @@ class Stream:
         self._publisher = self._publishers[topic]
         self.make = make
         self._period_s = 1.0 / rate_hz
+        self._paused = False
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 
+    def pause(self):
+        self._paused = True
+
+    def resume(self):
+        self._paused = False
+
     def _run(self):
         while not self._stop.wait(self._period_s):
-            if not rospy.is_shutdown():
+            if not rospy.is_shutdown() and not self._paused:
                 self._publisher.publish(self.make(rospy.Time.now()))
 
     def stop(self):

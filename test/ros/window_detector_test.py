@@ -136,9 +136,10 @@ class WindowDetectorTest(unittest.TestCase):
         self.assertLess(window.bhattacharyya, 0.2)
         support.Diagnostics().wait("window_detector: reference", "live image", "distance")
         with open(os.path.splitext(CAPTURE_FILE)[0] + ".yaml") as file:
-            kept = yaml.safe_load(file)["reference"]
+            kept = yaml.safe_load(file)["window_detector"]["reference"]
         self.assertEqual(kept["picture"], CAPTURE_FILE)
         self.assertGreater(os.path.getsize(CAPTURE_FILE), 1000)
+        self.assertGreater(os.path.getsize(os.path.splitext(CAPTURE_FILE)[0] + "_understood.png"), 1000)
         for (x, y), wanted in zip(zip(kept["corners"][::2], kept["corners"][1::2]), support.CORNERS):
             self.assertAlmostEqual(x, wanted[0], delta=1.5)
             self.assertAlmostEqual(y, wanted[1], delta=1.5)

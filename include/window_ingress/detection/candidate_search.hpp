@@ -8,6 +8,7 @@
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/nested_loops.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/stage_watch.hpp"
 
 namespace window_ingress::detection {
 
@@ -48,6 +49,9 @@ class CandidateSearch {
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   const std::vector<Rival>& runOnColours(DetectionTrace& trace);
 
+  /// \param watch told of each stage that is done, or null; outlives this
+  void setWatch(StageWatch* watch) { watch_ = watch; }
+
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
  private:
@@ -72,6 +76,7 @@ class CandidateSearch {
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
   std::vector<Rival> admitted_, kept_;
+  StageWatch* watch_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;
 };

@@ -30,4 +30,8 @@ struct RingSamples {
 void sampleRing(const cv::Mat& image, const geometry::Quadrilateral& opening, double near_width,
                 double far_width, RingSamples& samples);
 
+/// The line round an opening at this distance from its border, in mean sides of the opening; corners are not
+/// finite where the plane of the window is seen edge-on.
+geometry::Quadrilateral ringLine(const geometry::Quadrilateral& opening, double distance);
+
 }  // namespace window_ingress::detection

@@ -9,6 +9,7 @@
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/stage_watch.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -35,6 +36,10 @@ class WindowDetector {
   /// \return nothing if no candidate passes all gates; `trace()` then says why
   std::optional<WindowObservation> detect(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera = nullptr);
+
+  /// \param watch told of each stage that is done, or null; outlives this, and its `begin` is for its owner
+  void setWatch(StageWatch* watch);
+  StageWatch* watch() const;
 
   /// What happened to every candidate of the last image.
   const DetectionTrace& trace() const;

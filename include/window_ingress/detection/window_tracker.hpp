@@ -6,6 +6,7 @@
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/stage_watch.hpp"
 #include "window_ingress/detection/track_input.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 
@@ -48,6 +49,8 @@ class WindowTracker {
 
   /// \return nothing if the target is not seen; `trace()` then says why
   std::optional<WindowObservation> update(const TrackInput& input);
+
+  void setWatch(StageWatch* watch);  ///< as `WindowDetector::setWatch`; following is a stage, too
 
   /// What happened in the last frame: the search's trace, or that of a followed window.
   const DetectionTrace& trace() const;

@@ -50,8 +50,9 @@ class YamlReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Visits the mapping `section` of a yaml file, or the whole file if `section` is empty; false, and nothing visited, if
-/// the file has no such section. \throws YamlError
+/// Visits the mapping `section` of a yaml file, at its top or below the name of a node ("window_detector: {detector: ..}"),
+/// or the whole file if `section` is empty; false, and nothing visited, if the file has no such section.
+/// \throws YamlError
 bool visitYamlFile(const std::string& file, const std::string& section,
                    const std::function<void(YamlReader&)>& visit);
 

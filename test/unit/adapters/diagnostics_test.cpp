@@ -34,5 +34,18 @@ TEST(FailureCount, RecoveryLeavesAWarning) {
   EXPECT_EQ(failures.health().level, Health::kWarn);
 }
 
+TEST(Output, NobodyHearsIsAWarningOnceStartUpIsOver) {
+  EXPECT_EQ(outputHealth(0, "/window", 0.1).level, Health::kOk);
+  EXPECT_EQ(outputHealth(0, "/window", 5.0).level, Health::kWarn);
+  EXPECT_EQ(outputHealth(0, "/window", 5.0).text, "nobody subscribes to /window");
+  EXPECT_EQ(outputHealth(1, "/window", 5.0).level, Health::kOk);
+}
+
+TEST(WithoutNumbers, CountersAreNoNews) {
+  EXPECT_EQ(withoutNumbers("3.50 s old, limit 0.5 s"), withoutNumbers("-14 s old, limit 1 s"));
+  EXPECT_NE(withoutNumbers("3 s old"), withoutNumbers("3 s ahead"));
+  EXPECT_EQ(withoutNumbers(""), "");
+}
+
 }  // namespace
 }  // namespace window_ingress::adapters

@@ -47,6 +47,13 @@ TEST(StampGate, TellsOfABagPlayedWithoutSimulatedTime) {
   EXPECT_NE(gate.whyRefused(ros::Time(1700000000.0), 1790000000.0)->find("use_sim_time"), std::string::npos);
 }
 
+TEST(StampGate, TellsOfSimulatedTimeBesideARealSource) {
+  StampGate gate{StampLimits{}};
+  const std::string reason = *gate.whyRefused(ros::Time(1790000000.0), 100.0);
+  EXPECT_NE(reason.find("20718 days ahead of the clock; is use_sim_time set"), std::string::npos) << reason;
+  EXPECT_NE(gate.whyRefused(ros::Time(1790000000.0), 1789999990.0)->find("10.00 s ahead"), std::string::npos);
+}
+
 TEST(StampGate, StartsAnewWhenTheClockJumpsBack) {
   StampGate gate{StampLimits{}};
   EXPECT_FALSE(gate.whyRefused(ros::Time(200.0), 200.0));

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::evaluation {
+
+/// A picture, and where the opening is in it.
+struct LabelledPicture {
+  std::string name;   ///< for people
+  std::string group;  ///< pictures that look alike, such as neighbours in a video, are of one group
+  cv::Mat image;      ///< CV_8UC1 or CV_8UC3
+  std::vector<geometry::Quadrilateral> targets;  ///< inner borders; any of them may be found; none: no window
+  std::optional<geometry::PinholeCamera> camera;
+};
+
+/// What the detector made of some pictures. Found: a detection whose overlap with a target is at least
+/// `kSameIou`; any other detection is false.
+struct DetectionCounts {
+  static constexpr double kSameIou = 0.7;
+
+  int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed`: of the pictures with a target
+  double overlap = 0.0;                  ///< sum of the overlaps of those found
+
+  double recall() const;     ///< 1 where there is nothing to find
+  double precision() const;  ///< 1 where nothing was detected
+  double f1() const;         ///< harmonic mean of both
+  /// What a search may climb on: `f1`, and a little for better corners.
+  double merit() const;
+  /// "recall 90.0 % (74.4 to 96.5 %, 27 of 30), precision ..." with 95 % Wilson intervals
+  std::string text() const;
+};
+
+DetectionCounts countDetections(const std::vector<LabelledPicture>& pictures,
+                                const detection::DetectorParams& params,
+                                const detection::ReferenceAppearance* reference);
+
+/// Reads annotations: a csv file with columns file, x1, y1 .. x4, y4, in any order and beside others; a row a
+/// target, without numbers: no target in that picture. Labels that begin with "pose_only_" are left out.
+/// \param folder where the pictures are
+/// \throws TableError that says what is wrong, and in which line
+std::vector<LabelledPicture> readLabelled(const std::string& csv_file, const std::string& folder);
+
+/// A picture of a window whose pose is known. Nothing if the picture shows only a part of it.
+std::optional<LabelledPicture> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
+                                        const geometry::PinholeCamera& camera,
+                                        const geometry::OpeningSize& opening);
+
+/// By groups, drawn by the seed: (the rest, `held_out` of the groups, at least one). \throws
+/// std::invalid_argument if there are fewer than two groups
+std::pair<std::vector<LabelledPicture>, std::vector<LabelledPicture>> split(
+    const std::vector<LabelledPicture>& pictures, double held_out, std::uint32_t seed);
+
+}  // namespace window_ingress::evaluation

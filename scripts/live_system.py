@@ -1,0 +1,187 @@
+"""What doctor asks a running ROS system: master, nodes, topics and what passes on them. Nothing here waits for ROS time."""
+import math
+import os
+import socket
+import struct
+import threading
+import time
+import xmlrpc.client
+
+import numpy
+import rosgraph
+import rospy
+from genpy.dynamic import generate_dynamic
+from geometry_msgs.msg import TransformStamped
+
+CALLER = "/doctor"
+PATIENCE_S = 3.0  # for an answer of the master or of a node
+
+
+def master():
+    """The master, or None if it does not answer."""
+    socket.setdefaulttimeout(PATIENCE_S)
+    found = rosgraph.Master(CALLER)
+    try:
+        found.getPid()
+        return found
+    except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+        return None
+
+
+class Graph:
+    """Who is registered, and what with."""
+
+    def __init__(self, master_):
+        publishers, subscribers, services = master_.getSystemState()
+        self.publishers, self.subscribers, self.services = dict(publishers), dict(subscribers), dict(services)
+        self.types = dict(master_.getTopicTypes())
+        self._master = master_
+
+    def nodes(self):
+        return sorted({node for table in (self.publishers, self.subscribers, self.services) for nodes in table.values()
+                       for node in nodes})
+
+    def answers(self, node):
+        return self._ask(node, "getPid") is not None
+
+    def subscriptions(self, node):
+        """{topic: type} as the node itself says; the master knows only one type a topic."""
+        return dict(self._ask(node, "getSubscriptions") or [])
+
+    def publications(self, node):
+        return dict(self._ask(node, "getPublications") or [])
+
+    def topics_of_type(self, kind):
+        return sorted(topic for topic, type_ in self.types.items() if type_ == kind and self.publishers.get(topic))
+
+    def _ask(self, node, question):
+        try:
+            api = xmlrpc.client.ServerProxy(self._master.lookupNode(node))
+            code, _, answer = getattr(api, question)(CALLER)
+            return answer if code == 1 else None
+        except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+            return None
+
+
+class Sample:
+    """What passed on a topic, of whatever type; stamps are read from the bytes of those that begin with a header."""
+
+    def __init__(self, topic, stamped=True):
+        self.times, self.stamps, self.ages, self.last = [], [], [], None
+        self._stamped = stamped
+        self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, queue_size=100)
+
+    def _receive(self, message):
+        self.times.append(time.monotonic())
+        self.last = message._buff
+        if self._stamped and len(self.last) >= 12:
+            _, sec, nsec = struct.unpack_from("<III", self.last)
+            self.stamps.append(sec + 1e-9 * nsec)
+            self.ages.append(rospy.Time.now().to_sec() - self.stamps[-1])
+
+    def stop(self):
+        self._subscriber.unregister()
+
+    def rate_hz(self):
+        """By the stamps, so that simulated time may run at any speed; by arrival where they do not go on."""
+        moments = self.stamps if len(self.stamps) > 1 and self.stamps[-1] > self.stamps[0] else self.times
+        return self._rate(moments)
+
+    def arrival_hz(self):
+        """By the clock on the wall."""
+        return self._rate(self.times)
+
+    @staticmethod
+    def _rate(moments):
+        return (len(moments) - 1) / max(1e-6, moments[-1] - moments[0]) if len(moments) > 1 else 0.0
+
+    def message(self, kind):
+        """The last one, or None. rospy gives all subscribers of a topic what the first of them asked for: bytes."""
+        if self.last is None:
+            return None
+        message = kind()
+        message.deserialize(self.last)
+        return message
+
+    def age_s(self):
+        """Median, seconds; None if nothing came."""
+        return sorted(self.ages)[len(self.ages) // 2] if self.ages else None
+
+    def image_size(self):
+        """(width, height) of a sensor_msgs/Image, or None."""
+        if self.last is None:
+            return None
+        length = struct.unpack_from("<I", self.last, 12)[0]
+        height, width = struct.unpack_from("<II", self.last, 16 + length)
+        return width, height
+
+
+class Collector:
+    """Messages of one topic, as they come."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self._subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=100)
+
+    def stop(self):
+        self._subscriber.unregister()
+
+
+def rotation_matrix(q):
+    norm = math.sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)
+    x, y, z, w = (value / norm for value in (q.x, q.y, q.z, q.w))
+    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+class Transforms:
+    """/tf and /tf_static as they come; their Python package need not be installed."""
+
+    def __init__(self):
+        self._lock = threading.Lock()
+        self._parent = {}  # child -> (parent, 4x4)
+        text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
+                + TransformStamped._full_text)
+        kind = generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
+        self._subscribers = [rospy.Subscriber(topic, kind, self._receive, queue_size=100) for topic in ("/tf", "/tf_static")]
+
+    def _receive(self, message):
+        for item in message.transforms:
+            T = numpy.eye(4)
+            move = item.transform.translation
+            T[:3, 3] = move.x, move.y, move.z
+            if any((item.transform.rotation.x, item.transform.rotation.y, item.transform.rotation.z, item.transform.rotation.w)):
+                T[:3, :3] = rotation_matrix(item.transform.rotation)
+            with self._lock:
+                self._parent[item.child_frame_id.lstrip("/")] = (item.header.frame_id.lstrip("/"), T)
+
+    def _to_root(self, frame):
+        chain, T = {frame: numpy.eye(4)}, numpy.eye(4)
+        while frame in self._parent and len(chain) < 1000:
+            parent, T_parent_frame = self._parent[frame]
+            T, frame = T_parent_frame @ T, parent
+            if frame in chain:
+                break
+            chain[frame] = T
+        return chain  # ancestor -> T_ancestor_frame
+
+    def frames(self):
+        with self._lock:
+            return sorted(set(self._parent) | {parent for parent, _ in self._parent.values()})
+
+    def between(self, a, b):
+        """T_a_b, or None if they are not connected."""
+        with self._lock:
+            of_a, of_b = self._to_root(a), self._to_root(b)
+        for ancestor, T_ancestor_a in of_a.items():
+            if ancestor in of_b:
+                return numpy.linalg.inv(T_ancestor_a) @ of_b[ancestor]
+        return None
+
+
+def free_gigabytes(folder):
+    while folder and not os.path.isdir(folder):
+        folder = os.path.dirname(folder)
+    state = os.statvfs(folder or "/")
+    return state.f_bavail * state.f_frsize / 1e9

@@ -1,0 +1,28 @@
+#include "window_ingress/detection/stage_watch.hpp"
+
+#include <algorithm>
+
+namespace window_ingress::detection {
+
+const char* toString(Stage stage) {
+  static constexpr std::array<const char*, kStages> kNames = {
+      "track", "preprocess", "edges", "lines", "outlines", "candidates", "reference", "borders"};
+  return kNames[static_cast<int>(stage)];
+}
+
+void StageWatch::begin() {
+  sec_.fill(0.0);
+  last_sec_ = clock_();
+}
+
+void StageWatch::done(Stage stage) {
+  const double now_sec = clock_();
+  sec_[static_cast<int>(stage)] += now_sec - last_sec_;
+  last_sec_ = now_sec;
+}
+
+Stage StageWatch::slowest() const {
+  return static_cast<Stage>(std::max_element(sec_.begin(), sec_.end()) - sec_.begin());
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,112 @@
+#include "window_ingress/parameters/field_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+namespace window_ingress::parameters {
+namespace {
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts;
+  std::istringstream stream(path);
+  for (std::string part; std::getline(stream, part, '/');) parts.push_back(part);
+  return parts;
+}
+
+// The fewest digits that read back as the same number, with a point: without one, ROS takes it for an int,
+// and "1e-05" for a text.
+std::string shortest(double value) {
+  std::string text;
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::ostringstream stream;
+    stream << std::setprecision(digits) << value;
+    text = stream.str();
+    if (std::strtod(text.c_str(), nullptr) == value) break;
+  }
+  if (text.find('.') != std::string::npos) return text;
+  return text.insert(std::min(text.find('e'), text.size()), ".0");
+}
+
+double number(const std::string& text) {
+  if (text == "true") return 1.0;
+  if (text == "false") return 0.0;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw std::invalid_argument("'" + text + "' is no number");
+  return value;
+}
+
+}  // namespace
+
+double FieldLister::nearest(double wanted, double before, NamedField::Kind kind, double minimum,
+                            double maximum) {
+  if (std::isnan(wanted)) return before;
+  const double inside = std::clamp(wanted, minimum, maximum);
+  return kind == NamedField::kNumber ? inside : std::round(inside);
+}
+
+const NamedField* find(const std::vector<NamedField>& fields, const std::string& name) {
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&](const NamedField& field) { return field.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+std::string toText(const NamedField& field) {
+  if (field.kind == NamedField::kSwitch) return field.get() != 0.0 ? "true" : "false";
+  return field.kind == NamedField::kWhole ? std::to_string(std::lround(field.get())) : shortest(field.get());
+}
+
+void assign(const std::vector<NamedField>& fields, const std::string& assignment) {
+  const std::size_t sign = assignment.find('=');
+  const std::string name = assignment.substr(0, sign);
+  const NamedField* field = find(fields, name);
+  if (!field || sign == std::string::npos)
+    throw std::invalid_argument("'" + assignment + "': needs NAME=VALUE with the name of a number, like " +
+                                (fields.empty() ? "none" : fields.front().name));
+  const double value = number(assignment.substr(sign + 1));
+  RangeCheck check;
+  check(name, value, field->minimum, field->maximum);
+  if (!check.faults().empty()) throw std::invalid_argument(check.faults().front());
+  field->set(value);
+}
+
+std::vector<NamedField> changed(const std::vector<NamedField>& fields,
+                                const std::vector<NamedField>& before) {
+  std::vector<NamedField> result;
+  for (const NamedField& field : fields) {
+    const NamedField* old = find(before, field.name);
+    if (old && old->get() != field.get()) result.push_back(field);
+  }
+  return result;
+}
+
+std::string toYaml(const std::vector<NamedField>& fields, const std::string& path) {
+  std::ostringstream text;
+  std::vector<std::string> open;
+  const auto descend = [&](const std::vector<std::string>& groups) {
+    std::size_t same = 0;
+    while (same < open.size() && same < groups.size() && open[same] == groups[same]) ++same;
+    open.resize(same);
+    for (; open.size() < groups.size(); open.push_back(groups[open.size()]))
+      text << std::string(2 * open.size(), ' ') << groups[open.size()] << ":\n";
+  };
+  const std::vector<std::string> top = split(path);
+  for (const NamedField& field : fields) {
+    std::vector<std::string> groups = top, names = split(field.name);
+    groups.insert(groups.end(), names.begin(), names.end() - 1);
+    descend(groups);
+    text << std::string(2 * open.size(), ' ') << names.back() << ": " << toText(field) << "\n";
+  }
+  if (fields.empty() && !top.empty()) {
+    descend({top.begin(), top.end() - 1});
+    text << std::string(2 * open.size(), ' ') << top.back() << ": {}\n";
+  }
+  return text.str();
+}
+
+}  // namespace window_ingress::parameters

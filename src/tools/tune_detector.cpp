@@ -1,0 +1,250 @@
+/// Trackbars over the detector's stages, on pictures, a bag or a live camera; saves the yaml that nodes and
+/// tools load. See
+/// --help.
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <opencv2/highgui.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/parameters.hpp"
+#include "adapters/reference_source.hpp"
+#include "command_line.hpp"
+#include "display.hpp"
+#include "tuning_bench.hpp"
+#include "tuning_source.hpp"
+#include "window_ingress/evaluation/statistics.hpp"
+#include "window_ingress/parameters/slider.hpp"
+
+namespace {
+
+namespace options = boost::program_options;
+using namespace window_ingress;
+using parameters::NamedField;
+using tools::Bench;
+using tools::UsageError;
+
+const char *const kStages = "stages", *const kSliders = "parameters";
+const char* const kKeys =
+    "keys: g/G next or previous group of parameters, n/p next or previous picture, d defaults of this group, "
+    "s save, h "
+    "these keys, q or Esc quit";
+
+struct Job {
+  std::string source, output, params, corners, topic, sheet;
+  adapters::ReferenceParams reference;
+  std::vector<std::string> settings;
+  int every = 10, most = 100, width = 400;
+  bool headless = false;
+};
+
+options::options_description describe(Job& job) {
+  options::options_description description(
+      std::string("tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
+                  "SOURCE: a picture, a folder of pictures, a bag, or a topic "
+                  "of pictures (begins with '/').\n") +
+      kKeys + ".\n");
+  description.add_options()("help", "print this text")      //
+      ("source", options::value(&job.source), "see above")  //
+      ("output", options::value(&job.output),
+       "yaml file with what differs from the defaults, for config:= and --params")                  //
+      ("params", options::value(&job.params), "yaml file with a section 'detector' to start from")  //
+      ("set", options::value(&job.settings)->composing(),
+       "NAME=VALUE, like edges/floor=4.5; may be repeated")                           //
+      ("reference", options::value(&job.reference.picture), "picture of the target")  //
+      ("reference-corners", options::value(&job.corners),
+       "x1,y1,...,x4,y4: inner border of the opening in it")                                            //
+      ("image", options::value(&job.topic), "topic of the pictures in a bag; else the only one")        //
+      ("every", options::value(&job.every)->default_value(10), "take one picture of a bag in so many")  //
+      ("most", options::value(&job.most)->default_value(100), "pictures of a bag, at most")             //
+      ("width", options::value(&job.width)->default_value(400),
+       "of each picture on the sheet of stages [px]")  //
+      ("headless", options::bool_switch(&job.headless),
+       "no windows: look at all pictures once, print, save")  //
+      ("sheet", options::value(&job.sheet), "headless: also write the sheet of stages of the first picture");
+  return description;
+}
+
+void save(const std::string& file, const Bench& bench) {
+  if (file.empty()) throw UsageError("--output is missing: where to save");
+  std::ofstream output(file);
+  output << "# Written by tune_detector: what differs from the defaults. Give it as config:= to launch "
+            "files, as --params to "
+            "tools.\n"
+         << bench.overlay();
+  output.close();
+  if (!output) throw UsageError(file + ": cannot be written");
+  std::cout << "written: " << file << "\n" << bench.overlay() << std::flush;
+}
+
+int runHeadless(const Job& job, tools::TuningSource& source, Bench& bench) {
+  if (source.count() == 0) throw UsageError("--headless needs pictures or a bag");
+  std::vector<double> milliseconds;
+  int found = 0;
+  for (int i = 0; i < source.count(); ++i, source.step(1)) {
+    std::cout << source.name() << ": " << bench.look(source.picture()) << "\n";
+    milliseconds.push_back(bench.milliseconds());
+    found += bench.found();
+  }
+  std::cout << "windows in " << found << " of " << source.count() << " pictures, median "
+            << evaluation::quantile(milliseconds, 0.5) << " ms\n";
+  if (!job.sheet.empty() && !cv::imwrite(job.sheet, bench.sheet(source.picture(), job.width)))
+    throw UsageError(job.sheet + ": cannot be written");
+  if (!job.output.empty()) save(job.output, bench);
+  return 0;
+}
+
+/// Two windows: the sheet of stages, and a slider for each parameter of one group.
+class Desk {
+ public:
+  Desk(const Job& job, tools::TuningSource& source, Bench& bench)
+      : job_(job), source_(source), bench_(bench) {
+    for (const NamedField& field : bench.fields()) {
+      const std::string group = groupOf(field);
+      if (groups_.empty() || groups_.back() != group) groups_.push_back(group);
+    }
+    std::cout << kKeys << std::endl;
+    cv::namedWindow(kStages, cv::WINDOW_AUTOSIZE);
+    open(0);
+  }
+
+  int run() {
+    for (;;) {
+      show();
+      const int key = cv::waitKey(30) & 0xff;
+      if (key == 'q' || key == 27) return 0;
+      press(static_cast<char>(key));
+    }
+  }
+
+ private:
+  struct Bar {
+    const NamedField* field;
+    parameters::Slider slider;
+    Desk* desk;
+  };
+
+  static std::string groupOf(const NamedField& field) {
+    const std::size_t end = field.name.find('/');
+    return end == std::string::npos ? "scores" : field.name.substr(0, end);
+  }
+
+  static void moved(int position, void* at) {
+    const Bar& bar = *static_cast<const Bar*>(at);
+    if (bar.slider.positionOf(bar.field->get()) == position) return;
+    bar.field->set(bar.slider.valueAt(position));
+    std::cout << bar.field->name << ": " << parameters::toText(*bar.field) << std::endl;
+    bar.desk->dirty_ = true;
+    bar.desk->bench_.changed();
+  }
+
+  void open(int group) {
+    if (!bars_.empty()) cv::destroyWindow(kSliders);
+    group_ = (group + static_cast<int>(groups_.size())) % static_cast<int>(groups_.size());
+    cv::namedWindow(kSliders, cv::WINDOW_NORMAL);
+    cv::resizeWindow(kSliders, 700, 500);
+    bars_.clear();
+    for (const NamedField& field : bench_.fields())
+      if (groupOf(field) == groups_[static_cast<std::size_t>(group_)])
+        bars_.push_back({&field, parameters::Slider(field), this});
+    for (Bar& bar : bars_) {
+      cv::createTrackbar(bar.field->name, kSliders, nullptr, bar.slider.positions(), moved, &bar);
+      cv::setTrackbarPos(bar.field->name, kSliders, bar.slider.positionOf(bar.field->get()));
+    }
+    cv::setWindowTitle(kSliders,
+                       "parameters: " + groups_[static_cast<std::size_t>(group_)] + " (g: next group)");
+    dirty_ = true;
+  }
+
+  void press(char key) {
+    if (key == 'g' || key == 'G') open(group_ + (key == 'g' ? 1 : -1));
+    if (key == 'n' || key == 'p') source_.step(key == 'n' ? 1 : -1), dirty_ = true;
+    if (key == 'd') restoreDefaults();
+    if (key == 's') save(job_.output, bench_);
+    if (key == 'h') std::cout << kKeys << std::endl;
+  }
+
+  void restoreDefaults() {
+    detection::DetectorParams defaults;
+    const auto fields = parameters::fieldsOf(defaults);
+    for (const Bar& bar : bars_) bar.field->set(parameters::find(fields, bar.field->name)->get());
+    bench_.changed();
+    open(group_);
+  }
+
+  void show() {
+    const cv::Mat picture = source_.picture();
+    if (picture.empty() || (!dirty_ && source_.count() > 0)) return;
+    dirty_ = false;
+    const std::string line = bench_.look(picture);
+    cv::Mat sheet = bench_.sheet(picture, job_.width);
+    cv::copyMakeBorder(sheet, sheet, 0, 26, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
+    cv::putText(sheet, line, {8, sheet.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(255), 1,
+                cv::LINE_AA);
+    cv::imshow(kStages, sheet);
+    cv::setWindowTitle(kStages, source_.name());
+  }
+
+  const Job& job_;
+  tools::TuningSource& source_;
+  Bench& bench_;
+  std::vector<std::string> groups_;
+  std::vector<Bar> bars_;
+  int group_ = 0;
+  bool dirty_ = true;
+};
+
+int run(Job job) {
+  if (job.source.empty()) throw UsageError("no SOURCE given; see --help");
+  if (job.every < 1 || job.most < 1 || job.width < 64)
+    throw UsageError("--every, --most: at least 1; --width: at least 64");
+  if (!job.headless && job.output.empty())
+    throw UsageError("--output is missing: where 's' saves; see --help");
+  detection::DetectorParams start;
+  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", start))
+    throw UsageError(job.params + ": no section 'detector' in this file");
+  const auto fields = parameters::fieldsOf(start);
+  for (const std::string& setting : job.settings) parameters::assign(fields, setting);
+  if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
+  std::optional<detection::ReferenceAppearance> reference;
+  if (!job.reference.picture.empty()) reference = adapters::loadReference(job.reference, start);
+  const auto source = tools::openSource(job.source, job.topic, job.every, job.most);
+  Bench bench(start, reference);
+  if (job.headless) return runHeadless(job, *source, bench);
+  if (!tools::hasDisplay())
+    throw UsageError("there is no display for the trackbars; --headless --set NAME=VALUE does without");
+  return Desk(job, *source, bench).run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return tools::runTool("tune_detector", [&] {
+    Job job;
+    const auto description = describe(job);
+    options::positional_options_description positional;
+    positional.add("source", 1);
+    ros::init(argc, argv, "tune_detector",
+              ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
+    options::variables_map given;
+    options::store(options::command_line_parser(argc, argv).options(description).positional(positional).run(),
+                   given);
+    options::notify(given);
+    if (given.count("help") > 0) {
+      std::cout << description;
+      return 0;
+    }
+    try {
+      return run(job);
+    } catch (const adapters::BagError& error) {
+      throw UsageError(error.what());
+    } catch (const adapters::ParameterError& error) {
+      throw UsageError(error.what());
+    }
+  });
+}

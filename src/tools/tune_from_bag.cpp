@@ -1,0 +1,194 @@
+/// Fits thresholds of the detector to pictures whose windows are known, and says what that is worth on
+/// others. See
+/// --help.
+#include <boost/program_options.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "adapters/labelled_bag.hpp"
+#include "adapters/parameters.hpp"
+#include "adapters/reference_source.hpp"
+#include "command_line.hpp"
+#include "window_ingress/evaluation/detector_tuning.hpp"
+#include "window_ingress/parameters/field_list.hpp"
+
+namespace {
+
+namespace options = boost::program_options;
+using namespace window_ingress;
+using evaluation::DetectionCounts;
+using evaluation::LabelledPicture;
+using parameters::fieldsOf;
+using tools::UsageError;
+
+struct Job {
+  std::vector<std::string> bags;
+  adapters::BagTopics topics;
+  std::string size, labels, images, corners, params, names, output;
+  adapters::ReferenceParams reference;
+  int every = 1, trials = 120;
+  std::uint32_t seed = 1;
+  double held_out = 0.4;
+};
+
+using Pictures = std::vector<LabelledPicture>;
+
+options::options_description describe(Job& job) {
+  options::options_description description(
+      "tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
+      "tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H [OPTION...]\n"
+      "Tries settings of the detector on a part of the pictures and writes the keys it changed, if it is "
+      "better on the "
+      "rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong usage or "
+      "unreadable input.\n");
+  description.add_options()("help", "print this text")  //
+      ("output", options::value(&job.output),
+       "yaml file for the changed keys, to be given as config:= and --params")  //
+      ("labels", options::value(&job.labels),
+       "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)")                                  //
+      ("images", options::value(&job.images), "folder of the pictures that the csv names")                 //
+      ("bag", options::value(&job.bags)->multitoken(), "bags with pictures, calibration and truth")        //
+      ("truth", options::value(&job.topics.truth), "PoseStamped with the true T_camera_window, by stamp")  //
+      ("window-size", options::value(&job.size), "W,H: inner size of the opening [m]")                     //
+      ("image", options::value(&job.topics.image), "topic; else the only one of its type")                 //
+      ("camera-info", options::value(&job.topics.camera_info), "likewise")                                 //
+      ("every", options::value(&job.every)->default_value(1), "take one picture of a bag in so many")      //
+      ("reference", options::value(&job.reference.picture), "picture of the target")                       //
+      ("reference-corners", options::value(&job.corners),
+       "x1,y1,...,x4,y4: inner border of the opening in it")                                        //
+      ("params", options::value(&job.params), "yaml file with a section 'detector' to start from")  //
+      ("names", options::value(&job.names),
+       "parameters that may be changed, with commas between, like edges/floor")       //
+      ("trials", options::value(&job.trials)->default_value(120), "settings to try")  //
+      ("held-out", options::value(&job.held_out)->default_value(0.4),
+       "part of the groups that judges only")  //
+      ("seed", options::value(&job.seed)->default_value(1), "of the parts and of the search");
+  return description;
+}
+
+std::vector<std::string> namesOf(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream stream(text);
+  for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
+  return names.empty() ? evaluation::usualFields() : names;
+}
+
+void check(const Job& job) {
+  if (job.output.empty()) throw UsageError("--output is missing; see --help");
+  if (job.labels.empty() == job.bags.empty()) throw UsageError("give either --labels or --bag; see --help");
+  if (job.labels.empty() != job.images.empty()) throw UsageError("--labels and --images go together");
+  if (!job.bags.empty() && (job.topics.truth.empty() || job.size.empty()))
+    throw UsageError("--bag needs --truth and --window-size: without them nobody knows what is right");
+  if (job.every < 1 || job.trials < 1) throw UsageError("--every and --trials: at least 1");
+  if (!(job.held_out > 0.0 && job.held_out < 1.0)) throw UsageError("--held-out: between 0 and 1");
+  if (!job.corners.empty() && job.reference.picture.empty())
+    throw UsageError("--reference-corners needs --reference");
+}
+
+Pictures read(const Job& job) {
+  if (!job.labels.empty()) return evaluation::readLabelled(job.labels, job.images);
+  const auto size = tools::numbers("--window-size", job.size, 2);
+  if (!(size[0] > 0.0 && size[1] > 0.0)) throw UsageError("--window-size: metres above 0");
+  Pictures pictures;
+  for (const std::string& file : job.bags) {
+    rosbag::Bag bag;
+    adapters::openBag(bag, file);
+    const auto found = adapters::labelledPictures(bag, adapters::chooseTopics(bag, job.topics),
+                                                  {size[0], size[1]}, job.every);
+    pictures.insert(pictures.end(), found.begin(), found.end());
+  }
+  return pictures;
+}
+
+/// A line every two seconds.
+class Progress {
+ public:
+  explicit Progress(int trials) : trials_(trials) {}
+  void operator()(int done, const DetectionCounts& best) {
+    const auto now = std::chrono::steady_clock::now();
+    if (done < trials_ && now - said_ < std::chrono::seconds(2)) return;
+    said_ = now;
+    std::fprintf(stderr, "tune_from_bag: %d of %d settings tried; best F1 %.3f\n", done, trials_, best.f1());
+  }
+
+ private:
+  int trials_;
+  std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
+};
+
+std::string diff(const detection::DetectorParams& start, const detection::DetectorParams& tuned) {
+  detection::DetectorParams before = start, after = tuned;
+  const auto old = fieldsOf(before), now = fieldsOf(after);
+  std::string text;
+  for (const auto& field : parameters::changed(now, old))
+    text += "- " + field.name + ": " + parameters::toText(*parameters::find(old, field.name)) + "\n+ " +
+            field.name + ": " + parameters::toText(field) + "\n";
+  return text;
+}
+
+// The overlay says all that differs from the defaults: it replaces the file that was started from.
+void write(const std::string& file, const detection::DetectorParams& tuned, const std::string& about) {
+  detection::DetectorParams defaults, after = tuned;
+  std::ofstream output(file);
+  output << "# Written by tune_from_bag. " << about << "\n"
+         << parameters::toYaml(parameters::changed(fieldsOf(after), fieldsOf(defaults)),
+                               "window_detector/detector");
+  output.close();
+  if (!output) throw UsageError(file + ": cannot be written");
+}
+
+int run(const Job& job) {
+  check(job);
+  detection::DetectorParams start;
+  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", start))
+    throw UsageError(job.params + ": no section 'detector' in this file");
+  adapters::ReferenceParams wanted = job.reference;
+  if (!job.corners.empty()) wanted.corners = tools::numbers("--reference-corners", job.corners, 8);
+  std::optional<detection::ReferenceAppearance> reference;
+  if (!wanted.picture.empty()) reference = adapters::loadReference(wanted, start);
+  const detection::ReferenceAppearance* const given = reference ? &*reference : nullptr;
+
+  const auto [tuning, held] = evaluation::split(read(job), job.held_out, job.seed);
+  std::printf("%zu pictures to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(),
+              held.size(), job.seed);
+  const evaluation::TuningOptions search{namesOf(job.names), job.trials, job.seed};
+  const detection::DetectorParams tuned =
+      evaluation::tuneDetector(tuning, start, given, search, Progress(job.trials));
+
+  const DetectionCounts before = evaluation::countDetections(held, start, given);
+  const DetectionCounts after = evaluation::countDetections(held, tuned, given);
+  std::printf("tuned on, before: %s\ntuned on, after:  %s\n",
+              evaluation::countDetections(tuning, start, given).text().c_str(),
+              evaluation::countDetections(tuning, tuned, given).text().c_str());
+  std::printf("held out, before: %s\nheld out, after:  %s\n", before.text().c_str(), after.text().c_str());
+  const std::string changes = diff(start, tuned);
+  std::printf("%s", changes.c_str());
+  if (changes.empty() || after.f1() <= before.f1()) {
+    std::printf("%s: nothing written\n",
+                changes.empty() ? "no setting was better" : "not better on the pictures held out");
+    return 1;
+  }
+  write(job.output, tuned, "Held out: " + after.text() + "; before: " + before.text() + ".");
+  std::printf("written: %s\n", job.output.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return tools::runTool<Job>("tune_from_bag", argc, argv, describe, [](const Job& job) {
+    try {
+      return run(job);
+    } catch (const adapters::BagError& error) {
+      throw UsageError(error.what());
+    } catch (const adapters::ParameterError& error) {
+      throw UsageError(error.what());
+    }
+  });
+}

@@ -1,0 +1,92 @@
+/// What tune_detector turns its trackbars at.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/evaluation/stage_sheet.hpp"
+#include "window_ingress/parameters/field_list.hpp"
+
+namespace window_ingress::tools {
+
+using parameters::NamedField;
+
+inline double steadySec() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The detector with the settings of the moment.
+class Bench {
+ public:
+  Bench(const detection::DetectorParams& start, std::optional<detection::ReferenceAppearance> reference)
+      : reference_(std::move(reference)),
+        params_(start),
+        fields_(parameters::fieldsOf(params_)),
+        detector_(start),
+        watch_(steadySec) {
+    detector_.setWatch(&watch_);
+    if (reference_) detector_.setReference(*reference_);
+  }
+
+  const std::vector<NamedField>& fields() const { return fields_; }
+  void changed() { detector_.setParams(params_); }
+
+  /// \return one line: what was found, and what it cost
+  std::string look(const cv::Mat& picture) {
+    const double begun_sec = steadySec();
+    watch_.begin();
+    const auto window = detector_.detect(picture, 0.0);
+    milliseconds_ = 1e3 * (steadySec() - begun_sec);
+    found_ = window.has_value();
+    char text[120];
+    std::snprintf(text, sizeof text, window ? "window, score %.2f" : "no window",
+                  window ? window->score : 0.0);
+    std::string line = text;
+    if (window && window->has_appearance)
+      line += ", distance " + std::to_string(window->bhattacharyya).substr(0, 4);
+    if (!window) line += ": " + detector_.trace().detail;
+    return line + "; " + times();
+  }
+
+  cv::Mat sheet(const cv::Mat& picture, int width) const {
+    return evaluation::stageSheet(picture, params_, reference_ ? &*reference_ : nullptr, width);
+  }
+  bool found() const { return found_; }
+  double milliseconds() const { return milliseconds_; }
+
+  std::string overlay() const {
+    detection::DetectorParams defaults;
+    return parameters::toYaml(parameters::changed(fields_, parameters::fieldsOf(defaults)),
+                              "window_detector/detector");
+  }
+
+ private:
+  std::string times() const {
+    char text[80];
+    std::snprintf(text, sizeof text, "%.1f ms", milliseconds_);
+    std::string line = text;
+    for (int i = 0; i < detection::kStages; ++i) {
+      const auto stage = static_cast<detection::Stage>(i);
+      if (watch_.milliseconds(stage) < 0.05) continue;
+      std::snprintf(text, sizeof text, ", %s %.1f", detection::toString(stage), watch_.milliseconds(stage));
+      line += text;
+    }
+    return line;
+  }
+
+  std::optional<detection::ReferenceAppearance> reference_;
+  detection::DetectorParams params_;
+  std::vector<NamedField> fields_;  // refer to params_
+  detection::WindowDetector detector_;
+  detection::StageWatch watch_;
+  bool found_ = false;
+  double milliseconds_ = 0.0;
+};
+
+}  // namespace window_ingress::tools

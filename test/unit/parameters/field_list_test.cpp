@@ -1,0 +1,113 @@
+#include "window_ingress/parameters/field_list.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace window_ingress::parameters {
+namespace {
+
+using detection::DetectorParams;
+
+std::string errorOf(const std::string& assignment) {
+  DetectorParams params;
+  try {
+    assign(fieldsOf(params), assignment);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FieldList, SetsAndGetsTheStructItself) {
+  DetectorParams params;
+  const auto fields = fieldsOf(params);
+  assign(fields, "edges/floor=7.5");
+  assign(fields, "preprocess/equalise=true");
+  assign(fields, "max_candidates=12");
+  EXPECT_DOUBLE_EQ(params.edges.floor, 7.5);
+  EXPECT_TRUE(params.preprocess.equalise);
+  EXPECT_EQ(params.max_candidates, 12);
+  params.edges.floor = 8.0;
+  EXPECT_DOUBLE_EQ(find(fields, "edges/floor")->get(), 8.0);
+  EXPECT_EQ(find(fields, "edges/flor"), nullptr);
+}
+
+TEST(FieldList, KeepsWithinTheRange) {
+  DetectorParams params;
+  const auto fields = fieldsOf(params);
+  for (const NamedField& field : fields) {
+    const double before = field.get();
+    field.set(std::nan(""));
+    EXPECT_EQ(field.get(), before) << field.name;
+    for (const double wanted : {-1e300, 1e300, std::numeric_limits<double>::infinity()}) {
+      field.set(wanted);
+      EXPECT_GE(field.get(), field.minimum) << field.name;
+      EXPECT_LE(field.get(), field.maximum) << field.name;
+    }
+  }
+  EXPECT_TRUE(outOfRange(params).empty());
+}
+
+TEST(FieldList, RefusesWhatItDoesNotKnowByName) {
+  EXPECT_NE(errorOf("edges/flor=1").find("edges/flor"), std::string::npos);
+  EXPECT_NE(errorOf("edges/floor").find("NAME=VALUE"), std::string::npos);
+  EXPECT_NE(errorOf("edges/floor=much").find("no number"), std::string::npos);
+  EXPECT_NE(errorOf("edges/floor=").find("no number"), std::string::npos);
+  EXPECT_NE(errorOf("edges/floor=nan").find("no number"), std::string::npos);
+  EXPECT_NE(errorOf("edges/floor=1e9").find("is not within"), std::string::npos);
+  EXPECT_NE(errorOf("").find("NAME=VALUE"), std::string::npos);
+}
+
+TEST(FieldList, TextsAreReadByRosAsWhatTheyAre) {
+  DetectorParams params;
+  const auto fields = fieldsOf(params);
+  params.edges.floor = 6.0;
+  EXPECT_EQ(toText(*find(fields, "edges/floor")), "6.0");
+  params.edges.floor = 1e-5;
+  EXPECT_EQ(toText(*find(fields, "edges/floor")), "1.0e-05");
+  params.edges.floor = 0.1;
+  EXPECT_EQ(toText(*find(fields, "edges/floor")), "0.1");
+  EXPECT_EQ(toText(*find(fields, "max_candidates")), "40");
+  EXPECT_EQ(toText(*find(fields, "preprocess/equalise")), "false");
+}
+
+TEST(FieldList, NothingChangedIsAnEmptyMapping) {
+  DetectorParams params, same;
+  EXPECT_TRUE(changed(fieldsOf(params), fieldsOf(same)).empty());
+  EXPECT_EQ(toYaml({}, "window_detector/detector"), "window_detector:\n  detector: {}\n");
+}
+
+// Whatever is set comes back from the file, under the name of the node and without it.
+TEST(FieldList, YamlReadsBackTheSame) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("field_list_test_" + std::to_string(::getpid()) + ".yaml"))
+          .string();
+  for (int i = 0; i < 50; ++i) {
+    DetectorParams params, defaults;
+    const auto fields = fieldsOf(params);
+    for (const NamedField& field : fields)
+      if (uniform(random) < 0.3) field.set(field.minimum + uniform(random) * (field.maximum - field.minimum));
+    const auto different = changed(fields, fieldsOf(defaults));
+    std::ofstream(file) << toYaml(different, i % 2 ? "detector" : "window_detector/detector");
+    DetectorParams read;
+    ASSERT_TRUE(readYamlFile(file, "detector", read));
+    for (const NamedField& field : fieldsOf(read))
+      EXPECT_EQ(field.get(), find(fields, field.name)->get()) << field.name;
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace window_ingress::parameters
