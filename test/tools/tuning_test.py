@@ -254,7 +254,7 @@ def test_corners_are_clicked(labelled, tmp_path, display):
                                env={**os.environ, "DISPLAY": display}, stdout=subprocess.PIPE, text=True)
     try:
         press(display, "inner corners", *(f"{x},{y}" for x, y in true), "Return")
-        process.communicate(timeout=60)
+        process.communicate(timeout=120)
     finally:
         process.kill()
     assert process.returncode == 0
