@@ -10,6 +10,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 
 NAN = float("nan")
+WORDS = ("reject_reason", "openness")
+VERDICTS = {"UNKNOWN": "0.5", "OPEN": "C2", "CLOSED": "C3"}
 
 
 def number(text):
@@ -22,7 +24,7 @@ def read(path):
         rows = list(csv.DictReader(file))
     if not rows:
         sys.exit(f"{path}: no frames in it")
-    return {name: [row[name] if name == "reject_reason" else number(row[name]) for row in rows] for name in rows[0]}
+    return {name: [row[name] if name in WORDS else number(row[name]) for row in rows] for name in rows[0]}
 
 
 def yaw_of(x, y, z, w):
@@ -42,9 +44,17 @@ def band(axis, time, centre, sigma, colour):
     axis.fill_between(time, low, high, color=colour, alpha=0.25, linewidth=0)
 
 
+def draw_openness(axis, time, data):
+    axis.plot(time, data["openness_log_odds"], "k", linewidth=0.8, drawstyle="steps-post", label="log odds, open over closed")
+    for verdict, colour in VERDICTS.items():
+        here = [odds if said == verdict else NAN for said, odds in zip(data["openness"], data["openness_log_odds"])]
+        axis.plot(time, here, ".", color=colour, label=verdict)
+    axis.set_ylabel("open?")
+
+
 def draw(data, path):
     time = [stamp - data["stamp"][0] for stamp in data["stamp"]]
-    figure, (found, distance, place, heading) = plt.subplots(4, 1, sharex=True, figsize=(9, 10))
+    figure, (found, distance, place, heading, openness) = plt.subplots(5, 1, sharex=True, figsize=(9, 12))
     found.plot(time, data["score"], ".", label="score")
     found.plot(time, data["bhattacharyya"], ".", label="Bhattacharyya distance")
     found.plot(time, [0.0 if not d else NAN for d in data["detected"]], "rx", label="no window")
@@ -68,9 +78,10 @@ def draw(data, path):
     filtered = [yaw_of(*q) for q in zip(*(data[f"filtered_q{c}"] for c in "xyzw"))]
     heading.plot(time, filtered, "C3", label="filtered, in odom")
     heading.set_ylabel("yaw [deg]")
-    heading.set_xlabel("time since the first image [s]")
+    draw_openness(openness, time, data)
+    openness.set_xlabel("time since the first image [s]")
 
-    for axis in (found, distance, place, heading):
+    for axis in (found, distance, place, heading, openness):
         axis.grid(alpha=0.3)
         axis.legend(loc="best", fontsize="small")
     figure.tight_layout()

@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using simulation::RandomStream;
 
-constexpr double kGrowth = 1.35, kOldest_sec = 4.0, kShared = 0.4, kMargin = 0.07;
+constexpr double kGrowth = 1.25, kOldest_sec = 4.0, kShared = 0.4, kMargin = 0.07;
 constexpr double kBoard_m = 0.02;     // behind the border
 constexpr double kWrongWay_px = 4.0;  // of a point that is followed wrongly
 
@@ -116,7 +116,7 @@ class SyntheticFollower {
         camera_(camera),
         random_(seed, "synthetic interior"),
         surfaces_(interior, opening, random_),
-        count_(random_.uniformInt(8, 40)),
+        count_(random_.uniformInt(12, 60)),
         wrong_part_(random_.uniform(0.0, 0.1)) {}
 
   double roomM() const { return surfaces_.roomM(); }

@@ -16,8 +16,9 @@ using geometry::Quadrilateral;
 
 constexpr int kReach = 13, kLevels = 2;  // of Lucas-Kanade: side of its patch [px], further halvings
 constexpr double kLeastSide_px = 24.0;
-constexpr double kSpacing = 0.055;  // between points, part of the straightened picture's longer side
+constexpr double kSpacing = 0.05;  // between points, part of the straightened picture's longer side
 constexpr int kGradientBlock = 5;
+constexpr double kBlur_px = 0.8;  // against the noise of dark pictures
 
 cv::Point2f toCv(const Eigen::Vector2d& p) { return {static_cast<float>(p.x()), static_cast<float>(p.y())}; }
 
@@ -98,6 +99,7 @@ void InteriorFollower::Impl::straighten(const cv::Mat& image, const Quadrilatera
     cv::cvtColor(cut, straight, cv::COLOR_BGR2GRAY);
   else
     cut.copyTo(straight);
+  cv::GaussianBlur(straight, straight, cv::Size(), kBlur_px);
 }
 
 void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {

@@ -6,24 +6,16 @@
 namespace window_ingress::openness {
 namespace {
 
-struct Range {
-  int first, last;
-};
+constexpr double kRim = 0.1;  // of a cell: who is seen there may as well be in the next one
 
-Range cellsBetween(double from, double to, int side) {
-  const int first = static_cast<int>(std::floor(from * side)), last = static_cast<int>(std::floor(to * side));
-  return {std::clamp(first, 0, side - 1), std::clamp(last, 0, side - 1)};
-}
+using Range = OpeningCells::Range;
 
-// Cells that a middle part of the side reaches into.
+// Cells that a middle part of the side covers by half at least.
 Range middle(double needed, double whole, int side) {
   const double part = needed / whole;
-  const double half = std::isfinite(part) ? 0.5 * std::clamp(part, 0.0, 1.0) : 0.5;
-  constexpr double kTouch = 1e-6;
-  Range range = cellsBetween(0.5 - half + kTouch, 0.5 + half - kTouch, side);
-  range.first = std::min(range.first, side / 2 - 1);
-  range.last = std::max(range.last, side / 2);
-  return range;
+  const double from = std::isfinite(part) ? 0.5 - 0.5 * std::clamp(part, 0.0, 1.0) : 0.0;
+  const int first = std::min(side / 2 - 1, static_cast<int>(std::ceil(from * side - 0.5 - 1e-6)));
+  return {std::max(0, first), side - 1 - std::max(0, first)};
 }
 
 }  // namespace
@@ -34,9 +26,34 @@ void OpeningCells::see(const Eigen::Vector2d& place, double log_odds) {
     return;
   const int x = std::min(kSide - 1, static_cast<int>(place.x() * kSide));
   const int y = std::min(kSide - 1, static_cast<int>(place.y() * kSide));
+  const Eigen::Vector2d within = kSide * place - Eigen::Vector2d(x, y);
+  if (within.minCoeff() < kRim || within.maxCoeff() > 1.0 - kRim) return;
   auto& cells = log_odds > 0.0 ? open_ : closed_;
   float& cell = cells[static_cast<std::size_t>(y * kSide + x)];
   cell = std::max(cell, static_cast<float>(std::abs(log_odds)));
+}
+
+bool OpeningCells::isClosed(int x, int y) const {
+  const auto i = static_cast<std::size_t>(y * kSide + x);
+  return closed_[i] >= kSure && closed_[i] >= open_[i];
+}
+
+bool OpeningCells::isOpen(int x, int y) const {
+  if (x < 0 || y < 0 || x >= kSide || y >= kSide || isClosed(x, y)) return false;
+  return open_[static_cast<std::size_t>(y * kSide + x)] >= kSure;
+}
+
+// Nothing was seen through it, but on both sides of it.
+bool OpeningCells::isBetweenOpen(int x, int y) const {
+  return !isClosed(x, y) &&
+         ((isOpen(x - 1, y) && isOpen(x + 1, y)) || (isOpen(x, y - 1) && isOpen(x, y + 1)));
+}
+
+double OpeningCells::openOf(const Range& across, const Range& down) const {
+  int open = 0;
+  for (int y = down.first; y <= down.last; ++y)
+    for (int x = across.first; x <= across.last; ++x) open += isOpen(x, y) || isBetweenOpen(x, y);
+  return static_cast<double>(open) / ((down.last - down.first + 1) * (across.last - across.first + 1));
 }
 
 OpeningCells::Share OpeningCells::shareOf(const geometry::OpeningSize& needed,
@@ -47,20 +64,22 @@ OpeningCells::Share OpeningCells::shareOf(const geometry::OpeningSize& needed,
   int closed = 0;
   for (int y = down.first; y <= down.last; ++y)
     for (int x = across.first; x <= across.last; ++x) {
-      const auto i = static_cast<std::size_t>(y * kSide + x);
       const std::size_t quarter = (y < kSide / 2 ? 0 : 2) + (x < kSide / 2 ? 0 : 1);
-      const bool is_closed = closed_[i] >= kSure && closed_[i] >= open_[i];
       ++cells[quarter];
-      open[quarter] += open_[i] >= kSure && !is_closed;
-      closed += is_closed;
+      open[quarter] += isOpen(x, y) || isBetweenOpen(x, y);
+      closed += isClosed(x, y);
     }
-  Share share{0.0, 0.0, 1.0};
+  Share share{0.0, 0.0, 1.0, 1.0};
   const int all = cells[0] + cells[1] + cells[2] + cells[3];
   share.open = static_cast<double>(open[0] + open[1] + open[2] + open[3]) / all;
   share.closed = static_cast<double>(closed) / all;
   for (int quarter = 0; quarter < 4; ++quarter)
     share.least_quarter_open =
         std::min(share.least_quarter_open, static_cast<double>(open[quarter]) / cells[quarter]);
+  for (const double side :
+       {openOf({across.first, across.first}, down), openOf({across.last, across.last}, down),
+        openOf(across, {down.first, down.first}), openOf(across, {down.last, down.last})})
+    share.least_side_open = std::min(share.least_side_open, side);
   return share;
 }
 

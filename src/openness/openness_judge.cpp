@@ -18,7 +18,7 @@ constexpr std::size_t kMostLooks = 600;
 constexpr double kSays = 1.0;         // log odds below which a stretch has said nothing
 constexpr double kMisfit_px = 1.5;    // of corners against the filtered window, beside the part of its size
 constexpr double kMostClosed = 0.15;  // of the middle that is needed
-constexpr double kLeastQuarter = 0.5;
+constexpr double kLeastQuarter = 0.5, kLeastSide = 0.3;  // seen to be open
 constexpr double kMostTotal = 12.0;
 constexpr int kOutvoted = 3;  // stretches that outweigh one that says the opposite
 
@@ -181,7 +181,8 @@ void OpennessJudge::conclude() {
   } else if (share.closed > kMostClosed) {
     verdict.reason =
         text("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
-  } else if (share.open < params_.min_open_share || share.least_quarter_open < kLeastQuarter) {
+  } else if (share.open < params_.min_open_share || share.least_quarter_open < kLeastQuarter ||
+             share.least_side_open < kLeastSide) {
     verdict.reason = text("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
   } else {
     verdict.openness = Openness::kOpen;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kMostIds = 1000;
 constexpr double kMostTooDeep = 0.3;  // of the points
+constexpr int kLeastToMove = 8;       // points, of which a part that moves tells something
 
 template <typename Value>
 Value medianOf(std::vector<Value>& values) {
@@ -64,14 +65,15 @@ StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
     odds.push_back(log_odds);
     depths.push_back(depthOf(best.part, distance_m));
     sigmas.push_back(depthSigma(best.part, best.part_sigma, distance_m));
-    says.too_deep += best.part - best.part_sigma > parts.open_to;
+    says.too_deep += best.part - 2.0 * best.part_sigma > parts.open_to;
   }
   says.points = static_cast<int>(odds.size());
-  says.is_moving = says.unsteady > params.max_unsteady * (says.points + says.unsteady);
+  const int all = says.points + says.unsteady;
+  says.is_moving = all >= kLeastToMove && says.unsteady > params.max_unsteady * all;
   if (says.points < params.min_points) return says;
   says.depth_m = medianOf(depths);
   says.depth_sigma_m = medianOf(sigmas);
-  says.is_too_deep = says.too_deep > kMostTooDeep * says.points;
+  says.is_too_deep = says.too_deep > kMostTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
   if (!says.is_moving) says.log_odds = std::clamp(medianOf(odds), -params.max_log_odds, params.max_log_odds);
   if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
   return says;

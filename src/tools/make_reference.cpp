@@ -82,7 +82,7 @@ class Clicking {
       : picture_(picture),
         params_(params),
         scale_(std::min(1.0, static_cast<double>(kMostPx) / std::max(picture.cols, picture.rows))) {
-    cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE);
+    cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
     cv::setMouseCallback(kWindow, onMouse, this);
   }
 

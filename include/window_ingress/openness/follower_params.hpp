@@ -5,14 +5,14 @@ namespace window_ingress::openness {
 /// How texture within the opening is followed; see `InteriorFollower`.
 struct FollowerParams {
   bool enabled = true;           ///< follow the texture within the opening; false costs nothing
-  int max_points = 40;           ///< followed at once
+  int max_points = 60;           ///< followed at once
   int min_points = 6;            ///< with fewer left a new key picture is taken
-  double most_px = 160.0;        ///< longer side of the straightened picture of the opening, at most [px]
+  double most_px = 200.0;        ///< longer side of the straightened picture of the opening, at most [px]
   double margin = 0.07;          ///< beside the border that is not looked at, part of the opening's sides
-  double min_contrast = 6e-4;    ///< of a point: lesser eigenvalue of the gradient's moments
-  double max_return_px = 0.6;    ///< that a point may miss itself by when followed there and back [px]
+  double min_contrast = 1e-4;    ///< of a point: lesser eigenvalue of the gradient's moments
+  double max_return_px = 0.8;    ///< that a point may miss itself by when followed there and back [px]
   double flow_sigma_px = 0.35;   ///< of a followed point, in the straightened picture [px]
-  double max_growth = 1.35;      ///< of the window in the picture, until a new key picture
+  double max_growth = 1.25;      ///< of the window in the picture, until a new key picture
   double max_key_age_sec = 4.0;  ///< of a key picture [s]
   double min_shared = 0.4;       ///< part of the key picture's points that must be left
 

@@ -13,6 +13,9 @@ namespace window_ingress::openness {
 class OpeningCells {
  public:
   static constexpr int kSide = 6;
+  struct Range {
+    int first, last;  ///< both included
+  };
 
   /// \param place within the opening, 0 to 1, right and down; outside of it nothing happens
   void see(const Eigen::Vector2d& place, double log_odds);
@@ -21,11 +24,16 @@ class OpeningCells {
   struct Share {
     double open = 0.0, closed = 0.0;  ///< parts of the cells that are needed, 0 to 1
     double least_quarter_open = 0.0;  ///< of its four quarters, the one that was seen open least
+    double least_side_open = 0.0;     ///< of its outermost rows and columns, the one that was seen open least
   };
   /// \param needed size of the middle that must be free
   Share shareOf(const geometry::OpeningSize& needed, const geometry::OpeningSize& opening) const;
 
  private:
+  double openOf(const Range& across, const Range& down) const;
+  bool isClosed(int x, int y) const;
+  bool isOpen(int x, int y) const;
+  bool isBetweenOpen(int x, int y) const;
   static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
   std::array<float, kSide * kSide> open_{}, closed_{};
 };

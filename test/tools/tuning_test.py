@@ -1,0 +1,271 @@
+"""Tuning tools and the operator's reference: without a display, on pictures that the test makes; with one where there is Xvfb."""
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import time
+
+import cv2
+import numpy
+import pytest
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+WIDTH, HEIGHT, FOCAL = 320, 240, 250.0
+OPENING = (1.2, 1.0)  # m
+BLIND = "detector: {gates: {min_area: 0.5}}\n"  # no window is that large
+
+
+def run(*command, **environment):
+    done = subprocess.run([str(ROOT / "scripts/run"), *map(str, command)], capture_output=True, text=True, timeout=240, check=False,
+                          env={**os.environ, **environment})
+    return done.returncode, done.stdout, done.stderr
+
+
+def corners_at(x, z):
+    """Of a window square in front of the camera, `x` to its right, `z` ahead [m]; pixels, clockwise from top left."""
+    half_w, half_h = FOCAL * OPENING[0] / 2 / z, FOCAL * OPENING[1] / 2 / z
+    cx, cy = (WIDTH - 1) / 2 + FOCAL * x / z, (HEIGHT - 1) / 2
+    return [(cx - half_w, cy - half_h), (cx + half_w, cy - half_h), (cx + half_w, cy + half_h), (cx - half_w, cy + half_h)]
+
+
+def picture(corners, seed=1):
+    image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
+    if corners:
+        (left, top), _, (right, bottom), _ = [(round(x), round(y)) for x, y in corners]
+        image[top - 9:bottom + 10, left - 9:right + 10] = (20, 95, 225)
+        image[top:bottom + 1, left:right + 1] = (60, 50, 45)
+    noise = numpy.random.default_rng(seed).normal(0.0, 2.0, image.shape)
+    return numpy.clip(image + noise, 0, 255).astype(numpy.uint8)
+
+
+VIEWS = [(0.3 * (i % 5 - 2), 2.6 + 0.2 * (i % 3)) for i in range(12)]
+NAMES = "abcdefghijkl"
+
+
+@pytest.fixture(scope="module")
+def labelled(tmp_path_factory):
+    """Folder with twelve pictures of a window, two of a wall, and labels.csv."""
+    folder = tmp_path_factory.mktemp("labelled")
+    with open(folder / "labels.csv", "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["file", "label", *(axis + str(i) for i in range(1, 5) for axis in "xy")])
+        for name, view in zip(NAMES, VIEWS):
+            cv2.imwrite(str(folder / f"{name}.png"), picture(corners_at(*view), ord(name)))
+            table.writerow([f"{name}.png", "window", *(f"{value:.2f}" for corner in corners_at(*view) for value in corner)])
+        for name in ("wall_x", "wall_y"):
+            cv2.imwrite(str(folder / f"{name}.png"), picture(None, ord(name[-1])))
+            table.writerow([f"{name}.png", "none", *[""] * 8])
+    return folder
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    """The same views as a flight with calibration and truth, a picture a second."""
+    file = tmp_path_factory.mktemp("bag") / "views.bag"
+    numpy.savez(file.with_suffix(".npz"), pictures=[picture(corners_at(*view), i) for i, view in enumerate(VIEWS)], views=VIEWS)
+    script = f"""
+import numpy, rosbag, rospy
+from geometry_msgs.msg import PoseStamped
+from sensor_msgs.msg import CameraInfo, Image
+data = numpy.load({str(file.with_suffix(".npz"))!r})
+with rosbag.Bag({str(file)!r}, "w") as bag:
+    for i, (image, (x, z)) in enumerate(zip(data["pictures"], data["views"])):
+        stamp = rospy.Time(100 + i)
+        message = Image(height={HEIGHT}, width={WIDTH}, step={3 * WIDTH}, encoding="bgr8", data=image.tobytes())
+        info = CameraInfo(height={HEIGHT}, width={WIDTH}, distortion_model="plumb_bob", D=[0.0] * 5)
+        info.K = [{FOCAL}, 0, {(WIDTH - 1) / 2}, 0, {FOCAL}, {(HEIGHT - 1) / 2}, 0, 0, 1]
+        info.P = [{FOCAL}, 0, {(WIDTH - 1) / 2}, 0, 0, {FOCAL}, {(HEIGHT - 1) / 2}, 0, 0, 0, 1, 0]
+        info.R = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+        truth = PoseStamped()
+        truth.pose.position.x, truth.pose.position.z = x, z
+        q = truth.pose.orientation
+        q.x, q.y, q.z, q.w = 0.5, -0.5, 0.5, 0.5
+        for topic, item in (("/camera/image_raw", message), ("/camera/camera_info", info), ("/truth", truth)):
+            item.header.stamp, item.header.frame_id = stamp, "camera"
+            bag.write(topic, item, stamp)
+"""
+    code, _, errors = run("python3", "-c", script)
+    assert code == 0, errors
+    return file
+
+
+@pytest.fixture
+def blind(tmp_path):
+    file = tmp_path / "blind.yaml"
+    file.write_text(BLIND)
+    return file
+
+
+# --- tune_detector
+def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
+    saved, sheet = tmp_path / "my.yaml", tmp_path / "stages.jpg"
+    code, said, errors = run("tune_detector", labelled, "--headless", "--set", "edges/floor=4.5", "--set", "preprocess/equalise=true",
+                             "--set", "max_candidates=30", "--output", saved, "--sheet", sheet)
+    assert code == 0, errors
+    assert "windows in 12 of 14 pictures, median" in said
+    assert "a.png (1 of 14): window, score" in said and "lines" in said
+    assert "wall_x.png (13 of 14): no window" in said
+    assert yaml.safe_load(saved.read_text()) == {"window_detector": {"detector": {
+        "edges": {"floor": 4.5}, "preprocess": {"equalise": True}, "max_candidates": 30}}}
+    assert cv2.imread(str(sheet)).shape[1] > 1000
+    code, said, errors = run("tune_detector", labelled / "a.png", "--headless", "--params", saved, "--set", "gates/min_area=0.5")
+    assert code == 0 and "windows in 0 of 1 pictures" in said, errors
+    code, _, errors = run("detect_images", "--output", tmp_path / "found.csv", "--params", saved, labelled)
+    assert code == 0, errors
+
+
+def test_a_bag_is_a_source_too(bag):
+    code, said, errors = run("tune_detector", bag, "--headless", "--every", "3")
+    assert code == 0, errors
+    assert "windows in 4 of 4 pictures" in said and "picture 9 of /camera/image_raw" in said
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ([], "no SOURCE"), (["/nowhere.png", "--headless"], "no such picture"), (["/camera/image_raw", "--headless"], "no ROS master"),
+    (["LABELLED", "--headless", "--set", "edges/flor=1"], "edges/flor"), (["LABELLED", "--headless", "--set", "edges/floor=1e9"], "is not within"),
+    (["LABELLED", "--headless", "--params", "/nowhere.yaml"], "/nowhere.yaml"), (["LABELLED"], "--output is missing"),
+    (["LABELLED", "--output", "x.yaml"], "no display"), (["LABELLED", "--headless", "--output", "/proc/x.yaml"], "cannot be written")])
+def test_tune_detector_says_what_is_wrong(labelled, arguments, words):
+    code, _, errors = run("tune_detector", *[str(labelled) if a == "LABELLED" else a for a in arguments],
+                          ROS_MASTER_URI="http://localhost:1", DISPLAY="", WAYLAND_DISPLAY="")
+    assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
+
+
+@pytest.fixture
+def display():
+    """A screen that nobody sees."""
+    if not (shutil.which("Xvfb") and shutil.which("xdotool")):
+        pytest.skip("Xvfb or xdotool is not installed")
+    number = f":{90 + os.getpid() % 100}"
+    screen = subprocess.Popen(["Xvfb", number, "-screen", "0", "1600x1200x24"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(2.0)
+    yield number
+    screen.terminate()
+    screen.wait(timeout=20)
+
+
+def press(display, window, *actions):
+    """Keys, or clicks "x,y", for a window by its name."""
+    environment = {**os.environ, "DISPLAY": display}
+    found = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", window], env=environment, timeout=60,
+                           capture_output=True, text=True, check=True).stdout.split()[0]
+    for action in actions:
+        if "," in action:
+            x, y = action.split(",")
+            command = ["mousemove", "--window", found, x, y, "click", "1"]
+        else:
+            command = ["key", "--window", found, action]
+        subprocess.run(["xdotool", *command], env=environment, timeout=60, check=True)
+        time.sleep(0.7)
+
+
+def test_trackbars_open_and_what_they_show_is_saved(labelled, tmp_path, display):
+    saved = tmp_path / "my.yaml"
+    process = subprocess.Popen([str(ROOT / "scripts/run"), "tune_detector", str(labelled), "--output", str(saved), "--set",
+                                "edges/floor=4.5"], env={**os.environ, "DISPLAY": display}, stdout=subprocess.PIPE, text=True)
+    try:
+        press(display, r"\.png \(", "g", "n", "s", "q")
+        said, _ = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode == 0
+    assert yaml.safe_load(saved.read_text()) == {"window_detector": {"detector": {"edges": {"floor": 4.5}}}}, said
+
+
+# --- tune_from_bag
+def tune(*arguments):
+    return run("tune_from_bag", "--trials", 40, "--names", "gates/min_area,min_score", *arguments)
+
+
+def test_bad_thresholds_are_mended_and_the_changed_keys_written(labelled, blind, tmp_path):
+    saved = tmp_path / "better.yaml"
+    code, said, errors = tune("--labels", labelled / "labels.csv", "--images", labelled, "--params", blind, "--output", saved)
+    assert code == 0, said + errors
+    assert "held out (groups drawn with seed 1)" in said
+    assert "held out, before: recall 0.0 %" in said and "held out, after:  recall 100.0 %" in said
+    assert "- gates/min_area: 0.5\n+ gates/min_area: 0." in said
+    assert "40 of 40 settings tried; best F1 1.000" in errors
+    tuned = yaml.safe_load(saved.read_text())["window_detector"]["detector"]
+    assert set(tuned) <= {"gates", "min_score"} and tuned["gates"]["min_area"] < 0.2
+    code, said, errors = run("tune_detector", labelled, "--headless", "--params", saved)
+    assert code == 0 and "windows in 12 of 14 pictures" in said, errors
+
+
+def test_bags_with_truth_are_labelled_pictures(bag, blind, tmp_path):
+    code, said, errors = tune("--bag", bag, "--truth", "/truth", "--window-size", "1.2,1.0", "--params", blind, "--output", tmp_path / "b.yaml")
+    assert code == 0, said + errors
+    assert "held out, after:  recall 100.0 %" in said
+
+
+def test_nothing_is_written_where_nothing_is_better(labelled, tmp_path):
+    saved = tmp_path / "none.yaml"
+    code, said, errors = run("tune_from_bag", "--trials", 15, "--labels", labelled / "labels.csv", "--images", labelled, "--output", saved)
+    assert code == 1 and "nothing written" in said, said + errors
+    assert not saved.exists()
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ([], "--output is missing"), (["--output", "x"], "either --labels or --bag"),
+    (["--output", "x", "--labels", "/nowhere.csv", "--images", "/"], "/nowhere.csv"), (["--output", "x", "--labels", "a"], "go together"),
+    (["--output", "x", "--bag", "a.bag"], "--truth and --window-size"),
+    (["--output", "x", "--bag", "/nowhere.bag", "--truth", "/t", "--window-size", "1,1"], "/nowhere.bag"),
+    (["--output", "x", "--labels", "LABELS", "--images", "FOLDER", "--names", "edges/flor"], "edges/flor"),
+    (["--output", "x", "--labels", "LABELS", "--images", "FOLDER", "--held-out", "2"], "--held-out")])
+def test_tune_from_bag_says_what_is_wrong(labelled, arguments, words):
+    known = {"LABELS": labelled / "labels.csv", "FOLDER": labelled}
+    code, _, errors = run("tune_from_bag", *[known.get(a, a) for a in arguments])
+    assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
+
+
+# --- make_reference
+def flat(corners):
+    return ",".join(f"{value:.2f}" for corner in corners for value in corner)
+
+
+def test_a_reference_is_made_from_four_corners(labelled, tmp_path):
+    written = tmp_path / "below" / "target.png"
+    code, said, errors = run("make_reference", labelled / "a.png", "--output", written, "--corners", flat(corners_at(*VIEWS[0])))
+    assert code == 0, errors
+    assert f"config:={written.with_suffix('.yaml')}" in said
+    kept = yaml.safe_load(written.with_suffix(".yaml").read_text())["window_detector"]["reference"]
+    assert kept["picture"] == str(written)
+    assert numpy.allclose(kept["corners"], numpy.array(corners_at(*VIEWS[0])).ravel(), atol=0.01)
+    understood = cv2.imread(str(written.with_name("target_understood.png")))
+    x, y = (round(value) for value in corners_at(*VIEWS[0])[0])
+    assert understood[y, x + 20, 1] > 150, "the inner border is drawn in green"
+    code, said, errors = run("tune_detector", labelled, "--headless", "--reference", written, "--reference-corners", flat(corners_at(*VIEWS[0])))
+    assert code == 0 and "windows in 12 of 14 pictures" in said and ", distance 0.0" in said, said + errors
+
+
+def test_corners_are_fitted_to_the_edges_near_them(labelled, tmp_path):
+    true = corners_at(*VIEWS[0])
+    rough = [(x + dx, y + dy) for (x, y), (dx, dy) in zip(true, ((2, 1), (-2, 2), (1, -2), (2, 2)))]
+    code, _, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(rough))
+    assert code == 0, errors
+    kept = yaml.safe_load((tmp_path / "a.yaml").read_text())["window_detector"]["reference"]["corners"]
+    assert numpy.abs(numpy.array(kept) - numpy.round(numpy.array(true)).ravel()).max() < 1.0
+
+
+def test_corners_are_clicked(labelled, tmp_path, display):
+    true = [(round(x), round(y)) for x, y in corners_at(*VIEWS[0])]
+    process = subprocess.Popen([str(ROOT / "scripts/run"), "make_reference", str(labelled / "a.png"), "--output", str(tmp_path / "a.png")],
+                               env={**os.environ, "DISPLAY": display}, stdout=subprocess.PIPE, text=True)
+    try:
+        press(display, "inner corners", *(f"{x},{y}" for x, y in true), "Return")
+        process.communicate(timeout=120)
+    finally:
+        process.kill()
+    assert process.returncode == 0
+    kept = yaml.safe_load((tmp_path / "a.yaml").read_text())["window_detector"]["reference"]["corners"]
+    assert numpy.abs(numpy.array(kept) - numpy.array(true).ravel()).max() < 3.0
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ([], "no picture given"), (["/nowhere.png"], "/nowhere.png"), (["PICTURE"], "no display"),
+    (["PICTURE", "--corners", "1,2,3"], "--corners"), (["PICTURE", "--corners", "1,1,5,5,5,1,1,5"], "no convex quadrilateral"),
+    (["PICTURE", "--corners", "10,10,900,10,900,90,10,90"], "corners")])
+def test_make_reference_says_what_is_wrong(labelled, arguments, words):
+    code, _, errors = run("make_reference", *[labelled / "a.png" if a == "PICTURE" else a for a in arguments], DISPLAY="", WAYLAND_DISPLAY="")
+    assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
