@@ -12,6 +12,6 @@ file(GLOB ros_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
 foreach(test ${ros_tests})
   add_rostest(${test} DEPENDENCIES ${PROJECT_NAME}_window_detector ${PROJECT_NAME}_homography_pose
               ${PROJECT_NAME}_ingress_navigator ${PROJECT_NAME}_setpoint_guard ${PROJECT_NAME}_world
-              ${PROJECT_NAME}_camera_mounting)
+              ${PROJECT_NAME}_camera_mounting ${PROJECT_NAME}_image_compressor ${PROJECT_NAME}_replay_bag)
 endforeach()
 install(DIRECTORY test/ros DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/test USE_SOURCE_PERMISSIONS)

@@ -77,7 +77,14 @@ void DetectorNode::receive(const std_msgs::Header& header, const GuardedImage& p
   lockstep_->check();
 }
 
+void DetectorNode::restartIfClockJumpedBack() {
+  if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
+  ROS_WARN("the clock jumped back: the track is forgotten");
+  detector_.reset();
+}
+
 void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& picture) {
+  restartIfClockJumpedBack();
   times_.begin(header, picture.decode_ms);
   const cv::Mat& image = picture.image;
   const auto camera = camera_.cameraOf(image.cols, image.rows, header);

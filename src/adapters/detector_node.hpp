@@ -22,6 +22,7 @@
 #include "adapters/reconfigure.hpp"
 #include "adapters/reference_source.hpp"
 #include "adapters/run_node.hpp"
+#include "adapters/stamps.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/openness/interior_follower.hpp"
@@ -67,6 +68,7 @@ class DetectorNode : public Node {
   using Tuning = Reconfigure<window_ingress::WindowDetectorConfig, detection::DetectorParams>;
 
   void receive(const std_msgs::Header& header, const GuardedImage& picture);
+  void restartIfClockJumpedBack();
   void look(const std_msgs::Header& header, const GuardedImage& picture);
   bool isComplete(const Lockstep::Step& step) const;
   void lookInStep(const Lockstep::Step& step);
@@ -82,6 +84,7 @@ class DetectorNode : public Node {
 
   DetectorNodeParams params_;
   Diagnostics diagnostics_;
+  ClockWatch clock_;
   detection::WindowTracker detector_;
   openness::InteriorFollower interior_;
   CameraSource camera_;

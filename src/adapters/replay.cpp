@@ -3,14 +3,16 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <rosbag/exceptions.h>
 #include <rosbag/view.h>
-#include <tf2/buffer_core.h>
-#include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <deque>
 #include <map>
+#include <regex>
 
+#include "adapters/recorded_transforms.hpp"
 #include "adapters/stamps.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
@@ -26,11 +28,19 @@ double nowMs() {
       .count();
 }
 
+// Reasons that differ in their numbers only are one reason.
+std::string withoutNumbers(const std::string& text) {
+  static const std::regex kNumber("[0-9][0-9.]*");
+  return std::regex_replace(text, kNumber, "#");
+}
+
 class Replay {
  public:
-  Replay(const ReplayParams& params, const std::function<void(const ReplayedFrame&)>& each)
+  Replay(const ReplayParams& params, const std::function<void(const ReplayedFrame&)>& each,
+         const std::function<void(const std::string&)>& jumped)
       : params_(params),
         each_(each),
+        jumped_(jumped),
         detector_(params.detector),
         interior_(params.interior),
         tracker_(params.pose, params.filter, params.tracker) {
@@ -55,7 +65,11 @@ class Replay {
   void takeImu(const sensor_msgs::Imu& message);
   void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
   void takeTruth(const geometry_msgs::PoseStamped& message);
-  void takeTransforms(const tf2_msgs::TFMessage& message);
+  void noticeJump(const ros::Time& stamp);
+  void forgetAll();
+  void count(const ReplayedFrame& frame);
+  bool isAwaited(double known_until_sec, const std::string& topic) const;
+  void processComplete();
   void processFirst();
   detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
                                 const Converted<geometry::PinholeCamera>& camera);
@@ -65,20 +79,22 @@ class Replay {
   std::optional<Eigen::Isometry3d> mounting(const std::string& camera_frame);
   void refuse(const std::string& what, const std::string& why) {
     ++summary_.refused;
+    ++summary_.reasons[what + ": " + withoutNumbers(why)];
     summary_.refusal = what + ": " + why;
   }
 
   const ReplayParams& params_;
   const std::function<void(const ReplayedFrame&)>& each_;
+  const std::function<void(const std::string&)>& jumped_;
   detection::WindowTracker detector_;
   openness::InteriorFollower interior_;
-  pose::PoseBuffer attitude_;
+  pose::PoseBuffer attitude_, odometry_;
   navigation::TargetTracker tracker_;
   Converted<geometry::PinholeCamera> camera_;
-  tf2::BufferCore transforms_;
+  RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
-  double odometry_sec_ = -1.0;
+  double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
 
@@ -88,7 +104,7 @@ void Replay::prepare(const rosbag::Bag& bag) {
   if (infos.begin() != infos.end())
     if (const auto info = infos.begin()->instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/tf_static")))
-    if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) takeTransforms(*transforms);
+    if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) transforms_.take(*transforms);
   if (params_.topics.truth.empty()) return;
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(params_.topics.truth)))
     if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>()) takeTruth(*truth);
@@ -112,18 +128,32 @@ void Replay::take(const rosbag::MessageInstance& message) {
 
 void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode) {
   if (!stampSec(header.stamp)) return refuse("image", "header.stamp is zero or not normalised");
+  noticeJump(header.stamp);
   waiting_.push_back({header, std::move(decode)});
-  const bool no_odometry = params_.topics.odom.empty() || !params_.with_pose;
-  if (no_odometry || waiting_.size() > kMostWaiting) processFirst();
+  if (waiting_.size() > kMostWaiting) processFirst();
+  processComplete();
+}
+
+bool Replay::isAwaited(double known_until_sec, const std::string& topic) const {
+  return !topic.empty() && known_until_sec < waiting_.front().header.stamp.toSec();
+}
+
+// An image waits for odometry and attitude as new as itself.
+void Replay::processComplete() {
+  while (!waiting_.empty() && !isAwaited(attitude_sec_, params_.topics.imu) &&
+         !(params_.with_pose && isAwaited(odometry_sec_, params_.topics.odom)))
+    processFirst();
 }
 
 void Replay::takeOdometry(const nav_msgs::Odometry& message) {
   const auto vehicle = fromMsg(message, params_.frames);
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
+  noticeJump(message.header.stamp);
+  odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
   tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
                        vehicle.value->velocity_odom_mps);
   odometry_sec_ = vehicle.value->stamp_sec;
-  while (!waiting_.empty() && waiting_.front().header.stamp.toSec() <= odometry_sec_) processFirst();
+  processComplete();
 }
 
 void Replay::takeImu(const sensor_msgs::Imu& message) {
@@ -136,16 +166,39 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
                   "frame_id is '" + message.header.frame_id + "', expected '" + params_.frames.base + "'");
   tracker_.addAttitude(*stamp_sec, *attitude.value);
   attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+  attitude_sec_ = *stamp_sec;
+  processComplete();
+}
+
+void Replay::noticeJump(const ros::Time& stamp) {
+  const double sec = stamp.toSec(), back_sec = newest_sec_ - sec;
+  if (back_sec <= kJumpSec) {
+    newest_sec_ = std::max(newest_sec_, sec);
+    return;
+  }
+  while (!waiting_.empty()) processFirst();
+  forgetAll();
+  newest_sec_ = sec;
+  ++summary_.jumps;
+  char text[120];
+  std::snprintf(text, sizeof text, "time jumps back by %.1f s to %.3f: everything is forgotten", back_sec,
+                sec);
+  if (jumped_) jumped_(text);
+}
+
+void Replay::forgetAll() {
+  detector_.reset();
+  if (params_.reference) detector_.setReference(*params_.reference);
+  interior_.reset();
+  tracker_.reset();
+  attitude_.clear();
+  odometry_.clear();
+  odometry_sec_ = attitude_sec_ = -1.0;
 }
 
 void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {
   const auto pose = fromMsg(message.pose);
   if (pose) truth_[message.header.stamp] = *pose.value;
-}
-
-void Replay::takeTransforms(const tf2_msgs::TFMessage& message) {
-  for (const geometry_msgs::TransformStamped& transform : message.transforms)
-    if (fromMsg(transform.transform)) transforms_.setTransform(transform, "bag", true);
 }
 
 Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
@@ -154,11 +207,7 @@ Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const 
 }
 
 Converted<Eigen::Isometry3d> Replay::mountingIfKnown(const std::string& camera_frame) const {
-  try {
-    return fromMsg(transforms_.lookupTransform(params_.frames.base, camera_frame, ros::Time(0)).transform);
-  } catch (const tf2::TransformException& error) {
-    return {std::nullopt, error.what()};
-  }
+  return transforms_.between(params_.frames.base, camera_frame);
 }
 
 std::optional<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) {
@@ -174,20 +223,32 @@ void Replay::processFirst() {
   if (!picture.reason.empty()) return refuse("image", picture.reason);
   ReplayedFrame frame;
   frame.stamp = waiting.header.stamp;
+  frame.picture = picture.image;
   const auto camera = cameraOf(picture.image);
   if (!camera) refuse("camera_info", camera.reason);
   frame.camera = camera.value;
+  frame.has_odometry = odometry_.at(frame.stamp.toSec(), params_.tracker.max_pose_gap_sec).has_value();
+  frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
   const double begun_ms = nowMs();
   frame.row.window = detector_.update(inputOf(picture.image, waiting.header, camera));
   if (frame.row.window && params_.with_pose) interior_.follow(picture.image, *frame.row.window);
+  frame.trace = &detector_.trace();
+  frame.detector_ms = nowMs() - begun_ms;
   if (!frame.row.window) frame.row.reject_reason = detection::toString(detector_.trace().outcome);
   if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
-  summary_.milliseconds += nowMs() - begun_ms;
-  ++summary_.images;
-  summary_.calibrated += camera.value.has_value();
+  frame.pose_ms = nowMs() - begun_ms - frame.detector_ms;
+  count(frame);
   const auto truth = truth_.find(waiting.header.stamp);
   if (truth != truth_.end()) frame.truth = truth->second;
   each_(frame);
+}
+
+void Replay::count(const ReplayedFrame& frame) {
+  ++summary_.images;
+  summary_.calibrated += frame.camera.has_value();
+  summary_.with_odometry += frame.has_odometry;
+  summary_.with_attitude += frame.has_attitude;
+  summary_.milliseconds += frame.detector_ms + frame.pose_ms;
 }
 
 // Attitude where the bag has it near the exposure, and the mounting of the camera.
@@ -205,11 +266,13 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
 }
 
 void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
+  frame.why_not_filtered = "no window";
   if (frame.row.window) {
     tracker_.see(*frame.row.window, *frame.camera, mounting(camera_frame));
     tracker_.flush();
     const pose::PoseResult& result = tracker_.lastUpdate().pose;
     frame.row.pose = result.estimate;
+    frame.why_not_filtered = tracker_.lastUpdate().why_not;
     if (!result.estimate) frame.row.reject_reason = std::string("pose_") + pose::toString(result.reject);
   }
   frame.filtered = tracker_.filtered(frame.stamp.toSec());
@@ -219,8 +282,9 @@ void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
 }  // namespace
 
 ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
-                     const std::function<void(const ReplayedFrame&)>& each) {
-  Replay run(params, each);
+                     const std::function<void(const ReplayedFrame&)>& each,
+                     const std::function<void(const std::string&)>& jumped) {
+  Replay run(params, each, jumped);
   try {
     run.prepare(bag);
     const BagTopics& t = params.topics;

@@ -5,7 +5,9 @@
 #include <rosbag/bag.h>
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 
@@ -39,21 +41,35 @@ struct ReplayedFrame {
   evaluation::DetectionRow row;
   std::optional<pose::FilteredWindow> filtered;
   openness::OpennessVerdict openness;  ///< UNKNOWN without poses
+  std::string why_not_filtered;        ///< empty if this image contributed
   std::optional<geometry::PinholeCamera> camera;
-  std::optional<Eigen::Isometry3d> truth;  ///< T_camera_window, if the bag holds it for this image
+  bool has_odometry = false;                         ///< at the exposure
+  bool has_attitude = false;                         ///< likewise
+  std::optional<Eigen::Isometry3d> truth;            ///< T_camera_window, if the bag holds it for this image
+  cv::Mat picture;                                   ///< valid during the call
+  const detection::DetectionTrace* trace = nullptr;  ///< likewise
+  double detector_ms = 0.0, pose_ms = 0.0;
 };
 
 struct ReplaySummary {
-  int images = 0;             ///< that could be read
-  int calibrated = 0;         ///< of those: with a calibration that fits
-  int refused = 0;            ///< messages that could not be used
-  std::string refusal;        ///< the last of them
-  double milliseconds = 0.0;  ///< spent in the detector and the pose
+  int images = 0;                      ///< that could be read
+  int calibrated = 0;                  ///< of those: with a calibration that fits
+  int with_odometry = 0;               ///< of those: with odometry at the exposure
+  int with_attitude = 0;               ///< of those: with an attitude at the exposure
+  int jumps = 0;                       ///< back in time, after each of which everything was forgotten
+  int refused = 0;                     ///< messages that could not be used
+  std::map<std::string, int> reasons;  ///< why, numbers left out
+  std::string refusal;                 ///< the last of them
+  double milliseconds = 0.0;           ///< spent in the detector and the pose
 };
 
-/// \param each called for each image in the order of the bag
-/// \throws BagError if the bag is damaged half way
+/// A stamp more than `kJumpSec` before the newest one is a jump back in time: everything starts anew, as it
+/// does in the nodes when a bag is looped. \param each called for each image in the order of the bag \param
+/// jumped called at each jump, with what to say about it \throws BagError if the bag is damaged half way
 ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
-                     const std::function<void(const ReplayedFrame&)>& each);
+                     const std::function<void(const ReplayedFrame&)>& each,
+                     const std::function<void(const std::string&)>& jumped = {});
+
+constexpr double kJumpSec = 1.0;
 
 }  // namespace window_ingress::adapters

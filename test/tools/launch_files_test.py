@@ -8,7 +8,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAUNCH_FILES = sorted((ROOT / "launch").glob("*.launch"))
-NEEDED = {"replay": ["bag:=/tmp/none.bag"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
+NEEDED = {"replay": ["bag:=/tmp/none.bag"], "record": ["name:=/tmp/none"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
 CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"}
 
 
@@ -98,3 +98,47 @@ def test_the_usb_camera_publishes_what_the_detector_takes():
     for topic in ("image_raw", "camera_info"):
         assert own[f"~{topic}"] == remaps(chain, "window_detector")[topic]
     assert camera["params"]["/usb_cam/camera_frame_id"] == "camera_optical_frame"
+
+
+OUTPUTS = ("/window", "/window_pose", "/window_pose_cov", "/window_polygon", "/markers", "/debug_image", "/state", "/cmd_vel",
+           "/ingress_navigator/cmd_vel", "/mavros/setpoint_velocity/cmd_vel", "/engaged", "/diagnostics", "/rosout")
+
+
+def test_a_replay_moves_recorded_outputs_aside_and_commands_nobody():
+    launch = dump("replay", "rviz:=true", "loop:=true", "rate:=0.5", "start:=3", "odom_frame:=map")
+    assert remaps(launch, "play") == {**{topic: f"/rosbag{topic}" for topic in OUTPUTS}, **{
+        f"/{topic}": f"/rosbag/{topic}" for topic in ("mavros/setpoint_raw/local", "rosout_agg")}}
+    assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel"
+    assert launch["params"]["/use_sim_time"] is True and launch["params"]["/homography_pose/odom_frame"] == "map"
+    assert {"/rviz", "/ingress_navigator"} <= set(launch["nodes"])
+    assert "/ingress_navigator" not in dump("replay")["nodes"]
+
+
+def recorded(*arguments):
+    """Arguments of rosbag record."""
+    return dump("record", *arguments)["nodes"]["/recorder"]["args"].split()
+
+
+def test_a_recording_holds_what_replay_and_plots_need():
+    topics = recorded()
+    assert {"/camera/image_raw/compressed", "/camera/camera_info", "/odom", "/imu", "/tf", "/tf_static", "/window", "/window_pose",
+            "/state", "/cmd_vel", "/ingress_navigator/cmd_vel", "/diagnostics"} <= set(topics)
+    assert "/clock" not in topics and "/debug_image" not in topics and "-a" not in topics
+    assert "--split" in topics and "--size=1024" in topics and "--lz4" in topics
+
+
+def test_pictures_of_a_recording_are_by_choice():
+    assert "/camera/image_raw" in recorded("images:=raw") and "/camera/image_raw/compressed" not in recorded("images:=raw")
+    assert not any("image_raw" in word for word in recorded("images:=none"))
+    assert "/eye/image_raw/compressed" in recorded("image:=/eye/image_raw")
+    launch = dump("record", "image:=/eye/image_raw")
+    assert remaps(launch, "image_compressor") == {"image_raw": "/eye/image_raw", "compressed": "/eye/image_raw/compressed"}
+    for argument in ("compress:=false", "images:=raw", "images:=none"):
+        assert "/image_compressor" not in dump("record", argument)["nodes"]
+
+
+def test_a_recording_is_bounded_as_asked():
+    assert {"--split", "--size=100", "--max-splits=5"} <= set(recorded("split_mb:=100", "files:=5"))
+    timed = recorded("seconds:=30", "compression:=none")
+    assert "--duration=30" in timed and "--split" not in timed and "--lz4" not in timed
+    assert {"/more", "/topics"} <= set(recorded("more:=/more /topics"))

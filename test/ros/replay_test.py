@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""replay.launch, looped: detection and poses come, recorded outputs go aside, and at each loop everything starts anew and says so."""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import TwistStamped
+from rosgraph_msgs.msg import Log
+from window_ingress.msg import IngressState, WindowDetection, WindowPose
+
+import support
+
+WRITER = pathlib.Path(__file__).resolve().parent / "write_camera_bag.py"
+UP_WITHIN_S = 60.0
+SECONDS = 3
+
+
+class ReplayTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        bag = os.path.join(cls.folder, "flight.bag")
+        subprocess.run([sys.executable, str(WRITER), bag, "compressed", "outputs", f"seconds={SECONDS}"], check=True)
+        cls.windows, cls.poses = support.Listener("window", WindowDetection), support.Listener("window_pose", WindowPose)
+        cls.aside = support.Listener("rosbag/window_pose", WindowPose)
+        cls.commands = [support.Listener(topic, TwistStamped) for topic in ("cmd_vel", "replay/cmd_vel")]
+        cls.states, cls.log = support.Listener("state", IngressState), support.Listener("/rosout", Log)
+        cls.play = subprocess.Popen(["roslaunch", "window_ingress", "replay.launch", f"bag:={bag}", "loop:=true", "navigator:=true"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.play.send_signal(signal.SIGINT)
+        cls.play.wait(30)
+        shutil.rmtree(cls.folder)
+
+    def said(self, node, words):
+        return self.log.wait(lambda m: m.name == node and words in m.msg, f"{node} says '{words}'", UP_WITHIN_S, begin=0.0)
+
+    def test_1_the_recording_is_seen_and_located(self):
+        self.windows.wait(lambda m: m.detected, "a window", UP_WITHIN_S, begin=0.0)
+        self.poses.wait(lambda m: m.filtered_valid and m.filtered_updates > 5, "a filtered pose", UP_WITHIN_S, begin=0.0)
+
+    def test_2_recorded_outputs_go_aside(self):
+        self.aside.wait(lambda m: m.filtered_reason == "from the recording", "the recorded pose on /rosbag", UP_WITHIN_S, begin=0.0)
+        self.assertEqual([m for m in self.poses.since(0.0) if m.filtered_reason == "from the recording"], [])
+
+    def test_3_nothing_commands_and_the_navigator_stays_idle(self):
+        self.states.wait(what="a state", deadline_s=UP_WITHIN_S, begin=0.0)
+        self.assertEqual({m.state_name for m in self.states.since(0.0)}, {"IDLE"})
+        self.assertEqual(self.commands[0].since(0.0), [], "nothing on cmd_vel")
+        self.assertEqual([m for m in self.commands[1].since(0.0) if m.twist.linear.x != 0.0], [])
+
+    def test_4_a_loop_forgets_everything_and_says_so(self):
+        for node, words in (("/window_detector", "the clock jumped back: the track is forgotten"),
+                            ("/homography_pose", "the clock jumped back: odometry, transforms and filter forgotten"),
+                            ("/ingress_navigator", "the clock jumped back: inputs forgotten")):
+            self.said(node, words)
+        poses = support.wait_for(self.poses_of_two_loops, "poses after the loop", UP_WITHIN_S)
+        before, after = poses
+        self.assertGreater(before[-1].filtered_updates, 10)
+        self.assertLess(after[0].filtered_updates, 10, "the filter has begun anew")
+        self.windows.wait(lambda m: m.detected, "a window in a later loop", UP_WITHIN_S)
+
+    def poses_of_two_loops(self):
+        """Filtered poses before and after the first jump back, once there are some of both."""
+        poses = self.poses.since(0.0)
+        stamps = [m.header.stamp.to_sec() for m in poses]
+        jump = next((i for i in range(1, len(stamps)) if stamps[i] < stamps[i - 1] - 0.5 * SECONDS), None)
+        if jump is None:
+            return None
+        before, after = ([m for m in part if m.filtered_valid] for part in (poses[:jump], poses[jump:]))
+        return (before, after) if before and after else None
+
+
+if __name__ == "__main__":
+    rospy.init_node("replay_test")
+    rostest.rosrun("window_ingress", "replay_test", ReplayTest, sys.argv)

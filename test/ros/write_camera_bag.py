@@ -1,0 +1,69 @@
+"""Writes a bag as a camera on a standing vehicle records it: usage write_camera_bag.py FILE.bag [WORD...]
+
+raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, twice (a looped replay, recorded), outputs (a
+window_pose and a cmd_vel of the flight, which nobody should take for new ones).
+"""
+import pathlib
+import sys
+
+import cv2
+import rosbag
+import rospy
+from geometry_msgs.msg import TwistStamped
+from sensor_msgs.msg import CompressedImage
+from window_ingress.msg import WindowPose
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import support  # noqa: E402
+
+START_S, RATE_HZ, RECORDED_S = 1000.0, 20, 5000.0
+
+
+def picture_message(pixels, stamp, is_raw):
+    if is_raw:
+        return support.image_message(pixels, stamp)
+    message = CompressedImage(format="bgr8; jpeg compressed bgr8", data=cv2.imencode(".jpg", pixels)[1].tobytes())
+    message.header.stamp, message.header.frame_id = stamp, "camera_optical_frame"
+    return message
+
+
+def recorded_outputs(stamp):
+    pose = WindowPose(filtered_reason="from the recording")
+    command = TwistStamped()
+    pose.header.stamp = command.header.stamp = stamp
+    command.twist.linear.x = 0.77
+    return [("/window_pose", pose), ("/cmd_vel", command)]
+
+
+def messages(stamp, pixels, words, image):
+    is_raw = "raw" in words
+    yield image if is_raw else image + "/compressed", picture_message(pixels, stamp, is_raw)
+    if "no_info" not in words:
+        yield image.rsplit("/", 1)[0] + "/camera_info", support.camera_info(stamp)
+    if "no_odom" not in words:
+        yield "/odom", support.odometry(stamp)
+    yield "/imu", support.imu(stamp)
+    if "outputs" in words:
+        yield from recorded_outputs(stamp)
+
+
+def main():
+    file, *words = sys.argv[1:]
+    named = dict(word.split("=") for word in words if "=" in word)
+    image, count = named.get("image", "/camera/image_raw"), int(RATE_HZ * float(named.get("seconds", "3")))
+    pixels, received = support.picture(), 0
+    rospy.rostime.set_rostime_initialized(True)
+    with rosbag.Bag(file, "w") as bag:
+        transforms = support.transforms_type()([support.mounting()])
+        bag.write("/tf_static", transforms, rospy.Time.from_sec(RECORDED_S))
+        for _ in range(2 if "twice" in words else 1):
+            for i in range(count):
+                stamp = rospy.Time.from_sec(START_S + i / RATE_HZ)
+                at = rospy.Time.from_sec(RECORDED_S + received / RATE_HZ) if "twice" in words else stamp
+                received += 1
+                for topic, message in messages(stamp, pixels, words, image):
+                    bag.write(topic, message, at)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,132 @@
+"""replay_bag as people use it: the tables, the page made of them, and what it says about bags that lack something."""
+import csv
+import html.parser
+import json
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+WRITER = ROOT / "test/ros/write_camera_bag.py"
+SIZE = ("--window-size", "1.25,1.0")
+
+
+def run(*command, timeout=120):
+    return subprocess.run([str(ROOT / "scripts/run"), *map(str, command)], capture_output=True, text=True, timeout=timeout, check=False)
+
+
+def bag_of(folder, *words):
+    bag = folder / "flight.bag"
+    written = run("python3", WRITER, bag, *words)
+    assert written.returncode == 0, written.stderr
+    return bag
+
+
+def replay(bag, output, *options):
+    done = run("replay_bag", "--bag", bag, "--output", output, *options)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def rows(file):
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+class Page(html.parser.HTMLParser):
+    """References, open tags and text of a page."""
+
+    VOID = {"meta", "img", "br", "circle", "path"}
+
+    def __init__(self, file):
+        super().__init__()
+        self.references, self.open, self.text = [], [], ""
+        self.raw = file.read_text(encoding="utf-8")
+        self.feed(self.raw)
+        assert self.open == [], f"never closed: {self.open}"
+        self.text = re.sub(r"\s+", " ", self.text)
+
+    def handle_starttag(self, tag, attrs):
+        self.references += [value for name, value in attrs if name in ("src", "href")]
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if tag not in self.VOID:
+            assert self.open and self.open.pop() == tag, tag
+
+    def handle_data(self, data):
+        self.text += data + " "
+
+
+def test_the_page_stands_alone_and_says_what_was_used(tmp_path):
+    bag = bag_of(tmp_path, "seconds=2")
+    replay(bag, tmp_path / "out", *SIZE)
+    page = Page(tmp_path / "out/report.html")
+    assert "http" not in page.raw and "<script" not in page.raw, "it opens from disk, without a network"
+    assert len([r for r in page.references if r.endswith(".jpg")]) > 20
+    assert [r for r in page.references if not (tmp_path / "out" / r).is_file()] == []
+    for words in ("window found 40 of 40 (100.0 %)", "without calibration 0", "without odometry 0", "without attitude 0",
+                  "jumps back in time 0", f"replay_bag --bag {bag}", "/camera/image_raw/compressed sensor_msgs/CompressedImage 40 image",
+                  "/odom nav_msgs/Odometry 40 odom", "Angles", "Widths and distance", "Latency"):
+        assert words in page.text, words
+    assert page.raw.count("<svg") == 9 and "nan" not in page.raw.lower()
+
+
+def test_the_same_bag_gives_the_same_bytes(tmp_path):
+    bag = bag_of(tmp_path, "raw", "seconds=1")
+    for name in ("one", "two"):
+        replay(bag, tmp_path / name, *SIZE)
+    for table in ("frames.csv", "details.csv", "strip.csv"):
+        assert (tmp_path / "one" / table).read_bytes() == (tmp_path / "two" / table).read_bytes(), table
+    assert len(rows(tmp_path / "one/latency.csv")) == len(rows(tmp_path / "one/frames.csv")) == 20
+
+
+def test_raw_and_compressed_and_any_names_of_topics(tmp_path):
+    found = {}
+    for words in (["raw"], ["compressed"], ["raw", "image=/uav1/eye/image_raw"]):
+        replay(bag_of(tmp_path, *words, "seconds=1"), tmp_path / "out", *SIZE)
+        found["".join(words)] = [row["detected"] for row in rows(tmp_path / "out/frames.csv")]
+    assert set(map(tuple, found.values())) == {("1",) * 20}
+
+
+def test_without_a_size_there_is_a_page_without_poses(tmp_path):
+    replay(bag_of(tmp_path, "seconds=1", "no_odom"), tmp_path / "out")
+    page = Page(tmp_path / "out/report.html")
+    assert "no size given" in page.text and "Angles" not in page.text and page.raw.count("<svg") == 2
+    assert "without odometry 20" in page.text
+
+
+def test_a_recorded_loop_is_noticed_and_starts_anew(tmp_path):
+    done = replay(bag_of(tmp_path, "seconds=2", "twice"), tmp_path / "out", *SIZE)
+    assert "time jumps back by 2.0 s" in done.stderr or "time jumps back by 1.9 s" in done.stderr, done.stderr
+    assert json.loads((tmp_path / "out/replay.json").read_text(encoding="utf-8"))["counts"]["jumps_back_in_time"] == 1
+    details = rows(tmp_path / "out/details.csv")
+    tables = [{name: row[name] for name in row if name != "stamp"} for row in details]
+    assert tables[:40] == tables[40:], "the second time is as the first"
+
+
+def test_calibration_that_is_missing_is_said(tmp_path):
+    done = run("replay_bag", "--bag", bag_of(tmp_path, "no_info", "seconds=1"), "--output", tmp_path / "out", *SIZE)
+    assert done.returncode == 2 and "no calibration" in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_a_page_needs_its_tables(tmp_path):
+    done = run("report_replay.py", tmp_path)
+    assert done.returncode != 0 and "frames.csv" in done.stderr
+    assert run("report_replay.py").returncode != 0
+
+
+@pytest.mark.skipif(not (ROOT / "../shared/data/kiosk.bag").is_file(), reason="the shared data are not here")
+def test_the_recorded_flight_before_the_kiosk(tmp_path):
+    data = ROOT / "../shared/data"
+    with open(data / "kiosk_reference.csv", encoding="utf-8") as file:
+        corners = ",".join(file.read().splitlines()[1].split(",")[2:])
+    replay(data / "kiosk.bag", tmp_path / "out", "--window-size", "1.3,1.1", "--truth", "/ground_truth/window_in_camera",
+           "--reference", data / "kiosk_reference.jpg", "--reference-corners", corners)
+    page = Page(tmp_path / "out/report.html")
+    assert "window found 205 of 240" in page.text and "without odometry 0" in page.text and "without attitude 0" in page.text
+    worst = max(float(row["error_corner_px"]) for row in rows(tmp_path / "out/frames.csv") if row["error_corner_px"])
+    assert worst < 5.0
