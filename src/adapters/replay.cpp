@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <deque>
 #include <map>
-#include <regex>
 
 #include "adapters/recorded_transforms.hpp"
+#include "adapters/replay_facts.hpp"
 #include "adapters/stamps.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
@@ -26,12 +26,6 @@ constexpr std::size_t kMostWaiting = 30;  // images that wait for odometry as ne
 double nowMs() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
-}
-
-// Reasons that differ in their numbers only are one reason.
-std::string withoutNumbers(const std::string& text) {
-  static const std::regex kNumber("[0-9][0-9.]*");
-  return std::regex_replace(text, kNumber, "#");
 }
 
 class Replay {
