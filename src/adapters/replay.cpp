@@ -158,6 +158,7 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   if (message.header.frame_id != params_.frames.base)
     return refuse(params_.topics.imu,
                   "frame_id is '" + message.header.frame_id + "', expected '" + params_.frames.base + "'");
+  noticeJump(message.header.stamp);
   tracker_.addAttitude(*stamp_sec, *attitude.value);
   attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
   attitude_sec_ = *stamp_sec;
