@@ -32,7 +32,11 @@ class ReplayTest(unittest.TestCase):
         cls.aside = support.Listener("rosbag/window_pose", WindowPose)
         cls.commands = [support.Listener(topic, TwistStamped) for topic in ("cmd_vel", "replay/cmd_vel")]
         cls.states, cls.log = support.Listener("state", IngressState), support.Listener("/rosout", Log)
-        cls.play = subprocess.Popen(["roslaunch", "window_ingress", "replay.launch", f"bag:={bag}", "loop:=true", "navigator:=true"])
+        config = os.path.join(cls.folder, "window.yaml")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write("homography_pose: {pose: {opening_width_m: 1.25, opening_height_m: 1.0}}\n")  # as support.picture() shows it
+        cls.play = subprocess.Popen(["roslaunch", "window_ingress", "replay.launch", f"bag:={bag}", f"config:={config}", "loop:=true",
+                                     "navigator:=true"])
 
     @classmethod
     def tearDownClass(cls):

@@ -55,7 +55,7 @@ def main():
     rospy.rostime.set_rostime_initialized(True)
     with rosbag.Bag(file, "w") as bag:
         transforms = support.transforms_type()([support.mounting()])
-        bag.write("/tf_static", transforms, rospy.Time.from_sec(RECORDED_S))
+        bag.write("/tf_static", transforms, rospy.Time.from_sec(RECORDED_S if "twice" in words else START_S))
         for _ in range(2 if "twice" in words else 1):
             for i in range(count):
                 stamp = rospy.Time.from_sec(START_S + i / RATE_HZ)
