@@ -62,7 +62,6 @@ class Replay {
   void noticeJump(const ros::Time& stamp);
   void forgetAll();
   void count(const ReplayedFrame& frame);
-  bool isAwaited(double known_until_sec, const std::string& topic) const;
   void processComplete();
   void processFirst();
   detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
@@ -88,7 +87,7 @@ class Replay {
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
-  double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
+  double odometry_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
 
@@ -128,14 +127,10 @@ void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImag
   processComplete();
 }
 
-bool Replay::isAwaited(double known_until_sec, const std::string& topic) const {
-  return !topic.empty() && known_until_sec < waiting_.front().header.stamp.toSec();
-}
-
-// An image waits for odometry and attitude as new as itself.
+// An image waits for odometry as new as itself.
 void Replay::processComplete() {
-  while (!waiting_.empty() && !isAwaited(attitude_sec_, params_.topics.imu) &&
-         !(params_.with_pose && isAwaited(odometry_sec_, params_.topics.odom)))
+  const bool awaits_odometry = params_.with_pose && !params_.topics.odom.empty();
+  while (!waiting_.empty() && !(awaits_odometry && odometry_sec_ < waiting_.front().header.stamp.toSec()))
     processFirst();
 }
 
@@ -161,8 +156,6 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   noticeJump(message.header.stamp);
   tracker_.addAttitude(*stamp_sec, *attitude.value);
   attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
-  attitude_sec_ = *stamp_sec;
-  processComplete();
 }
 
 void Replay::noticeJump(const ros::Time& stamp) {
@@ -188,7 +181,7 @@ void Replay::forgetAll() {
   tracker_.reset();
   attitude_.clear();
   odometry_.clear();
-  odometry_sec_ = attitude_sec_ = -1.0;
+  odometry_sec_ = -1.0;
 }
 
 void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {

@@ -62,7 +62,7 @@ def main():
                 at = rospy.Time.from_sec(RECORDED_S + received / RATE_HZ) if "twice" in words else stamp
                 received += 1
                 for topic, message in messages(stamp, pixels, words, image):
-                    bag.write(topic, message, at)
+                    bag.write(topic, message, at - rospy.Duration(0.001) if topic == "/imu" else at)
 
 
 if __name__ == "__main__":
