@@ -20,6 +20,7 @@ simulation::Scenario shortFlight() {
   scenario.start.distance_m = 2.5;
   scenario.start.off_axis_rad = 0.2;
   scenario.time_limit_sec = 20.0;
+  scenario.unverified_opening = "allow";
   return scenario;
 }
 
@@ -41,6 +42,17 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
   EXPECT_EQ(log.records.back().state, State::kPassed);
   const auto is_committed = [](const FlightRecord& record) { return record.state == State::kCommit; };
   EXPECT_TRUE(std::any_of(log.records.begin(), log.records.end(), is_committed));
+}
+
+TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
+  auto scenario = shortFlight();
+  scenario.unverified_opening = "deny";
+  scenario.time_limit_sec = 12.0;
+  FlightParams params;
+  params.interior.enabled = false;
+  const auto flight = flyOnce(scenario, 1, params);
+  EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
+  EXPECT_FALSE(flight.offset_y_m);
 }
 
 TEST(ClosedLoopFlight, LogHoldsWhatEachImageSaidAndThePredictedMiss) {
