@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <utility>
+
+#include "window_ingress/parameters/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -28,13 +29,6 @@ std::string withTwoDecimals(double value) {
 
 double steadyNowSec() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::string withoutNumbers(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    if (std::strchr("0123456789.+-", c) == nullptr) result += c;
-  return result;
 }
 
 Health outputHealth(int listeners, const std::string& topics, double running_sec) {
@@ -96,7 +90,7 @@ bool Diagnostics::lookAt(const std::string& name, Item& item) {
     if (now.level == Health::kWarn) ROS_WARN("%s: %s", name.c_str(), now.text.c_str());
     if (now.level == Health::kOk) ROS_INFO("%s: %s", name.c_str(), now.text.c_str());
   }
-  const std::string said = withoutNumbers(now.text);
+  const std::string said = parameters::withoutNumbers(now.text);
   const bool news = before != now.level || (now.level != Health::kOk && said != item.said);
   item.said = said;
   return news;

@@ -23,9 +23,6 @@ struct Health {
   std::vector<std::pair<std::string, double>> values = {};  ///< numbers beside it, with unit in the name
 };
 
-/// The text without its numbers: what remains the same while the same thing is the matter.
-std::string withoutNumbers(const std::string& text);
-
 /// Whether an output is heard by anybody. Start-up is forgiven.
 /// \param listeners in all, of the topics named \param topics for people \param running_sec since the start
 Health outputHealth(int listeners, const std::string& topics, double running_sec);

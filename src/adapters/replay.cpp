@@ -15,6 +15,7 @@
 #include "adapters/replay_facts.hpp"
 #include "adapters/stamps.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/text.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
 
 namespace window_ingress::adapters {
@@ -72,7 +73,7 @@ class Replay {
   std::optional<Eigen::Isometry3d> mounting(const std::string& camera_frame);
   void refuse(const std::string& what, const std::string& why) {
     ++summary_.refused;
-    ++summary_.reasons[what + ": " + withoutNumbers(why)];
+    ++summary_.reasons[what + ": " + parameters::withoutNumbers(why)];
     summary_.refusal = what + ": " + why;
   }
 

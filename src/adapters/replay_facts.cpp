@@ -55,16 +55,6 @@ std::string quoted(const std::string& argument) {
 
 }  // namespace
 
-std::string withoutNumbers(const std::string& text) {
-  std::string kept;
-  for (const char c : text) {
-    const bool in_number = !kept.empty() && kept.back() == '#';
-    const bool is_digit = c >= '0' && c <= '9';
-    if (!(in_number && (is_digit || c == '.'))) kept += is_digit ? '#' : c;
-  }
-  return kept;
-}
-
 std::size_t messagesIn(const rosbag::Bag& bag, const std::string& topic) {
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
 }

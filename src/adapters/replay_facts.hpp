@@ -10,9 +10,6 @@
 
 namespace window_ingress::adapters {
 
-/// Each number as one #: reasons that differ in their numbers only are one reason.
-std::string withoutNumbers(const std::string& text);
-
 /// How many messages of a topic lie in the bag.
 std::size_t messagesIn(const rosbag::Bag& bag, const std::string& topic);
 

@@ -1,24 +1,13 @@
 #include "window_ingress/evaluation/flight_metrics.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "window_ingress/parameters/text.hpp"
+
 namespace window_ingress::evaluation {
 namespace {
-
-/// The text with every number as #, so that like causes count together.
-std::string withoutNumbers(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const bool is_number =
-        std::isdigit(static_cast<unsigned char>(c)) != 0 || (c == '.' && !out.empty() && out.back() == '#');
-    if (!is_number) out += c;
-    if (is_number && (out.empty() || out.back() != '#')) out += '#';
-  }
-  return out;
-}
 
 bool hasPassed(const FlightResult& flight) { return flight.outcome == simulation::Outcome::kPassed; }
 
@@ -32,7 +21,7 @@ FlightSummary summarise(const std::vector<FlightResult>& flights) {
     ++summary.outcomes[outcome];
     wrong_sides.push_back(flight.wrong_side_m);
     if (hasPassed(flight)) times.push_back(flight.time_sec);
-    if (!hasPassed(flight)) ++summary.causes[outcome + ": " + withoutNumbers(flight.reason)];
+    if (!hasPassed(flight)) ++summary.causes[outcome + ": " + parameters::withoutNumbers(flight.reason)];
     if (flight.offset_y_m && flight.offset_z_m) {
       offsets.push_back(std::max(std::abs(*flight.offset_y_m), std::abs(*flight.offset_z_m)));
     }

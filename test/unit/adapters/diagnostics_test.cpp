@@ -41,11 +41,5 @@ TEST(Output, NobodyHearsIsAWarningOnceStartUpIsOver) {
   EXPECT_EQ(outputHealth(1, "/window", 5.0).level, Health::kOk);
 }
 
-TEST(WithoutNumbers, CountersAreNoNews) {
-  EXPECT_EQ(withoutNumbers("3.50 s old, limit 0.5 s"), withoutNumbers("-14 s old, limit 1 s"));
-  EXPECT_NE(withoutNumbers("3 s old"), withoutNumbers("3 s ahead"));
-  EXPECT_EQ(withoutNumbers(""), "");
-}
-
 }  // namespace
 }  // namespace window_ingress::adapters

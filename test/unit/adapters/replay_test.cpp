@@ -268,12 +268,6 @@ TEST_F(ReplayTest, FactsNameTheTopicsAndTheirUse) {
   EXPECT_EQ(facts["topics"][4]["used_as"], "camera mounting");
 }
 
-TEST(WithoutNumbers, LeavesTheWords) {
-  EXPECT_EQ(withoutNumbers("stamp is 0.75 s old, limit 0.5 s"), "stamp is # s old, limit # s");
-  EXPECT_EQ(withoutNumbers("v1.2.3. Then 7"), "v# Then #");
-  EXPECT_EQ(withoutNumbers(""), "");
-}
-
 TEST(CommandLine, IsTakenApartAgainByAShell) {
   std::vector<std::string> words{"/usr/lib/replay_bag", "--bag",   "my flight's.bag",
                                  "--window-size",       "1.2,1.0", ""};
