@@ -176,7 +176,7 @@ GuardedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimi
   if (!large.empty()) return refusal(large);
   try {
     GuardedImage result;
-    result.image = cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    result.image = cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
     if (result.image.empty()) return refusal("compressed image cannot be decoded: truncated or damaged");
     return result;
   } catch (const std::exception& error) {
