@@ -72,7 +72,9 @@ def draw(data, path):
     place.set_ylabel("window in odom [m]")
 
     single = [camera_yaw(*q) for q in zip(data["qx"], data["qy"], data["qz"], data["qw"])]
-    heading.errorbar(time, single, [math.degrees(s) for s in data["yaw_sigma_rad"]], fmt=".", label="image, to camera")
+    sigmas = [math.degrees(s) for s in data["yaw_sigma_rad"]]
+    if any(map(math.isfinite, sigmas)):  # matplotlib wants one at least
+        heading.errorbar(time, single, sigmas, fmt=".", label="image, to camera")
     if "truth_yaw_rad" in data:
         heading.plot(time, [math.degrees(y) for y in data["truth_yaw_rad"]], "k", linewidth=0.8, label="truth")
     filtered = [yaw_of(*q) for q in zip(*(data[f"filtered_q{c}"] for c in "xyzw"))]
