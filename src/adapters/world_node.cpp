@@ -1,6 +1,7 @@
 #include "adapters/world_node.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "adapters/guarded.hpp"
 #include "adapters/parameters.hpp"
@@ -260,6 +261,7 @@ void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vec
 }
 
 bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
+  if (params_.next_seed_at_reset && params_.seed < std::numeric_limits<int>::max()) ++params_.seed;
   restart();
   response.success = true;
   response.message =

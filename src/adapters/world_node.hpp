@@ -24,11 +24,12 @@
 namespace window_ingress::adapters {
 
 struct WorldNodeParams {
-  std::string scenario;           ///< file; empty: a calm day, five metres in front of the window
-  int seed = 1;                   ///< of everything that the scenario marks random
-  double real_time_factor = 1.0;  ///< simulated over real time, if the machine can keep up
-  double start_time_sec = 100.0;  ///< simulated time at the start: a stamp of zero means unstamped [s]
-  double clock_rate_hz = 100.0;   ///< of /clock, in simulated time [Hz]
+  std::string scenario;             ///< file; empty: a calm day, five metres in front of the window
+  int seed = 1;                     ///< of everything that the scenario marks random
+  bool next_seed_at_reset = false;  ///< each ~reset takes the next seed: another flight of the same scenario
+  double real_time_factor = 1.0;    ///< simulated over real time, if the machine can keep up
+  double start_time_sec = 100.0;    ///< simulated time at the start: a stamp of zero means unstamped [s]
+  double clock_rate_hz = 100.0;     ///< of /clock, in simulated time [Hz]
   double wait_sec =
       0.0;  ///< time starts when images and odometry are subscribed to, at the latest after this [s]
   bool lockstep =
@@ -45,6 +46,7 @@ struct WorldNodeParams {
   static void visit(Self& self, Visitor&& field) {
     field("scenario", self.scenario);
     field("seed", self.seed, 0, 2147483647);
+    field("next_seed_at_reset", self.next_seed_at_reset);
     field("real_time_factor", self.real_time_factor, 0.01, 100.0);
     field("start_time_sec", self.start_time_sec, 1.0, 1e9);
     field("clock_rate_hz", self.clock_rate_hz, 20.0, 400.0);
