@@ -1,0 +1,252 @@
+"""The nine oracles that every fault row is judged by, as functions over a recording; nothing here knows ROS.
+
+O1 no process dies  O2 numbers finite, stamps never back  O3 speed, yaw rate and acceleration within limits
+O4 zero setpoint 0.3 s after pose or odometry is lost, stream never below 10 Hz while enabled
+O5 the cause is named in the diagnostics within 2 s  O6 recovers when the fault ends, moves only after its dwell or ~start
+O7 memory flat, threads and time of a picture bounded  O8 the same input twice gives the same output
+O9 no motion when not enabled, or when the autopilot does not follow
+
+Times are seconds of the steady clock of the machine, those named stamp are of the messages.
+"""
+import bisect
+import collections
+import dataclasses
+import math
+import typing
+
+Setpoint = collections.namedtuple("Setpoint", "at stamp source velocity turning")  # m/s (x, y, z), rad/s about z
+State = collections.namedtuple("State", "at name enabled")
+Engaged = collections.namedtuple("Engaged", "at engaged")
+Said = collections.namedtuple("Said", "at name level text")
+Death = collections.namedtuple("Death", "at node")
+BadNumber = collections.namedtuple("BadNumber", "at topic path value")
+StampBack = collections.namedtuple("StampBack", "at topic before after")
+Process = collections.namedtuple("Process", "at node megabytes threads")
+Frame = collections.namedtuple("Frame", "at milliseconds age_sec")  # of a picture: time spent, stamp to arrival
+Restart = collections.namedtuple("Restart", "at")                   # of the clock: stamps may go back here
+Violation = collections.namedtuple("Violation", "oracle at text")
+
+OK = 0
+
+
+@dataclasses.dataclass
+class Limits:
+    """What the oracles allow. Those of motion are those of config/navigator.yaml and guard.yaml."""
+    speed_mps: float = 1.0
+    guard_speed_mps: float = 1.2
+    yaw_rate_radps: float = 0.5
+    guard_yaw_rate_radps: float = 1.0
+    acceleration_mps2: float = 1.5
+    yaw_acceleration_radps2: float = 2.0
+    stop_within_s: float = 0.3
+    least_rate_hz: float = 10.0
+    rate_window_s: float = 1.0
+    named_within_s: float = 2.0
+    memory_growth_mb: float = 25.0
+    threads_growth: int = 8
+    frame_ms: float = 2000.0
+    machine_s: float = 0.1   # a machine that is busy: messages of two topics are heard so far apart
+
+
+@dataclasses.dataclass
+class Recording:
+    """What was seen, each list in order of time."""
+    setpoints: typing.List[Setpoint] = dataclasses.field(default_factory=list)
+    states: typing.List[State] = dataclasses.field(default_factory=list)
+    engaged: typing.List[Engaged] = dataclasses.field(default_factory=list)
+    said: typing.List[Said] = dataclasses.field(default_factory=list)
+    deaths: typing.List[Death] = dataclasses.field(default_factory=list)
+    bad_numbers: typing.List[BadNumber] = dataclasses.field(default_factory=list)
+    stamps_back: typing.List[StampBack] = dataclasses.field(default_factory=list)
+    processes: typing.List[Process] = dataclasses.field(default_factory=list)
+    frames: typing.List[Frame] = dataclasses.field(default_factory=list)
+    restarts: typing.List[Restart] = dataclasses.field(default_factory=list)
+
+    def between(self, begin, end):
+        parts = {field.name: slice_of(getattr(self, field.name), begin, end) for field in dataclasses.fields(self)}
+        return Recording(**parts)
+
+    def forget_before(self, at):
+        for field in dataclasses.fields(self):
+            entries = getattr(self, field.name)
+            del entries[:bisect.bisect_left([entry.at for entry in entries], at)]
+
+
+def slice_of(entries, begin, end):
+    times = [entry.at for entry in entries]
+    return entries[bisect.bisect_left(times, begin):bisect.bisect_right(times, end)]
+
+
+def is_still(setpoint):
+    return not any(setpoint.velocity) and setpoint.turning == 0.0
+
+
+def norm(vector):
+    return math.sqrt(sum(x * x for x in vector))
+
+
+def O1(recording, expected=()):
+    """\\param expected nodes that the test itself ends"""
+    return [Violation("O1", d.at, f"process of {d.node} is gone") for d in recording.deaths if d.node not in expected]
+
+
+def O2(recording):
+    numbers = [Violation("O2", b.at, f"{b.topic}: {b.path} is {b.value}") for b in recording.bad_numbers]
+    jumps = [Violation("O2", s.at, f"{s.topic}: stamp {s.after:.3f} after {s.before:.3f}") for s in recording.stamps_back]
+    return numbers + jumps
+
+
+def O3(recording, limits, guard):
+    """\\param guard source of setpoints that are those of the guard: resampled, so that their steps are not the limiter's"""
+    found = []
+    for setpoint in recording.setpoints:
+        is_guards = setpoint.source == guard
+        speed = limits.guard_speed_mps if is_guards else limits.speed_mps
+        rate = limits.guard_yaw_rate_radps if is_guards else limits.yaw_rate_radps
+        if not norm(setpoint.velocity) <= speed + 1e-6:
+            found.append(Violation("O3", setpoint.at, f"{setpoint.source}: {norm(setpoint.velocity):.3f} m/s, limit {speed}"))
+        if not abs(setpoint.turning) <= rate + 1e-6:
+            found.append(Violation("O3", setpoint.at, f"{setpoint.source}: {setpoint.turning:.3f} rad/s, limit {rate}"))
+    for source in {s.source for s in recording.setpoints} - {guard}:
+        found += too_sudden([s for s in recording.setpoints if s.source == source], limits)
+    return found
+
+
+def too_sudden(setpoints, limits):
+    """Steps beyond the acceleration that are no loss of speed: to take velocity away at once is allowed, to add it is not."""
+    found = []
+    for one, two in zip(setpoints, setpoints[1:]):
+        passed = min(0.2, max(0.0, two.stamp - one.stamp))
+        change = norm([b - a for a, b in zip(one.velocity, two.velocity)])
+        if change > limits.acceleration_mps2 * passed + 1e-3 and norm(two.velocity) > norm(one.velocity) + 1e-3:
+            found.append(Violation("O3", two.at, f"{two.source}: {change:.3f} m/s faster within {passed:.3f} s"))
+        turn = abs(two.turning) - abs(one.turning)
+        if turn > limits.yaw_acceleration_radps2 * passed + 1e-3:
+            found.append(Violation("O3", two.at, f"{two.source}: {turn:.3f} rad/s more within {passed:.3f} s"))
+    return found
+
+
+def O4_stop(recording, limits, lost_at, until):
+    """Zeros, and some of them, from `stop_within_s` after the loss on."""
+    begin = lost_at + limits.stop_within_s + limits.machine_s
+    after = slice_of(recording.setpoints, begin, until)
+    moving = [s for s in after if not is_still(s)]
+    if moving:
+        text = f"{moving[-1].source} still moves {moving[-1].at - lost_at:.2f} s after the loss, {norm(moving[-1].velocity):.2f} m/s"
+        return [Violation("O4", moving[-1].at, text)]
+    return [] if after else [Violation("O4", until, f"no setpoints at all after the loss, for {until - begin:.2f} s")]
+
+
+def stop_time(recording, lost_at, until):
+    """From the loss to the last setpoint that moves; None if none moved."""
+    moving = [s.at for s in slice_of(recording.setpoints, lost_at, until) if not is_still(s)]
+    return moving[-1] - lost_at if moving else None
+
+
+def O4_stream(recording, limits, source, begin, end):
+    """At any time within [begin, end] at least `least_rate_hz`, over a window."""
+    times = [s.at for s in slice_of(recording.setpoints, begin, end) if s.source == source]
+    rate, at = least_rate(times, begin, end, limits.rate_window_s)
+    if rate >= limits.least_rate_hz:
+        return []
+    return [Violation("O4", at, f"{source}: {rate:.1f} setpoints a second, {limits.least_rate_hz:.0f} wanted")]
+
+
+def least_rate(times, begin, end, window_s):
+    """\\return lowest number a second within any window, and where it begins; infinite if the time is shorter than that"""
+    worst = (math.inf, begin)
+    starts = [begin] + [t + 1e-9 for t in times]
+    for start in starts:
+        if start + window_s <= end:
+            count = bisect.bisect_right(times, start + window_s) - bisect.bisect_left(times, start)
+            worst = min(worst, (count / window_s, start))
+    return worst
+
+
+def enabled_spans(states, end):
+    """[(begin, end)] in which the navigator says that it streams."""
+    spans, begin = [], None
+    for state in states:
+        if state.enabled and begin is None:
+            begin = state.at
+        if not state.enabled and begin is not None:
+            spans.append((begin, state.at))
+            begin = None
+    return spans + ([(begin, end)] if begin is not None else [])
+
+
+def O5(recording, limits, caused_at, name, words):
+    """The status `name` holds all the words, and is not at ease, within the time."""
+    said = [s for s in recording.said if s.at >= caused_at and s.name == name]
+    fitting = [s for s in said if s.level != OK and all(word in s.text for word in words)]
+    if fitting and fitting[0].at - caused_at <= limits.named_within_s + limits.machine_s:
+        return []
+    instead = f"after {fitting[0].at - caused_at:.2f} s" if fitting else f"it says '{said[-1].text}'" if said else "it says nothing"
+    return [Violation("O5", caused_at, f"{name} does not say {words} within {limits.named_within_s} s: {instead}")]
+
+
+def O6(recording, limits, ended_at, name):
+    """The status is at ease again, within the time, after the fault has ended."""
+    if any(s.at >= ended_at and s.name == name and s.level == OK and
+           s.at - ended_at <= limits.named_within_s + limits.machine_s for s in recording.said):
+        return []
+    said = [s.text for s in recording.said if s.at >= ended_at and s.name == name]
+    return [Violation("O6", ended_at, f"{name} is not at ease again: {said[-1] if said else 'it says nothing'}")]
+
+
+def O7(recording, limits):
+    found = []
+    for node in {p.node for p in recording.processes}:
+        samples = [p for p in recording.processes if p.node == node]
+        first, last = samples[:max(1, len(samples) // 10)], samples[-max(1, len(samples) // 10):]
+        grown = median(p.megabytes for p in last) - median(p.megabytes for p in first)
+        if grown > limits.memory_growth_mb:
+            found.append(Violation("O7", last[-1].at, f"{node} has grown by {grown:.1f} MB, {limits.memory_growth_mb} allowed"))
+        threads = median(p.threads for p in last) - median(p.threads for p in first)
+        if threads > limits.threads_growth:
+            found.append(Violation("O7", last[-1].at, f"{node} has {threads:.0f} threads more"))
+    slow = [f for f in recording.frames if f.milliseconds > limits.frame_ms]
+    return found + [Violation("O7", f.at, f"a picture took {f.milliseconds:.0f} ms") for f in slow[:1]]
+
+
+def median(values):
+    ordered = sorted(values)
+    return ordered[len(ordered) // 2]
+
+
+def O8(one, other):
+    """Two mappings, equal to the bit."""
+    differing = sorted(key for key in set(one) | set(other) if one.get(key) != other.get(key))
+    return [Violation("O8", 0.0, f"{len(differing)} differ, first at {differing[0]}")] if differing else []
+
+
+def O9(recording, limits):
+    """Setpoints that move the vehicle while the navigator says that it streams none, or nobody follows."""
+    found = []
+    states, engaged = [s.at for s in recording.states], [e.at for e in recording.engaged]
+    for setpoint in recording.setpoints:
+        if is_still(setpoint):
+            continue
+        if recording.states and not was(recording.states, states, setpoint.at, limits, lambda s: s.enabled):
+            found.append(Violation("O9", setpoint.at, f"{setpoint.source} moves while the navigator is not enabled"))
+        if recording.engaged and not was(recording.engaged, engaged, setpoint.at, limits, lambda e: e.engaged):
+            found.append(Violation("O9", setpoint.at, f"{setpoint.source} moves while the autopilot does not follow"))
+    return found
+
+
+def was(entries, times, at, limits, accept):
+    """Whether any entry that held at `at`, a little before or a little after, is accepted; before the first: yes."""
+    first = bisect.bisect_right(times, at - 2 * limits.machine_s) - 1
+    last = bisect.bisect_right(times, at + limits.machine_s)
+    held = entries[max(0, first):last]
+    return not held or any(accept(entry) for entry in held)
+
+
+def always(recording, limits, navigator, guard, end, expected_deaths=()):
+    """The oracles that need no word of the test: O1, O2, O3, O4 (stream), O7, O9."""
+    found = O1(recording, expected_deaths) + O2(recording) + O3(recording, limits, guard)
+    for span in enabled_spans(recording.states, end):
+        for source in (navigator, guard):
+            if source and source not in expected_deaths:
+                found += O4_stream(recording, limits, source, *span)
+    return found + O7(recording, limits) + O9(recording, limits)
