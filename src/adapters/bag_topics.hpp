@@ -8,9 +8,9 @@
 namespace window_ingress::adapters {
 
 /// A bag that cannot be used: `what()` is one line that says what, where, and what to do.
-class BagError : public std::runtime_error {
+class BagError : public std::invalid_argument {
  public:
-  using std::runtime_error::runtime_error;
+  using std::invalid_argument::invalid_argument;
 };
 
 /// Topics of a bag; empty: found by type.

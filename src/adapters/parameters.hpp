@@ -15,9 +15,9 @@
 namespace window_ingress::adapters {
 
 /// Parameters that a node must not start with: `what()` is one line that names each of them.
-class ParameterError : public std::runtime_error {
+class ParameterError : public std::invalid_argument {
  public:
-  using std::runtime_error::runtime_error;
+  using std::invalid_argument::invalid_argument;
 };
 
 /// Visitor over the tree below one namespace. Missing parameters keep their defaults; a double may be given

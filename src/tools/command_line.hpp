@@ -73,17 +73,22 @@ int runTool(const char* name, const Body& body) {
   }
 }
 
-/// The same for a tool all of whose arguments are options.
+/// The same, with the arguments taken apart first.
 /// \param describe binds an `Options` to their description, which --help prints
+/// \param positional options that need no name
 template <typename Options, typename Body>
 int runTool(const char* name, int argc, char** argv,
-            boost::program_options::options_description (*describe)(Options&), const Body& body) {
+            boost::program_options::options_description (*describe)(Options&), const Body& body,
+            const boost::program_options::positional_options_description& positional = {}) {
   return runTool(name, [&] {
     Options options;
     const auto description = describe(options);
     boost::program_options::variables_map given;
-    boost::program_options::store(
-        boost::program_options::command_line_parser(argc, argv).options(description).run(), given);
+    boost::program_options::store(boost::program_options::command_line_parser(argc, argv)
+                                      .options(description)
+                                      .positional(positional)
+                                      .run(),
+                                  given);
     boost::program_options::notify(given);
     if (given.count("help") == 0) return body(options);
     std::cout << description;

@@ -1,6 +1,5 @@
 /// Draws the stages of the detector on one picture, as the paper's figures 1 and 2, on one sheet.
 #include <boost/program_options.hpp>
-#include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -97,17 +96,6 @@ int run(const Job& job) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return tools::runTool("draw_stages", [&] {
-    Job job;
-    const auto description = describe(job);
-    options::positional_options_description rest;
-    rest.add("image", 1);
-    options::variables_map given;
-    options::store(options::command_line_parser(argc, argv).options(description).positional(rest).run(),
-                   given);
-    options::notify(given);
-    if (given.count("help") == 0) return run(job);
-    std::cout << description;
-    return 0;
-  });
+  return tools::runTool("draw_stages", argc, argv, describe, run,
+                        options::positional_options_description().add("image", 1));
 }

@@ -197,23 +197,6 @@ int run(const Job& job) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return tools::runTool("make_reference", [&] {
-    Job job;
-    const auto description = describe(job);
-    options::positional_options_description positional;
-    positional.add("picture", 1);
-    options::variables_map given;
-    options::store(options::command_line_parser(argc, argv).options(description).positional(positional).run(),
-                   given);
-    options::notify(given);
-    if (given.count("help") > 0) {
-      std::cout << description;
-      return 0;
-    }
-    try {
-      return run(job);
-    } catch (const adapters::ParameterError& error) {
-      throw UsageError(error.what());
-    }
-  });
+  return tools::runTool("make_reference", argc, argv, describe, run,
+                        options::positional_options_description().add("picture", 1));
 }

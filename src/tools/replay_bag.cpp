@@ -191,19 +191,6 @@ int run(const Options& options, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(parse(argc, argv), adapters::commandLine(argc, argv));
-  } catch (const UsageError& error) {
-    std::cerr << "replay_bag: " << error.what() << std::endl;
-  } catch (const adapters::BagError& error) {
-    std::cerr << "replay_bag: " << error.what() << std::endl;
-  } catch (const adapters::ParameterError& error) {
-    std::cerr << "replay_bag: " << error.what() << std::endl;
-  } catch (const parameters::YamlError& error) {
-    std::cerr << "replay_bag: " << error.what() << std::endl;
-  } catch (const std::exception& error) {
-    std::cerr << "replay_bag: " << error.what() << std::endl;
-    return 1;
-  }
-  return 2;
+  return tools::runTool("replay_bag",
+                        [&] { return run(parse(argc, argv), adapters::commandLine(argc, argv)); });
 }

@@ -99,6 +99,7 @@ class AtWay {
 };
 
 int survey(const Options& o) {
+  check(o);
   pose::FilterParams filter;
   if (!o.params.empty() && !parameters::readYamlFile(o.params, "filter", filter))
     throw UsageError(o.params + ": no section 'filter' in this file");
@@ -142,18 +143,4 @@ int survey(const Options& o) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return tools::runTool("survey_filter", [&] {
-    Options options;
-    const auto description = describe(options);
-    po::variables_map given;
-    po::store(po::parse_command_line(argc, argv, description), given);
-    po::notify(given);
-    if (given.count("help") != 0) {
-      std::cout << description;
-      return 0;
-    }
-    check(options);
-    return survey(options);
-  });
-}
+int main(int argc, char** argv) { return tools::runTool("survey_filter", argc, argv, describe, survey); }

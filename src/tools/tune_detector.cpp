@@ -225,26 +225,9 @@ int run(Job job) {
 
 int main(int argc, char** argv) {
   return tools::runTool("tune_detector", [&] {
-    Job job;
-    const auto description = describe(job);
-    options::positional_options_description positional;
-    positional.add("source", 1);
     ros::init(argc, argv, "tune_detector",
               ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
-    options::variables_map given;
-    options::store(options::command_line_parser(argc, argv).options(description).positional(positional).run(),
-                   given);
-    options::notify(given);
-    if (given.count("help") > 0) {
-      std::cout << description;
-      return 0;
-    }
-    try {
-      return run(job);
-    } catch (const adapters::BagError& error) {
-      throw UsageError(error.what());
-    } catch (const adapters::ParameterError& error) {
-      throw UsageError(error.what());
-    }
+    return tools::runTool("tune_detector", argc, argv, describe, run,
+                          options::positional_options_description().add("source", 1));
   });
 }

@@ -181,14 +181,4 @@ int run(const Job& job) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return tools::runTool<Job>("tune_from_bag", argc, argv, describe, [](const Job& job) {
-    try {
-      return run(job);
-    } catch (const adapters::BagError& error) {
-      throw UsageError(error.what());
-    } catch (const adapters::ParameterError& error) {
-      throw UsageError(error.what());
-    }
-  });
-}
+int main(int argc, char** argv) { return tools::runTool("tune_from_bag", argc, argv, describe, run); }

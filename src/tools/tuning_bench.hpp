@@ -1,7 +1,6 @@
 /// What tune_detector turns its trackbars at.
 #pragma once
 
-#include <chrono>
 #include <cstdio>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "adapters/diagnostics.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/evaluation/stage_sheet.hpp"
 #include "window_ingress/parameters/field_list.hpp"
@@ -16,10 +16,6 @@
 namespace window_ingress::tools {
 
 using parameters::NamedField;
-
-inline double steadySec() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// The detector with the settings of the moment.
 class Bench {
@@ -29,7 +25,7 @@ class Bench {
         params_(start),
         fields_(parameters::fieldsOf(params_)),
         detector_(start),
-        watch_(steadySec) {
+        watch_(adapters::steadyNowSec) {
     detector_.setWatch(&watch_);
     if (reference_) detector_.setReference(*reference_);
   }
@@ -39,10 +35,10 @@ class Bench {
 
   /// \return one line: what was found, and what it cost
   std::string look(const cv::Mat& picture) {
-    const double begun_sec = steadySec();
+    const double begun_sec = adapters::steadyNowSec();
     watch_.begin();
     const auto window = detector_.detect(picture, 0.0);
-    milliseconds_ = 1e3 * (steadySec() - begun_sec);
+    milliseconds_ = 1e3 * (adapters::steadyNowSec() - begun_sec);
     found_ = window.has_value();
     char text[120];
     std::snprintf(text, sizeof text, window ? "window, score %.2f" : "no window",
