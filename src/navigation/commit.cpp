@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "window_ingress/navigation/opening_policy.hpp"
+
 namespace window_ingress::navigation {
 namespace {
 
@@ -107,10 +109,9 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
 }
 
 void Commit::heedForbidden(const TargetEstimate& target) {
-  const bool is_closed = target.openness.openness == openness::Openness::kClosed;
-  forbidden_ = target.approach_forbidden.empty() && !is_closed ? 0 : forbidden_ + 1;
-  if (is_closed) why_forbidden_ = "the opening is closed: " + target.openness.reason;
-  if (!target.approach_forbidden.empty()) why_forbidden_ = target.approach_forbidden;
+  const std::string why = target.approach_forbidden.empty() ? whyClosed(target) : target.approach_forbidden;
+  forbidden_ = why.empty() ? 0 : forbidden_ + 1;
+  if (!why.empty()) why_forbidden_ = why;
 }
 
 double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {

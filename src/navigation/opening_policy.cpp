@@ -7,10 +7,15 @@ namespace window_ingress::navigation {
 
 using openness::Openness;
 
+std::string whyClosed(const TargetEstimate& target) {
+  const bool is_closed = target.openness.openness == Openness::kClosed;
+  return is_closed ? "the opening is closed: " + target.openness.reason : "";
+}
+
 std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& memory,
                           const CommitParams& params) {
   const auto& seen = target.openness;
-  if (seen.openness == Openness::kClosed) return "the opening is closed: " + seen.reason;
+  if (seen.openness == Openness::kClosed) return whyClosed(target);
   if (seen.openness == Openness::kOpen || memory.opening_confirmed || params.unverified_opening == "allow")
     return "";
   const std::string why = "not seen to be open: " + seen.reason;
@@ -19,13 +24,14 @@ std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& mem
 
 std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMemory& memory) {
   const auto& target = *situation.target;
-  if (target.openness.openness != Openness::kClosed) return std::nullopt;
+  const std::string why = whyClosed(target);
+  if (why.empty()) return std::nullopt;
   memory.closed_odom_m.push_back(target.T_odom_window.translation());
   memory.leaveWindow();
   Decision decision;
   decision.keeps_place = true;
   decision.event = Event::kOtherWindow;
-  decision.reason = "the opening is closed: " + target.openness.reason;
+  decision.reason = why;
   return decision;
 }
 

@@ -8,6 +8,9 @@
 
 namespace window_ingress::navigation {
 
+/// That it was seen to be closed, and by what; empty if it was not.
+std::string whyClosed(const TargetEstimate& target);
+
 /// Why nobody may fly through it yet: it is closed; or it was not seen to be open, the operator has not said
 /// so, and `commit/unverified_opening` does not allow it. Empty if nothing speaks against it.
 std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& memory,
