@@ -13,12 +13,6 @@ using Eigen::Vector3d;
 constexpr double kLeastDistance_m = 0.2;
 constexpr double kLeastGain_px = 0.5;
 
-const geometry::Quadrilateral& unitSquare() {
-  static const geometry::Quadrilateral corners{Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1),
-                                               Vector2d(0, 1)};
-  return corners;
-}
-
 // How much each corner's error moves a point of the plane.
 Eigen::Vector4d weightsAt(const Vector2d& place) {
   const double u = place.x(), v = place.y();
@@ -32,19 +26,9 @@ std::optional<Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
   if (!geometry::isFinite(from) || !geometry::isFinite(to) || !geometry::isConvex(from) ||
       !geometry::isConvex(to))
     return std::nullopt;
-  Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
-  Eigen::Matrix<double, 8, 1> b;
-  for (int i = 0; i < 4; ++i) {
-    const double x = from[i].x(), y = from[i].y(), u = to[i].x(), v = to[i].y();
-    A.row(2 * i) << x, y, 1, 0, 0, 0, -u * x, -u * y;
-    A.row(2 * i + 1) << 0, 0, 0, x, y, 1, -v * x, -v * y;
-    b.segment<2>(2 * i) << u, v;
-  }
-  const Eigen::Matrix<double, 8, 1> h = A.partialPivLu().solve(b);
-  if (!h.allFinite()) return std::nullopt;
-  Matrix3d H;
-  H << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1.0;
-  return H;
+  const Matrix3d H = detection::UnitSquare(to).matrix() * detection::UnitSquare(from).matrix().inverse();
+  if (!H.allFinite()) return std::nullopt;
+  return Matrix3d(H / H(2, 2));
 }
 
 std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamera& camera,
@@ -53,10 +37,9 @@ std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamer
                                                     const Eigen::Isometry3d& T_camera_window_now,
                                                     const Errors& errors) {
   const auto H = homographyBetween(key.corners, now.corners);
-  const auto unit = homographyBetween(now.corners, unitSquare());
-  if (!H || !unit || !T_camera_window_key.matrix().allFinite() || !T_camera_window_now.matrix().allFinite())
+  if (!H || !T_camera_window_key.matrix().allFinite() || !T_camera_window_now.matrix().allFinite())
     return std::nullopt;
-  PlaneParallax pair;
+  PlaneParallax pair(now.corners);
   pair.normal_ = T_camera_window_key.linear().col(0);
   pair.distance_m_ = pair.normal_.dot(T_camera_window_key.translation());
   const double now_m = T_camera_window_now.linear().col(0).dot(T_camera_window_now.translation());
@@ -68,7 +51,6 @@ std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamer
   const Vector3d way = (T_camera_window_now * T_camera_window_key.inverse()).translation();
   pair.epipole_ = camera.K() * way / pair.distance_m_;
   pair.K_inverse_ = camera.K().inverse();
-  pair.unit_from_now_ = *unit;
   pair.key_ = key, pair.now_ = now, pair.errors_ = errors;
   pair.growth_ = std::sqrt(geometry::signedArea(now.corners) / geometry::signedArea(key.corners));
   pair.baseline_m_ = way.norm();
@@ -103,7 +85,7 @@ std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vec
   if (!(point.gain_px > kLeastGain_px)) return std::nullopt;
   const Vector2d along = by_part.normalized(), across(-along.y(), along.x());
   point.across_px = across.dot(off) / depth;
-  point.place = (unit_from_now_ * now_px.homogeneous()).hnormalized();
+  point.place = opening_.fromImage(now_px);
   const double flow = std::pow(errors_.flow_sigma_px, 2);
   // The way is known from two positions.
   const double way = 2.0 * std::pow(point.part * errors_.position_sigma_m, 2);

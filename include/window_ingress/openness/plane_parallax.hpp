@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "window_ingress/detection/unit_square.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -58,10 +59,11 @@ class PlaneParallax {
   double baselineM() const { return baseline_m_; }  ///< length of the way between the two pictures
 
  private:
-  PlaneParallax() = default;
+  explicit PlaneParallax(const geometry::Quadrilateral& now) : opening_(now) {}
   double borderVariance(const Eigen::Vector2d& place, const Eigen::Vector2d& along) const;
 
-  Eigen::Matrix3d H_, unit_from_now_, K_inverse_;
+  Eigen::Matrix3d H_, K_inverse_;
+  detection::UnitSquare opening_;  ///< in the later picture
   Eigen::Vector3d epipole_, normal_;
   SeenBorder key_, now_;
   Errors errors_;
