@@ -104,6 +104,22 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
   return message;
 }
 
+std::string windowLabel(const window_ingress::WindowPose& message) {
+  static const char* const kFits[] = {"fit?", "GO", "NO GO"};
+  constexpr double kDegrees = 180.0 / M_PI;
+  const bool is_seen = message.reject == window_ingress::WindowPose::OK;
+  char sight[80], text[240];
+  if (is_seen)
+    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", message.yaw * kDegrees,
+                  message.yaw_sigma * kDegrees);
+  else
+    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered_age);
+  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.window_width,
+                message.window_height, kFits[std::min<int>(message.fit, 2)],
+                message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
+  return text;
+}
+
 visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id) {
   MarkerSketch sketch(stamp, frame_id);

@@ -4,6 +4,7 @@
 #include <geometry_msgs/PolygonStamped.h>
 #include <ros/time.h>
 #include <visualization_msgs/MarkerArray.h>
+#include <window_ingress/WindowPose.h>
 
 #include <Eigen/Geometry>
 #include <string>
@@ -18,9 +19,13 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
                                              const geometry::OpeningSize& opening, const ros::Time& stamp,
                                              const std::string& frame_id);
 
+/// What people want to read at the window.
+std::string windowLabel(const window_ingress::WindowPose& message);
+
 /// The filtered window: its border; the way through it as an arrow, with a fan of three standard deviations
-/// of its heading; the ellipsoid of three standard deviations of its centre; `text` below it. Once the normal
-/// is trusted the plane of the wall; until then the other hypothesis, the fainter the less likely it is.
+/// of its heading; the ellipsoid of three standard deviations of its centre; `text` beside it. Once the
+/// normal is trusted the plane of the wall; until then the other hypothesis, the fainter the less likely it
+/// is.
 visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id);
 

@@ -2,8 +2,6 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "adapters/attitude_source.hpp"
@@ -24,23 +22,6 @@ PoseNodeParams checked(PoseNodeParams params) {
   for (const char* known : {"imu", "odom", "tf"})
     if (params.gravity_source == known) return params;
   throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom or tf");
-}
-
-// What people want to read at the window.
-std::string labelOf(const window_ingress::WindowPose& message) {
-  static const char* const kFits[] = {"fit?", "GO", "NO GO"};
-  constexpr double kDegrees = 180.0 / M_PI;
-  const bool is_seen = message.reject == window_ingress::WindowPose::OK;
-  char sight[80], text[240];
-  if (is_seen)
-    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", message.yaw * kDegrees,
-                  message.yaw_sigma * kDegrees);
-  else
-    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered_age);
-  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.window_width,
-                message.window_height, kFits[std::min<int>(message.fit, 2)],
-                message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
-  return text;
 }
 
 }  // namespace
@@ -249,7 +230,7 @@ void PoseNode::publishFiltered(const window_ingress::WindowPose& message,
                                const pose::FilteredWindow& window) {
   if (marker_publisher_.getNumSubscribers() > 0)
     marker_publisher_.publish(
-        windowMarkers(window, labelOf(message), message.header.stamp, params_.frames.odom));
+        windowMarkers(window, windowLabel(message), message.header.stamp, params_.frames.odom));
   if (!params_.publish_tf) return;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = message.header.stamp;

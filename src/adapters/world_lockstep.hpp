@@ -7,8 +7,12 @@
 #include <string>
 
 #include "adapters/diagnostics.hpp"
+#include "window_ingress/simulation/scenario.hpp"
 
 namespace window_ingress::adapters {
+
+/// \throws ParameterError if the scenario holds what lockstep cannot do
+void refuseInLockstep(const simulation::Scenario& scenario);
 
 /// The world's side of lockstep: says where it stands, and knows when the vehicle has answered.
 ///

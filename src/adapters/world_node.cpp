@@ -22,15 +22,6 @@ simulation::Scenario load(const WorldNodeParams& params) {
   return simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
 }
 
-void refuseInLockstep(const simulation::Scenario& scenario) {
-  if (scenario.vehicle.profile == "external")
-    throw ParameterError("lockstep: the time of an external vehicle is its own; set lockstep to false");
-  for (const auto& fault : scenario.faults)
-    if (fault.unit == "clock" || fault.unit == "tf")
-      throw ParameterError("lockstep: nobody looks at " + fault.unit +
-                           " there, its fault would do nothing; set lockstep to false");
-}
-
 }  // namespace
 
 WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
