@@ -10,3 +10,8 @@ export PATH="/usr/bin:$PATH"
 source_if_there() {
   if [ -f "$1" ]; then set +u; source "$1"; set -u; fi
 }
+
+# For a master of one's own.
+free_port() {
+  /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
+}

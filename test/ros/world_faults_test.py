@@ -58,21 +58,17 @@ class WorldFaultsTest(unittest.TestCase):
 
     def test_what_a_vehicle_claims_of_an_earlier_flight_is_no_verdict_on_the_next(self):
         verdicts = self.listen("referee", FlightVerdict)
-        publisher = rospy.Publisher("state", IngressState, queue_size=1)
-        support.wait_for(lambda: publisher.get_num_connections() > 0, "the world hears states")
-
-        def say(state, duration_s):
-            end = time.monotonic() + duration_s
-            while time.monotonic() < end:
-                publisher.publish(IngressState(state=state))
-                time.sleep(0.05)
-
+        vehicle = support.Stream("state", IngressState, lambda stamp: IngressState(state=IngressState.PASSED))
+        self.listeners.append(vehicle)
         self.assertTrue(self.reset().success)
-        say(IngressState.PASSED, 1.5)
-        self.assertEqual(verdicts.since(0.0)[-1].outcome_name, "RUNNING")
-        say(IngressState.SEARCH, 0.5)
-        say(IngressState.PASSED, 1.0)
-        self.assertEqual(verdicts.since(0.0)[-1].outcome_name, "FALSE_INGRESS")
+        begin = time.monotonic()
+        support.wait_for(lambda: len(verdicts.since(begin)) >= 3, "verdicts")
+        self.assertEqual({v.outcome_name for v in verdicts.since(begin)}, {"RUNNING"})
+        vehicle.make = lambda stamp: IngressState(state=IngressState.SEARCH)
+        begin = time.monotonic()
+        support.wait_for(lambda: len(verdicts.since(begin)) >= 2, "verdicts on a vehicle that searches")
+        vehicle.make = lambda stamp: IngressState(state=IngressState.PASSED)
+        verdicts.wait(lambda v: v.outcome_name == "FALSE_INGRESS", "what is claimed in this flight is judged")
 
     def test_garbage_and_wrong(self):
         odometry, imu, info = self.listen("odom", Odometry), self.listen("imu", Imu), self.listen("camera_info", CameraInfo)

@@ -71,7 +71,8 @@ def readme_commands():
 
 
 def checked_elsewhere(command, _):
-    """What builds or tests everything: here only that it is there; scripts/test runs it, or is it."""
+    """What builds, tests or measures everything: here only that it can be read. scripts/test is, runs demo and
+    check_install; bench, build_deb and check_deb take long and are run by hand."""
     done = run("bash", "-n", command.split()[0])
     assert done.returncode == 0, done.stderr
 

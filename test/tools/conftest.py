@@ -1,0 +1,21 @@
+"""What several tests of tools need."""
+import os
+import shutil
+import subprocess
+
+import pytest
+
+
+@pytest.fixture(name="screen")
+def fixture_screen():
+    """A screen that nobody sees: the name of its display. Skips where Xvfb (package xvfb) is not installed."""
+    if not shutil.which("Xvfb"):
+        pytest.skip("Xvfb is not installed")
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24"], pass_fds=[write],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as number:
+        yield f":{number.readline().strip()}"  # said when it is ready
+    server.terminate()
+    server.wait(timeout=20)
