@@ -56,6 +56,10 @@ class Listener:
         with self._lock:
             return [at for at, _ in self._messages if at >= begin]
 
+    def forget_before(self, at):
+        with self._lock:
+            self._messages = [entry for entry in self._messages if entry[0] >= at]
+
     def wait(self, accept=lambda message: True, what="a message", deadline_s=DEADLINE_S, begin=None):
         begin = time.monotonic() if begin is None else begin
         return wait_for(lambda: next((m for m in self.since(begin) if accept(m)), None), what, deadline_s)

@@ -115,6 +115,20 @@ def test_O4_the_least_rate_sees_gaps_at_both_ends():
     assert oracles.least_rate([], 5.0, 7.0, 1.0)[0] == 0
 
 
+def test_O4_what_a_blind_observer_missed_is_not_held_against_the_stream():
+    recording = good()
+    recording.setpoints = [s for s in recording.setpoints if not 6.0 < s.at < 6.95]
+    assert names(always(recording)) == ["O4"]
+    recording.blind = [oracles.Blind(6.95, 0.95)]
+    assert always(recording) == []
+    recording.setpoints = [s for s in recording.setpoints if not 8.0 < s.at < 8.95]
+    assert names(always(recording)) == ["O4"], "another gap counts"
+    moving = Recording(setpoints=setpoints(lambda t: 0.0 if t > 6.0 else 0.5))
+    assert names(oracles.O4_stop(moving, LIMITS, 5.2, 9.0)) == ["O4"]
+    moving.blind = [oracles.Blind(6.0, 0.5)]
+    assert oracles.O4_stop(moving, LIMITS, 5.2, 9.0) == []
+
+
 def test_O5_a_cause_that_is_named_late_or_not_or_calmly():
     recording = good()
     assert names(oracles.O5(recording, LIMITS, 1.0, "node: odom", ["no more odom"])) == ["O5"]

@@ -16,6 +16,8 @@ import oracles
 import support
 
 NODES = ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard")
+AWAKE_S = 0.02
+MARKERS_S = 0.5  # from one look at the numbers in markers to the next: they hold thousands
 LOOK_S = 0.25  # from one look at the processes to the next
 MEGABYTE = 1024.0
 FLOATS = {"float32", "float64"}
@@ -59,7 +61,7 @@ class Monitor:
         self.limits = limits or oracles.Limits()
         self.recording = oracles.Recording()
         self.expected_deaths = set()
-        self.messages = 0
+        self.messages, self._markers_at = 0, 0.0
         self._lock = threading.RLock()
         self._stamps, self._pids, self._over = {}, {}, threading.Event()
         topics = topics or {}
@@ -72,8 +74,8 @@ class Monitor:
         self._subscribers += [rospy.Subscriber("/diagnostics", DiagnosticArray, self._hear, queue_size=200),
                               rospy.Subscriber(topics.get("engaged", "engaged"), Bool, self._engage, queue_size=10)]
         self.watch(nodes)
-        self._thread = threading.Thread(target=self._look, daemon=True)
-        self._thread.start()
+        for work in (self._look, self._stay_awake):
+            threading.Thread(target=work, daemon=True).start()
 
     # --- what comes
 
@@ -83,8 +85,9 @@ class Monitor:
         topic = message._connection_header["topic"]
         if source not in self.sources():
             return  # the test's own messages, and those of strangers
-        bad = first_bad(message)
+        bad = first_bad(message) if name != "markers" or at - self._markers_at > MARKERS_S else None
         with self._lock:
+            self._markers_at = at if name == "markers" else self._markers_at
             self.messages += 1
             if bad:
                 self.recording.bad_numbers.append(oracles.BadNumber(at, topic, *bad))
@@ -136,6 +139,16 @@ class Monitor:
             for node, pid in list(self._pids.items()):
                 self._look_at(node, pid)
 
+    def _stay_awake(self):
+        """Notes when this process itself was kept from looking: what came then is heard late."""
+        before = time.monotonic()
+        while not self._over.wait(AWAKE_S):
+            now = time.monotonic()
+            if now - before > AWAKE_S + self.limits.machine_s:
+                with self._lock:
+                    self.recording.blind.append(oracles.Blind(now, now - before))
+            before = now
+
     def _look_at(self, node, pid):
         found = memory_and_threads(pid)
         at = time.monotonic()
@@ -155,6 +168,10 @@ class Monitor:
     def part(self, begin, end=None):
         with self._lock:
             return self.recording.between(begin, time.monotonic() if end is None else end)
+
+    def states_since(self, begin):
+        with self._lock:
+            return oracles.slice_of(self.recording.states, begin, math.inf)
 
     def violations(self, begin, end=None):
         end = time.monotonic() if end is None else end

@@ -24,6 +24,7 @@ StampBack = collections.namedtuple("StampBack", "at topic before after")
 Process = collections.namedtuple("Process", "at node megabytes threads")
 Frame = collections.namedtuple("Frame", "at milliseconds age_sec")  # of a picture: time spent, stamp to arrival
 Restart = collections.namedtuple("Restart", "at")                   # of the clock: stamps may go back here
+Blind = collections.namedtuple("Blind", "at seconds")                 # the observer itself was not awake, until `at`
 Violation = collections.namedtuple("Violation", "oracle at text")
 
 OK = 0
@@ -61,6 +62,7 @@ class Recording:
     processes: typing.List[Process] = dataclasses.field(default_factory=list)
     frames: typing.List[Frame] = dataclasses.field(default_factory=list)
     restarts: typing.List[Restart] = dataclasses.field(default_factory=list)
+    blind: typing.List[Blind] = dataclasses.field(default_factory=list)
 
     def between(self, begin, end):
         parts = {field.name: slice_of(getattr(self, field.name), begin, end) for field in dataclasses.fields(self)}
@@ -130,7 +132,7 @@ def O4_stop(recording, limits, lost_at, until):
     """Zeros, and some of them, from `stop_within_s` after the loss on."""
     begin = lost_at + limits.stop_within_s + limits.machine_s
     after = slice_of(recording.setpoints, begin, until)
-    moving = [s for s in after if not is_still(s)]
+    moving = [s for s in after if not is_still(s) and not was_blind(recording, s.at, limits)]
     if moving:
         text = f"{moving[-1].source} still moves {moving[-1].at - lost_at:.2f} s after the loss, {norm(moving[-1].velocity):.2f} m/s"
         return [Violation("O4", moving[-1].at, text)]
@@ -145,19 +147,24 @@ def stop_time(recording, lost_at, until):
 
 def O4_stream(recording, limits, source, begin, end):
     """At any time within [begin, end] at least `least_rate_hz`, over a window."""
-    times = [s.at for s in slice_of(recording.setpoints, begin, end) if s.source == source]
-    rate, at = least_rate(times, begin, end, limits.rate_window_s)
+    rate, at = stream_rate(recording, limits, source, begin, end)
     if rate >= limits.least_rate_hz:
         return []
     return [Violation("O4", at, f"{source}: {rate:.1f} setpoints a second, {limits.least_rate_hz:.0f} wanted")]
 
 
-def least_rate(times, begin, end, window_s):
-    """\\return lowest number a second within any window, and where it begins; infinite if the time is shorter than that"""
+def stream_rate(recording, limits, source, begin, end):
+    """\\return (lowest rate within any window, where it begins); windows in which the observer was blind do not count"""
+    times = [s.at for s in slice_of(recording.setpoints, begin, end) if s.source == source]
+    return least_rate(times, begin, end, limits.rate_window_s, [(b.at - b.seconds, b.at + limits.machine_s) for b in recording.blind])
+
+
+def least_rate(times, begin, end, window_s, blind=()):
+    """\\return lowest number a second within any window, and where it begins; infinite if there is no such window"""
     worst = (math.inf, begin)
     starts = [begin] + [t + 1e-9 for t in times]
     for start in starts:
-        if start + window_s <= end:
+        if start + window_s <= end and not any(a < start + window_s and b > start for a, b in blind):
             count = bisect.bisect_right(times, start + window_s) - bisect.bisect_left(times, start)
             worst = min(worst, (count / window_s, start))
     return worst
@@ -173,6 +180,11 @@ def enabled_spans(states, end):
             spans.append((begin, state.at))
             begin = None
     return spans + ([(begin, end)] if begin is not None else [])
+
+
+def was_blind(recording, at, limits):
+    """What was heard then may have come before."""
+    return any(b.at - b.seconds <= at <= b.at + limits.machine_s for b in recording.blind)
 
 
 def O5(recording, limits, caused_at, name, words):
@@ -225,7 +237,7 @@ def O9(recording, limits):
     found = []
     states, engaged = [s.at for s in recording.states], [e.at for e in recording.engaged]
     for setpoint in recording.setpoints:
-        if is_still(setpoint):
+        if is_still(setpoint) or was_blind(recording, setpoint.at, limits):
             continue
         if recording.states and not was(recording.states, states, setpoint.at, limits, lambda s: s.enabled):
             found.append(Violation("O9", setpoint.at, f"{setpoint.source} moves while the navigator is not enabled"))

@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Flight after flight through the real nodes, with faults at random times and a viewer that is too slow; see scripts/soak.
+
+One line a flight, then a table; exit code 0 if no oracle was violated, 1 if one was, 2 if nothing could be flown.
+"""
+import argparse
+import collections
+import json
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "ros")]
+import rospy  # noqa: E402
+from std_srvs.srv import Trigger  # noqa: E402
+from window_ingress.msg import FlightVerdict, IngressState  # noqa: E402
+from window_ingress.srv import Inject  # noqa: E402
+
+import monitor as monitors  # noqa: E402
+import oracles  # noqa: E402
+import support  # noqa: E402
+from own_system import OwnSystem  # noqa: E402
+
+KINDS = {"image": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
+         "camera_info": ("off", "garbage", "wrong", "slow", "delayed", "intermittent"),
+         "odom": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
+         "imu": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
+         "tf": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
+         "clock": ("off", "stuck", "wrong", "slow", "delayed", "intermittent"),
+         "cmd_vel": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent")}
+TOPICS = {"steered": "/ingress_navigator/cmd_vel"}
+MISSION_S, START_S = 90.0, 30.0  # wall time of a mission, and until one may start
+WARM_FLIGHTS = 3                 # memory is measured from then on: caches and pools are full
+GROWTH_MB = 20.0                 # per process, from then to the end
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--seed", type=int, default=1, help="of the faults and of the first flight")
+    parser.add_argument("--scenario", default=str(HERE.parents[2] / "config/scenarios/nominal.yaml"))
+    parser.add_argument("--quiet-share", type=float, default=0.1, help="part of the flights without any fault")
+    parser.add_argument("--json", help="file for the figures")
+    return parser.parse_args()
+
+
+def say(text):
+    print(f"{time.strftime('%H:%M:%S')} {text}", flush=True)
+
+
+def service(name, kind=Trigger):
+    rospy.wait_for_service(name, support.DEADLINE_S)
+    return rospy.ServiceProxy(name, kind)
+
+
+class Soak:
+    def __init__(self, options):
+        self.options, self.random = options, random.Random(options.seed)
+        self.monitor = monitors.Monitor((*monitors.NODES, "world"), TOPICS)
+        self.verdicts = support.Listener("referee", FlightVerdict)
+        self.states = support.Listener("state", IngressState)
+        self.inject = service("world/inject", Inject)
+        self.outcomes, self.faults = collections.Counter(), collections.Counter()
+        self.violations, self.memory = [], []
+        self.flights = self.pictures = 0
+        self.least_hz, self.worst_frame_ms, self.blind_s = float("inf"), 0.0, 0.0
+        self.began = time.monotonic()
+
+    def call(self, name):
+        return service(name)()
+
+    def prepare(self):
+        """Everything as before the first flight; what was injected ends with the world's reset."""
+        self.call("ingress_navigator/abort")
+        self.call("world/reset")
+        self.call("window_detector/reset")
+        support.wait_for(lambda: self.call("ingress_navigator/reset").success, "the navigator can be reset")
+        support.wait_for(self.starts, "a mission that starts", START_S)
+
+    def starts(self):
+        reply = self.call("ingress_navigator/start")
+        if not reply.success:
+            time.sleep(0.3)
+        return reply.success
+
+    def plan(self):
+        """[(seconds after the start, unit, kind, duration)]"""
+        if self.random.random() < self.options.quiet_share:
+            return []
+        faults = []
+        for _ in range(self.random.choice((1, 1, 2, 3))):
+            unit = self.random.choice(sorted(KINDS))
+            faults.append((self.random.uniform(0.3, 9.0), unit, self.random.choice(KINDS[unit]), self.random.uniform(0.2, 5.0)))
+        return sorted(faults)
+
+    def fly(self):
+        plan = self.plan()
+        began = time.monotonic()
+        self.prepare()
+        started, done = time.monotonic(), []
+        while time.monotonic() - started < MISSION_S and not self.is_over(started):
+            while plan and time.monotonic() - started > plan[0][0]:
+                done.append(self.hurt(*plan.pop(0)[1:]))
+            time.sleep(0.05)
+        self.judge(began, started, done)
+
+    def hurt(self, unit, kind, duration):
+        if unit == "clock":
+            self.monitor.clock_restarts()
+        reply = self.inject(unit, kind, duration)
+        assert reply.success, reply.message
+        self.faults[f"{unit} {kind}"] += 1
+        return f"{unit} {kind} {duration:.1f} s"
+
+    def is_over(self, started):
+        verdicts = self.verdicts.since(started + 0.5)
+        states = self.monitor.states_since(started + 0.5)
+        has_ended = states and states[-1].name in ("ABORTED", "PASSED")
+        return has_ended or (verdicts and verdicts[-1].outcome != FlightVerdict.RUNNING)
+
+    def judge(self, began, started, done):
+        time.sleep(1.2)  # the referee's last word comes once a second
+        end = time.monotonic()
+        self.flights += 1
+        verdicts = self.verdicts.since(started + 0.5)
+        outcome = verdicts[-1].outcome_name if verdicts else "NO VERDICT"
+        self.outcomes[outcome] += 1
+        found = self.monitor.violations(began, end)
+        self.violations += found
+        part = self.monitor.part(began, end)
+        self.pictures += len(part.frames)
+        self.worst_frame_ms = max([self.worst_frame_ms] + [f.milliseconds for f in part.frames])
+        self.note_rate(part, end)
+        self.memory.append({p.node: (p.megabytes, p.threads) for p in part.processes})
+        say(f"flight {self.flights}: {outcome} after {end - started:.0f} s; {', '.join(done) or 'no fault'}"
+            + ("" if outcome == "PASSED" else f"; {self.why(verdicts, started)}"))
+        for violation in found:
+            say(f"  VIOLATION {violation.oracle}, {violation.at - started:.1f} s after the start: {violation.text}")
+        self.monitor.forget_before(end - 1.0)
+        for listener in (self.verdicts, self.states):
+            listener.forget_before(end - 1.0)
+
+    def why(self, verdicts, started):
+        states = self.states.since(started + 0.5)
+        said = [s.reason for s in states if s.state_name == "ABORTED"] or [s.state_name for s in states[-1:]]
+        return "; ".join(said[:1] + [v.reason for v in verdicts[-1:]])
+
+    def note_rate(self, part, end):
+        self.blind_s += sum(b.seconds for b in part.blind)
+        for span in oracles.enabled_spans(part.states, end):
+            self.least_hz = min(self.least_hz, oracles.stream_rate(part, self.monitor.limits, self.monitor.guard, *span)[0])
+
+    def grown(self):
+        if len(self.memory) <= WARM_FLIGHTS:
+            return {}
+        return {node: self.memory[-1][node][0] - self.memory[WARM_FLIGHTS][node][0] for node in self.memory[-1]
+                if node in self.memory[WARM_FLIGHTS]}
+
+    def figures(self):
+        first = self.memory[min(WARM_FLIGHTS, len(self.memory) - 1)]
+        return {"minutes": round((time.monotonic() - self.began) / 60.0, 1), "flights": self.flights, "outcomes": dict(self.outcomes),
+                "faults": sum(self.faults.values()), "kinds_of_fault": len(self.faults), "messages": self.monitor.messages,
+                "pictures": self.pictures, "longest_picture_ms": round(self.worst_frame_ms, 1),
+                "least_setpoints_a_second": self.least_hz, "observer_kept_from_looking_s": round(self.blind_s, 1),
+                "memory_mb": {node: [round(first[node][0], 1), round(last[0], 1)] for node, last in self.memory[-1].items() if node in first},
+                "threads": {node: [first[node][1], last[1]] for node, last in self.memory[-1].items() if node in first},
+                "violations": len(self.violations)}
+
+    def report(self):
+        for node, megabytes in self.grown().items():
+            if megabytes > GROWTH_MB:
+                self.violations.append(oracles.Violation("O7", time.monotonic(), f"{node} has grown by {megabytes:.1f} MB"))
+                say(f"VIOLATION O7: {self.violations[-1].text}")
+        figures = self.figures()
+        for name, value in figures.items():
+            say(f"{name}: {value}")
+        if self.options.json:
+            pathlib.Path(self.options.json).write_text(json.dumps(figures, indent=1) + "\n")
+        return 1 if self.violations else 0
+
+
+def main():
+    options = arguments()
+    launch = ("sim.launch", f"scenario:={os.path.abspath(options.scenario)}", f"seed:={options.seed}", "next_seed_at_reset:=true")
+    with OwnSystem(*launch) as system:
+        rospy.init_node("soak", disable_signals=True)
+        viewer = subprocess.Popen([sys.executable, str(HERE / "slow_viewer.py")], stdout=subprocess.DEVNULL)
+        try:
+            soak = Soak(options)
+            while time.monotonic() - soak.began < 60.0 * options.minutes:
+                if system.has_ended():
+                    raise RuntimeError("the launch has ended: a required process is gone")
+                soak.fly()
+            return soak.report()
+        finally:
+            viewer.kill()
+            viewer.wait()
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (RuntimeError, AssertionError, rospy.ROSException, rospy.ServiceException) as error:
+        say(f"soak: {error}")
+        sys.exit(2)
