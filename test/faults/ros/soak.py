@@ -34,6 +34,7 @@ KINDS = {"image": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "inter
          "cmd_vel": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent")}
 TOPICS = {"steered": "/ingress_navigator/cmd_vel"}
 MISSION_S, START_S = 90.0, 30.0  # wall time of a mission, and until one may start
+LAST_WORD_S = 5.0                # the referee's comes once a second of simulated time
 WARM_FLIGHTS = 3                 # memory is measured from then on: caches and pools are full
 GROWTH_MB = 20.0                 # per process, from then to the end
 
@@ -116,14 +117,19 @@ class Soak:
         self.faults[f"{unit} {kind}"] += 1
         return f"{unit} {kind} {duration:.1f} s"
 
-    def is_over(self, started):
+    def is_decided(self, started):
         verdicts = self.verdicts.since(started + 0.5)
+        return verdicts and verdicts[-1].outcome != FlightVerdict.RUNNING
+
+    def is_over(self, started):
         states = self.monitor.states_since(started + 0.5)
         has_ended = states and states[-1].name in ("ABORTED", "PASSED")
-        return has_ended or (verdicts and verdicts[-1].outcome != FlightVerdict.RUNNING)
+        return has_ended or self.is_decided(started)
 
     def judge(self, began, started, done):
-        time.sleep(1.2)  # the referee's last word comes once a second
+        last_word = time.monotonic() + LAST_WORD_S
+        while time.monotonic() < last_word and not self.is_decided(started):
+            time.sleep(0.05)
         end = time.monotonic()
         self.flights += 1
         verdicts = self.verdicts.since(started + 0.5)
