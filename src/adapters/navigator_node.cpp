@@ -127,13 +127,17 @@ void NavigatorNode::step() {
   restartIfClockJumpedBack(now.toSec());
   forgetSilentInputs();
   const bool works = guarded(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
-  if (!works) last_.setpoint = navigation::Setpoint();
+  if (!works) {
+    last_.setpoint = navigation::Setpoint();
+    navigator_.sentZero();
+  }
   if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany) navigator_.abort();
   publish(last_, now);
 }
 
 navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
   if (!clockStandsStill(now_sec)) return navigator_.step(input_, now_sec);
+  navigator_.sentZero();
   navigation::NavigatorOutput output = last_;
   output.setpoint = navigation::Setpoint();
   output.reason = now_sec == 0.0 ? "waiting for /clock" : "/clock stands still";

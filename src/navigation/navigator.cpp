@@ -261,6 +261,8 @@ Reply Navigator::confirmOpening() {
   return {true, "confirmed: the window flown at is open"};
 }
 
+void Navigator::sentZero() { impl_->last_setpoint = impl_->limiter.stop(); }
+
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
   Situation situation = self.monitor.judge(input, now_sec);

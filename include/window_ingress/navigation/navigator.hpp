@@ -50,6 +50,8 @@ class Navigator {
   Reply confirmOpening();
 
   NavigatorOutput step(const NavigatorInput& input, double now_sec);
+  /// The caller has sent zero in place of what the last step said: from there the velocity grows anew.
+  void sentZero();
 
  private:
   struct Impl;

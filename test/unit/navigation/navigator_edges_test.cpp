@@ -96,6 +96,19 @@ TEST(NavigatorEdges, EveryMovingStateHoldsWithoutOdometry) {
   }
 }
 
+TEST(NavigatorEdges, AfterZerosOfTheCallerTheVelocityGrowsAnew) {
+  const LimitParams limits;
+  Mission mission;
+  mission.leadInto(State::kApproach);
+  mission.stay(30);
+  ASSERT_GT(mission.output.setpoint.velocity_odom_mps.norm(), 0.3) << mission.output.reason;
+  mission.navigator.sentZero();
+  mission.stay(1);
+  ASSERT_EQ(mission.output.state, State::kApproach) << mission.output.reason;
+  EXPECT_GT(mission.output.setpoint.velocity_odom_mps.norm(), 0.0);
+  EXPECT_LE(mission.output.setpoint.velocity_odom_mps.norm(), limits.acceleration_mps2 * kStep + 1e-9);
+}
+
 TEST(NavigatorEdges, EveryLiveStateGivesUpWhenTheMissionTakesTooLong) {
   for (const State state : kLive) {
     NavigatorParams params;
