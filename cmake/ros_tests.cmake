@@ -1,4 +1,4 @@
-# ROS tests: every test/ros/<name>.test is one rostest with a master of its own; <name>_test.py is what it runs.
+# ROS tests: every <name>.test of test/ros and test/faults/ros is one rostest with a master of its own; <name>_test.py is what it runs.
 find_package(catkin REQUIRED COMPONENTS roslaunch rostest)
 
 # usb_cam.launch names a driver that need not be installed: test/tools/launch_files_test.py reads it.
@@ -8,7 +8,8 @@ foreach(launch_file ${launch_files})
   roslaunch_add_file_check(${launch_file} IGNORE_UNSET_ARGS)
 endforeach()
 
-file(GLOB ros_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
+file(GLOB ros_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test
+     ${PROJECT_SOURCE_DIR}/test/faults/ros/*.test)
 foreach(test ${ros_tests})
   add_rostest(${test} DEPENDENCIES ${PROJECT_NAME}_window_detector ${PROJECT_NAME}_homography_pose
               ${PROJECT_NAME}_ingress_navigator ${PROJECT_NAME}_setpoint_guard ${PROJECT_NAME}_world

@@ -76,6 +76,10 @@ def test_O3_speed_and_yaw_rate(velocity, turning):
 def test_O3_acceleration_counts_where_speed_is_added_not_where_it_is_taken_away():
     assert oracles.O3(Recording(setpoints=setpoints(lambda t: 0.0 if t > 5.0 else 0.8)), LIMITS, GUARD) == []
     assert names(oracles.O3(Recording(setpoints=setpoints(lambda t: 0.8 if t > 5.0 else 0.0)), LIMITS, GUARD)) == ["O3"]
+    reversed_ = Recording(setpoints=setpoints(lambda t: -0.8 if t > 5.0 else 0.8))
+    assert names(oracles.O3(reversed_, LIMITS, GUARD)) == ["O3"], "as fast, but back"
+    cut_aside = [Setpoint(0.0, 0.0, NAVIGATOR, (0.5, 0.3, 0.0), 0.0), Setpoint(0.03, 0.03, NAVIGATOR, (0.54, 0.0, 0.0), 0.0)]
+    assert oracles.O3(Recording(setpoints=cut_aside), LIMITS, GUARD) == []
     turning = [Setpoint(0.03 * i, 0.03 * i, NAVIGATOR, (0.0, 0.0, 0.0), 0.4 * (i > 5)) for i in range(10)]
     assert names(oracles.O3(Recording(setpoints=turning), LIMITS, GUARD)) == ["O3"]
 

@@ -115,13 +115,13 @@ def O3(recording, limits, guard):
 
 
 def too_sudden(setpoints, limits):
-    """Steps beyond the acceleration that are no loss of speed: to take velocity away at once is allowed, to add it is not."""
+    """More velocity than the acceleration allows, in the direction flown then: to take it away at once is allowed."""
     found = []
     for one, two in zip(setpoints, setpoints[1:]):
         passed = min(0.2, max(0.0, two.stamp - one.stamp))
-        change = norm([b - a for a, b in zip(one.velocity, two.velocity)])
-        if change > limits.acceleration_mps2 * passed + 1e-3 and norm(two.velocity) > norm(one.velocity) + 1e-3:
-            found.append(Violation("O3", two.at, f"{two.source}: {change:.3f} m/s faster within {passed:.3f} s"))
+        gained = sum((b - a) * b for a, b in zip(one.velocity, two.velocity)) / max(1e-9, norm(two.velocity))
+        if gained > limits.acceleration_mps2 * passed + 1e-3:
+            found.append(Violation("O3", two.at, f"{two.source}: {gained:.3f} m/s faster within {passed:.3f} s"))
         turn = abs(two.turning) - abs(one.turning)
         if turn > limits.yaw_acceleration_radps2 * passed + 1e-3:
             found.append(Violation("O3", two.at, f"{two.source}: {turn:.3f} rad/s more within {passed:.3f} s"))
@@ -249,7 +249,7 @@ def O9(recording, limits):
 def was(entries, times, at, limits, accept):
     """Whether any entry that held at `at`, a little before or a little after, is accepted; before the first: yes."""
     first = bisect.bisect_right(times, at - 2 * limits.machine_s) - 1
-    last = bisect.bisect_right(times, at + limits.machine_s)
+    last = bisect.bisect_right(times, at + 2 * limits.machine_s)
     held = entries[max(0, first):last]
     return not held or any(accept(entry) for entry in held)
 

@@ -1,0 +1,99 @@
+"""A vehicle that stands before a window, for nodes that believe to fly: what its camera and its autopilot would send."""
+import time
+
+import numpy
+import rospy
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import CameraInfo, Image, Imu
+from std_msgs.msg import Bool
+from std_srvs.srv import Trigger
+
+import oracles
+import support
+
+DISTANCE_M = 2.5
+LEFT, TOP, RIGHT, BOTTOM = 200, 140, 440, 340  # inner border of 1.2 m x 1.0 m, so far away, at a focal length of 500 px
+CAMERA_HZ, VEHICLE_HZ, AUTOPILOT_HZ = 15.0, 50.0, 10.0
+MOVES_WITHIN_S = 20.0
+
+
+def picture(shift_px=0):
+    """A plaster wall with an orange frame round a dark opening."""
+    image = numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8)
+    frame = support.FRAME_PX
+    image[TOP - frame:BOTTOM + frame, LEFT - frame + shift_px:RIGHT + frame + shift_px] = (20, 95, 225)
+    image[TOP:BOTTOM, LEFT + shift_px:RIGHT + shift_px] = (60, 50, 45)
+    noise = numpy.random.default_rng(1).normal(0.0, 2.0, image.shape)
+    return numpy.clip(image + noise, 0, 255).astype(numpy.uint8)
+
+
+class Camera:
+    """Pictures that are never the same twice."""
+
+    def __init__(self, pixels=None):
+        self.pixels = picture() if pixels is None else pixels
+
+    def __call__(self, stamp):
+        self.pixels[0, 0, 0] = (int(self.pixels[0, 0, 0]) + 1) % 256
+        return support.image_message(self.pixels, stamp)
+
+
+def changed(make, **what):
+    """The same messages with these members set; 'header__frame_id' is a member of a member, a function gets the message."""
+    def altered(stamp):
+        message = make(stamp)
+        for path, value in what.items():
+            *owners, name = path.split("__")
+            owner = message
+            for part in owners:
+                owner = getattr(owner, part)
+            setattr(owner, name, value(message) if callable(value) else value)
+        return message
+    return altered
+
+
+def later(seconds):
+    """For `changed(..., header__stamp=later(-5.0))`."""
+    return lambda message: message.header.stamp + rospy.Duration(seconds)
+
+
+class Chain:
+    """Everything that the nodes want, streamed; `streams[topic].make` can be replaced."""
+
+    def __init__(self):
+        self.camera = Camera()
+        self.mounting = support.publish_mounting()
+        self.engaged = True
+        self.streams = {topic: support.Stream(topic, kind, make, rate) for topic, kind, make, rate in (
+            ("image_raw", Image, self.camera, CAMERA_HZ), ("camera_info", CameraInfo, support.camera_info, CAMERA_HZ),
+            ("imu", Imu, support.imu, VEHICLE_HZ), ("odom", Odometry, support.odometry, VEHICLE_HZ),
+            ("engaged", Bool, lambda _: Bool(self.engaged), AUTOPILOT_HZ))}
+        self.usual = {topic: stream.make for topic, stream in self.streams.items()}
+
+    def restore(self):
+        for topic, stream in self.streams.items():
+            stream.make = self.usual[topic]
+            stream.resume()
+
+    @staticmethod
+    def call(service):
+        name = f"ingress_navigator/{service}"
+        rospy.wait_for_service(name, support.DEADLINE_S)
+        return rospy.ServiceProxy(name, Trigger)()
+
+    def fly(self, monitor):
+        """Until the vehicle is told to go on, from whatever state."""
+        def moves():
+            states = monitor.states_since(time.monotonic() - 1.5)
+            if not states or not states[-1].enabled:
+                self.call("reset")
+                self.call("start")
+                time.sleep(0.1)
+            recent = monitor.part(time.monotonic() - 0.15).setpoints
+            return states and states[-1].name == "APPROACH" and any(
+                oracles.norm(s.velocity) > 0.1 for s in recent if s.source == monitor.guard)
+        support.wait_for(moves, "a vehicle on its way", MOVES_WITHIN_S)
+
+    def stop(self):
+        for stream in self.streams.values():
+            stream.stop()

@@ -1,0 +1,6 @@
+"""Import first: tests here share what the ROS tests share."""
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "ros")]
