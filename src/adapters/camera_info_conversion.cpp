@@ -11,6 +11,9 @@ using geometry::PinholeCamera;
 
 constexpr std::uint32_t kLargestSidePx = 20000;
 constexpr std::uint32_t kMostBinning = 16;
+constexpr const char* kPlumbBob = "plumb_bob";
+constexpr const char* kRational = "rational_polynomial";
+constexpr const char* kEquidistant = "equidistant";
 
 std::string text(std::uint64_t value) { return std::to_string(value); }
 
@@ -32,22 +35,31 @@ std::string badSize(const sensor_msgs::CameraInfo& m) {
 std::string badNumbers(const sensor_msgs::CameraInfo& m) {
   if (!finite(m.K) || !finite(m.P) || !finite(m.R) || !finite(m.D))
     return "K, D, R or P holds a number that is not finite";
+  if (zero(m.R) && !zero(m.P))
+    return "R is zero and so no rotation, though P is not: the identity belongs there where nothing is "
+           "rectified";
   if (zero(m.K)) return "uncalibrated: K is zero; calibrate the camera or load its calibration in the driver";
   return "";
+}
+
+std::size_t coefficientsOf(const std::string& model) {
+  return model == kPlumbBob ? 5 : model == kRational ? 8 : model == kEquidistant ? 4 : 0;
 }
 
 std::string badDistortion(const sensor_msgs::CameraInfo& m) {
   const bool undistorted = m.D.empty() || (m.D.size() == 5 && zero(m.D));
   if (undistorted && m.distortion_model.empty()) return "";
-  if (m.distortion_model != "plumb_bob" && m.distortion_model != "rational_polynomial")
+  const std::size_t wanted = coefficientsOf(m.distortion_model);
+  if (wanted == 0)
     return "distortion model '" + m.distortion_model.substr(0, 40) +
-           "' is not supported, only plumb_bob; for others use rectified pictures (image_proc) and set "
-           "image_is_rectified";
-  const std::size_t wanted = m.distortion_model == "plumb_bob" ? 5 : 8;
-  if (m.D.empty()) return "";
+           "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
+           "use "
+           "rectified pictures (image_proc) and set image_is_rectified";
+  if (m.D.empty() && m.distortion_model != kEquidistant) return "";
   if (m.D.size() != wanted)
     return "D holds " + text(m.D.size()) + " numbers, " + m.distortion_model + " has " + text(wanted);
-  if (std::any_of(m.D.begin() + 5, m.D.end(), [](double d) { return d != 0.0; }))
+  if (m.distortion_model == kRational &&
+      std::any_of(m.D.begin() + 5, m.D.end(), [](double d) { return d != 0.0; }))
     return "distortion model rational_polynomial is supported with k4 = k5 = k6 = 0 only; calibrate with "
            "plumb_bob";
   return "";
@@ -88,6 +100,7 @@ PinholeCamera fullCamera(const sensor_msgs::CameraInfo& m, bool rectified) {
   camera.fy = rectified ? m.P[5] : m.K[4];
   camera.cx = rectified ? m.P[2] : m.K[2];
   camera.cy = rectified ? m.P[6] : m.K[5];
+  if (!rectified && m.distortion_model == kEquidistant) camera.model = geometry::LensModel::kEquidistant;
   const std::size_t known = rectified ? 0 : std::min(m.D.size(), camera.distortion.size());
   std::copy(m.D.begin(), m.D.begin() + static_cast<std::ptrdiff_t>(known), camera.distortion.begin());
   return camera;
@@ -124,8 +137,9 @@ sensor_msgs::CameraInfo toMsg(const PinholeCamera& camera) {
   sensor_msgs::CameraInfo message;
   message.width = static_cast<std::uint32_t>(camera.width);
   message.height = static_cast<std::uint32_t>(camera.height);
-  message.distortion_model = "plumb_bob";
-  message.D.assign(camera.distortion.begin(), camera.distortion.end());
+  const bool fisheye = camera.model == geometry::LensModel::kEquidistant;
+  message.distortion_model = fisheye ? kEquidistant : kPlumbBob;
+  message.D.assign(camera.distortion.begin(), camera.distortion.end() - fisheye);
   message.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
   message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   message.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};

@@ -24,7 +24,7 @@ std::array<double, 12> keyOf(const geometry::PinholeCamera& c) {
           c.distortion[4],
           static_cast<double>(c.width),
           static_cast<double>(c.height),
-          1.0};
+          1.0 + static_cast<double>(c.model)};
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ bool isPicture(const cv::Mat& image) {
 
 bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b) {
   return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
-         a.cy == b.cy && a.distortion == b.distortion;
+         a.cy == b.cy && a.distortion == b.distortion && a.model == b.model;
 }
 
 double sizeOf(const Quadrilateral& quad) { return std::sqrt(std::abs(geometry::signedArea(quad))); }

@@ -47,8 +47,7 @@ int OpennessApproach::steps() const { return static_cast<int>(flight_.durationSe
 
 std::optional<detection::WindowObservation> OpennessApproach::look(const geometry::PinholeCamera& camera,
                                                                    int step, double grown) {
-  geometry::PinholeCamera ideal = camera;
-  ideal.distortion.fill(0.0);
+  const geometry::PinholeCamera ideal = camera.withoutDistortion();
   const Eigen::Isometry3d T_camera_window = motion(step).T_window_camera.inverse();
   const geometry::OpeningSize seen{opening_.width_m * (1.0 + grown), opening_.height_m * (1.0 + grown)};
   std::mt19937 random(static_cast<std::uint32_t>(random_.bits()));

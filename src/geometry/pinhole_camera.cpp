@@ -7,6 +7,8 @@
 namespace window_ingress::geometry {
 namespace {
 
+constexpr double kLeastFocal_px = 1.0, kMost_px = 1e6;
+
 struct Distorted {
   Eigen::Vector2d point;
   Eigen::Matrix2d jacobian;
@@ -25,6 +27,52 @@ Distorted distortNormalised(const std::array<double, 5>& d, const Eigen::Vector2
   out.jacobian << radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x, mixed, mixed,
       radial + slope * y * y + 6.0 * p1 * y + 2.0 * p2 * x;
   return out;
+}
+
+Eigen::Vector2d undistortNormalised(const std::array<double, 5>& d, const Eigen::Vector2d& target) {
+  Eigen::Vector2d p = target;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const Distorted distorted = distortNormalised(d, p);
+    const Eigen::Vector2d step = distorted.jacobian.inverse() * (target - distorted.point);
+    if (!step.allFinite()) break;
+    p += step;
+    if (step.squaredNorm() < 1e-22) break;
+  }
+  return p;
+}
+
+constexpr double kWidestRad = 1.5;  // of an equidistant lens: further off the axis there are no ideal pixels
+
+double bent(const std::array<double, 5>& d, double theta) {
+  const double t2 = theta * theta;
+  return theta * (1.0 + t2 * (d[0] + t2 * (d[1] + t2 * (d[2] + t2 * d[3]))));
+}
+
+double slopeOfBent(const std::array<double, 5>& d, double theta) {
+  const double t2 = theta * theta;
+  return 1.0 + t2 * (3.0 * d[0] + t2 * (5.0 * d[1] + t2 * (7.0 * d[2] + t2 * 9.0 * d[3])));
+}
+
+double straightened(const std::array<double, 5>& d, double bent_rad) {
+  double theta = std::min(bent_rad, kWidestRad);
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const double step = (bent_rad - bent(d, theta)) / slopeOfBent(d, theta);
+    if (!std::isfinite(step)) break;
+    theta = std::clamp(theta + step, 0.0, kWidestRad);
+    if (std::abs(step) < 1e-12) break;
+  }
+  return theta;
+}
+
+// On normalised coordinates; the direction about the axis stays.
+Eigen::Vector2d distortEquidistant(const std::array<double, 5>& d, const Eigen::Vector2d& p) {
+  const double radius = p.norm();
+  return radius > 1e-12 ? Eigen::Vector2d(p * (bent(d, std::atan(radius)) / radius)) : p;
+}
+
+Eigen::Vector2d undistortEquidistant(const std::array<double, 5>& d, const Eigen::Vector2d& p) {
+  const double radius = p.norm();
+  return radius > 1e-12 ? Eigen::Vector2d(p * (std::tan(straightened(d, radius)) / radius)) : p;
 }
 
 }  // namespace
@@ -52,13 +100,24 @@ std::vector<std::string> PinholeCamera::validate() const {
     faults.push_back("uncalibrated: K is zero; calibrate the camera or load its camera_info");
   else if (fx <= 0.0 || fy <= 0.0)
     faults.push_back("focal length must be positive");
+  else if (std::min(fx, fy) < kLeastFocal_px || std::max({fx, fy, std::abs(cx), std::abs(cy)}) > kMost_px)
+    faults.push_back(
+        "K is that of no camera: focal lengths are within 1 to 1e6 px, the principal point within 1e6 px");
   if (!std::all_of(distortion.begin(), distortion.end(), finite))
     faults.push_back("D holds a number that is not finite");
   return faults;
 }
 
 bool PinholeCamera::hasDistortion() const {
+  if (model == LensModel::kEquidistant) return true;  // whatever its coefficients
   return std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0.0; });
+}
+
+PinholeCamera PinholeCamera::withoutDistortion() const {
+  PinholeCamera ideal = *this;
+  ideal.distortion = {};
+  ideal.model = LensModel::kPlumbBob;
+  return ideal;
 }
 
 Eigen::Matrix3d PinholeCamera::K() const {
@@ -75,27 +134,23 @@ std::optional<Eigen::Vector2d> PinholeCamera::project(const Eigen::Vector3d& p_c
 Eigen::Vector2d PinholeCamera::distort(const Eigen::Vector2d& ideal_px) const {
   if (!hasDistortion()) return ideal_px;
   const Eigen::Vector2d normalised((ideal_px.x() - cx) / fx, (ideal_px.y() - cy) / fy);
-  const Eigen::Vector2d p = distortNormalised(distortion, normalised).point;
+  const Eigen::Vector2d p = model == LensModel::kEquidistant
+                                ? distortEquidistant(distortion, normalised)
+                                : distortNormalised(distortion, normalised).point;
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
 Eigen::Vector2d PinholeCamera::undistort(const Eigen::Vector2d& distorted_px) const {
   if (!hasDistortion()) return distorted_px;
-  const Eigen::Vector2d target((distorted_px.x() - cx) / fx, (distorted_px.y() - cy) / fy);
-  Eigen::Vector2d p = target;
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const Distorted d = distortNormalised(distortion, p);
-    const Eigen::Vector2d step = d.jacobian.inverse() * (target - d.point);
-    if (!step.allFinite()) break;
-    p += step;
-    if (step.squaredNorm() < 1e-22) break;
-  }
+  const Eigen::Vector2d seen((distorted_px.x() - cx) / fx, (distorted_px.y() - cy) / fy);
+  const Eigen::Vector2d p = model == LensModel::kEquidistant ? undistortEquidistant(distortion, seen)
+                                                             : undistortNormalised(distortion, seen);
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
 Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& distorted_px) const {
   const Eigen::Vector2d ideal = undistort(distorted_px);
-  return Eigen::Vector3d((ideal.x() - cx) / fx, (ideal.y() - cy) / fy, 1.0).normalized();
+  return Eigen::Vector3d((ideal.x() - cx) / fx, (ideal.y() - cy) / fy, 1.0).stableNormalized();
 }
 
 bool PinholeCamera::contains(const Eigen::Vector2d& pixel, double margin_px) const {

@@ -27,15 +27,10 @@ Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera& cam
   return quad;
 }
 
-geometry::PinholeCamera ideal(geometry::PinholeCamera camera) {
-  camera.distortion.fill(0.0);
-  return camera;
-}
-
 // The corners lie as the filtered window's would, but for what a turn of the camera moves.
 bool agrees(const Quadrilateral& seen, const OpennessView& view, double max_misfit) {
   const auto expected = geometry::projectOpening(
-      ideal(view.camera), view.T_odom_camera.inverse() * view.T_odom_window, view.opening);
+      view.camera.withoutDistortion(), view.T_odom_camera.inverse() * view.T_odom_window, view.opening);
   if (!expected || !geometry::isFinite(seen)) return false;
   const Eigen::Vector2d shift = geometry::centroid(seen) - geometry::centroid(*expected);
   double worst_px = 0.0;

@@ -29,10 +29,14 @@ YAML::Node load(const std::string& file) {
 
 std::vector<double> numbers(const YAML::Node& root, const std::string& key, const std::string& file) {
   try {
-    return root[key]["data"].as<std::vector<double>>();
+    const YAML::Node matrix = root[key];
+    const auto data = matrix["data"].as<std::vector<double>>();
+    const auto count = static_cast<double>(data.size());
+    if (matrix["rows"].as<double>(1.0) * matrix["cols"].as<double>(count) == count) return data;
   } catch (const YAML::Exception&) {
     refuse(file, key + ": no list of numbers called data in it");
   }
+  refuse(file, key + ": rows times cols is not how many numbers its data has");
 }
 
 int integer(const YAML::Node& root, const std::string& key, const std::string& file) {
@@ -49,13 +53,17 @@ void readLens(const YAML::Node& root, const std::string& file, geometry::Pinhole
   const bool straight = std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; });
   const std::string model =
       root["distortion_model"] ? root["distortion_model"].as<std::string>("") : "plumb_bob";
-  if (!straight && model != "plumb_bob")
+  const bool fisheye = model == "equidistant";
+  if (straight && !fisheye) return;
+  if (!fisheye && model != "plumb_bob")
     refuse(file, "distortion_model: '" + model +
-                     "' is not supported; calibrate with plumb_bob or rectify the images");
-  if (!straight && distortion.size() != 4 && distortion.size() != 5)
-    refuse(file,
-           "distortion_coefficients: " + std::to_string(distortion.size()) + " numbers; plumb_bob has 5");
-  if (!straight) std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+                     "' is not supported; calibrate with plumb_bob or equidistant, or rectify the images");
+  const std::size_t count = distortion.size();
+  if (count != 4 && (fisheye || count != 5))
+    refuse(file, "distortion_coefficients: " + std::to_string(count) + " numbers; " + model +
+                     (fisheye ? " has 4" : " has 5"));
+  if (fisheye) camera.model = geometry::LensModel::kEquidistant;
+  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ Lens::Lens(const geometry::PinholeCamera& camera) : ideal_(camera), size_(camera
   cv::minMaxLoc(channels[0], &left, &right);
   cv::minMaxLoc(channels[1], &top, &bottom);
   const double x0 = std::floor(left) - kMargin_px, y0 = std::floor(top) - kMargin_px;
-  ideal_.distortion = {};
+  ideal_ = camera.withoutDistortion();
   ideal_.cx -= x0;
   ideal_.cy -= y0;
   ideal_.width = static_cast<int>(std::ceil(right) - x0) + kMargin_px + 1;

@@ -16,8 +16,7 @@ constexpr double kGreatestPart = 0.5;  // of the picture's width or height that 
 }  // namespace
 
 cv::Mat referencePicture(const Scenario& scenario, geometry::Quadrilateral* corners) {
-  geometry::PinholeCamera ideal = scenario.camera.model();
-  ideal.distortion = {};
+  const geometry::PinholeCamera ideal = scenario.camera.model().withoutDistortion();
   const geometry::OpeningSize size = scenario.opening();
   const double distance_m =
       std::max({kLeastDistance_m, ideal.fx * size.width_m / (kGreatestPart * ideal.width),

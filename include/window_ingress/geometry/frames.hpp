@@ -15,9 +15,7 @@
 
 #include <Eigen/Geometry>
 
-#ifdef __FAST_MATH__
-#error "window_ingress must not be built with -ffast-math: its safety checks rest on isfinite()"
-#endif
+#include "window_ingress/geometry/finite_math.hpp"
 
 namespace window_ingress::geometry {
 

@@ -6,17 +6,26 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/geometry/finite_math.hpp"
+
 namespace window_ingress::geometry {
 
-/// Pinhole camera with radial-tangential distortion (`plumb_bob` of sensor_msgs/CameraInfo).
+/// How a lens bends the image, by the names of sensor_msgs/CameraInfo.
+enum class LensModel {
+  kPlumbBob,    ///< radial and tangential: k1, k2, p1, p2, k3
+  kEquidistant  ///< fisheye: the angle off the axis theta is seen at theta (1 + k1 theta^2 + .. + k4 theta^8)
+};
+
+/// Pinhole camera with a lens before it.
 ///
 /// Pixel centres are integers: the top left pixel's centre is (0, 0), and an ideal camera has its principal
 /// point at ((width - 1) / 2, (height - 1) / 2).
 struct PinholeCamera {
-  int width = 0;   ///< [px]
-  int height = 0;  ///< [px]
+  int width = 0;                                  ///< [px]
+  int height = 0;                                 ///< [px]
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< [px]
-  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
+  std::array<double, 5> distortion{};  ///< as the model has them: k1, k2, p1, p2, k3, or k1, k2, k3, k4, 0
+  LensModel model = LensModel::kPlumbBob;
 
   /// Ideal camera, square pixels, centred principal point, no distortion.
   static PinholeCamera fromFieldOfView(int width_px, int height_px, double horizontal_fov_rad);
@@ -25,6 +34,7 @@ struct PinholeCamera {
   std::vector<std::string> validate() const;
 
   bool hasDistortion() const;
+  PinholeCamera withoutDistortion() const;  ///< the same K, and straight lines stay straight
   Eigen::Matrix3d K() const;
 
   /// Pixel of a point in the optical frame [m]; nothing for points not in front of the camera.
@@ -33,7 +43,8 @@ struct PinholeCamera {
   /// Distorted pixel of an ideal (undistorted) pixel of the same K.
   Eigen::Vector2d distort(const Eigen::Vector2d& ideal_px) const;
 
-  /// Ideal pixel of a distorted one, by Newton iterations; to 1e-6 px within the image of any sane lens.
+  /// Ideal pixel of a distorted one, by Newton iterations; to 1e-6 px within the image of any sane lens. A
+  /// fisheye's directions further than 1.5 rad off the axis have none: they get that of 1.5 rad.
   Eigen::Vector2d undistort(const Eigen::Vector2d& distorted_px) const;
 
   /// Line of sight (unit vector, optical frame) of an image pixel.

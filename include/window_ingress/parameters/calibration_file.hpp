@@ -10,7 +10,7 @@ namespace window_ingress::parameters {
 /// distortion_model, distortion_coefficients).
 /// \throws std::runtime_error, one line "file: what is wrong; what to do": missing, not yaml, incomplete,
 /// uncalibrated
-///         (K all zero), or of a lens model other than plumb_bob
+///         (K all zero), or of a lens model other than plumb_bob and equidistant
 geometry::PinholeCamera readCalibrationFile(const std::string& file);
 
 }  // namespace window_ingress::parameters

@@ -48,6 +48,37 @@ TEST(PinholeCamera, UndistortInvertsDistortAllOverTheImage) {
       EXPECT_LT((camera.distort(camera.undistort({u, v})) - Eigen::Vector2d(u, v)).norm(), 1e-6);
 }
 
+PinholeCamera fisheye() {
+  PinholeCamera camera = PinholeCamera::fromFieldOfView(640, 480, 1.6);
+  camera.model = LensModel::kEquidistant;
+  camera.distortion = {-0.02, 0.01, -0.004, 0.0007, 0.0};
+  return camera;
+}
+
+TEST(PinholeCamera, AFisheyeIsUndoneAllOverTheImage) {
+  const PinholeCamera camera = fisheye();
+  for (int v = 0; v < 480; v += 20)
+    for (int u = 0; u < 640; u += 20) {
+      EXPECT_LT((camera.distort(camera.undistort({u, v})) - Eigen::Vector2d(u, v)).norm(), 1e-6);
+      EXPECT_LT((*camera.project(3.0 * camera.ray({u, v})) - Eigen::Vector2d(u, v)).norm(), 1e-6);
+    }
+  EXPECT_TRUE(camera.hasDistortion());
+  EXPECT_FALSE(camera.withoutDistortion().hasDistortion());
+  const Eigen::Vector2d centre(camera.cx, camera.cy);
+  EXPECT_EQ(camera.undistort(centre), centre);
+  EXPECT_EQ(camera.distort(centre), centre);
+}
+
+TEST(PinholeCamera, AFisheyeSeesNothingSidewaysAndStaysFinite) {
+  PinholeCamera camera = fisheye();
+  EXPECT_TRUE(camera.undistort({1e5, 240.0}).allFinite());
+  EXPECT_LT(std::acos(camera.ray({1e5, 240.0}).z()), 1.5 + 1e-9);
+  for (const double odd : {-0.9, 5.0, 1e300}) {  // coefficients that turn back on themselves
+    camera.distortion = {odd, -odd, odd, -odd, 0.0};
+    EXPECT_TRUE(camera.undistort({10.0, 10.0}).allFinite()) << odd;
+  }
+}
+
 TEST(PinholeCamera, RayGoesThroughItsPixel) {
   const PinholeCamera camera = distortedCamera();
   const Eigen::Vector3d ray = camera.ray({100, 60});
@@ -75,6 +106,21 @@ TEST(PinholeCamera, ValidateNamesEveryFault) {
   camera = distortedCamera();
   camera.distortion[1] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(camera.validate().size(), 1u);
+  for (const double odd : {1e-3, 1e-300, 1e7, 1e300}) {
+    camera = distortedCamera();
+    camera.fx = odd;
+    EXPECT_EQ(camera.validate().size(), 1u) << odd;
+  }
+  camera = distortedCamera();
+  camera.cy = -1e9;
+  EXPECT_EQ(camera.validate().size(), 1u);
+}
+
+TEST(PinholeCamera, ARayHasLengthOneHoweverFarAside) {
+  PinholeCamera camera = distortedCamera();
+  camera.distortion = {};
+  for (const double aside : {1e5, 1e100, 1e200, 1e300})
+    EXPECT_NEAR(camera.ray({aside, -aside}).norm(), 1.0, 1e-12) << aside;
 }
 
 }  // namespace
