@@ -16,6 +16,15 @@ constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
 constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
+constexpr double kRounding = 1e-6;
+
+// What the navigator keeps to already, asked once more of what is sent.
+GuardParams lastGate(const navigation::LimitParams& limits) {
+  GuardParams gate;
+  gate.max_speed_mps = limits.speed_mps + kRounding;
+  gate.max_yaw_rate_radps = limits.yaw_rate_radps + kRounding;
+  return gate;
+}
 
 NavigatorNodeParams checked(NavigatorNodeParams params) {
   if (params.start_at_once && !params.lockstep)
@@ -34,7 +43,8 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
       pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
       engagement_(params_.engagement),
-      navigator_(params_.navigator) {
+      navigator_(params_.navigator),
+      last_gate_(lastGate(params_.navigator.limits)) {
   setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
   state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
   marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
@@ -52,6 +62,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   pose_health_.watch(pose_subscriber_);
   diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
   diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
   start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
       "start", &NavigatorNode::start, this);
   abort_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
@@ -233,6 +244,9 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
   geometry_msgs::TwistStamped message =
       toTwistMsg(directionless ? navigation::Setpoint() : setpoint, params_.frames, R_odom_base);
   message.header.stamp = now;
+  const GatedTwist passed = gated(message.twist, last_gate_);
+  message.twist = passed.twist;
+  gate_fault_ = passed.fault;
   setpoint_publisher_.publish(message);
 }
 
@@ -254,6 +268,11 @@ Health NavigatorNode::missionHealth() const {
   const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
   const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
   return {bad ? Health::kWarn : Health::kOk, text};
+}
+
+Health NavigatorNode::lastGateHealth() const {
+  if (gate_fault_.empty()) return {};
+  return {Health::kError, "zero is sent in place of a setpoint that must not be: " + gate_fault_};
 }
 
 void NavigatorNode::stop() {

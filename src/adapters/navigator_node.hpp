@@ -17,6 +17,7 @@
 #include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
+#include "adapters/setpoint_gate.hpp"
 #include "adapters/stamps.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
@@ -84,6 +85,7 @@ class NavigatorNode : public Node {
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
   Health missionHealth() const;
+  Health lastGateHealth() const;
 
   NavigatorNodeParams params_;
   Diagnostics diagnostics_;
@@ -99,6 +101,8 @@ class NavigatorNode : public Node {
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
   bool was_enabled_ = false;
+  GuardParams last_gate_;
+  std::string gate_fault_;  // of the setpoint last sent
   std::optional<Lockstep> lockstep_;
   ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
   double step_sec_ = 0.0;            // in lockstep: the time that the world has
