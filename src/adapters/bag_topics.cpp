@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "adapters/bag_check.hpp"
+
 namespace window_ingress::adapters {
 namespace {
 
@@ -67,12 +69,16 @@ class Chooser {
 }  // namespace
 
 void openBag(rosbag::Bag& bag, const std::string& file) {
+  if (const std::string damage = whyDamaged(file); !damage.empty())
+    throw BagError(file + ": damaged: " + damage + "; see 'rosbag check' and 'rosbag reindex'");
   try {
     bag.open(file, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {
     throw BagError(file + ": has no index, the recording was cut off; repair it with 'rosbag reindex'");
   } catch (const rosbag::BagException& error) {
     throw BagError(file + ": cannot be read as a bag: " + error.what());
+  } catch (const std::exception& error) {  // of whatever a damaged file makes it allocate
+    throw BagError(file + ": damaged: " + error.what());
   }
 }
 

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <deque>
 #include <map>
+#include <new>
+#include <stdexcept>
 
 #include "adapters/recorded_transforms.hpp"
 #include "adapters/replay_facts.hpp"
@@ -282,6 +284,10 @@ ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
     for (const rosbag::MessageInstance& message : view) run.take(message);
   } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
     throw BagError(bag.getFileName() + ": damaged: " + error.what());
+  } catch (const std::bad_alloc&) {  // lengths of a damaged message
+    throw BagError(bag.getFileName() + ": damaged: a message asks for more memory than there is");
+  } catch (const std::length_error&) {
+    throw BagError(bag.getFileName() + ": damaged: a message is longer than any can be");
   }
   return run.finish();
 }
