@@ -116,13 +116,14 @@ void explain(DetectionTrace& trace) {
   const CandidateTrace* furthest = nullptr;
   for (const CandidateTrace& c : trace.candidates)
     if (!furthest || rank(c) > rank(*furthest)) furthest = &c;
-  if (!furthest) {
+  if (furthest) {
+    trace.outcome = furthest->reject;
+    trace.detail = describe(*furthest);
+  } else {
     trace.detail =
         std::to_string(trace.contours) + " contours, " + std::to_string(trace.segments) + " segments";
-    return;
   }
-  trace.outcome = furthest->reject;
-  trace.detail = describe(*furthest);
+  if (trace.budget_exceeded) trace.detail += "; budget exceeded: not everything was looked at";
 }
 
 }  // namespace window_ingress::detection
