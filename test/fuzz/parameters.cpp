@@ -1,0 +1,86 @@
+#include <opencv2/imgproc.hpp>
+
+#include "memory_file.hpp"
+#include "targets.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace window_ingress::fuzz {
+namespace {
+
+struct All {
+  detection::DetectorParams detector;
+  pose::PoseParams pose;
+  pose::FilterParams filter;
+  navigation::TrackerParams tracker;
+  navigation::NavigatorParams navigator;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field.group("detector", self.detector);
+    field.group("pose", self.pose);
+    field.group("filter", self.filter);
+    field.group("tracker", self.tracker);
+    field.group("navigator", self.navigator);
+  }
+};
+
+// What each field allows for itself may still contradict each other: constructors say so, and nothing else.
+template <typename Make>
+void construct(Make make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& error) {
+    require(error.what()[0] != '\0', "a refusal has words");
+  }
+}
+
+void detectWith(const detection::DetectorParams& params) {
+  cv::Mat image(48, 64, CV_8UC3, cv::Scalar(150, 160, 170));
+  cv::rectangle(image, cv::Point(15, 10), cv::Point(48, 36), cv::Scalar(40, 130, 220), cv::FILLED);
+  cv::rectangle(image, cv::Point(20, 14), cv::Point(43, 32), cv::Scalar(50, 50, 50), cv::FILLED);
+  detection::WindowTracker tracker(params);
+  detection::TrackInput input;
+  input.image = image;
+  for (input.stamp_sec = 1.0; input.stamp_sec < 1.09; input.stamp_sec += 0.033) tracker.update(input);
+}
+
+void use(const All& params) {
+  construct([&] { detectWith(params.detector); });
+  construct([&] { pose::WindowPoseEstimator{params.pose}; });
+  construct([&] { navigation::TargetTracker(params.pose, params.filter, params.tracker); });
+  construct([&] {
+    navigation::Navigator navigator(params.navigator);
+    navigator.start({}, 1.0);
+    require(navigator.step({}, 1.02).setpoint.velocity_odom_mps.norm() == 0.0, "without odometry it stands");
+  });
+}
+
+void calibration(const MemoryFile& file) {
+  try {
+    require(window_ingress::parameters::readCalibrationFile(file.name()).validate().empty(),
+            "an accepted camera is one");
+  } catch (const std::logic_error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
+  }
+}
+
+}  // namespace
+
+void parameters(const std::uint8_t* data, std::size_t size) {
+  const MemoryFile file(data, size);
+  calibration(file);
+  All params;
+  try {
+    if (!window_ingress::parameters::readYamlFile(file.name(), "", params)) return;
+  } catch (const window_ingress::parameters::YamlError& error) {
+    return require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
+  }
+  use(params);
+}
+
+}  // namespace window_ingress::fuzz

@@ -1,0 +1,17 @@
+/// Image messages out of any bytes.
+#pragma once
+
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include "bytes.hpp"
+
+namespace window_ingress::fuzz {
+
+/// Sizes, step, encoding and number of bytes that need not fit each other.
+sensor_msgs::ImagePtr anyImage(Bytes& bytes);
+
+/// A picture of at most 96 x 96 pixels whose layout is right; the bytes are its pattern, repeated.
+sensor_msgs::ImagePtr smallImage(Bytes& bytes);
+
+}  // namespace window_ingress::fuzz

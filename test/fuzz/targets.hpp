@@ -1,0 +1,27 @@
+/// What is thrown at the package's inputs: each takes any bytes and must neither crash nor break its
+/// promises. Run by libFuzzer (`scripts/fuzz`), and over the kept inputs by the program `faults`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace window_ingress::fuzz {
+
+using Target = void(const std::uint8_t* data, std::size_t size);
+
+Target image;        ///< raw and compressed pictures of any encoding, size and step: guard
+Target detection;    ///< small pictures that the guard lets through: guard, detector, tracker
+Target camera_info;  ///< any calibration: conversion, projection
+Target corners;      ///< any detection message: conversion, pose, filter
+Target scenario;     ///< scenario files
+Target parameters;   ///< parameter and calibration files; what is accepted must work
+Target bag;          ///< bag files: opening, choosing topics, replay
+
+/// A broken promise. The fuzzer ends here, as at a crash.
+inline void require(bool holds, const std::string& what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+}  // namespace window_ingress::fuzz
