@@ -27,6 +27,18 @@ foreach(folder ${unit_folders})
   endif()
 endforeach()
 
+# The rows of test/faults/rows.yaml that need no node, and what the fuzzers have found: one program.
+if(NOT WINDOW_INGRESS_CORE_ONLY)
+  file(GLOB fault_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${PROJECT_SOURCE_DIR}/test/fuzz/*.cpp)
+  list(FILTER fault_sources EXCLUDE REGEX libfuzzer_main)
+  catkin_add_gtest(faults ${fault_sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp TIMEOUT 300)
+  target_link_libraries(faults ${PROJECT_NAME}_adapters yaml-cpp opencv_imgcodecs)
+  target_include_directories(faults PRIVATE ${PROJECT_SOURCE_DIR}/test/support ${PROJECT_SOURCE_DIR}/test/fuzz)
+  target_compile_definitions(faults PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                            WINDOW_INGRESS_COMPILER="${CMAKE_CXX_COMPILER}"
+                                            WINDOW_INGRESS_EIGEN="${EIGEN3_INCLUDE_DIR}")
+endif()
+
 if(WINDOW_INGRESS_CORE_ONLY)
   add_test(NAME core_is_free_of_ros
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_core_is_free_of_ros.py
