@@ -50,6 +50,16 @@ PoseResult checked(const PoseParams& params, const Eigen::Vector3d& up_camera,
   return {estimate, PoseReject::kNone, ""};
 }
 
+// Of a window that is seen whole, no corner may lie behind the camera: its image would be that of the
+// opposite direction.
+bool isInFront(const detection::WindowObservation& window, const WindowPoseEstimate& estimate) {
+  if (!window.whole()) return true;
+  const auto corners = geometry::openingCorners(estimate.opening);
+  return std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
+    return (estimate.best.T_camera_window * corner).z() > 0.0;
+  });
+}
+
 ImageNoise noiseOf(const PoseParams& params) {
   ImageNoise noise;
   noise.systematic_sigma_px = params.systematic_sigma_px;
@@ -134,6 +144,8 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   estimate.stamp_sec = window.stamp_sec;
   estimate.border_astray = stray.has_value();
   if (stray) estimate.opening = size.size, estimate.opening_log_covariance.setZero();
+  if (!isInFront(window, estimate))
+    return rejected(PoseReject::kNotInFront, "a corner of the window would lie behind the camera");
   return checked(params_, up, estimate);
 }
 

@@ -77,7 +77,8 @@ TEST(Fault, M47_TooFewOrTooManyCorners) {
   }
   const cv::Mat picture(100, 100, CV_8UC3, cv::Scalar::all(90));
   for (const std::size_t numbers : {2u, 6u, 7u, 9u, 10u, 2000000u})
-    EXPECT_THROW(adapters::makeReference(picture, std::vector<double>(numbers, 1.0), {}), std::invalid_argument)
+    EXPECT_THROW(adapters::makeReference(picture, std::vector<double>(numbers, 1.0), {}),
+                 std::invalid_argument)
         << numbers;
   auto flooded = adapters::toMsg(seen({a, b, c, d}));
   flooded.header.stamp = ros::Time(1.0);
@@ -166,7 +167,7 @@ TEST(Fault, M52_PosesBeyondTheLimits) {
   Eigen::Isometry3d tilted = view(3.0, 0.0);
   tilted.linear() = tilted.linear() * Eigen::AngleAxisd(params.max_tilt_rad + 0.05, Eigen::Vector3d::UnitX());
   auto skewed = seen(view(3.0, 0.0), 0.1);
-  skewed.corners[0].x() -= 40.0;
+  for (int i = 0; i < 4; i += 2) skewed.corners[i] += Vector2d(-40.0, 25.0);
   const std::vector<std::pair<PoseResult, PoseReject>> all{
       {rejectOf(seen(view(params.max_range_m + 0.5, 0.0))), PoseReject::kRange},
       {rejectOf(seen(tilted)), PoseReject::kTilt},
@@ -215,7 +216,7 @@ TEST(Fault, M53_TwoPosesThatExplainTheSameImage) {
     sigma_rad += ambiguous.estimate->sigma_u_rad / images;
     trusted_near += clear.estimate->sign_trusted && clear.estimate->yaw_rad * yaw > 0.0;
   }
-  EXPECT_GT(wrong_sign, images / 10) << "otherwise this was no ambiguity";
+  EXPECT_GT(wrong_sign, images / 20) << "otherwise this was no ambiguity";
   EXPECT_EQ(wrong_and_trusted, 0);
   EXPECT_GT(alternatives, images / 4) << "the other pose is told, too";
   EXPECT_GT(sigma_rad, 5.0 * kDegree) << "the spread says what is not known";
