@@ -70,4 +70,6 @@ endfunction()
 foreach(stage geometry parameters detection openness pose navigation simulation evaluation)
   add_sanitized_test(unit_${stage} FILES ${PROJECT_SOURCE_DIR}/test/unit/${stage}/*_test.cpp LIBRARIES fuzz_evaluation)
 endforeach()
-add_sanitized_test(faults FILES ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${fuzz_folder}/*.cpp LIBRARIES fuzz_bags)
+add_sanitized_test(faults FILES ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${fuzz_folder}/*.cpp
+                   ${PROJECT_SOURCE_DIR}/test/unit/navigation/invariants_test.cpp
+                   ${PROJECT_SOURCE_DIR}/test/unit/navigation/setpoint_limiter_test.cpp LIBRARIES fuzz_bags)

@@ -95,6 +95,7 @@ def row(number, **keys):
 def test_no_row_is_left_out_silently():
     assert matrix.line_of(row("M01"), []).result == "no test"
     assert matrix.line_of(row("M01", why_not="needs hardware"), []).seen == "needs hardware"
+    assert matrix.line_of(row("M01", test="unit faults X"), [])[2:4] == ("not run", "unit faults X")
     good, bad = matrix.Outcome(True, "fine", 1.0), matrix.Outcome(False, "it fell", 2.0)
     assert matrix.line_of(row("M01"), [good, good])[2:] == ("met", "fine; fine", 2.0)
     assert matrix.line_of(row("M01"), [good, bad])[2:] == ("NOT MET", "it fell", 3.0)

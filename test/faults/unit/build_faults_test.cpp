@@ -17,7 +17,7 @@ struct Compiled {
 Compiled compile(const std::string& header, const std::string& flags) {
   const std::string command = "echo '#include \"window_ingress/" + header +
                               "\"' | " WINDOW_INGRESS_COMPILER
-                              " -x c++ -std=c++17 -fsyntax-only -I" WINDOW_INGRESS_SOURCE_DIR
+                              " -x c++ -std=c++17 -E -o /dev/null -I" WINDOW_INGRESS_SOURCE_DIR
                               "/include -isystem " WINDOW_INGRESS_EIGEN " " +
                               flags + " - 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");
