@@ -158,6 +158,7 @@ class ChainTest(unittest.TestCase):
             counted = [s.text for s in self.monitor.part(begin).said if s.name == IMAGE and row.counts in s.text]
             self.assertTrue(counted, f"{row.what} is not counted")
         if row.does == GOES_ON:
+            support.wait_for(lambda: time.monotonic() > begin + LASTS_S, "the fault to last")
             self.chain.fly(self.monitor)
             return f"on its way by that after {time.monotonic() - begin:.1f} s"
         if row.does == FLIES_ON:

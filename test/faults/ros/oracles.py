@@ -248,7 +248,7 @@ def O9(recording, limits):
 
 def was(entries, times, at, limits, accept):
     """Whether any entry that held at `at`, a little before or a little after, is accepted; before the first: yes."""
-    first = bisect.bisect_right(times, at - 2 * limits.machine_s) - 1
+    first = bisect.bisect_right(times, at - limits.stop_within_s) - 1
     last = bisect.bisect_right(times, at + 2 * limits.machine_s)
     held = entries[max(0, first):last]
     return not held or any(accept(entry) for entry in held)
