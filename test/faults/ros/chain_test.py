@@ -194,6 +194,19 @@ class ChainTest(unittest.TestCase):
             windows.stop()
         note("M21", "truncated, damaged, empty, foreign and oversized: each refused by name, the next good picture seen")
 
+    def test_M34_rectified_pictures_whose_distortion_would_be_undone_again(self):
+        pictures = support.Stream("image_rect", Image, chain.Camera(), 10.0)
+        infos = support.Stream("rect_info", CameraInfo, changed(support.camera_info, D=[-0.2, 0.05, 0.0, 0.0, 0.0]), 10.0)
+        begin = time.monotonic()
+        try:
+            self.assert_none(self.monitor.names(begin + 0.3, "rect_detector: calibration", "/image_rect", "image_is_rectified"), "the hint")
+            infos.make = support.camera_info
+            self.assert_none(self.monitor.recovers(time.monotonic(), "rect_detector: calibration"), "no lens, no hint")
+        finally:
+            pictures.stop()
+            infos.stop()
+        note("M34", "image_is_rectified is honoured; a topic named rect with a distortion is said")
+
     def test_M35_calibration_changes_in_flight(self):
         poses = support.Listener("window_pose", WindowPose)
         far = poses.wait(lambda p: p.reject == WindowPose.OK, "a pose").pose.pose.position.z
@@ -280,6 +293,19 @@ class ChainTest(unittest.TestCase):
             infos.stop()
             self.infos.resume()
         note("M60", "; ".join(seen))
+
+    def test_M70_disarmed_and_armed_again_waits_for_a_start(self):
+        self.chain.fly(self.monitor)
+        begin = time.monotonic()
+        self.chain.engaged = False
+        self.assert_none(self.monitor.stops(begin, WATCH_S), "disarmed")
+        self.chain.engaged = True
+        again = time.monotonic()
+        support.wait_for(lambda: time.monotonic() > again + 2.0, "two seconds, armed again")
+        self.assertEqual(self.monitor.states_since(again)[-1].name, "IDLE")
+        self.assertTrue(all(oracles.is_still(s) for s in self.monitor.part(again).setpoints))
+        self.chain.fly(self.monitor)
+        note("M70", "IDLE, zeros for two seconds after it was armed again, on its way after ~start")
 
     def test_M72_abort_in_each_state_is_answered_at_once_and_zero_follows(self):
         slowest, zero = 0.0, 0.0
