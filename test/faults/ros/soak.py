@@ -139,7 +139,7 @@ class Soak:
         part = self.monitor.part(began, end)
         self.pictures += len(part.frames)
         self.worst_frame_ms = max([self.worst_frame_ms] + [f.milliseconds for f in part.frames])
-        self.note_rate(part, end)
+        self.note_rate(part, began, end)
         self.memory.append({p.node: (p.megabytes, p.threads) for p in part.processes})
         say(f"flight {self.flights}: {outcome} after {end - started:.0f} s; {', '.join(done) or 'no fault'}"
             + ("" if outcome == "PASSED" else f"; {self.why(verdicts, started)}"))
@@ -154,9 +154,9 @@ class Soak:
         said = [s.reason for s in states if s.state_name == "ABORTED"] or [s.state_name for s in states[-1:]]
         return "; ".join(said[:1] + [v.reason for v in verdicts[-1:]])
 
-    def note_rate(self, part, end):
+    def note_rate(self, part, began, end):
         self.blind_s += sum(b.seconds for b in part.blind)
-        for span in oracles.enabled_spans(part.states, end):
+        for span in oracles.enabled_spans(part.states, end, began):
             self.least_hz = min(self.least_hz, oracles.stream_rate(part, self.monitor.limits, self.monitor.guard, *span)[0])
 
     def grown(self):
