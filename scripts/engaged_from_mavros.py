@@ -3,7 +3,8 @@
 
 Subscribes `autopilot_state` (mavros_msgs/State: connected, armed, mode); says so once for each message, so that a silent
 autopilot is a silent topic. The message is read by the definition that comes with it: mavros_msgs need not be installed.
-Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED].
+Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
+default true: an autopilot that says it is in a failsafe (MAV_STATE critical and worse: low battery, lost link) is not flown.
 """
 import sys
 
@@ -12,11 +13,12 @@ import rospy
 from std_msgs.msg import Bool
 
 FIELDS = ("connected", "armed", "mode")
+MAV_STATE_CRITICAL = 5  # and above it: emergency, power off, termination
 
 
 class Relay:
-    def __init__(self, modes):
-        self._modes, self._class, self._said = modes, None, None
+    def __init__(self, modes, heeds_failsafe):
+        self._modes, self._heeds_failsafe, self._class, self._said = modes, heeds_failsafe, None, None
         self._publisher = rospy.Publisher("engaged", Bool, queue_size=1, latch=False)
         self._subscriber = rospy.Subscriber("autopilot_state", rospy.AnyMsg, self._receive, queue_size=1)
 
@@ -24,10 +26,12 @@ class Relay:
         state = self._decode(message)
         if state is None:
             return
-        engaged = bool(state.connected and state.armed and state.mode in self._modes)
+        fails = self._heeds_failsafe and getattr(state, "system_status", 0) >= MAV_STATE_CRITICAL
+        engaged = bool(state.connected and state.armed and state.mode in self._modes and not fails)
         self._publisher.publish(engaged)
         said = f"{'follows' if engaged else 'does not follow'} setpoints: " \
-               f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}"
+               f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}" \
+               f"{', in a failsafe' if fails else ''}"
         if said != self._said:
             rospy.loginfo("the autopilot %s", said)
             self._said = said
@@ -51,7 +55,7 @@ def main():
     if not isinstance(modes, list) or not modes or not all(isinstance(mode, str) for mode in modes):
         print(f"engaged_from_mavros: ~modes is {modes!r}; give a list of mode names, e.g. [OFFBOARD]", file=sys.stderr)
         sys.exit(2)
-    relay = Relay(modes)  # noqa: F841  (kept alive while the node spins)
+    relay = Relay(modes, bool(rospy.get_param("~heed_failsafe", True)))  # noqa: F841  (kept alive while the node spins)
     rospy.spin()
 
 

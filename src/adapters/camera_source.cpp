@@ -1,5 +1,6 @@
 #include "adapters/camera_source.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -16,7 +17,9 @@ std::string size(int width, int height) { return std::to_string(width) + "x" + s
 }  // namespace
 
 CameraSource::CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified)
-    : rectified_(rectified), health_(diagnostics, "camera_info", kSilenceSec) {
+    : rectified_(rectified),
+      image_topic_(nh.resolveName("image_raw")),
+      health_(diagnostics, "camera_info", kSilenceSec) {
   subscriber_ = subscribeGuarded<sensor_msgs::CameraInfo>(nh, "camera_info", 1, diagnostics,
                                                           [this](const auto& message) { receive(*message); });
   health_.watch(subscriber_);
@@ -58,6 +61,15 @@ Converted<geometry::PinholeCamera> CameraSource::cameraOf(int width_px, int heig
   return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
 }
 
+// Nothing in a picture tells whether its lens was taken out of it; the name of its topic may.
+std::string CameraSource::undoneTwice() const {
+  const auto& lens = camera_.value->distortion;
+  const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
+  if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
+  return "pictures on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
+         subscriber_.getTopic() + " is undone once more; if they are, set image_is_rectified";
+}
+
 Health CameraSource::fitHealth() const {
   if (!camera_) return {Health::kOk, "none so far"};
   if (!misfit_.empty()) return {Health::kError, misfit_};
@@ -69,6 +81,7 @@ Health CameraSource::fitHealth() const {
   if (apart)
     return {Health::kWarn, "stamps of image and " + topic + " are " + text + " apart, " +
                                (apart_sec_ > 0.0 ? "the image is newer" : "the image is older")};
+  if (const std::string twice = undoneTwice(); !twice.empty()) return {Health::kWarn, twice};
   return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};
 }
 

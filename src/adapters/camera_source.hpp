@@ -37,7 +37,10 @@ class CameraSource {
   void compareStamps(const ros::Time& picture);
   Health fitHealth() const;
 
+  std::string undoneTwice() const;
+
   bool rectified_;
+  std::string image_topic_;
   Converted<geometry::PinholeCamera> camera_;
   std::string frame_id_;
   ros::Time stamp_;

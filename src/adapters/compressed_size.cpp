@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 
 namespace window_ingress::adapters {
 namespace {
@@ -45,7 +46,20 @@ std::optional<CompressedSize> jpegSize(const Bytes& bytes) {
   return std::nullopt;
 }
 
+// The end of a PNG is the chunk IEND with its checksum, that of a JPEG the marker "ff d9".
+bool endsWith(const Bytes& bytes, std::size_t end, std::initializer_list<std::uint8_t> mark) {
+  return end >= mark.size() &&
+         std::equal(mark.begin(), mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(end - mark.size()));
+}
+
 }  // namespace
+
+bool isCutOff(const Bytes& bytes) {
+  std::size_t end = bytes.size();
+  while (end > 0 && bytes[end - 1] == 0) --end;
+  return !endsWith(bytes, end, {0xff, 0xd9}) &&
+         !endsWith(bytes, end, {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82});
+}
 
 std::optional<CompressedSize> compressedSize(const Bytes& bytes) {
   const auto png = pngSize(bytes);

@@ -174,6 +174,7 @@ GuardedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimi
   if (!size) return refusal("compressed image is neither JPEG nor PNG, or its header is broken");
   const std::string large = tooLarge(size->width, size->height, limits);
   if (!large.empty()) return refusal(large);
+  if (isCutOff(message.data)) return refusal("compressed image is cut off: it has no end mark");
   try {
     GuardedImage result;
     result.image = cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);

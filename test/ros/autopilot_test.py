@@ -65,7 +65,7 @@ class AutopilotTest(unittest.TestCase):
     def setUpClass(cls):
         cls.setpoints = support.Listener("/mavros/setpoint_velocity/cmd_vel", TwistStamped)
         cls.states = support.Listener("/state", IngressState)
-        cls.armed, cls.mode = False, "POSCTL"
+        cls.armed, cls.mode, cls.system_status = False, "POSCTL", 4
         cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, in_map, 50.0),
                        support.Stream("/mavros/imu/data", Imu, level, 50.0),
                        support.Stream("/window_pose", WindowPose, no_window, 30.0)]
@@ -78,7 +78,7 @@ class AutopilotTest(unittest.TestCase):
 
     @classmethod
     def state(cls, stamp):
-        message = State(connected=True, armed=cls.armed, mode=cls.mode)
+        message = State(connected=True, armed=cls.armed, mode=cls.mode, system_status=cls.system_status)
         message.header.stamp = stamp
         return message
 
@@ -120,6 +120,14 @@ class AutopilotTest(unittest.TestCase):
         begin = time.monotonic() + MARGIN_S
         type(self).mode = "OFFBOARD"
         self.zeros_from(begin, 1.5)  # back in the mode alone starts nothing
+        self.fly()
+
+    def test_2_an_autopilot_in_a_failsafe_is_not_flown(self):
+        type(self).system_status = 5  # critical, e.g. by its battery
+        self.states.wait(lambda s: s.state_name == "IDLE", "IDLE in the failsafe")
+        self.zeros_from(time.monotonic() + MARGIN_S, 0.5)
+        self.assertFalse(self.call("start").success)
+        type(self).system_status = 4
         self.fly()
 
     def test_3_an_autopilot_that_falls_silent_is_out_of_control(self):

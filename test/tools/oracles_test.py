@@ -172,6 +172,14 @@ def test_O9_motion_without_permission():
     assert names(oracles.O9(recording, LIMITS)) == ["O9"]
 
 
+def test_a_permission_given_before_the_part_that_is_judged_holds_on():
+    recording = good()
+    recording.engaged = [Engaged(2.9, True), Engaged(3.3, False), Engaged(3.5, False)]
+    recording.setpoints = [s for s in recording.setpoints if s.at < 3.4]
+    assert oracles.O9(recording.between(3.2, 4.0), LIMITS) == []
+    assert oracles.enabled_spans(recording.between(3.2, 4.0).states, 4.0, 3.2) == [(3.2, 4.0)]
+
+
 def test_what_was_judged_can_be_forgotten_and_a_part_be_taken():
     recording = good()
     part = recording.between(2.0, 3.0)

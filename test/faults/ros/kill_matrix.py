@@ -26,8 +26,8 @@ NODES = monitors.NODES
 STATES = ("SEARCH", "ALIGN", "APPROACH", "COMMIT", "HOLD", "BACK_OFF")
 RESPAWN_S = 5              # of all but the guard, which is back at once
 WATCH_S = 4.5              # after the kill: longer than the autopilot flies the last velocity on
-INTO_STATE_S, BACK_S = 90.0, 30.0
-FAST_MPS = {"APPROACH": 0.6, "ALIGN": 0.25, "BACK_OFF": 0.2}
+INTO_STATE_S, BACK_S = 180.0, 60.0
+FAST_MPS = {"APPROACH": 0.5, "ALIGN": 0.2, "BACK_OFF": 0.2}
 
 
 def call(name):

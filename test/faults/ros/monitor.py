@@ -175,7 +175,7 @@ class Monitor:
 
     def violations(self, begin, end=None):
         end = time.monotonic() if end is None else end
-        return oracles.always(self.part(begin, end), self.limits, self.navigator, self.guard, end, self.expected_deaths)
+        return oracles.always(self.part(begin, end), self.limits, self.navigator, self.guard, end, self.expected_deaths, begin)
 
     def forget_before(self, at):
         with self._lock:

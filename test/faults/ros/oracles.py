@@ -28,6 +28,7 @@ Blind = collections.namedtuple("Blind", "at seconds")                 # the obse
 Violation = collections.namedtuple("Violation", "oracle at text")
 
 OK = 0
+CONTEXT_S = 1.5
 
 
 @dataclasses.dataclass
@@ -65,7 +66,10 @@ class Recording:
     blind: typing.List[Blind] = dataclasses.field(default_factory=list)
 
     def between(self, begin, end):
-        parts = {field.name: slice_of(getattr(self, field.name), begin, end) for field in dataclasses.fields(self)}
+        """What was said of permissions a little before holds on, and is kept."""
+        before = {"states": CONTEXT_S, "engaged": CONTEXT_S}
+        parts = {field.name: slice_of(getattr(self, field.name), begin - before.get(field.name, 0.0), end)
+                 for field in dataclasses.fields(self)}
         return Recording(**parts)
 
     def forget_before(self, at):
@@ -170,8 +174,12 @@ def least_rate(times, begin, end, window_s, blind=()):
     return worst
 
 
-def enabled_spans(states, end):
-    """[(begin, end)] in which the navigator says that it streams."""
+def enabled_spans(states, end, begin=-math.inf):
+    """[(begin, end)] in which the navigator says that it streams, from `begin` on."""
+    return [(max(one, begin), two) for one, two in spans_of(states, end) if two > begin]
+
+
+def spans_of(states, end):
     spans, begin = [], None
     for state in states:
         if state.enabled and begin is None:
@@ -248,16 +256,16 @@ def O9(recording, limits):
 
 def was(entries, times, at, limits, accept):
     """Whether any entry that held at `at`, a little before or a little after, is accepted; before the first: yes."""
-    first = bisect.bisect_right(times, at - 2 * limits.machine_s) - 1
+    first = bisect.bisect_right(times, at - limits.stop_within_s) - 1
     last = bisect.bisect_right(times, at + 2 * limits.machine_s)
     held = entries[max(0, first):last]
     return not held or any(accept(entry) for entry in held)
 
 
-def always(recording, limits, navigator, guard, end, expected_deaths=()):
-    """The oracles that need no word of the test: O1, O2, O3, O4 (stream), O7, O9."""
+def always(recording, limits, navigator, guard, end, expected_deaths=(), begin=-math.inf):
+    """The oracles that need no word of the test: O1, O2, O3, O4 (stream), O7, O9; of what was recorded within [begin, end]."""
     found = O1(recording, expected_deaths) + O2(recording) + O3(recording, limits, guard)
-    for span in enabled_spans(recording.states, end):
+    for span in enabled_spans(recording.states, end, begin):
         for source in (navigator, guard):
             if source and source not in expected_deaths:
                 found += O4_stream(recording, limits, source, *span)

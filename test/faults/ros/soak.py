@@ -33,20 +33,19 @@ KINDS = {"image": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "inter
          "clock": ("off", "stuck", "wrong", "slow", "delayed", "intermittent"),
          "cmd_vel": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent")}
 TOPICS = {"steered": "/ingress_navigator/cmd_vel"}
-MISSION_S, START_S = 90.0, 30.0  # wall time of a mission, and until one may start
+MISSION_S, START_S = 200.0, 60.0 # wall time of a mission, and until one may start
 LAST_WORD_S = 5.0                # the referee's comes once a second of simulated time
 WARM_FLIGHTS = 3                 # memory is measured from then on: caches and pools are full
 GROWTH_MB = 20.0                 # per process, from then to the end
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--minutes", type=float, default=60.0)
-    parser.add_argument("--seed", type=int, default=1, help="of the faults and of the first flight")
-    parser.add_argument("--scenario", default=str(HERE.parents[2] / "config/scenarios/nominal.yaml"))
-    parser.add_argument("--quiet-share", type=float, default=0.1, help="part of the flights without any fault")
-    parser.add_argument("--json", help="file for the figures")
-    return parser.parse_args()
+def parser(description):
+    options = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--seed", type=int, default=1, help="of the faults and of the first flight")
+    options.add_argument("--scenario", default=str(HERE.parents[2] / "config/scenarios/nominal.yaml"))
+    options.add_argument("--quiet-share", type=float, default=0.1, help="part of the flights without any fault")
+    options.add_argument("--json", help="file for the figures")
+    return options
 
 
 def say(text):
@@ -140,7 +139,7 @@ class Soak:
         part = self.monitor.part(began, end)
         self.pictures += len(part.frames)
         self.worst_frame_ms = max([self.worst_frame_ms] + [f.milliseconds for f in part.frames])
-        self.note_rate(part, end)
+        self.note_rate(part, began, end)
         self.memory.append({p.node: (p.megabytes, p.threads) for p in part.processes})
         say(f"flight {self.flights}: {outcome} after {end - started:.0f} s; {', '.join(done) or 'no fault'}"
             + ("" if outcome == "PASSED" else f"; {self.why(verdicts, started)}"))
@@ -155,9 +154,9 @@ class Soak:
         said = [s.reason for s in states if s.state_name == "ABORTED"] or [s.state_name for s in states[-1:]]
         return "; ".join(said[:1] + [v.reason for v in verdicts[-1:]])
 
-    def note_rate(self, part, end):
+    def note_rate(self, part, began, end):
         self.blind_s += sum(b.seconds for b in part.blind)
-        for span in oracles.enabled_spans(part.states, end):
+        for span in oracles.enabled_spans(part.states, end, began):
             self.least_hz = min(self.least_hz, oracles.stream_rate(part, self.monitor.limits, self.monitor.guard, *span)[0])
 
     def grown(self):
@@ -190,7 +189,9 @@ class Soak:
 
 
 def main():
-    options = arguments()
+    arguments = parser(__doc__)
+    arguments.add_argument("--minutes", type=float, default=60.0)
+    options = arguments.parse_args()
     launch = ("sim.launch", f"scenario:={os.path.abspath(options.scenario)}", f"seed:={options.seed}", "next_seed_at_reset:=true")
     with OwnSystem(*launch) as system:
         rospy.init_node("soak", disable_signals=True)

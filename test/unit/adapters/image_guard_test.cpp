@@ -207,6 +207,17 @@ TEST(CompressedImage, RefusesABombBeforeDecodingIt) {
   EXPECT_NE(decode(message, kLimits).reason.find("max_pixels"), std::string::npos);
 }
 
+TEST(CompressedImage, RefusesWhatIsCutOffButNotWhatIsPadded) {
+  for (const char* extension : {".jpg", ".png"}) {
+    const sensor_msgs::CompressedImage whole = compressed(extension);
+    sensor_msgs::CompressedImage cut = whole, padded = whole;
+    cut.data.resize(whole.data.size() * 9 / 10);
+    padded.data.resize(whole.data.size() + 100, 0);
+    EXPECT_NE(decode(cut, kLimits).reason.find("cut off"), std::string::npos) << extension;
+    EXPECT_EQ(decode(padded, kLimits).reason, "") << extension;
+  }
+}
+
 TEST(CompressedImage, SurvivesTruncationAndFlippedBytes) {
   std::mt19937 random(3);
   for (const char* extension : {".png", ".jpg"}) {

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Kills the ROS master in flight, and starts another one in its place: links that exist must not care."""
+import os
+import subprocess
+import sys
+import time
+
+import fault_paths  # noqa: F401
+import rosgraph
+import rospy
+from own_system import free_port
+from roslib.packages import find_node
+
+import chain
+import monitor as monitors
+import oracles
+import support
+
+GONE_S, BACK_S = 3.0, 3.0
+
+
+def start_master(port):
+    return subprocess.Popen(["rosmaster", "--core", "-p", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def flight(monitor, begin, seconds):
+    """\\return share of setpoints behind the guard that move"""
+    support.wait_for(lambda: time.monotonic() > begin + seconds, "the time of the measurement")
+    setpoints = [s for s in monitor.part(begin).setpoints if s.source == monitor.guard]
+    return len(setpoints) / seconds, sum(not oracles.is_still(s) for s in setpoints) / max(1, len(setpoints))
+
+
+def main():
+    port = free_port()
+    os.environ.update(ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOSTNAME="localhost")
+    master = start_master(port)
+    support.wait_for(rosgraph.is_master_online, "a master")
+    rospy.init_node("master_dies", disable_signals=True)
+    steered = {"ingress_navigator": ["cmd_vel:=steered"], "setpoint_guard": ["cmd_vel_in:=steered"]}
+    nodes = [subprocess.Popen([find_node("window_ingress", node)[0], *steered.get(node, [])], stderr=subprocess.DEVNULL)
+             for node in monitors.NODES]
+    vehicle = None
+    try:
+        monitor = monitors.Monitor()
+        vehicle = chain.Chain()
+        vehicle.fly(monitor)
+        begin = time.monotonic()
+        master.kill()
+        master.wait()
+        without = flight(monitor, begin, GONE_S)
+        again = time.monotonic()
+        master = start_master(port)
+        after = flight(monitor, again, BACK_S)
+        problems = [v.text for v in monitor.violations(begin)]
+        problems += [] if min(without[1], after[1]) > 0.95 else ["the vehicle did not go on"]
+        problems += [f"{node.args[0]} has ended" for node in nodes if node.poll() is not None]
+        print("; ".join(problems[:5]) if problems else
+              f"without a master {without[0]:.0f} setpoints a second, with another one {after[0]:.0f}; all on its way, no node ended")
+        return 1 if problems else 0
+    finally:
+        for node in nodes:
+            node.kill()
+        master.kill()
+        if vehicle:
+            vehicle.stop()
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    os._exit(code)  # rospy would wait for a master that does not know us
