@@ -2,6 +2,7 @@
 import importlib.machinery
 import importlib.util
 import pathlib
+import re
 import textwrap
 import xml.etree.ElementTree as ElementTree
 
@@ -21,7 +22,7 @@ def test_every_row_is_there_once_and_is_readable():
 
 
 def test_rows_name_tests_that_exist():
-    sources = "".join(file.read_text() for file in (ROOT / "test" / "faults" / "unit").glob("*.cpp"))
+    sources = "".join(file.read_text() for file in (ROOT / "test").rglob("*_test.cpp"))
     for row in matrix.read_rows():
         for kind, name, *rest in map(str.split, matrix.tests_of(row)):
             if kind == "ros":
@@ -30,8 +31,10 @@ def test_rows_name_tests_that_exist():
                 assert (ROOT / "scripts" / name).is_file(), row
             elif kind == "world":
                 assert any((ROOT / folder / name).is_file() for folder in ("test/faults/world", "config/scenarios")), row
-            elif name == "faults":
-                assert f"TEST(Fault, {rest[0].strip('*')}" in sources, row
+            else:
+                for wanted in rest[0].split(":"):
+                    suite, test = ("Fault", wanted) if "." not in wanted else wanted.split(".")
+                    assert re.search(rf"TEST(_F)?\({suite},\s+{test.strip('*')}", sources), (row, wanted)
 
 
 def test_rows_are_chosen_by_number_level_and_node():
