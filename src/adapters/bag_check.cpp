@@ -74,6 +74,8 @@ class BagCheck {
     if (isLeftToRosbag()) return;
     for (std::uint64_t place = kMagicSize; place < size_;) place = checkRecord(place);
     if (records_.count(index_place_) == 0) throw Damage{"the index does not begin where it is said to"};
+    if (summaries_ != promised_chunks_ || connections_ != promised_connections_)
+      throw Damage{"its index is cut off"};
     for (const std::uint64_t place : named_chunks_)
       if (chunks_.count(place) == 0) throw Damage{"the index names a chunk where there is none"};
   }
@@ -90,8 +92,8 @@ class BagCheck {
     const Record header = recordAt(kMagicSize);
     if (header.fields.op() != kBagHeader) throw Damage{"it does not begin with a bag header"};
     index_place_ = header.fields.number<std::uint64_t>("index_pos");
-    header.fields.number<std::uint32_t>("conn_count");
-    header.fields.number<std::uint32_t>("chunk_count");
+    promised_connections_ = header.fields.number<std::uint32_t>("conn_count");
+    promised_chunks_ = header.fields.number<std::uint32_t>("chunk_count");
     return index_place_ == 0;
   }
 
@@ -134,11 +136,13 @@ class BagCheck {
         checkIndex(record);
         break;
       case kChunkInfo:
+        ++summaries_;
         named_chunks_.insert(record.fields.number<std::uint64_t>("chunk_pos"));
         if (std::uint64_t{record.fields.number<std::uint32_t>("count")} * 8 != record.data_size)
           throw Damage{"a chunk's summary is not as long as it says"};
         break;
       case kConnection:
+        ++connections_;
         record.fields.number<std::uint32_t>("conn");
         Fields(read(record.data, record.data_size));
         break;
@@ -193,6 +197,7 @@ class BagCheck {
 
   std::ifstream stream_;
   std::uint64_t size_ = 0, index_place_ = 0, chunk_size_ = 0;
+  std::uint32_t promised_connections_ = 0, promised_chunks_ = 0, connections_ = 0, summaries_ = 0;
   bool is_plain_ = true;  // the chunk before, not compressed
   std::set<std::uint64_t> records_, chunks_, named_chunks_, messages_;
 };
