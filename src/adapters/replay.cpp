@@ -88,6 +88,7 @@ class Replay {
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
+  std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the picture before
   double odometry_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
@@ -182,6 +183,7 @@ void Replay::forgetAll() {
   tracker_.reset();
   attitude_.clear();
   odometry_.clear();
+  expected_.reset();
   odometry_sec_ = -1.0;
 }
 
@@ -247,6 +249,7 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
   input.image = image;
   input.stamp_sec = header.stamp.toSec();
   input.camera = camera ? &*camera.value : nullptr;
+  input.expected = expected_;
   const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
   if (!T_odom_base) return input;
   if (const auto T_base_camera = mountingIfKnown(header.frame_id).value)
@@ -256,15 +259,18 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
 
 void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
   frame.why_not_filtered = "no window";
+  const double stamp_sec = frame.stamp.toSec();
+  const auto T_base_camera = frame.row.window ? mounting(camera_frame) : mountingIfKnown(camera_frame).value;
+  tracker_.see({stamp_sec, *frame.camera, T_base_camera, frame.row.window, detector_.windows()});
+  tracker_.flush();
+  expected_ = T_base_camera ? tracker_.expected(stamp_sec, *frame.camera, *T_base_camera) : std::nullopt;
   if (frame.row.window) {
-    tracker_.see(*frame.row.window, *frame.camera, mounting(camera_frame));
-    tracker_.flush();
     const pose::PoseResult& result = tracker_.lastUpdate().pose;
     frame.row.pose = result.estimate;
     frame.why_not_filtered = tracker_.lastUpdate().why_not;
     if (!result.estimate) frame.row.reject_reason = std::string("pose_") + pose::toString(result.reject);
   }
-  frame.filtered = tracker_.filtered(frame.stamp.toSec());
+  frame.filtered = tracker_.filtered(stamp_sec);
   frame.openness = tracker_.openness();
 }
 
