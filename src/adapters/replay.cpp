@@ -22,7 +22,8 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kMaxAttitudeGapSec = 0.02;
-constexpr std::size_t kMostWaiting = 30;  // images that wait for odometry as new as themselves
+constexpr std::size_t kMostWaiting = 30;   // images that wait for odometry as new as themselves
+constexpr double kAttitudeWaitSec = 0.05;  // they wait as long for the attitude, in time of the bag
 
 double nowMs() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
@@ -64,6 +65,7 @@ class Replay {
   void forgetAll();
   void count(const ReplayedFrame& frame);
   void processComplete();
+  bool isComplete(const Waiting& image) const;
   void processFirst();
   detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
                                 const Converted<geometry::PinholeCamera>& camera);
@@ -89,7 +91,7 @@ class Replay {
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
   std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the picture before
-  double odometry_sec_ = -1.0, newest_sec_ = -1.0;
+  double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
 
@@ -129,11 +131,16 @@ void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImag
   processComplete();
 }
 
-// An image waits for odometry as new as itself.
-void Replay::processComplete() {
+// An image waits for odometry as new as itself; for attitude not for ever, which may have stopped.
+bool Replay::isComplete(const Waiting& image) const {
+  const double sec = image.header.stamp.toSec();
   const bool awaits_odometry = params_.with_pose && !params_.topics.odom.empty();
-  while (!waiting_.empty() && !(awaits_odometry && odometry_sec_ < waiting_.front().header.stamp.toSec()))
-    processFirst();
+  const bool awaits_attitude = !params_.topics.imu.empty() && newest_sec_ < sec + kAttitudeWaitSec;
+  return !(awaits_odometry && odometry_sec_ < sec) && !(awaits_attitude && attitude_sec_ < sec);
+}
+
+void Replay::processComplete() {
+  while (!waiting_.empty() && isComplete(waiting_.front())) processFirst();
 }
 
 void Replay::takeOdometry(const nav_msgs::Odometry& message) {
@@ -158,6 +165,8 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   noticeJump(message.header.stamp);
   tracker_.addAttitude(*stamp_sec, *attitude.value);
   attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+  attitude_sec_ = *stamp_sec;
+  processComplete();
 }
 
 void Replay::noticeJump(const ros::Time& stamp) {
@@ -184,7 +193,7 @@ void Replay::forgetAll() {
   attitude_.clear();
   odometry_.clear();
   expected_.reset();
-  odometry_sec_ = -1.0;
+  odometry_sec_ = attitude_sec_ = -1.0;
 }
 
 void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {
