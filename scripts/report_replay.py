@@ -26,6 +26,36 @@ td.number { text-align: right; } .bar { background: #d0312d; height: .85em; disp
 code { background: #f3f3f3; padding: .1em .3em; overflow-wrap: anywhere; } svg { width: 100%; height: auto; }
 """
 NAN = math.nan
+MEANING = {  # of the reasons, as in doc/detection.md
+    "bad_image": "the picture is empty, of another type, or too small",
+    "no_candidate": "nothing with four sides in the picture",
+    "corners": "an outline without four corners",
+    "area_small": "smaller than the farthest window",
+    "area_large": "larger than the nearest window",
+    "aspect": "too wide or too narrow",
+    "solidity": "an outline much smaller than its hull: dented, not a window",
+    "angle": "a corner too far from a right angle",
+    "border": "cut by the border of the picture: a corner is not seen",
+    "line_support": "a side without straight edges under it",
+    "contrast": "an edge too weak to be told from noise",
+    "refinement": "an edge that could not be fitted in the full picture",
+    "outer_border": "the outer border of a frame whose inner border was found",
+    "duplicate": "the same loop as a better candidate",
+    "pane": "a part of a larger window: pane between mullions, border behind the opening",
+    "appearance": "its frame does not look like the reference",
+    "other_aspect": "of another aspect than the reference",
+    "other_frame": "its frame is wider or narrower than the reference's",
+    "score": "score below the limit",
+    "outscored": "a fair window, but another one is better",
+    "budget": "not looked at: too many candidates in one picture",
+    "pose_bad_camera": "the calibration cannot be used",
+    "pose_bad_corners": "the corners are no window seen from the front",
+    "pose_not_in_front": "the window would lie behind the camera",
+    "pose_reprojection": "no pose of this window fits the corners",
+    "pose_range": "nearer or further than a window may be",
+    "pose_tilt": "the window would hang crooked: its up is not gravity's",
+    "pose_not_finite": "the numbers got out of hand",
+}
 
 
 def rows_of(folder, name):
@@ -178,8 +208,8 @@ def bars(counts):
     if not counts:
         return "<p>None.</p>"
     most = max(counts.values())
-    rows = "".join(f'<tr><td><code>{escape(name)}</code></td><td class="number">{count}</td>'
-                   f'<td style="width:60%"><span class="bar" style="width:{100 * count / most:.1f}%"></span></td></tr>'
+    rows = "".join(f'<tr><td><code>{escape(name)}</code> <span class="note">{escape(MEANING.get(name, ""))}</span></td>'
+                   f'<td class="number">{count}</td><td style="width:45%"><span class="bar" style="width:{100 * count / most:.1f}%"></span></td></tr>'
                    for name, count in sorted(counts.items(), key=lambda item: (-item[1], item[0])))
     return f'<table style="width:100%">{rows}</table>'
 
@@ -211,7 +241,9 @@ def page(replay):
              section("What was seen", '<p class="note">Evenly over time; red: lost here, green: found here. Click for the whole picture.</p>',
                      strip(replay))]
     parts += [section(title, *(chart(replay) for chart in some)) for title, some in charts]
-    parts.append(section("Pictures without a window or a pose, and why", bars(counted([row["reject_reason"] for row in replay.frames]))))
+    parts.append(section("Pictures without a window or a pose, and why", 
+                         '<p class="note">The furthest that a candidate of the picture came.</p>',
+                         bars(counted([row["reject_reason"] for row in replay.frames]))))
     if with_pose:
         parts.append(section("Pictures that did not contribute to the filtered pose, and why",
                              bars(counted([row["why_not_filtered"] for row in replay.details]))))

@@ -31,7 +31,7 @@ bool isFinite(const DetectionMsg& m) {
          finite(m.score) && finite(m.bhattacharyya) && all(m.interior_key_corner_x) &&
          all(m.interior_key_corner_y) && all(m.interior_key_corner_covariance) &&
          finite(m.interior_sigma_px) && all(m.interior_key_x) && all(m.interior_key_y) && all(m.interior_x) &&
-         all(m.interior_y);
+         all(m.interior_y) && all(m.interior_normal_x) && all(m.interior_normal_y);
 }
 
 void fillCorner(DetectionMsg& message, const detection::WindowObservation& window, int i) {
@@ -86,6 +86,8 @@ void fillInterior(DetectionMsg& message, const detection::InteriorTracks& interi
     message.interior_key_y.push_back(static_cast<float>(point.key_px.y()));
     message.interior_x.push_back(static_cast<float>(point.now_px.x()));
     message.interior_y.push_back(static_cast<float>(point.now_px.y()));
+    message.interior_normal_x.push_back(static_cast<float>(point.normal.x()));
+    message.interior_normal_y.push_back(static_cast<float>(point.normal.y()));
   }
 }
 
@@ -95,7 +97,8 @@ detection::InteriorTracks readInterior(const DetectionMsg& m) {
   const std::size_t points = m.interior_id.size();
   const auto key_stamp_sec = stampSec(m.interior_key_stamp);
   if (points == 0 || !key_stamp_sec || m.interior_key_x.size() != points ||
-      m.interior_key_y.size() != points || m.interior_x.size() != points || m.interior_y.size() != points)
+      m.interior_key_y.size() != points || m.interior_x.size() != points || m.interior_y.size() != points ||
+      m.interior_normal_x.size() != points || m.interior_normal_y.size() != points)
     return interior;
   interior.key_stamp_sec = *key_stamp_sec;
   interior.sigma_px = m.interior_sigma_px;
@@ -105,8 +108,10 @@ detection::InteriorTracks readInterior(const DetectionMsg& m) {
         m.interior_key_corner_covariance.data() + 4 * i);
   }
   for (std::size_t i = 0; i < points; ++i)
-    interior.points.push_back(
-        {m.interior_id[i], {m.interior_key_x[i], m.interior_key_y[i]}, {m.interior_x[i], m.interior_y[i]}});
+    interior.points.push_back({m.interior_id[i],
+                               {m.interior_key_x[i], m.interior_key_y[i]},
+                               {m.interior_x[i], m.interior_y[i]},
+                               {m.interior_normal_x[i], m.interior_normal_y[i]}});
   return interior;
 }
 

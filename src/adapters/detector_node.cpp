@@ -12,6 +12,9 @@
 #include "window_ingress/pose/yaw_text.hpp"
 
 namespace window_ingress::adapters {
+namespace {
+constexpr double kLateSec = 0.5;  // a pose so much older than a picture says nothing of it
+}
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<DetectorNodeParams>(pnh, {"tuning"})),
@@ -34,7 +37,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
       nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
   pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
-      nh, "window_pose", 1, diagnostics_, [this](const auto& message) { last_pose_ = message; });
+      nh, "window_pose", 1, diagnostics_, [this](const auto& message) { receivePose(message); });
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
   reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);
   diagnostics_.addOutput("window", {window_publisher_});
@@ -49,12 +52,23 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   if (attitude_) attitude_->notify([this] { lockstep_->check(); });
 }
 
+void DetectorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  last_pose_ = message;
+  if (lockstep_) lockstep_->check();
+}
+
+// The pose of the picture before says where the target is expected in this one.
+bool DetectorNode::hasPoseOfLastPicture() const {
+  if (pose_subscriber_.getNumPublishers() == 0 || looked_.isZero()) return true;
+  return last_pose_ && last_pose_->header.stamp >= looked_;
+}
+
 bool DetectorNode::isComplete(const Lockstep::Step& step) const {
   const bool connected = images_.isConnected() && camera_.isConnected() &&
                          (!attitude_ || attitude_->isConnected(step.header.frame_id));
   return (step.has_image ? waiting_header_.stamp >= step.image : connected) &&
          (!attitude_ || attitude_->lastStamp() >= step.imu) && camera_.lastStamp() >= step.camera_info &&
-         reference_stamp_ >= step.reference;
+         reference_stamp_ >= step.reference && hasPoseOfLastPicture();
 }
 
 // Before the first picture there is an answer, too: those who wait for it learn that this node is there.
@@ -81,6 +95,7 @@ void DetectorNode::restartIfClockJumpedBack() {
   if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
   ROS_WARN("the clock jumped back: the track is forgotten");
   detector_.reset();
+  last_pose_.reset();
 }
 
 void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& picture) {
@@ -93,7 +108,9 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   seen.stamp_sec = header.stamp.toSec();
   seen.camera = camera ? &*camera.value : nullptr;
   if (attitude_) seen.R_world_camera = attitude_->R_world_camera(seen.stamp_sec, header.frame_id);
+  seen.expected = expectedAt(header);
   last_window_ = detector_.update(seen);
+  looked_ = header.stamp;
   if (last_window_) interior_.follow(image, *last_window_);
   last_picture_ = picture;
   window_ingress::WindowDetection message;
@@ -101,6 +118,7 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
     message = toMsg(*last_window_);
   else
     message.reject_reason = detector_.trace().detail;
+  for (const detection::SeenWindow& window : detector_.windows()) message.windows.push_back(toMsg(window));
   message.header = header;
   message.image_width = static_cast<std::uint32_t>(image.cols);
   message.image_height = static_cast<std::uint32_t>(image.rows);
@@ -119,9 +137,18 @@ void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::M
   debug_publisher_.publish(toImageMsg(canvas_, header));
 }
 
+// Where the memory of all windows says the target is: as of the picture before.
+std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::Header& header) const {
+  if (!last_pose_ || last_pose_->has_expected == 0 || last_pose_->header.frame_id != header.frame_id ||
+      std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
+    return std::nullopt;
+  geometry::Quadrilateral expected;
+  for (std::size_t i = 0; i < 4; ++i) expected[i] = {last_pose_->expected_x[i], last_pose_->expected_y[i]};
+  return expected;
+}
+
 // That of the picture before: the pose of this one is not known yet. Empty if there is none of late.
 std::string DetectorNode::yawAt(const ros::Time& stamp) const {
-  constexpr double kLateSec = 0.5;
   if (!last_pose_ || last_pose_->reject != window_ingress::WindowPose::OK ||
       std::abs(stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
     return "";

@@ -74,6 +74,9 @@ class DetectorNode : public Node {
   void lookInStep(const Lockstep::Step& step);
   void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image, double milliseconds);
   std::string yawAt(const ros::Time& stamp) const;
+  void receivePose(const window_ingress::WindowPose::ConstPtr& message);
+  bool hasPoseOfLastPicture() const;
+  std::optional<geometry::Quadrilateral> expectedAt(const std_msgs::Header& header) const;
   void receiveReference(const window_ingress::ReferencePicture& message);
   void use(const detection::ReferenceAppearance& reference, const std::string& source);
   std::string captureFault() const;
@@ -100,9 +103,9 @@ class DetectorNode : public Node {
   std::optional<Lockstep> lockstep_;
   std_msgs::Header waiting_header_;  // in lockstep: of the picture that waits for its step
   std::optional<GuardedImage> waiting_;
-  ros::Time reference_stamp_, announced_;
+  ros::Time reference_stamp_, announced_, looked_;
 
-  window_ingress::WindowPose::ConstPtr last_pose_;  // for the debug image alone
+  window_ingress::WindowPose::ConstPtr last_pose_;  // of a picture before the present one
   ros::Subscriber reference_subscriber_, pose_subscriber_;
   ros::Publisher window_publisher_, debug_publisher_;
   ros::ServiceServer capture_, reset_;

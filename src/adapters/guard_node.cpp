@@ -57,7 +57,7 @@ Health GuardNode::inputHealth() const {
                                 std::to_string(static_cast<int>(gate_.sinceSaneSec(now_sec))) +
                                 " s, sending nothing: the autopilot's failsafe has to act"};
   if (gate_.isLate(now_sec)) return {Health::kWarn, input + "is silent " + publishers + ", sending zero"};
-  if (!gate_.fault().empty()) return {Health::kError, "input refused, sending zero: " + gate_.fault()};
+  if (!gate_.fault().empty()) return {Health::kError, input + "is refused, sending zero: " + gate_.fault()};
   if (subscriber_.getNumPublishers() > 1)
     return {Health::kWarn, input + "comes from several " + publishers + ", only one must steer"};
   return {};

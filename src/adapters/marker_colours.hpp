@@ -18,6 +18,8 @@ constexpr int kOpenRgb = 0xffa500;      ///< the likelier of two windows that th
 constexpr int kMirroredRgb = 0xb05cff;  ///< the other one
 constexpr int kWallRgb = 0xd8c8ab;      ///< the wall's plane
 constexpr int kSetpointRgb = 0xff3fa4;  ///< what the navigator wishes
+constexpr int kKnownRgb = 0x7fb2e5;     ///< a window that is remembered; open or closed is not known
+constexpr int kClosedRgb = 0xe74c3c;    ///< one that was seen to be closed
 constexpr int kTextRgb = 0xffffff;
 
 }  // namespace window_ingress::adapters

@@ -6,6 +6,7 @@
 
 #include "adapters/marker_colours.hpp"
 #include "adapters/marker_sketch.hpp"
+#include "adapters/msg_conversion.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -141,6 +142,25 @@ visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window
   const double left_m = 0.5 * size.width_m + kTextBesideM;
   sketch.text("window: text", window.T_odom_window * Eigen::Vector3d(0.0, left_m, 0.0),
               is_open ? text + chances(window) : text);
+  return sketch.markers();
+}
+
+visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade) {
+  static const char* const kVerdicts[] = {"open?", "OPEN", "CLOSED"};
+  static const int kColours[] = {kKnownRgb, kTrustedRgb, kClosedRgb};
+  MarkerSketch sketch(facade.header.stamp, facade.header.frame_id);
+  for (const window_ingress::KnownWindow& window : facade.windows) {
+    const auto T = fromMsg(window.pose);
+    if (!T) continue;
+    const std::string name = "window " + std::to_string(window.id);
+    const int verdict = std::min<int>(window.openness, 2);
+    const bool is_target = window.id == facade.target_id;
+    const auto border = closed(cornersOf(*T.value, {window.width, window.height}));
+    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], 0.9));
+    std::string text = std::to_string(window.id) + (is_target ? " target" : "") + "\n" + kVerdicts[verdict];
+    if (window.failures > 0) text += "\ngiven up";
+    sketch.text(name + ": text", T.value->translation(), text);
+  }
   return sketch.markers();
 }
 

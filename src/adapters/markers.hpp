@@ -4,6 +4,7 @@
 #include <geometry_msgs/PolygonStamped.h>
 #include <ros/time.h>
 #include <visualization_msgs/MarkerArray.h>
+#include <window_ingress/Facade.h>
 #include <window_ingress/WindowPose.h>
 
 #include <Eigen/Geometry>
@@ -28,5 +29,8 @@ std::string windowLabel(const window_ingress::WindowPose& message);
 /// is.
 visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window, const std::string& text,
                                               const ros::Time& stamp, const std::string& frame_id);
+
+/// All windows known: borders coloured by whether they are open, and in each its number and verdict.
+visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade);
 
 }  // namespace window_ingress::adapters

@@ -9,6 +9,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Imu.h>
+#include <window_ingress/Facade.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/WindowDetection.h>
 #include <window_ingress/WindowPose.h>
@@ -16,8 +17,11 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
@@ -82,6 +86,11 @@ window_ingress::WindowDetection toMsg(
     const detection::WindowObservation& window);  ///< without header and picture
 /// Refuses `detected == false` with the message's own reason.
 Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDetection& message);
+window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window);
+/// Those of the message that are convex, finite quadrilaterals; at most `kMostSeenWindows`.
+std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowDetection& message);
+constexpr std::size_t kMostSeenWindows = 64;
+window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec);  ///< without header
 
 void fill(window_ingress::WindowPose& message, const pose::PoseResult& result);
 void fill(window_ingress::WindowPose& message, const pose::FilteredWindow& filtered);
@@ -92,6 +101,10 @@ void fill(window_ingress::WindowPose& message, const pose::FramesVerdict& frames
 void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
+
+/// Where the target is by the memory of all windows.
+std::optional<Eigen::Vector3d> rememberedFrom(const window_ingress::WindowPose& message,
+                                              const std::string& odom_frame);
 
 // --- flight
 // ------------------------------------------------------------------------------------------------------

@@ -126,6 +126,7 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   if (late) return pose_health_.refused(*late);
   input_.image_stamp_sec = stampSec(message->header.stamp);
   pose_health_.stamped(*input_.image_stamp_sec);
+  input_.remembered_odom_m = rememberedFrom(*message, params_.frames.odom);
   if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
   const auto target = targetFromMsg(*message, params_.frames.odom);
   if (!target) return pose_health_.refused(target.reason);

@@ -186,11 +186,19 @@ Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, cons
       return {std::nullopt, "other_window_factor is not positive"};
     target.other_window = message.other_window_factor;
   }
+  target.window_id = message.window_id;
   if (!message.approach_forbidden.empty())
     target.fit = message.fit == PoseMsg::FIT_NO_GO ? pose::Fit::kNoGo
                  : message.fit == PoseMsg::FIT_GO  ? pose::Fit::kGo
                                                    : pose::Fit::kUnknown;
   return {target, ""};
+}
+
+std::optional<Eigen::Vector3d> rememberedFrom(const PoseMsg& message, const std::string& odom_frame) {
+  const Eigen::Vector3d place(message.remembered.x, message.remembered.y, message.remembered.z);
+  if (message.window_id == 0 || message.filtered_frame_id != odom_frame || !place.allFinite())
+    return std::nullopt;
+  return place;
 }
 
 StateMsg toMsg(const navigation::NavigatorOutput& output) {
@@ -210,6 +218,9 @@ StateMsg toMsg(const navigation::NavigatorOutput& output) {
   message.commit_distance = report.commit_distance_m;
   message.retries = static_cast<std::uint32_t>(std::max(0, report.retries));
   message.blind = report.blind_sec;
+  message.window_id = report.window_id;
+  message.given_up = report.given_up;
+  message.next_window = report.next_window;
   return message;
 }
 

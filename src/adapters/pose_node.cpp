@@ -36,7 +36,8 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       camera_(nh, diagnostics_, params_.image_is_rectified),
       tracker_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
-      tf_listener_(tf_) {
+      tf_listener_(tf_),
+      facade_(nh, pnh, diagnostics_, tracker_, tf_, params_.frames.odom) {
   pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1, params_.lockstep);
   covariance_publisher_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
   polygon_publisher_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
@@ -181,6 +182,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   consistency_ = state ? state->consistency : pose::Consistency();
   publish(out);
   if (state) publishFiltered(out, *state);
+  facade_.publish(message.header.stamp, marker_publisher_);
 }
 
 void PoseNode::estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out) {
@@ -189,22 +191,40 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
   if (!window) {
     out.reject = window_ingress::WindowPose::NO_WINDOW;
     out.reject_reason = out.filtered_reason = window.reason;
-    return;
   }
+  if (message.image_width == 0) return;  // there was no picture
   const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
                                        static_cast<int>(message.image_height), message.header);
-  if (!camera) {
+  const auto stamp_sec = stampSec(message.header.stamp);
+  if (!camera && window) {
     out.reject = window_ingress::WindowPose::NO_CALIBRATION;
     out.reject_reason = out.filtered_reason = camera.reason;
-    return;
   }
+  if (!camera || !stamp_sec) return;
   if (tf_attitude_)
-    if (const auto R_odom_base = tf_attitude_->at(window.value->stamp_sec))
-      tracker_.addAttitude(window.value->stamp_sec, *R_odom_base);
-  tracker_.see(*window.value, *camera.value, T_base_camera_.value);
+    if (const auto R_odom_base = tf_attitude_->at(*stamp_sec)) tracker_.addAttitude(*stamp_sec, *R_odom_base);
+  tracker_.see({*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
   tracker_.flush();
+  expectTarget(*stamp_sec, *camera.value, out);
+  if (!window) return;
   fill(out, tracker_.lastUpdate().pose);
   out.filtered_reason = T_base_camera_ ? tracker_.lastUpdate().why_not : T_base_camera_.reason;
+}
+
+void PoseNode::expectTarget(double stamp_sec, const geometry::PinholeCamera& camera,
+                            window_ingress::WindowPose& out) const {
+  if (const facade::KnownWindow* target = tracker_.facade().target()) {
+    out.window_id = target->id;
+    out.remembered = toPoseMsg(facade::poseOf(target->place)).position;
+  }
+  if (!T_base_camera_) return;
+  const auto expected = tracker_.expected(stamp_sec, camera, *T_base_camera_.value);
+  if (!expected) return;
+  out.has_expected = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.expected_x[i] = (*expected)[i].x();
+    out.expected_y[i] = (*expected)[i].y();
+  }
 }
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {

@@ -14,6 +14,7 @@
 
 #include "adapters/camera_source.hpp"
 #include "adapters/diagnostics.hpp"
+#include "adapters/facade_link.hpp"
 #include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
@@ -67,6 +68,8 @@ class PoseNode : public Node {
   void processInStep();
   void process(const window_ingress::WindowDetection& message);
   void estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
+  void expectTarget(double stamp_sec, const geometry::PinholeCamera& camera,
+                    window_ingress::WindowPose& out) const;
   void publish(const window_ingress::WindowPose& message);
   void publishFiltered(const window_ingress::WindowPose& message, const pose::FilteredWindow& window);
 
@@ -96,6 +99,7 @@ class PoseNode : public Node {
   tf2_ros::Buffer tf_;
   std::optional<TfAttitude> tf_attitude_;
   tf2_ros::TransformListener tf_listener_;
+  FacadeLink facade_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Subscriber window_subscriber_, odom_subscriber_, imu_subscriber_;
   ros::Publisher pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_;

@@ -24,7 +24,8 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kMaxAttitudeGapSec = 0.02;
-constexpr std::size_t kMostWaiting = 30;  // images that wait for odometry as new as themselves
+constexpr std::size_t kMostWaiting = 30;   // images that wait for odometry as new as themselves
+constexpr double kAttitudeWaitSec = 0.05;  // they wait as long for the attitude, in time of the bag
 
 double nowMs() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
@@ -66,6 +67,7 @@ class Replay {
   void forgetAll();
   void count(const ReplayedFrame& frame);
   void processComplete();
+  bool isComplete(const Waiting& image) const;
   void processFirst();
   detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
                                 const Converted<geometry::PinholeCamera>& camera);
@@ -90,7 +92,8 @@ class Replay {
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
-  double odometry_sec_ = -1.0, newest_sec_ = -1.0;
+  std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the picture before
+  double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
 
@@ -130,11 +133,16 @@ void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImag
   processComplete();
 }
 
-// An image waits for odometry as new as itself.
-void Replay::processComplete() {
+// An image waits for odometry as new as itself; for attitude not for ever, which may have stopped.
+bool Replay::isComplete(const Waiting& image) const {
+  const double sec = image.header.stamp.toSec();
   const bool awaits_odometry = params_.with_pose && !params_.topics.odom.empty();
-  while (!waiting_.empty() && !(awaits_odometry && odometry_sec_ < waiting_.front().header.stamp.toSec()))
-    processFirst();
+  const bool awaits_attitude = !params_.topics.imu.empty() && newest_sec_ < sec + kAttitudeWaitSec;
+  return !(awaits_odometry && odometry_sec_ < sec) && !(awaits_attitude && attitude_sec_ < sec);
+}
+
+void Replay::processComplete() {
+  while (!waiting_.empty() && isComplete(waiting_.front())) processFirst();
 }
 
 void Replay::takeOdometry(const nav_msgs::Odometry& message) {
@@ -159,6 +167,8 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   noticeJump(message.header.stamp);
   tracker_.addAttitude(*stamp_sec, *attitude.value);
   attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+  attitude_sec_ = *stamp_sec;
+  processComplete();
 }
 
 void Replay::noticeJump(const ros::Time& stamp) {
@@ -184,7 +194,8 @@ void Replay::forgetAll() {
   tracker_.reset();
   attitude_.clear();
   odometry_.clear();
-  odometry_sec_ = -1.0;
+  expected_.reset();
+  odometry_sec_ = attitude_sec_ = -1.0;
 }
 
 void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {
@@ -249,6 +260,7 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
   input.image = image;
   input.stamp_sec = header.stamp.toSec();
   input.camera = camera ? &*camera.value : nullptr;
+  input.expected = expected_;
   const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
   if (!T_odom_base) return input;
   if (const auto T_base_camera = mountingIfKnown(header.frame_id).value)
@@ -258,15 +270,18 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
 
 void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
   frame.why_not_filtered = "no window";
+  const double stamp_sec = frame.stamp.toSec();
+  const auto T_base_camera = frame.row.window ? mounting(camera_frame) : mountingIfKnown(camera_frame).value;
+  tracker_.see({stamp_sec, *frame.camera, T_base_camera, frame.row.window, detector_.windows()});
+  tracker_.flush();
+  expected_ = T_base_camera ? tracker_.expected(stamp_sec, *frame.camera, *T_base_camera) : std::nullopt;
   if (frame.row.window) {
-    tracker_.see(*frame.row.window, *frame.camera, mounting(camera_frame));
-    tracker_.flush();
     const pose::PoseResult& result = tracker_.lastUpdate().pose;
     frame.row.pose = result.estimate;
     frame.why_not_filtered = tracker_.lastUpdate().why_not;
     if (!result.estimate) frame.row.reject_reason = std::string("pose_") + pose::toString(result.reject);
   }
-  frame.filtered = tracker_.filtered(frame.stamp.toSec());
+  frame.filtered = tracker_.filtered(stamp_sec);
   frame.openness = tracker_.openness();
 }
 

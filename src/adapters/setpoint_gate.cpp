@@ -1,8 +1,19 @@
 #include "adapters/setpoint_gate.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 namespace window_ingress::adapters {
+
+namespace {
+
+std::string tooMuch(const char* format, double value, double limit) {
+  char text[100];
+  std::snprintf(text, sizeof text, format, value, limit);
+  return text;
+}
+
+}  // namespace
 
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params) {
   const auto &v = twist.linear, &w = twist.angular;
@@ -12,9 +23,10 @@ std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& para
   const double speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
   const double turning = std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z);
   if (!(speed <= params.max_speed_mps))
-    return "speed of " + std::to_string(speed) + " m/s is above the limit";
+    return tooMuch("speed of %.2f m/s is above the limit, max_speed_mps: %.2f", speed, params.max_speed_mps);
   if (!(turning <= params.max_yaw_rate_radps))
-    return "turning at " + std::to_string(turning) + " rad/s is above the limit";
+    return tooMuch("turning at %.2f rad/s is above the limit, max_yaw_rate_radps: %.2f", turning,
+                   params.max_yaw_rate_radps);
   return "";
 }
 

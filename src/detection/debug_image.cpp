@@ -148,13 +148,12 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
   drawCandidates(canvas, trace);
   if (window) window->whole() ? drawWhole(canvas, *window) : drawSides(canvas, *window);
   Lettering lettering(canvas);
-  lettering.box(legendOf(trace));
   lettering.footer({summaryOf(trace, window, milliseconds), window ? kGreen : kYellow});
-  if (window && window->whole()) {
-    lettering.keepFree(boxRound(window->corners));
+  if (window && window->whole()) lettering.keepFree(boxRound(window->corners));
+  lettering.box(legendOf(trace));
+  if (window && window->whole())
     lettering.label({cv::format("target, score %.2f", window->score), kGreen},
                     pixel(window->corners[geometry::kTopLeft]));
-  }
   explainBest(lettering, trace);
 }
 

@@ -44,6 +44,14 @@ bool Lettering::isFree(const cv::Rect& area) const {
                       [&](const cv::Rect& other) { return !(area & other).empty(); });
 }
 
+cv::Point Lettering::freeCorner(const cv::Size& size) const {
+  const int right = canvas_.cols - size.width, low = canvas_.rows - height_ * 5 / 4 - size.height;
+  for (const cv::Point& corner :
+       {cv::Point(0, 0), cv::Point(right, 0), cv::Point(0, low), cv::Point(right, low)})
+    if (isFree({corner, size})) return corner;
+  return {0, 0};
+}
+
 void Lettering::box(const std::vector<Line>& lines, double part) {
   const int fitting = std::max(1, static_cast<int>(part * canvas_.rows) / height_);
   const int count = std::min(fitting, static_cast<int>(lines.size())), margin = height_ / 2;
@@ -51,9 +59,11 @@ void Lettering::box(const std::vector<Line>& lines, double part) {
   int width = 0;
   for (int i = 0; i < count; ++i)
     width = std::max(width, sizeOf(lines[i].text).width + (lines[i].swatch ? height_ : 0));
-  backdrop({0, 0, width + 2 * margin, count * height_ + margin});
+  const cv::Rect area({0, 0}, cv::Size(width + 2 * margin, count * height_ + margin));
+  const cv::Point corner = freeCorner(area.size());
+  backdrop(area + corner);
   for (int i = 0; i < count; ++i) {
-    const cv::Point baseline(margin, (i + 1) * height_);
+    const cv::Point baseline = corner + cv::Point(margin, (i + 1) * height_);
     const int indent = lines[i].swatch ? height_ : 0, side = height_ / 2;
     if (indent)
       cv::rectangle(canvas_, {baseline.x, baseline.y - side, side, side}, lines[i].colour, cv::FILLED);

@@ -24,6 +24,12 @@ void TargetIdentity::found(bool is_same, double stamp_sec) {
   last_sec_ = stamp_sec;
 }
 
+void TargetIdentity::expect(double stamp_sec) {
+  known_ = true;
+  followed_ = std::max(followed_, params_.settled);
+  last_sec_ = stamp_sec;
+}
+
 bool TargetIdentity::remembers(double stamp_sec, bool place_given) const {
   const double limit_sec = place_given ? params_.reacquire_given_sec : params_.reacquire_sec;
   return known_ && stamp_sec - last_sec_ <= limit_sec;

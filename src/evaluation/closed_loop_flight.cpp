@@ -107,6 +107,8 @@ class Flight {
   void showReference();
   void look(const simulation::CameraFrame& frame);
   std::optional<detection::WindowObservation> detect(const simulation::CameraFrame& frame);
+  void expectTarget();
+  void chooseTarget();
   void step();
   void keepTrack();
   void report() const;
@@ -127,7 +129,9 @@ class Flight {
   navigation::NavigatorOutput output_;
   std::optional<geometry::PinholeCamera> camera_;  // as camera_info last said
   std::optional<double> started_sec_;
-  bool detected_ = false;
+  std::optional<geometry::Quadrilateral> expected_;
+  std::optional<double> last_seen_sec_;
+  bool detected_ = false, was_chosen_ = false;
   std::vector<TrackPoint> track_;
   FlightTiming timing_;
 };
@@ -170,6 +174,7 @@ std::optional<detection::WindowObservation> Flight::detect(const simulation::Cam
   seen.image = frame.image;
   seen.stamp_sec = frame.stamp_sec;
   seen.camera = camera_ ? &*camera_ : nullptr;
+  seen.expected = expected_;
   if (const auto T_odom_base = attitude_.at(frame.stamp_sec, kMaxAttitudeGap_sec))
     seen.R_world_camera = T_odom_base->linear() * world_.T_base_camera().linear();
   auto window = detector_.update(seen);
@@ -180,6 +185,7 @@ std::optional<detection::WindowObservation> Flight::detect(const simulation::Cam
 void Flight::look(const simulation::CameraFrame& frame) {
   timing_.lap(Stage::kPicture);
   timing_.countFrame();
+  expectTarget();
   const auto window = detect(frame);
   timing_.lap(Stage::kDetector);
   detected_ = window.has_value();
@@ -187,16 +193,37 @@ void Flight::look(const simulation::CameraFrame& frame) {
   if (!frame.image.empty())
     for (auto* observer : observers_) observer->onImage(frame, detector_.trace(), window);
   timing_.lap(Stage::kOther);
-  if (window && camera_) tracker_.see(*window, *camera_, world_.T_base_camera());
+  if (camera_) {
+    tracker_.see({frame.stamp_sec, *camera_, world_.T_base_camera(), window, detector_.windows()});
+    last_seen_sec_ = frame.stamp_sec;
+  }
   timing_.lap(Stage::kPose);
+}
+
+// As the nodes do: said with the pose of a picture, heard with the next one.
+void Flight::expectTarget() {
+  expected_.reset();
+  if (camera_ && last_seen_sec_)
+    expected_ = tracker_.expected(*last_seen_sec_, *camera_, world_.T_base_camera());
+}
+
+// What the operator of a scenario does: points at the target as soon as it is in the memory of all windows.
+void Flight::chooseTarget() {
+  if (!world_.scenario().target_chosen || was_chosen_ || params_.without_pictures) return;
+  const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
+  was_chosen_ = tracker_.selectWindowNear(T_odom_window.translation()).success;
 }
 
 void Flight::step() {
   const double now_sec = world_.timeSec();
+  chooseTarget();
   input_.target = tracker_.target(now_sec);
+  const facade::KnownWindow* remembered = tracker_.facade().target();
+  input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
   if (!started_sec_ && input_.image_stamp_sec && navigator_.start(input_, now_sec).success)
     started_sec_ = now_sec;
   output_ = navigator_.step(input_, now_sec);
+  tracker_.heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
   if (!output_.enabled) return;
   world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "window_ingress/navigation/opening_policy.hpp"
+#include "window_ingress/navigation/window_choice.hpp"
 
 namespace window_ingress::navigation {
 
@@ -11,6 +12,12 @@ void MissionMemory::leaveWindow() {
   trusted.reset();
   window_odom_m.reset();
   opening_confirmed = false;
+}
+
+void MissionMemory::giveUpWindow(const TargetEstimate& window) {
+  left_odom_m.push_back(window.T_odom_window.translation());
+  if (window.window_id != 0) given_up.push_back(window.window_id);
+  leaveWindow();
 }
 
 void MissionMemory::forgetWindow() {
@@ -21,7 +28,7 @@ void MissionMemory::forgetWindow() {
 void MissionMemory::forgetPlaces() {
   forgetWindow();
   committed.reset();
-  closed_odom_m.clear();
+  left_odom_m.clear();
   place_odom_m.reset();
   keeping_since_sec.reset();
 }
@@ -39,6 +46,7 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemo
   memory.others_odom_m.push_back(position +
                                  *target.other_window * (target.T_odom_window.translation() - position));
   ++memory.others;
+  if (target.window_id != 0) memory.given_up.push_back(target.window_id);
   memory.leaveWindow();
   Decision decision;
   decision.keeps_place = true;
@@ -48,7 +56,7 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemo
 }
 
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory) {
-  if (isKnownClosed(target, memory)) return true;
+  if (wasLeftForGood(target, memory)) return true;
   constexpr double kSameDirectionRad = 0.12;
   const Eigen::Vector3d position = vehicle.T_odom_base.translation();
   const Eigen::Vector3d sight = (target.T_odom_window.translation() - position).normalized();

@@ -8,6 +8,9 @@ NavigatorReport reportOn(const Situation& situation, const MissionMemory& memory
   report.predicted_miss_m = memory.predicted_miss_m;
   report.blind_sec = memory.blind_sec;
   report.retries = memory.back_offs;
+  report.window_id = memory.trusted ? memory.trusted->window_id : 0;
+  report.given_up = memory.given_up;
+  report.next_window = params.search.next_window;
   const auto& target = memory.committed ? memory.committed : situation.target;
   if (!target || !situation.vehicle) return report;
   const RelativeState relative = relate(*situation.vehicle, *target);

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "window_ingress/navigation/opening_policy.hpp"
+#include "window_ingress/navigation/window_choice.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
@@ -50,7 +50,7 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
                           const MissionMemory& memory, const InputParams& params) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
   const bool is_left = state == State::kHold || state == State::kBackOff;
-  if (is_left && isKnownClosed(target, memory)) return "a closed window";
+  if (is_left && wasLeftForGood(target, memory)) return "a window that was left for good";
   if (!memory.trusted) {
     return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
   }

@@ -18,6 +18,7 @@
 #include "window_ingress/navigation/place_keeping.hpp"
 #include "window_ingress/navigation/search.hpp"
 #include "window_ingress/navigation/setpoint_limiter.hpp"
+#include "window_ingress/navigation/window_choice.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
@@ -59,8 +60,8 @@ struct Navigator::Impl {
   bool isInOpening(const Situation& situation) const;
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   void keepToWindow(Situation& situation) const;
-  void remember(const Situation& situation);
-  Decision decide(const NavigatorInput& input, const Situation& situation);
+  void remember(const Situation& situation, const NavigatorInput& input);
+  Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
   Decision behave(const Situation& situation);
   Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
@@ -70,7 +71,7 @@ struct Navigator::Impl {
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
 };
 
-void Navigator::Impl::remember(const Situation& situation) {
+void Navigator::Impl::remember(const Situation& situation, const NavigatorInput& input) {
   if (situation.vehicle_jumped) {
     memory.forgetPlaces();
     observer.reset();
@@ -89,6 +90,8 @@ void Navigator::Impl::remember(const Situation& situation) {
              (isFlownAt() || !isKnownOther(*situation.target, *situation.vehicle, memory))) {
     memory.window_odom_m = situation.target->T_odom_window.translation();
     if (situation.target->sign_trusted) memory.trusted = situation.target;
+  } else if (!situation.target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
+    memory.window_odom_m = input.remembered_odom_m;
   }
 }
 
@@ -104,8 +107,10 @@ void Navigator::Impl::keepToWindow(Situation& situation) const {
   situation.target_fault = why_not;
 }
 
-Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& situation) {
+Decision Navigator::Impl::decide(const NavigatorInput& input, const Situation& situation,
+                                 const std::string& elsewhere) {
   if (auto overruled = overrule(input, situation)) return *overruled;
+  if (!elsewhere.empty() && isFlownAt()) return {{}, true, Event::kOtherWindow, elsewhere};
   return behave(situation);
 }
 
@@ -266,10 +271,13 @@ void Navigator::sentZero() { impl_->last_setpoint = impl_->limiter.stop(); }
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
   Situation situation = self.monitor.judge(input, now_sec);
+  const std::string elsewhere = whySentElsewhere(situation, self.state, self.memory);
+  if (!elsewhere.empty()) self.memory.leaveWindow();
   self.keepToWindow(situation);
   self.clock.pass(now_sec);
-  self.remember(situation);
-  Decision decision = self.decide(input, situation);
+  self.remember(situation, input);
+  Decision decision = self.decide(input, situation, elsewhere);
+  turnToNextWindow(self.state, self.params, self.memory, decision);
   self.reason = decision.reason;
   const auto to = decision.event ? next(self.state, *decision.event) : std::nullopt;
   if (to) {

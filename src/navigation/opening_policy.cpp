@@ -26,21 +26,12 @@ std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMe
   const auto& target = *situation.target;
   const std::string why = whyClosed(target);
   if (why.empty()) return std::nullopt;
-  memory.closed_odom_m.push_back(target.T_odom_window.translation());
-  memory.leaveWindow();
+  memory.giveUpWindow(target);
   Decision decision;
   decision.keeps_place = true;
   decision.event = Event::kOtherWindow;
   decision.reason = why;
   return decision;
-}
-
-bool isKnownClosed(const TargetEstimate& target, const MissionMemory& memory) {
-  constexpr double kSamePlaceM = 0.5;
-  return std::any_of(memory.closed_odom_m.begin(), memory.closed_odom_m.end(),
-                     [&](const Eigen::Vector3d& closed) {
-                       return (closed - target.T_odom_window.translation()).norm() < kSamePlaceM;
-                     });
 }
 
 double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params) {

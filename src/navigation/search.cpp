@@ -37,8 +37,8 @@ Decision Search::step(const Situation& situation, MissionMemory& memory) {
     decision.event = Event::kGiveUp;
     decision.reason = "window not found in " + std::to_string(turns_) + " turns";
     if (memory.others > 0) decision.reason += ", but others " + std::to_string(memory.others) + " times";
-    if (!memory.closed_odom_m.empty())
-      decision.reason += ", but closed ones: " + std::to_string(memory.closed_odom_m.size());
+    if (!memory.left_odom_m.empty())
+      decision.reason += ", but closed or tried in vain: " + std::to_string(memory.left_odom_m.size());
   }
   return decision;
 }

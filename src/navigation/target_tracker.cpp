@@ -1,8 +1,10 @@
 #include "window_ingress/navigation/target_tracker.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -50,6 +52,7 @@ TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterPar
       filter_(filter, sizeSaid(pose)),
       frames_(pose, filter, params.frames, sizeSaid(pose)),
       judge_(params.openness, neededBy(params.fit)),
+      facade_(params.facade),
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
 
 void TargetTracker::forgetPlaces() {
@@ -57,6 +60,7 @@ void TargetTracker::forgetPlaces() {
   frames_.forgetPlaces();
   parallax_.clear();
   judge_.reset();
+  facade_.forgetPlaces();
   odometry_.clear();
   attitude_.clear();
   odometry_stamp_sec_.reset();
@@ -68,6 +72,8 @@ void TargetTracker::reset() {
   forgetPlaces();
   filter_.reset();
   frames_.clear();
+  facade_.reset();
+  heeded_ = 0;
 }
 
 void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
@@ -83,7 +89,7 @@ void TargetTracker::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odo
   if (velocity_odom_mps) frames_.twist().add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
   last_T_odom_base_ = T_odom_base;
-  if (pending_ && pending_->window.stamp_sec <= stamp_sec) flush();
+  if (pending_ && pending_->stamp_sec <= stamp_sec) flush();
 }
 
 bool TargetTracker::isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const {
@@ -100,9 +106,13 @@ void TargetTracker::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_od
 
 void TargetTracker::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                         const std::optional<Eigen::Isometry3d>& T_base_camera) {
+  see({window.stamp_sec, camera, T_base_camera, window, {}});
+}
+
+void TargetTracker::see(SeenPicture picture) {
   flush();
-  pending_ = Pending{window, camera, T_base_camera};
-  if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= window.stamp_sec) flush();
+  pending_ = std::move(picture);
+  if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= pending_->stamp_sec) flush();
 }
 
 void TargetTracker::flush() {
@@ -110,11 +120,18 @@ void TargetTracker::flush() {
   pending_.reset();
 }
 
-pose::PoseResult TargetTracker::estimate(const Pending& pending) {
+std::optional<Eigen::Isometry3d> TargetTracker::cameraAt(
+    double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera) const {
+  const auto T_odom_base = odometry_.at(stamp_sec, params_.max_pose_gap_sec);
+  if (!T_odom_base || !T_base_camera) return std::nullopt;
+  return *T_odom_base * *T_base_camera;
+}
+
+pose::PoseResult TargetTracker::estimate(const SeenPicture& picture) {
   pose::PoseHints hints;
-  hints.gravity = gravity(pending);
-  hints.size = filter_.sizeOf(pending.window);
-  return estimator_.estimate(pending.window, pending.camera, hints);
+  hints.gravity = gravity(picture);
+  hints.size = filter_.sizeOf(*picture.window);
+  return estimator_.estimate(*picture.window, picture.camera, hints);
 }
 
 // What was found out about the size belongs to the window it was found out of.
@@ -124,43 +141,111 @@ void TargetTracker::noticeTarget(std::uint32_t target_id) {
   parallax_.clear();
 }
 
-void TargetTracker::checkSize(const Pending& pending, const Eigen::Isometry3d& T_odom_camera) {
-  if (!size_is_known_ || !last_.pose.estimate || !pending.window.whole()) return;
-  parallax_.see(pending.window.stamp_sec, T_odom_camera.translation(),
+void TargetTracker::checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera) {
+  if (!size_is_known_ || !last_.pose.estimate || !picture.window->whole()) return;
+  parallax_.see(picture.stamp_sec, T_odom_camera.translation(),
                 T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
-void TargetTracker::process(const Pending& pending) {
-  noticeTarget(pending.window.target_id);
-  last_.pose = estimate(pending);
-  last_.why_not = whyNotUsed(pending);
+void TargetTracker::process(const SeenPicture& picture) {
+  if (picture.window) use(picture);
+  rememberWindows(picture);
+}
+
+void TargetTracker::use(const SeenPicture& picture) {
+  noticeTarget(picture.window->target_id);
+  last_.pose = estimate(picture);
+  last_.why_not = whyNotUsed(picture);
   last_.used = last_.why_not.empty();
-  if (last_.used) judgeOpenness(pending);
+  if (last_.used) judgeOpenness(picture);
 }
 
-void TargetTracker::judgeOpenness(const Pending& pending) {
-  const auto window = filter_.state(pending.window.stamp_sec);
-  const auto T_odom_base = odometry_.at(pending.window.stamp_sec, params_.max_pose_gap_sec);
-  if (!window || !T_odom_base || !pending.T_base_camera) return;
-  judge_.see({pending.window, pending.camera, *T_odom_base * *pending.T_base_camera, window->T_odom_window,
-              window->size.size});
+void TargetTracker::judgeOpenness(const SeenPicture& picture) {
+  const auto window = filter_.state(picture.stamp_sec);
+  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+  if (!window || !T_odom_camera) return;
+  judge_.see({*picture.window, picture.camera, *T_odom_camera, window->T_odom_window, window->size.size});
 }
 
-std::string TargetTracker::whyNotUsed(const Pending& pending) {
-  const auto& [window, camera, T_base_camera] = pending;
+void TargetTracker::rememberWindows(const SeenPicture& picture) {
+  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+  if (!T_odom_camera) return;
+  const bool is_used = picture.window && last_.used;
+  const auto filtered = is_used ? filter_.state(picture.stamp_sec) : std::nullopt;
+  facade_.see({picture.stamp_sec,
+               {picture.camera, *T_odom_camera},
+               picture.windows,
+               picture.window ? picture.window->target_id : 0},
+              filtered, filtered ? filtered->size.size : lookedFor());
+  if (filtered) facade_.judge(openness());
+}
+
+geometry::OpeningSize TargetTracker::lookedFor() const {
+  const auto& pose = estimator_.params();
+  return {pose.opening_width_m, pose.opening_height_m};
+}
+
+std::optional<geometry::Quadrilateral> TargetTracker::expected(double stamp_sec,
+                                                               const geometry::PinholeCamera& camera,
+                                                               const Eigen::Isometry3d& T_base_camera) const {
+  const auto T_odom_camera = cameraAt(stamp_sec, T_base_camera);
+  return T_odom_camera ? facade_.expected({camera, *T_odom_camera}) : std::nullopt;
+}
+
+// What was found out about the window before does not hold for another one.
+void TargetTracker::startAnewIfOther(std::uint32_t target_before) {
+  if (facade_.targetId() == target_before || !facade_.isChosen()) return;
+  filter_.reset();
+  parallax_.clear();
+  judge_.reset();
+}
+
+facade::Answer TargetTracker::selectWindow(std::uint32_t id) {
+  const std::uint32_t before = facade_.targetId();
+  const facade::Answer answer = facade_.select(id);
+  startAnewIfOther(before);
+  return answer;
+}
+
+facade::Answer TargetTracker::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
+  const std::uint32_t before = facade_.targetId();
+  const facade::Answer answer = facade_.selectNear(point_odom_m);
+  startAnewIfOther(before);
+  return answer;
+}
+
+void TargetTracker::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one) {
+  facade_.noteFlownAt(flown_at);
+  heeded_ = std::min(heeded_, given_up.size());  // another mission began
+  const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(heeded_),
+                                        given_up.end());
+  heeded_ = given_up.size();
+  if (news.empty()) return;
+  const std::uint32_t before = facade_.targetId();
+  facade_.giveUp(news, next_one);
+  startAnewIfOther(before);
+}
+
+std::string TargetTracker::whyNotUsed(const SeenPicture& picture) {
+  const detection::WindowObservation& window = *picture.window;
   const int sides = window.visibleSides();  // none: only corners are known
   const bool is_whole = window.whole() && (sides == 4 || sides == 0);
-  const auto T_odom_base = odometry_.at(window.stamp_sec, params_.max_pose_gap_sec);
+  const auto T_odom_camera = cameraAt(window.stamp_sec, picture.T_base_camera);
+  if (T_odom_camera) {
+    const auto other = facade_.whyNotTarget(window, {picture.camera, *T_odom_camera}, lookedFor());
+    if (!other.empty()) return other;
+  }
   // A camera that is not mounted as said may give no pose at all.
-  if (is_whole && T_odom_base && T_base_camera)
-    frames_.mounting().see(window, camera, *T_odom_base, *T_base_camera);
+  if (is_whole && T_odom_camera)
+    frames_.mounting().see(window, picture.camera, *T_odom_camera * picture.T_base_camera->inverse(),
+                           *picture.T_base_camera);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
-  if (!T_base_camera) return "mounting of the camera unknown";
-  if (!T_odom_base) return "no odometry near the exposure";
-  const Eigen::Isometry3d T_odom_camera = *T_odom_base * *T_base_camera;
-  checkSize(pending, T_odom_camera);
-  const bool used = last_.pose.estimate ? filter_.update(*last_.pose.estimate, window, camera, T_odom_camera)
-                                        : filter_.update(window, camera, T_odom_camera);
+  if (!picture.T_base_camera) return "mounting of the camera unknown";
+  if (!T_odom_camera) return "no odometry near the exposure";
+  checkSize(picture, *T_odom_camera);
+  const bool used = last_.pose.estimate
+                        ? filter_.update(*last_.pose.estimate, window, picture.camera, *T_odom_camera)
+                        : filter_.update(window, picture.camera, *T_odom_camera);
   return used ? "" : "gated out by the filter";
 }
 
@@ -174,11 +259,11 @@ std::optional<Eigen::Matrix3d> TargetTracker::attitudeAt(double stamp_sec) {
   return std::nullopt;
 }
 
-std::optional<pose::GravityPrior> TargetTracker::gravity(const Pending& pending) {
-  if (!pending.T_base_camera) return std::nullopt;
-  const auto R_odom_base = attitudeAt(pending.window.stamp_sec);
+std::optional<pose::GravityPrior> TargetTracker::gravity(const SeenPicture& picture) {
+  if (!picture.T_base_camera) return std::nullopt;
+  const auto R_odom_base = attitudeAt(picture.stamp_sec);
   if (!R_odom_base) return std::nullopt;
-  const Eigen::Matrix3d R_odom_camera = *R_odom_base * pending.T_base_camera->linear();
+  const Eigen::Matrix3d R_odom_camera = *R_odom_base * picture.T_base_camera->linear();
   return pose::GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
 }
 
@@ -190,6 +275,7 @@ std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
   target.approach_forbidden = approachForbidden(*state);
   target.other_window = otherWindow();
   target.openness = openness();
+  target.window_id = facade_.targetId();
   return target;
 }
 

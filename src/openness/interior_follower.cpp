@@ -6,6 +6,7 @@
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 
+#include "window_ingress/openness/edge_flow.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::openness {
@@ -16,7 +17,8 @@ using geometry::Quadrilateral;
 
 constexpr int kReach = 13, kLevels = 2;  // of Lucas-Kanade: side of its patch [px], further halvings
 constexpr double kLeastSide_px = 24.0;
-constexpr double kSpacing = 0.05;  // between points, part of the straightened picture's longer side
+constexpr double kSpacing = 0.05;      // between points, part of the straightened picture's longer side
+constexpr double kLeastAge_sec = 0.3;  // of a key picture whose points were lost
 constexpr int kGradientBlock = 5;
 constexpr double kBlur_px = 0.8;  // against the noise of dark pictures
 
@@ -40,6 +42,12 @@ cv::Matx33d straightening(const Quadrilateral& corners, const cv::Size& size) {
   return cv::getPerspectiveTransform(from.data(), to.data());
 }
 
+cv::Rect around(const Quadrilateral& corners) {
+  const std::array<cv::Point2f, 4> points{toCv(corners[0]), toCv(corners[1]), toCv(corners[2]),
+                                          toCv(corners[3])};
+  return cv::boundingRect(points);
+}
+
 Eigen::Vector2d mapped(const cv::Matx33d& H, const cv::Point2f& p) {
   const cv::Vec3d q = H * cv::Vec3d(p.x, p.y, 1.0);
   return {q[0] / q[2], q[1] / q[2]};
@@ -58,6 +66,8 @@ struct InteriorFollower::Impl {
   struct Track {
     std::uint16_t id;
     cv::Point2f key, now;  // in the straightened pictures
+    cv::Point2f normal;    // of an edge; zero of a corner
+    bool isEdge() const { return normal.x != 0.0f || normal.y != 0.0f; }
   };
 
   explicit Impl(const FollowerParams& p) : params(p) {}
@@ -69,7 +79,11 @@ struct InteriorFollower::Impl {
   void straighten(const cv::Mat& image, const Quadrilateral& corners);
   void takeKey(const cv::Mat& image, const WindowObservation& window);
   void findPoints();
+  void chooseChannel(const cv::Mat& image, const Quadrilateral& corners);
+  void findEdges(const cv::Rect& inner);
   void flow();
+  void flowCorners();
+  bool flowAcross(Track& track) const;
   bool lies(const cv::Point2f& p) const;
   void report(WindowObservation& window);
   bool isWornOut(const WindowObservation& window) const;
@@ -78,11 +92,13 @@ struct InteriorFollower::Impl {
   bool has_key = false;
   std::uint32_t target_id = 0;
   double last_sec = 0.0;
+  int channel = 1;          // of the picture, that is looked at
   cv::Size size;            // of the straightened pictures
   double key_scale = 1.0;   // pixels of the key picture a straightened one
   cv::Matx33d to_straight;  // of the picture looked at last
   cv::Matx33d key_to_picture;
-  cv::Mat cut, straight, mask, contrast;
+  cv::Mat cut, straight, key_straight, mask, contrast;
+  SlopePicture slopes;
   std::vector<cv::Mat> key_pyramid, pyramid;
   std::vector<Track> points;
   std::size_t found = 0;
@@ -94,11 +110,17 @@ struct InteriorFollower::Impl {
 
 void InteriorFollower::Impl::straighten(const cv::Mat& image, const Quadrilateral& corners) {
   to_straight = straightening(corners, size);
-  cv::warpPerspective(image, cut, to_straight, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  if (cut.channels() == 3)
-    cv::cvtColor(cut, straight, cv::COLOR_BGR2GRAY);
+  const cv::Rect part = around(corners) & cv::Rect(0, 0, image.cols, image.rows);
+  if (part.empty()) {
+    straight = cv::Mat::zeros(size, CV_8UC1);
+    return;
+  }
+  if (image.channels() == 3)
+    cv::extractChannel(image(part), cut, channel);
   else
-    cut.copyTo(straight);
+    cut = image(part);
+  const cv::Matx33d from_part(1, 0, part.x, 0, 1, part.y, 0, 0, 1);
+  cv::warpPerspective(cut, straight, to_straight * from_part, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::GaussianBlur(straight, straight, cv::Size(), kBlur_px);
 }
 
@@ -107,6 +129,7 @@ void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservati
   size = straightenedSize(window.corners, params.most_px);
   if (std::min(size.width, size.height) < kLeastSide_px) return;
   straighten(image, window.corners);
+  if (image.channels() == 3) chooseChannel(image, window.corners);
   cv::buildOpticalFlowPyramid(straight, key_pyramid, {kReach, kReach}, kLevels, true);
   key_to_picture = to_straight.inv();
   key_scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
@@ -117,6 +140,19 @@ void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservati
   findPoints();
   found = points.size();
   has_key = true;
+}
+
+// That in which most is to be seen: a brown cupboard before a blue wall may be as bright as the wall.
+void InteriorFollower::Impl::chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
+  int most = -1, best = 1;
+  for (channel = 0; channel < 3; ++channel) {
+    straighten(image, corners);
+    slopes.take(straight);
+    const int steep = slopes.steeperThan(params.least_slope);
+    if (steep > most) most = steep, best = channel;
+  }
+  channel = best;
+  straighten(image, corners);
 }
 
 // The strongest corners, each some way from the others; what the margin shows may be the reveal.
@@ -133,7 +169,32 @@ void InteriorFollower::Impl::findPoints() {
       mask.at<unsigned char>(y, x) = contrast.at<float>(y, x) >= params.min_contrast ? 255 : 0;
   cv::goodFeaturesToTrack(straight, from, params.max_points, 1e-3,
                           std::max(4.0, kSpacing * std::max(size.width, size.height)), mask, kGradientBlock);
-  for (const cv::Point2f& p : from) points.push_back({static_cast<std::uint16_t>(points.size()), p, p});
+  for (const cv::Point2f& p : from) points.push_back({static_cast<std::uint16_t>(points.size()), p, p, {}});
+  findEdges(inner);
+}
+
+void InteriorFollower::Impl::findEdges(const cv::Rect& inner) {
+  straight.copyTo(key_straight);
+  slopes.take(straight);
+  const int spacing = std::max(6, static_cast<int>(kSpacing * std::max(size.width, size.height)));
+  const auto corners = static_cast<std::ptrdiff_t>(points.size());
+  for (const EdgePoint& edge :
+       slopes.steepest(inner, spacing, params.least_slope, static_cast<std::size_t>(params.max_edges))) {
+    const bool is_corner = std::any_of(points.begin(), points.begin() + corners, [&](const Track& corner) {
+      return lengthOf(corner.key - edge.place) < spacing;
+    });
+    if (!is_corner)
+      points.push_back({static_cast<std::uint16_t>(points.size()), edge.place, edge.place, edge.normal});
+  }
+}
+
+bool InteriorFollower::Impl::flowAcross(Track& track) const {
+  const auto now = followAcross(key_straight, straight, {track.key, track.normal}, track.now);
+  if (!now || !lies(*now)) return false;
+  const auto again = followAcross(straight, key_straight, {*now, track.normal}, track.key);
+  if (!again || lengthOf(*again - track.key) > params.max_return_px) return false;
+  track.now = *now;
+  return true;
 }
 
 bool InteriorFollower::Impl::lies(const cv::Point2f& p) const {
@@ -142,9 +203,20 @@ bool InteriorFollower::Impl::lies(const cv::Point2f& p) const {
          p.y <= static_cast<float>(size.height) - 1.0f - side;
 }
 
+// Corners come first.
 void InteriorFollower::Impl::flow() {
+  flowCorners();
+  std::size_t kept = 0;
+  for (Track& track : points)
+    if (!track.isEdge() || flowAcross(track)) points[kept++] = track;
+  points.resize(kept);
+}
+
+void InteriorFollower::Impl::flowCorners() {
   from.clear(), to.clear();
-  for (const Track& track : points) from.push_back(track.key), to.push_back(track.now);
+  for (const Track& track : points)
+    if (!track.isEdge()) from.push_back(track.key), to.push_back(track.now);
+  if (from.empty()) return;
   back = from;
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.02);
   cv::buildOpticalFlowPyramid(straight, pyramid, {kReach, kReach}, kLevels, true);
@@ -153,12 +225,13 @@ void InteriorFollower::Impl::flow() {
   cv::calcOpticalFlowPyrLK(pyramid, key_pyramid, to, back, here, error, {kReach, kReach}, kLevels, until,
                            cv::OPTFLOW_USE_INITIAL_FLOW);
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
     if (!there[i] || !here[i] || lengthOf(back[i] - from[i]) > params.max_return_px || !lies(to[i])) continue;
     points[kept] = points[i];
     points[kept++].now = to[i];
   }
-  points.resize(kept);
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(kept),
+               points.begin() + static_cast<std::ptrdiff_t>(from.size()));
 }
 
 void InteriorFollower::Impl::report(WindowObservation& window) {
@@ -166,8 +239,16 @@ void InteriorFollower::Impl::report(WindowObservation& window) {
   const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.sigma_px = params.flow_sigma_px * std::max(scale, 1.0);
   tracks.points.clear();
-  for (const Track& track : points)
-    tracks.points.push_back({track.id, mapped(key_to_picture, track.key), mapped(to_picture, track.now)});
+  for (const Track& track : points) {
+    const Eigen::Vector2d now = mapped(to_picture, track.now);
+    Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+    if (track.isEdge()) {
+      const cv::Point2f beside = track.now + cv::Point2f(-track.normal.y, track.normal.x);
+      const Eigen::Vector2d along = (mapped(to_picture, beside) - now).normalized();
+      normal = {along.y(), -along.x()};
+    }
+    tracks.points.push_back({track.id, mapped(key_to_picture, track.key), now, normal});
+  }
   window.interior = tracks;
 }
 
@@ -175,8 +256,9 @@ bool InteriorFollower::Impl::isWornOut(const WindowObservation& window) const {
   const double growth = std::sqrt(geometry::signedArea(window.corners) / size.area()) / key_scale;
   const double left = static_cast<double>(points.size());
   return growth > params.max_growth || growth < 1.0 / params.max_growth ||
-         window.stamp_sec - tracks.key_stamp_sec > params.max_key_age_sec || left < params.min_points ||
-         left < params.min_shared * static_cast<double>(found);
+         window.stamp_sec - tracks.key_stamp_sec > params.max_key_age_sec ||
+         (window.stamp_sec - tracks.key_stamp_sec > kLeastAge_sec &&
+          (left < params.min_points || left < params.min_shared * static_cast<double>(found)));
 }
 
 InteriorFollower::InteriorFollower(const FollowerParams& params) : impl_(std::make_unique<Impl>(params)) {

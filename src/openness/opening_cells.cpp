@@ -24,13 +24,15 @@ void OpeningCells::see(const Eigen::Vector2d& place, double log_odds) {
   if (!place.allFinite() || !std::isfinite(log_odds) || (place.array() < 0.0).any() ||
       (place.array() > 1.0).any())
     return;
-  const int x = std::min(kSide - 1, static_cast<int>(place.x() * kSide));
-  const int y = std::min(kSide - 1, static_cast<int>(place.y() * kSide));
-  const Eigen::Vector2d within = kSide * place - Eigen::Vector2d(x, y);
-  if (within.minCoeff() < kRim || within.maxCoeff() > 1.0 - kRim) return;
-  auto& cells = log_odds > 0.0 ? open_ : closed_;
-  float& cell = cells[static_cast<std::size_t>(y * kSide + x)];
-  cell = std::max(cell, static_cast<float>(std::abs(log_odds)));
+  const float odds = std::min(kMost, static_cast<float>(std::abs(log_odds)));
+  const double rim = log_odds > 0.0 ? kRim : 0.0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const Eigen::Vector2d within = kSide * place - Eigen::Vector2d(x, y);
+      if (within.minCoeff() < rim || within.maxCoeff() > 1.0 - rim) continue;
+      float& cell = (log_odds > 0.0 ? open_ : closed_)[static_cast<std::size_t>(y * kSide + x)];
+      cell = std::max(cell, odds);
+    }
 }
 
 bool OpeningCells::isClosed(int x, int y) const {

@@ -91,6 +91,7 @@ OpennessJudge::Count OpennessJudge::counted() const {
   all.log_odds = std::clamp(all.log_odds + says_.log_odds, -kMostTotal, kMostTotal);
   all.open += says_.log_odds >= kSays;
   all.closed += says_.log_odds <= -kSays;
+  all.moving += says_.is_moving;
   return all;
 }
 
@@ -138,8 +139,10 @@ void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T
   if (!pair || pair->baselineM() < params_.min_baseline_m) return;
   const Eigen::Vector3d eye = T_odom_window.inverse() * T_odom_camera.translation();
   for (const detection::InteriorPoint& point : window.interior.points) {
-    const auto look = pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px));
-    if (look) stretch_.see(point.id, *look, passesReveal(look->place, eye, opening, params_.reveal_depth_m));
+    const auto look = pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px), point.normal);
+    if (!look) continue;
+    const bool through = passesReveal(look->place, eye, opening, params_.reveal_depth_m);
+    stretch_.see(point.id, *look, through);
   }
   const DepthParts parts = DepthParts::at(pair->distanceM(), params_);
   stretch_.mark(parts, params_, cells_);
@@ -158,7 +161,8 @@ void OpennessJudge::conclude() {
   const bool is_new = says_.depth_sigma_m > 0.0;
   verdict.depth_behind_m = is_new ? says_.depth_m : verdict_.depth_behind_m;
   verdict.depth_sigma_m = is_new ? says_.depth_sigma_m : verdict_.depth_sigma_m;
-  const bool sure_open = all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed;
+  const bool sure_open =
+      all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed + 2 * all.moving;
   const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;
@@ -171,6 +175,9 @@ void OpennessJudge::conclude() {
     verdict.reason = text("deeper than a room: %.1f m; a mirror shows that, too", verdict.depth_behind_m);
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
     verdict.reason = text("%.0f stretches of the flight say open, %.0f closed", all.open, all.closed);
+  } else if (all.moving > 0 && !sure_open) {
+    verdict.reason = text("something moved by itself on %.0f stretches of the flight, log odds %.1f",
+                          all.moving, all.log_odds);
   } else if (!sure_open) {
     verdict.reason = text("%.0f points followed, log odds %.1f", says_.points, all.log_odds);
   } else if (share.closed > kMostClosed) {

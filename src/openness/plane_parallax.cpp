@@ -70,12 +70,17 @@ double PlaneParallax::borderVariance(const Vector2d& place, const Vector2d& alon
   return variance;
 }
 
-std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vector2d& now_px) const {
+std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vector2d& now_px,
+                                               const Vector2d& normal) const {
   const Vector3d plane = H_ * key_px.homogeneous();
   const Vector3d shift = epipole_ * normal_.dot(K_inverse_ * key_px.homogeneous());
   // now x (plane - part * shift) = 0, divided by the point's own depth: two equations in pixels.
-  const Vector2d by_part = shift.head<2>() - now_px * shift.z();
-  const Vector2d off = plane.head<2>() - now_px * plane.z();
+  Vector2d by_part = shift.head<2>() - now_px * shift.z();
+  Vector2d off = plane.head<2>() - now_px * plane.z();
+  if (!normal.isZero(0.0)) {
+    by_part = normal.dot(by_part) * normal;
+    off = normal.dot(off) * normal;
+  }
   const double squares = by_part.squaredNorm();
   PointParallax point;
   point.part = by_part.dot(off) / squares;

@@ -45,7 +45,8 @@ void StretchEvidence::mark(const DepthParts& parts, const OpennessParams& params
     entry.current = false;
     if (!is_new || !entry.track.isTested() || !entry.track.isSteady(params.max_sigmas)) continue;
     const double log_odds = parts.logOdds(entry.track.best().part, entry.track.best().part_sigma);
-    if (log_odds > 0.0 || entry.through) cells.see(entry.track.last().place, log_odds);
+    if (log_odds < 0.0 && !entry.through) continue;
+    cells.see(entry.track.last().place, log_odds);
   }
 }
 

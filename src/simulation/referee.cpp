@@ -116,14 +116,18 @@ void Referee::watchStanding(const Sample& now, double speed_mps) {
 }
 
 Verdict Referee::judge(Claim claim, double mission_start_sec) const {
+  const auto sinceStart = [&](double sec) { return sec - mission_start_sec; };  // as all times that are told
   const bool crossed_inside = crossing_ && crossing_->inside;
-  if (touched()) return {Outcome::kCollision, "touched " + contact_ + text(" at %.2f s", contact_time_sec_)};
+  if (touched())
+    return {Outcome::kCollision, "touched " + contact_ + text(" at %.2f s", sinceStart(contact_time_sec_))};
   if (crossed_inside && stood_behind_)
-    return {Outcome::kPassed, text("crossed at %.2f s, %+.3f m left and %+.3f m up of the centre",
-                                   crossing_->time_sec, crossing_->offset_y_m, crossing_->offset_z_m)};
+    return {Outcome::kPassed,
+            text("crossed at %.2f s, %+.3f m left and %+.3f m up of the centre",
+                 sinceStart(crossing_->time_sec), crossing_->offset_y_m, crossing_->offset_z_m)};
   if (claim == Claim::kPassed && !crossed_inside)
-    return {Outcome::kFalseIngress, text("claims to have passed at %.2f s and has not", time_sec_)};
-  if (claim == Claim::kAborted) return {Outcome::kAborted, text("gave up at %.2f s", time_sec_)};
+    return {Outcome::kFalseIngress,
+            text("claims to have passed at %.2f s and has not", sinceStart(time_sec_))};
+  if (claim == Claim::kAborted) return {Outcome::kAborted, text("gave up at %.2f s", sinceStart(time_sec_))};
   if (time_sec_ - mission_start_sec >= course_.time_limit_sec)
     return {Outcome::kTimeout, text("not done after %.1f s", course_.time_limit_sec)};
   return {Outcome::kRunning, ""};

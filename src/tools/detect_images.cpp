@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "params_file.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
@@ -67,7 +68,7 @@ Options parse(int argc, char** argv) {
       ("reference", po::value(&o.reference), "picture of the target with its frame")                      //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses")     //
-      ("params", po::value(&o.params), "yaml file with a section 'detector'")                             //
+      ("params", po::value(&o.params), "yaml file with sections 'detector', 'reference'")                 //
       ("track", po::bool_switch(&o.track), "the pictures are a sequence: follow the window through it")   //
       ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: pictures a second")        //
       ("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
@@ -129,15 +130,15 @@ cv::Mat readPicture(const std::string& file) {
   }
 }
 
-detection::ReferenceAppearance readReference(const Options& o, const detection::DetectorParams& params) {
-  const cv::Mat picture = fs::exists(o.reference) ? readPicture(o.reference) : cv::Mat();
+detection::ReferenceAppearance readReference(const std::string& file, const std::vector<double>& v,
+                                             const detection::DetectorParams& params) {
+  const cv::Mat picture = fs::exists(file) ? readPicture(file) : cv::Mat();
   if (picture.empty())
-    throw UsageError(o.reference + ": cannot be read as a picture; give --reference a photograph");
-  if (o.corners.empty()) return detection::referenceFromPicture(picture, params);
-  const auto v = numbers("--reference-corners", o.corners, 8);
+    throw UsageError(file + ": cannot be read as a picture; give --reference a photograph");
+  if (v.empty()) return detection::referenceFromPicture(picture, params);
   const auto quad = geometry::canonical({Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]),
                                          Eigen::Vector2d(v[4], v[5]), Eigen::Vector2d(v[6], v[7])});
-  if (!quad) throw UsageError("--reference-corners: '" + o.corners + "' is no convex quadrilateral");
+  if (!quad) throw UsageError("--reference-corners: no convex quadrilateral");
   if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *quad); !fault.empty())
     throw UsageError("--reference-corners: " + fault);
   return detection::ReferenceAppearance(picture, *quad);
@@ -145,10 +146,12 @@ detection::ReferenceAppearance readReference(const Options& o, const detection::
 
 Job prepare(const Options& o) {
   Job job;
-  if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", job.params))
-    throw UsageError(o.params + ": no section 'detector' in this file");
+  std::string reference = o.reference;
+  std::vector<double> corners;
+  if (!o.corners.empty()) corners = numbers("--reference-corners", o.corners, 8);
+  tools::readParams(o.params, job.params, reference, corners);
   if (!o.camera.empty()) job.camera = parameters::readCalibrationFile(o.camera);
-  if (!o.reference.empty()) job.reference = readReference(o, job.params);
+  if (!reference.empty()) job.reference = readReference(reference, corners, job.params);
   if (!o.size.empty()) {
     pose::PoseParams params;
     const auto size = numbers("--window-size", o.size, 2);
@@ -242,7 +245,7 @@ int run(const Options& options) {
   std::ofstream output(options.output);
   if (!output) throw UsageError(options.output + ": cannot be written");
   output << "file," << evaluation::detectionColumns() << finder.columns() << "\n";
-  int unreadable = 0;
+  int unreadable = 0, found = 0;
   auto next_report = Clock::now() + std::chrono::seconds(5);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const cv::Mat picture = readPicture(pictures[i]);
@@ -254,6 +257,7 @@ int run(const Options& options) {
       std::cerr << "detect_images: " << pictures[i] << ": cannot be read as a picture; skipped" << std::endl;
     } else {
       row = process(picture, job, finder);
+      found += row.window.has_value();
       if (!job.overlay.empty()) writeOverlay(pictures[i], picture, finder, row, job.overlay);
     }
     output << evaluation::csvField(pictures[i]) << "," << evaluation::detectionValues(row)
@@ -264,6 +268,8 @@ int run(const Options& options) {
   }
   output.flush();
   if (!output) throw JobError(options.output + ": writing failed; is the disk full?");
+  std::cout << "a window in " << found << " of " << pictures.size() << " pictures; see " << options.output
+            << (job.overlay.empty() ? "" : " and " + job.overlay) << std::endl;
   return unreadable ? 1 : 0;
 }
 

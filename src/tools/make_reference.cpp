@@ -24,10 +24,15 @@ namespace options = boost::program_options;
 using namespace window_ingress;
 using tools::UsageError;
 
-constexpr int kMostPx = 1200;  // of the picture on the screen
+constexpr double kMostPx = 1200.0;  // of the picture on the screen
 constexpr int kLens = 60, kZoom = 5;
-constexpr double kFitRadiusPx = 6.0;
-const char* const kWindow = "inner corners of the opening: top left, then clockwise";
+constexpr double kFitRadiusPx = 6.0;  // on the screen
+const char* const kWindow = "make_reference";
+// What the title asks for, by the number of corners there are.
+const char* const kNext[] = {
+    "click the top left inner corner of the opening", "click the top right inner corner",
+    "click the bottom right inner corner", "click the bottom left inner corner",
+    "four corners: Enter saves, f fits them to the edges, u takes the last one back"};
 
 struct Job {
   std::string picture, output = "reference.png", corners, params;
@@ -67,8 +72,9 @@ std::optional<std::vector<double>> fitted(const cv::Mat& picture, const std::vec
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto canonical = geometry::canonical(quad);
   if (!canonical) return std::nullopt;
+  const double radius_px = kFitRadiusPx * std::max(1.0, std::max(picture.cols, picture.rows) / kMostPx);
   const auto borders =
-      detection::BorderRefinement(params.refinement).run(picture, {*canonical, kFitRadiusPx}, nullptr);
+      detection::BorderRefinement(params.refinement).run(picture, {*canonical, radius_px}, nullptr);
   if (!borders) return std::nullopt;
   std::vector<double> result;
   for (const auto& corner : borders->corners) result.insert(result.end(), {corner.x(), corner.y()});
@@ -81,7 +87,7 @@ class Clicking {
   Clicking(const cv::Mat& picture, const detection::DetectorParams& params)
       : picture_(picture),
         params_(params),
-        scale_(std::min(1.0, static_cast<double>(kMostPx) / std::max(picture.cols, picture.rows))) {
+        scale_(std::min(1.0, kMostPx / std::max(picture.cols, picture.rows))) {
     cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
     cv::setMouseCallback(kWindow, onMouse, this);
   }
@@ -91,6 +97,7 @@ class Clicking {
     for (;;) {
       draw();
       const int key = cv::waitKey(30) & 0xff;
+      cv::setWindowTitle(kWindow, kNext[points_.size()]);  // what is asked for is on the screen by now
       if (key == 'q' || key == 27) return std::nullopt;
       if (key == 'u' && !points_.empty()) points_.pop_back();
       if (points_.size() < 4) continue;

@@ -19,6 +19,7 @@
 #include "adapters/replay_facts.hpp"
 #include "adapters/replay_tables.hpp"
 #include "command_line.hpp"
+#include "params_file.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
 namespace fs = std::filesystem;
@@ -53,7 +54,7 @@ Options parse(int argc, char** argv) {
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; without it no poses")      //
       ("params", po::value(&o.params),
-       "yaml file with sections 'detector', 'pose', 'filter', 'tracker', 'interior'")  //
+       "yaml file with sections 'detector', 'reference', 'pose', 'filter', 'tracker', 'interior'")  //
       ("truth", po::value(&o.topics.truth), "PoseStamped with the true T_camera_window, by stamp");
   po::variables_map values;
   try {
@@ -83,7 +84,10 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
     parameters::readYamlFile(o.params, "tracker", params.tracker);
     parameters::readYamlFile(o.params, "interior", params.interior);
   }
-  if (!o.reference.picture.empty()) params.reference = adapters::loadReference(o.reference, params.detector);
+  adapters::ReferenceParams reference = o.reference;
+  if (!o.params.empty() && reference.picture.empty())
+    tools::readReferenceSection(o.params, reference.picture, reference.corners);
+  if (!reference.picture.empty()) params.reference = adapters::loadReference(reference, params.detector);
   params.with_pose = !o.size.empty();
   if (!params.with_pose) return params;
   const std::vector<double> size = numbers("--window-size", o.size, 2);

@@ -16,6 +16,7 @@
 #include "adapters/reference_source.hpp"
 #include "command_line.hpp"
 #include "display.hpp"
+#include "params_file.hpp"
 #include "tuning_bench.hpp"
 #include "tuning_source.hpp"
 #include "window_ingress/evaluation/statistics.hpp"
@@ -52,8 +53,9 @@ options::options_description describe(Job& job) {
   description.add_options()("help", "print this text")      //
       ("source", options::value(&job.source), "see above")  //
       ("output", options::value(&job.output),
-       "yaml file with what differs from the defaults, for config:= and --params")                  //
-      ("params", options::value(&job.params), "yaml file with a section 'detector' to start from")  //
+       "yaml file with what differs from the defaults, for config:= and --params")  //
+      ("params", options::value(&job.params),
+       "yaml file to start from, with sections 'detector', 'reference'")  //
       ("set", options::value(&job.settings)->composing(),
        "NAME=VALUE, like edges/floor=4.5; may be repeated")                           //
       ("reference", options::value(&job.reference.picture), "picture of the target")  //
@@ -206,11 +208,10 @@ int run(Job job) {
   if (!job.headless && job.output.empty())
     throw UsageError("--output is missing: where 's' saves; see --help");
   detection::DetectorParams start;
-  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", start))
-    throw UsageError(job.params + ": no section 'detector' in this file");
+  if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
+  tools::readParams(job.params, start, job.reference.picture, job.reference.corners);
   const auto fields = parameters::fieldsOf(start);
   for (const std::string& setting : job.settings) parameters::assign(fields, setting);
-  if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
   std::optional<detection::ReferenceAppearance> reference;
   if (!job.reference.picture.empty()) reference = adapters::loadReference(job.reference, start);
   const auto source = tools::openSource(job.source, job.topic, job.every, job.most);

@@ -15,6 +15,7 @@
 #include "adapters/parameters.hpp"
 #include "adapters/reference_source.hpp"
 #include "command_line.hpp"
+#include "params_file.hpp"
 #include "window_ingress/evaluation/detector_tuning.hpp"
 #include "window_ingress/parameters/field_list.hpp"
 
@@ -61,12 +62,13 @@ options::options_description describe(Job& job) {
       ("every", options::value(&job.every)->default_value(1), "take one picture of a bag in so many")      //
       ("reference", options::value(&job.reference.picture), "picture of the target")                       //
       ("reference-corners", options::value(&job.corners),
-       "x1,y1,...,x4,y4: inner border of the opening in it")                                        //
-      ("params", options::value(&job.params), "yaml file with a section 'detector' to start from")  //
+       "x1,y1,...,x4,y4: inner border of the opening in it")  //
+      ("params", options::value(&job.params),
+       "yaml file to start from, with sections 'detector', 'reference'")  //
       ("names", options::value(&job.names),
        "parameters that may be changed, with commas between, like edges/floor")       //
       ("trials", options::value(&job.trials)->default_value(120), "settings to try")  //
-      ("held-out", options::value(&job.held_out)->default_value(0.4),
+      ("held-out", options::value(&job.held_out)->default_value(0.4, "0.4"),
        "part of the groups that judges only")  //
       ("seed", options::value(&job.seed)->default_value(1), "of the parts and of the search");
   return description;
@@ -146,10 +148,9 @@ void write(const std::string& file, const detection::DetectorParams& tuned, cons
 int run(const Job& job) {
   check(job);
   detection::DetectorParams start;
-  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", start))
-    throw UsageError(job.params + ": no section 'detector' in this file");
   adapters::ReferenceParams wanted = job.reference;
   if (!job.corners.empty()) wanted.corners = tools::numbers("--reference-corners", job.corners, 8);
+  tools::readParams(job.params, start, wanted.picture, wanted.corners);
   std::optional<detection::ReferenceAppearance> reference;
   if (!wanted.picture.empty()) reference = adapters::loadReference(wanted, start);
   const detection::ReferenceAppearance* const given = reference ? &*reference : nullptr;

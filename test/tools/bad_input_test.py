@@ -184,3 +184,22 @@ def test_stages_refuse_a_distance_that_is_none(tmp_path, distance):
 def test_stages_refuse_an_angle_without_a_distance(tmp_path):
     result = run("draw_stages", "--scenario", NOMINAL, "--off-axis", "0.3", "--output", tmp_path / "sheet.jpg")
     assert_refused(result, 2, "--off-axis", "--distance")
+
+
+def test_what_is_not_there_is_said_with_what_builds_it():
+    assert_refused(run("no_such_tool"), 2, "no tool, node or command 'no_such_tool'", "scripts/build")
+
+
+def reference_of(tmp_path, picture, text):
+    file = tmp_path / "window.yaml"
+    file.write_text(text.format(picture))
+    return run("detect_images", "--output", tmp_path / "found.csv", "--params", file, picture)
+
+
+def test_a_reference_file_is_taken_as_params(tmp_path, picture):
+    whole = "window_detector: {{reference: {{picture: '{}', corners: [40.5, 30, 120, 30, 120, 90, 40, 90]}}}}"
+    done = reference_of(tmp_path, picture, whole)
+    assert done.returncode == 0 and "a window in 0 of 1 pictures" in done.stdout, done.stderr
+    assert_refused(reference_of(tmp_path, picture, "window_detector: {{reference: {{picture: '{}', corners: [1, 2]}}}}"), 2, "eight numbers")
+    assert_refused(reference_of(tmp_path, picture, "reference: {{picture: '{}.none'}}"), 2, "cannot be read as a picture")
+    assert_refused(reference_of(tmp_path, picture, "navigator: {{}}  # {}"), 2, "no section 'detector' or 'reference'")

@@ -30,6 +30,15 @@ def anchors(text):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
+def test_every_reason_of_refusal_is_explained():
+    source = (ROOT / "src/detection/detection_trace.cpp").read_text(encoding="utf-8")
+    names = set(re.findall(r'return \{"(\w+)"', source)) - {"none", "unknown"}
+    table = dict(re.findall(r"^\| `(\w+)` \| (.+) \|$", (ROOT / "doc/detection.md").read_text(encoding="utf-8"), flags=re.M))
+    page = dict(re.findall(r'^    "(\w+)": "(.+)",$', (ROOT / "scripts/report_replay.py").read_text(encoding="utf-8"), flags=re.M))
+    assert len(names) > 15 and names <= set(table)
+    assert page == {name: table[name] for name in page} and names <= set(page)
+
+
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda file: file.name)
 def test_links_lead_somewhere(document):
     for link in LINK.findall(outside_code(document.read_text())):

@@ -114,6 +114,24 @@ def test_a_replay_moves_recorded_outputs_aside_and_commands_nobody():
     assert "/ingress_navigator" not in dump("replay")["nodes"]
 
 
+def test_a_replay_in_rviz_waits_for_it_and_stays_until_it_is_closed():
+    alone, seen = dump("replay")["nodes"], dump("replay", "rviz:=true")["nodes"]
+    assert alone["/play"]["required"] and not seen["/play"]["required"] and seen["/rviz"]["required"]
+    assert "--delay 2.0" in alone["/play"]["args"] and "--delay 8.0" in seen["/play"]["args"]
+    assert dump("replay", "rviz:=true", "stay:=false")["nodes"]["/play"]["required"]
+
+
+@pytest.mark.parametrize("name", ["ingress", "replay", "px4", "ardupilot"])
+def test_size_and_corners_are_given_as_to_the_tools(name):
+    size, corners = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/corners"
+    params = dump(name)["params"]
+    assert (params[size.format("width")], params[size.format("height")], params[corners]) == (1.2, 1.0, [])
+    for brackets in ("{}", "[{}]"):
+        params = dump(name, "window_size:=" + brackets.format("1.3,1.1"), "reference_corners:=" + brackets.format("1.5, 2,3,2,3,4,1,4"))["params"]
+        assert (params[size.format("width")], params[size.format("height")]) == (1.3, 1.1)
+        assert params[corners] == [1.5, 2, 3, 2, 3, 4, 1, 4]
+
+
 def recorded(*arguments):
     """Arguments of rosbag record."""
     return dump("record", *arguments)["nodes"]["/recorder"]["args"].split()

@@ -141,19 +141,19 @@ def fixture_display(screen):
     return screen
 
 
-def press(display, window, *actions):
-    """Keys, or clicks "x,y", for a window by its name."""
-    environment = {**os.environ, "DISPLAY": display}
-    found = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", window], env=environment, timeout=60,
-                           capture_output=True, text=True, check=True).stdout.split()[0]
-    for action in actions:
-        if "," in action:
-            x, y = action.split(",")
-            command = ["mousemove", "--window", found, x, y, "click", "1"]
-        else:
-            command = ["key", "--window", found, action]
-        subprocess.run(["xdotool", *command], env=environment, timeout=60, check=True)
-        time.sleep(0.7)  # highgui keeps only the last key of those that come between two looks
+def titled(display, title):
+    """A window, once it has this title."""
+    return subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", title], env={**os.environ, "DISPLAY": display},
+                          timeout=60, capture_output=True, text=True, check=True).stdout.split()[0]
+
+
+def press(display, window, action):
+    """A key, or a click "x,y". What it leads to has to be awaited: highgui keeps only the last key between two looks."""
+    if "," in action:
+        command = ["mousemove", "--window", window, *action.split(","), "click", "1"]
+    else:
+        command = ["key", "--window", window, action]
+    subprocess.run(["xdotool", *command], env={**os.environ, "DISPLAY": display}, timeout=60, check=True)
 
 
 def test_trackbars_open_and_what_they_show_is_saved(labelled, tmp_path, display):
@@ -161,7 +161,16 @@ def test_trackbars_open_and_what_they_show_is_saved(labelled, tmp_path, display)
     process = subprocess.Popen([str(ROOT / "scripts/run"), "tune_detector", str(labelled), "--output", str(saved), "--set",
                                 "edges/floor=4.5"], env={**os.environ, "DISPLAY": display}, stdout=subprocess.PIPE, text=True)
     try:
-        press(display, r"\.png \(", "g", "n", "s", "q")
+        stages = titled(display, r"a\.png \(")
+        titled(display, "parameters: preprocess")
+        for key, shown in (("g", "parameters: edges"), ("n", r"b\.png \(")):
+            press(display, stages, key)
+            titled(display, shown)
+        press(display, stages, "s")
+        end = time.monotonic() + 30.0
+        while not saved.exists() and time.monotonic() < end:
+            time.sleep(0.05)
+        press(display, stages, "q")
         said, _ = process.communicate(timeout=60)
     finally:
         process.kill()
@@ -248,7 +257,9 @@ def test_corners_are_clicked(labelled, tmp_path, display):
     process = subprocess.Popen([str(ROOT / "scripts/run"), "make_reference", str(labelled / "a.png"), "--output", str(tmp_path / "a.png")],
                                env={**os.environ, "DISPLAY": display}, stdout=subprocess.PIPE, text=True)
     try:
-        press(display, "inner corners", *(f"{x},{y}" for x, y in true), "Return")
+        for name, (x, y) in zip(("top left", "top right", "bottom right", "bottom left"), true):
+            press(display, titled(display, f"click the {name} inner corner"), f"{x},{y}")
+        press(display, titled(display, "four corners"), "Return")
         process.communicate(timeout=120)
     finally:
         process.kill()

@@ -15,6 +15,9 @@ struct InteriorPoint {
   std::uint16_t id = 0;  ///< the same in all pictures that are compared with one key picture
   Eigen::Vector2d key_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d now_px = Eigen::Vector2d::Zero();
+  /// Of a point on an edge: the direction across it in this picture, in which alone its place is known. Zero
+  /// of a corner, whose place is known in both directions.
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
 };
 
 /// What became, since a key picture, of the texture that is seen within the opening. Without points: nothing

@@ -20,7 +20,8 @@ class Lettering {
     bool swatch = false;  ///< a patch of the colour before the text, which is then white
   };
 
-  /// A dark box with these lines in a corner of the canvas, as many as fit into `part` of its height.
+  /// A dark box with these lines in a corner of the canvas that is free, else in the upper left one; as many
+  /// as fit into `part` of its height. The footer, if there is to be one, comes first.
   void box(const std::vector<Line>& lines, double part = 0.6);
 
   /// One line along the lower border; its end is cut off if it is too long.
@@ -39,6 +40,7 @@ class Lettering {
   void backdrop(const cv::Rect& area);
   void write(const std::string& text, const cv::Point& baseline, const cv::Scalar& colour);
   bool isFree(const cv::Rect& area) const;
+  cv::Point freeCorner(const cv::Size& size) const;
 
   cv::Mat& canvas_;
   double scale_;

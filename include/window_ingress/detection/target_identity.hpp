@@ -21,6 +21,10 @@ class TargetIdentity {
   void follow(double stamp_sec);
   /// A search found a window: the old number if it is the old window, else a new one.
   void found(bool is_same, double stamp_sec);
+  /// Something else knows where the window is: it is waited for.
+  void expect(double stamp_sec);
+  /// Another window is to be found from here on.
+  void change() { ++id_, forget(); }
   /// The place of the old window is still known well enough to say which one it is.
   /// \param place_given something else than the image says where it is
   bool remembers(double stamp_sec, bool place_given) const;

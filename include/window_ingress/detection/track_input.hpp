@@ -17,6 +17,8 @@ struct TrackInput {
   std::optional<Eigen::Matrix3d> R_world_camera;     ///< attitude at the exposure, if known
   std::optional<geometry::Quadrilateral> predicted;  ///< where pose and odometry say the window is, in
                                                      ///< pixels of the image as it came, if known
+  /// Where the memory of all windows says the target is, if it knows: nothing else is the target. Likewise.
+  std::optional<geometry::Quadrilateral> expected;
 };
 
 }  // namespace window_ingress::detection

@@ -31,7 +31,8 @@ struct TrackParams {
   double adapt_certainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
   int confirmations =
       3;  ///< searches that must agree with a new track, or name another place, to be believed
-  int question_every = 2;  ///< frames between such searches
+  int question_every = 2;   ///< frames between such searches
+  double survey_sec = 1.0;  ///< between looks for all windows in view, while one is followed; 0: none [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -60,6 +61,7 @@ struct TrackParams {
     field("adapt_certainty", self.adapt_certainty, 0.0, 1.0);
     field("confirmations", self.confirmations, 1, 100);
     field("question_every", self.question_every, 1, 1000);
+    field("survey_sec", self.survey_sec, 0.0, 60.0);
   }
 };
 

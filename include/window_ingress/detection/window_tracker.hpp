@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/stage_watch.hpp"
 #include "window_ingress/detection/track_input.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -30,6 +32,10 @@ namespace window_ingress::detection {
 /// certain. A track that no longer looks like the reference is doubtful, and searches are asked; that alone
 /// never ends it.
 ///
+/// Where something else knows the place of the target (`TrackInput::expected`), the search waits for it
+/// there, and a track of another window is given up for it. While a window is followed, the picture is
+/// searched every `TrackParams::survey_sec` all the same: for the other windows in it, not for the track.
+///
 /// `target_id`: see `TargetIdentity`. While a settled track is lost, another window in view is no target
 /// until the old one is forgotten (`TrackParams::reacquire_sec`); it then gets a new number.
 ///
@@ -52,6 +58,8 @@ class WindowTracker {
 
   void setWatch(StageWatch* watch);  ///< as `WindowDetector::setWatch`; following is a stage, too
 
+  /// The windows of the last frame: the target if it is whole, and, where the frame was searched, all others.
+  const std::vector<SeenWindow>& windows() const;
   /// What happened in the last frame: the search's trace, or that of a followed window.
   const DetectionTrace& trace() const;
   /// There is a window that is followed from here on; the last frame may have been the search that found it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ struct MissionMemory {
   std::optional<double> keeping_since_sec;                  ///< a place is wanted
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
-  std::vector<Eigen::Vector3d> closed_odom_m;   ///< openings that were seen to be closed
+  std::vector<Eigen::Vector3d> left_odom_m;     ///< windows left for good: closed, or tried in vain
+  std::vector<std::uint32_t> given_up;          ///< numbers of windows that were left, in that order
   bool opening_confirmed = false;               ///< the operator says that the window flown at is open
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
   int others = 0;            ///< how often one of these was flown at
@@ -39,8 +41,10 @@ struct MissionMemory {
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
 
-  /// The window flown at is given up.
+  /// The window flown at is flown at no longer.
   void leaveWindow();
+  /// The same for good.
+  void giveUpWindow(const TargetEstimate& window);
   /// Which window is flown at, and which not: one of them may have been misjudged.
   void forgetWindow();
   /// Everything that lives in an odometry frame.

@@ -13,6 +13,8 @@ namespace window_ingress::navigation {
 struct NavigatorInput {
   std::optional<VehicleState> vehicle;
   std::optional<TargetEstimate> target;
+  /// Where the target is by the memory of all windows, in view or not.
+  std::optional<Eigen::Vector3d> remembered_odom_m;
   /// Stamp of the last image that was searched, with or without a window in it.
   std::optional<double> image_stamp_sec;
   /// Armed and in a mode that follows setpoints; true where that is not known.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,8 @@ struct TargetEstimate {
   std::optional<double> other_window;
   /// Whether it is open, by parallax; UNKNOWN until that is seen.
   openness::OpennessVerdict openness;
+  std::uint32_t window_id =
+      0;  ///< its number in the memory of all windows; 0: not known to be the target yet
 };
 
 /// Velocity wish for the vehicle: odometry axes, yaw rate about z.

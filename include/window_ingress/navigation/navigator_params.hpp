@@ -49,6 +49,7 @@ struct SearchParams {
   double climb_speed_mps = 0.3;      ///< [m/s]
   int turns = 3;                     ///< full turns before giving up
   int found_frames = 3;              ///< different images that must show the window
+  bool next_window = false;  ///< after one that is closed or was tried in vain, the next best is flown at
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -60,6 +61,7 @@ struct SearchParams {
     field("climb_speed_mps", self.climb_speed_mps, 0.05, 2.0);
     field("turns", self.turns, 1, 100);
     field("found_frames", self.found_frames, 1, 100);
+    field("next_window", self.next_window);
   }
 };
 

@@ -19,9 +19,6 @@ std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& mem
 /// If the target was seen to be closed: remembers where, and leaves it for good.
 std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMemory& memory);
 
-/// Where a window is that was seen to be closed.
-bool isKnownClosed(const TargetEstimate& target, const MissionMemory& memory);
-
 /// Where to stand beside the window's axis to see more of what is behind it, waiting for so long: to one
 /// side, then to the other [m].
 double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params);

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/openness/openness_judge.hpp"
@@ -25,6 +27,7 @@ struct TrackerParams {
   pose::FitParams fit;
   pose::FramesParams frames;
   openness::OpennessParams openness;
+  facade::FacadeParams facade;
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -35,7 +38,17 @@ struct TrackerParams {
     field.group("fit", self.fit);
     field.group("frames", self.frames);
     field.group("openness", self.openness);
+    field.group("facade", self.facade);
   }
+};
+
+/// What the detector says of one picture, and from where it was taken.
+struct SeenPicture {
+  double stamp_sec = 0.0;
+  geometry::PinholeCamera camera;
+  std::optional<Eigen::Isometry3d> T_base_camera;  ///< without it there is a pose, but nothing for the filter
+  std::optional<detection::WindowObservation> window;  ///< the target, if it was seen
+  std::vector<detection::SeenWindow> windows;          ///< all that were
 };
 
 /// What became of the last observation.
@@ -51,6 +64,9 @@ struct TrackerUpdate {
 /// odometry, in place or heading, starts anew, but for the size of the opening; a clock that goes back by
 /// more than `PoseBuffer::kLateSec` starts everything anew (less is a sample that comes late, and left out).
 ///
+/// All windows seen are remembered (`FacadeMemory`): once the target is known, its neighbours are not taken
+/// for it, however like it they look.
+///
 /// What is said of the camera's mounting, of the velocity's frame and of a known size is verified on the way.
 class TargetTracker {
  public:
@@ -64,9 +80,22 @@ class TargetTracker {
   /// \param T_base_camera mounting of the camera; without it there is a pose, but nothing for the filter
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const std::optional<Eigen::Isometry3d>& T_base_camera);
+  void see(
+      SeenPicture picture);  ///< the same with all windows of the picture, whether or not one is the target
   /// An observation that still waits for odometry is processed with what there is.
   void flush();
   void reset();
+
+  facade::Answer selectWindow(std::uint32_t id);
+  facade::Answer selectWindowNear(const Eigen::Vector3d& point_odom_m);
+  /// What the navigator does: the window it flies at (0: none), those that it gave up, and whether it is to
+  /// get another one in place of the last of them.
+  void heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);
+  const facade::FacadeMemory& facade() const { return facade_; }
+  /// Where the target must be in a picture taken at that time, if that is known and in view (distorted
+  /// pixels).
+  std::optional<geometry::Quadrilateral> expected(double stamp_sec, const geometry::PinholeCamera& camera,
+                                                  const Eigen::Isometry3d& T_base_camera) const;
 
   std::optional<TargetEstimate> target(double now_sec) const;
   std::optional<pose::FilteredWindow> filtered(double now_sec) const { return filter_.state(now_sec); }
@@ -87,21 +116,22 @@ class TargetTracker {
   std::optional<double> otherWindow() const;
 
  private:
-  struct Pending {
-    detection::WindowObservation window;
-    geometry::PinholeCamera camera;
-    std::optional<Eigen::Isometry3d> T_base_camera;
-  };
-  void process(const Pending& pending);
-  std::string whyNotUsed(const Pending& pending);
+  void process(const SeenPicture& picture);
+  void use(const SeenPicture& picture);
+  geometry::OpeningSize lookedFor() const;
+  std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
+                                            const std::optional<Eigen::Isometry3d>& T_base_camera) const;
+  void rememberWindows(const SeenPicture& picture);
+  void startAnewIfOther(std::uint32_t target_before);
+  std::string whyNotUsed(const SeenPicture& picture);
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
-  void checkSize(const Pending& pending, const Eigen::Isometry3d& T_odom_camera);
+  void checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera);
   bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
   std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
-  std::optional<pose::GravityPrior> gravity(const Pending& pending);
-  pose::PoseResult estimate(const Pending& pending);
-  void judgeOpenness(const Pending& pending);
+  std::optional<pose::GravityPrior> gravity(const SeenPicture& picture);
+  pose::PoseResult estimate(const SeenPicture& picture);
+  void judgeOpenness(const SeenPicture& picture);
 
   TrackerParams params_;
   pose::WindowPoseEstimator estimator_;
@@ -109,12 +139,14 @@ class TargetTracker {
   pose::FramesCheck frames_;
   pose::ParallaxCheck parallax_;
   openness::OpennessJudge judge_;
+  facade::FacadeMemory facade_;
+  std::size_t heeded_ = 0;  ///< how many of those given up are known
   bool size_is_known_;
   std::uint32_t target_id_ = 0;
   pose::PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
   Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
-  std::optional<Pending> pending_;
+  std::optional<SeenPicture> pending_;
   TrackerUpdate last_;
 };
 

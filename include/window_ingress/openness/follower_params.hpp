@@ -5,9 +5,11 @@ namespace window_ingress::openness {
 /// How texture within the opening is followed; see `InteriorFollower`.
 struct FollowerParams {
   bool enabled = true;           ///< follow the texture within the opening; false costs nothing
-  int max_points = 60;           ///< followed at once
+  int max_points = 50;           ///< followed at once
   int min_points = 6;            ///< with fewer left a new key picture is taken
-  double most_px = 200.0;        ///< longer side of the straightened picture of the opening, at most [px]
+  double most_px = 160.0;        ///< longer side of the straightened picture of the opening, at most [px]
+  int max_edges = 30;            ///< points on edges, followed across them
+  double least_slope = 3.0;      ///< of an edge that is followed [grey levels a pixel]
   double margin = 0.07;          ///< beside the border that is not looked at, part of the opening's sides
   double min_contrast = 1e-4;    ///< of a point: lesser eigenvalue of the gradient's moments
   double max_return_px = 0.8;    ///< that a point may miss itself by when followed there and back [px]
@@ -22,6 +24,8 @@ struct FollowerParams {
     field("max_points", self.max_points, 8, 400);
     field("min_points", self.min_points, 4, 200);
     field("most_px", self.most_px, 48.0, 640.0);
+    field("max_edges", self.max_edges, 0, 400);
+    field("least_slope", self.least_slope, 0.5, 100.0);
     field("margin", self.margin, 0.0, 0.3);
     field("min_contrast", self.min_contrast, 1e-6, 1.0);
     field("max_return_px", self.max_return_px, 0.05, 5.0);

@@ -34,6 +34,7 @@ class OpeningCells {
   bool isClosed(int x, int y) const;
   bool isOpen(int x, int y) const;
   bool isBetweenOpen(int x, int y) const;
+  static constexpr float kMost = 12.0f;
   static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
   std::array<float, kSide * kSide> open_{}, closed_{};
 };

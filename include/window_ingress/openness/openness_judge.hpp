@@ -52,6 +52,7 @@ class OpennessJudge {
   struct Count {
     double log_odds = 0.0;
     int open = 0, closed = 0;  ///< stretches that said so
+    int moving = 0;            ///< stretches in which too much did not stand still
   };
   void close();
   void compare(const OpennessView& view, const Eigen::Isometry3d& T_odom_camera_key);

@@ -53,7 +53,9 @@ class PlaneParallax {
                                               const Errors& errors);
 
   /// Nothing if the point is not finite, or the way so short or along its sight that no depth would move it.
-  std::optional<PointParallax> of(const Eigen::Vector2d& key_px, const Eigen::Vector2d& now_px) const;
+  /// \param normal of a point on an edge: the direction in which alone its place is known; zero: in both
+  std::optional<PointParallax> of(const Eigen::Vector2d& key_px, const Eigen::Vector2d& now_px,
+                                  const Eigen::Vector2d& normal = Eigen::Vector2d::Zero()) const;
 
   double distanceM() const { return distance_m_; }  ///< of the key camera from the plane
   double baselineM() const { return baseline_m_; }  ///< length of the way between the two pictures

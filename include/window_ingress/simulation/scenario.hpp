@@ -49,6 +49,7 @@ struct Scenario {
   double time_limit_sec = 60.0;  ///< of the flight [s]
   std::string unverified_opening =
       "as_set";  ///< `commit/unverified_opening` of the navigator in `fly`; as_set: as its parameters say
+  bool target_chosen = false;  ///< somebody points at the target among the windows seen, in `fly`
   StartParams start;
   WindowParams window;
   std::vector<DecoyParams> decoys;
@@ -65,6 +66,7 @@ struct Scenario {
   static void visit(Self& self, Visitor&& field) {
     field("time_limit_sec", self.time_limit_sec, 1.0, 3600.0);
     field.choice("unverified_opening", self.unverified_opening, {"as_set", "allow", "ask", "deny"});
+    field("target_chosen", self.target_chosen);
     field.group("start", self.start);
     field.group("window", self.window);
     field.list("decoys", self.decoys);

@@ -48,7 +48,13 @@ def leaves(message, owner=()):
             found.append(((*owner, name), strategy))
         elif hasattr(part, "_slot_types"):
             found += leaves(part, (*owner, name))
+        else:
+            found += [leaf for i, item in enumerate(part) for leaf in leaves(item, (*owner, name, i))]
     return found
+
+
+def part_of(owner, name):
+    return owner[name] if isinstance(name, int) else getattr(owner, name)
 
 
 def like(sound):
@@ -61,7 +67,7 @@ def like(sound):
         for path, strategy in draw(strategies.lists(strategies.sampled_from(places), max_size=6)):
             owner = message
             for name in path[:-1]:
-                owner = getattr(owner, name)
+                owner = part_of(owner, name)
             setattr(owner, path[-1], draw(strategy))
         return message
     return build()

@@ -52,6 +52,35 @@ TEST(WindowDetection, GoesThereAndBack) {
   EXPECT_TRUE(back.value->whole());
 }
 
+TEST(WindowDetection, WhatIsFollowedWithinGoesThereAndBack) {
+  detection::WindowObservation window = makeWindow();
+  window.interior.key_stamp_sec = 11.5;
+  window.interior.key_corners = window.corners;
+  window.interior.key_covariance = window.corner_covariance;
+  window.interior.sigma_px = 0.4;
+  window.interior.points.push_back({3, {120.5, 130.25}, {121.5, 129.75}, {0.0, 0.0}});
+  window.interior.points.push_back({9, {220.5, 130.25}, {221.5, 129.75}, {0.0, 1.0}});
+  window_ingress::WindowDetection message = toMsg(window);
+  message.header.stamp = ros::Time(12.5);
+  const auto back = fromMsg(message);
+  ASSERT_TRUE(back) << back.reason;
+  const detection::InteriorTracks& interior = back.value->interior;
+  ASSERT_EQ(interior.points.size(), 2u);
+  EXPECT_EQ(interior.key_stamp_sec, 11.5);
+  EXPECT_EQ(interior.key_corners, window.corners);
+  EXPECT_EQ(interior.sigma_px, 0.4);
+  EXPECT_EQ(interior.points[1].id, 9);
+  EXPECT_EQ(interior.points[1].key_px, window.interior.points[1].key_px);
+  EXPECT_EQ(interior.points[1].now_px, window.interior.points[1].now_px);
+  EXPECT_EQ(interior.points[1].normal, window.interior.points[1].normal);
+  message.interior_x.pop_back();
+  EXPECT_TRUE(fromMsg(message).value->interior.empty()) << "lists of different lengths";
+  message = toMsg(window);
+  message.header.stamp = ros::Time(12.5);
+  message.interior_y[0] = static_cast<float>(kNan);
+  EXPECT_FALSE(fromMsg(message));
+}
+
 TEST(WindowDetection, ACornerThatIsNotSeenGoesThereAndBackAsNone) {
   detection::WindowObservation window = makeWindow();
   window.corner_visible = {true, true, false, false};

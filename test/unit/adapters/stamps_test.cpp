@@ -54,6 +54,13 @@ TEST(StampGate, TellsOfSimulatedTimeBesideARealSource) {
   EXPECT_NE(gate.whyRefused(ros::Time(1790000000.0), 1789999990.0)->find("10.00 s ahead"), std::string::npos);
 }
 
+TEST(StampGate, SaysThatSimulatedTimeHasNotBegun) {
+  StampGate gate{StampLimits{}};
+  EXPECT_EQ(*gate.whyRefused(ros::Time(1700000000.0), 0.0),
+            "the clock has not begun: nothing has come on /clock yet");
+  EXPECT_FALSE(gate.whyRefused(ros::Time(0.05), 0.0)) << "a simulation that begins at zero";
+}
+
 TEST(StampGate, StartsAnewWhenTheClockJumpsBack) {
   StampGate gate{StampLimits{}};
   EXPECT_FALSE(gate.whyRefused(ros::Time(200.0), 200.0));

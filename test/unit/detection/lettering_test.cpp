@@ -38,6 +38,24 @@ TEST(Lettering, NothingIsWrittenOutsideOrWhereItIsToBeFree) {
   EXPECT_TRUE(isBlank(canvas(cv::Rect(200, 150, 240, 180)))) << "area kept free";
 }
 
+TEST(Lettering, TheBoxLeavesFreeWhatIsToBeFree) {
+  const cv::Rect upper_left(10, 10, 200, 200), upper_right(430, 10, 200, 200);
+  cv::Mat canvas(480, 640, CV_8UC3, cv::Scalar::all(100));
+  Lettering lettering(canvas);
+  lettering.keepFree(upper_left);
+  lettering.keepFree(upper_right);
+  lettering.box({{"11  corners", kWhite, true}, {"3  aspect", kWhite, true}});
+  EXPECT_TRUE(isBlank(canvas(upper_left)));
+  EXPECT_TRUE(isBlank(canvas(upper_right)));
+  EXPECT_FALSE(isBlank(canvas));
+  cv::Mat crowded(480, 640, CV_8UC3, cv::Scalar::all(100));
+  Lettering everywhere(crowded);
+  for (int x : {0, 400})
+    for (int y : {0, 250}) everywhere.keepFree({x, y, 240, 230});
+  everywhere.box({{"11  corners", kWhite, true}});
+  EXPECT_FALSE(isBlank(crowded(cv::Rect(0, 0, 100, 50)))) << "in its usual corner";
+}
+
 TEST(Lettering, TextGrowsWithThePicture) {
   cv::Mat small(240, 320, CV_8UC3), large(1200, 1600, CV_8UC3);
   EXPECT_GT(Lettering(large).lineHeight(), 2 * Lettering(small).lineHeight());

@@ -66,7 +66,7 @@ TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
   situation.target->T_odom_window.translation().y() += 1.0;
   EXPECT_FALSE(isKnownOther(*situation.target, *situation.vehicle, memory));
   memory.forgetPlaces();
-  EXPECT_TRUE(memory.closed_odom_m.empty()) << "places of an odometry that jumped";
+  EXPECT_TRUE(memory.left_odom_m.empty()) << "places of an odometry that jumped";
 }
 
 TEST(OpeningPolicy, LooksToBothSidesWithinTheClearance) {

@@ -47,7 +47,7 @@ struct Approach {
       const Vector3d point = front + depth_m * way;
       tracks.points.push_back({static_cast<std::uint16_t>(i),
                                *kCamera.project(camera(key_m).inverse() * point),
-                               *kCamera.project(camera(plane_m).inverse() * point)});
+                               *kCamera.project(camera(plane_m).inverse() * point), Eigen::Vector2d::Zero()});
     }
     return window;
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -85,6 +86,11 @@ TEST_F(Flight, ACleanPassWithAStopBehindIsPassed) {
   stand(0.6);
   EXPECT_EQ(outcome(), Outcome::kPassed) << referee_.judge(Claim::kNone).reason;
   ASSERT_TRUE(referee_.crossing());
+  char expected[80];
+  std::snprintf(expected, sizeof expected, "crossed at %.2f s, +0.050 m",
+                referee_.crossing()->time_sec - 0.5);
+  EXPECT_EQ(referee_.judge(Claim::kNone, 0.5).reason.rfind(expected, 0), 0u)
+      << expected << " since the mission began, as the time of the flight";
   EXPECT_TRUE(referee_.crossing()->inside);
   EXPECT_NEAR(referee_.crossing()->offset_y_m, 0.05, 1e-6);
   EXPECT_NEAR(referee_.crossing()->offset_z_m, -0.025, 1e-6);

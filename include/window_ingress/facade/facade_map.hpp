@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "window_ingress/detection/seen_windows.hpp"
+#include "window_ingress/facade/facade_params.hpp"
+#include "window_ingress/facade/window_place.hpp"
+#include "window_ingress/openness/openness_verdict.hpp"
+
+namespace window_ingress::facade {
+
+/// A window that was seen, and what is known of it.
+struct KnownWindow {
+  std::uint32_t id = 0;  ///< from 1; never given to another one, but after a reset
+  WindowPlace place;
+  double last_seen_sec = 0.0;
+  int sights = 0;                       ///< pictures that showed it
+  double score = 0.0;                   ///< of the last of them, 0 to 1
+  std::optional<double> bhattacharyya;  ///< least distance to the reference so far
+  bool may_be_target = false;           ///< nothing in the last picture spoke against its look
+  openness::OpennessVerdict openness;
+  int visits = 0;    ///< how often it was flown at
+  int failures = 0;  ///< how often it was given up: closed, or tried in vain
+};
+
+/// One picture, and from where it was taken.
+struct FacadeView {
+  double stamp_sec = 0.0;
+  Viewpoint from;
+  std::vector<detection::SeenWindow> windows;
+  std::uint32_t track_id = 0;  ///< of the one that is the target by the picture; 0: none
+};
+
+/// All windows seen, in the odometry frame, each with a number of its own.
+///
+/// A sight belongs to the window whose place it fits (Mahalanobis distance, odometry's drift included), each
+/// sight to one window and each window to one sight of a picture, the nearest first. Two windows that come to
+/// lie in one place without ever having been seen side by side are one. So neighbours of the same look stay
+/// apart, and a window is found again after a loss where it was.
+class FacadeMap {
+ public:
+  explicit FacadeMap(const FacadeParams& params) : params_(params) {}
+
+  void reset();
+  /// \param wall in which unknown windows are taken to lie
+  /// \param looked_for size that windows are taken to have where nothing else tells their distance
+  void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for);
+  /// A place that is better known than by one sight.
+  void correct(std::uint32_t id, const WindowPlace& place);
+
+  /// The window that one at this place is; nothing if it is none of those known.
+  const KnownWindow* at(const WindowPlace& place, double stamp_sec) const;
+  /// The window of the last picture's target.
+  std::optional<std::uint32_t> followed() const { return followed_id_; }
+  KnownWindow* find(std::uint32_t id);
+  const KnownWindow* find(std::uint32_t id) const;
+  bool isConfirmed(const KnownWindow& window) const { return window.sights >= params_.confirmations; }
+  const std::vector<KnownWindow>& windows() const { return windows_; }  ///< in the order of their numbers
+
+ private:
+  struct Sight {
+    const detection::SeenWindow* seen = nullptr;
+    WindowPlace place;
+    std::uint32_t id = 0;  ///< of the window it belongs to
+  };
+  void associate(double stamp_sec, std::vector<Sight>& sights) const;
+  void learn(double stamp_sec, Sight& sight);
+  void noteSideBySide(const std::vector<Sight>& sights);
+  void merge(double stamp_sec);
+  void prune(double stamp_sec);
+  double squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const;
+
+  FacadeParams params_;
+  std::vector<KnownWindow> windows_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> apart_;  // seen side by side, lower number first
+  std::optional<std::uint32_t> followed_id_;
+  std::uint32_t last_id_ = 0;
+};
+
+}  // namespace window_ingress::facade

@@ -1,0 +1,140 @@
+#include "window_ingress/facade/facade_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace window_ingress::facade {
+namespace {
+
+constexpr std::size_t kMostWindows = 64;
+constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two windows can be
+
+double apartM(const KnownWindow& a, const KnownWindow& b) {
+  return (a.place.position_m - b.place.position_m).norm();
+}
+
+// What is known of two that are one.
+void absorb(KnownWindow& window, const KnownWindow& twin) {
+  window.place = fused(window.place, twin.place);
+  window.last_seen_sec = std::max(window.last_seen_sec, twin.last_seen_sec);
+  window.sights += twin.sights;
+  window.visits += twin.visits;
+  window.failures += twin.failures;
+  window.may_be_target = window.may_be_target || twin.may_be_target;
+  if (twin.bhattacharyya)
+    window.bhattacharyya = std::min(*twin.bhattacharyya, window.bhattacharyya.value_or(1.0));
+  if (window.openness.openness == openness::Openness::kUnknown) window.openness = twin.openness;
+}
+
+}  // namespace
+
+void FacadeMap::reset() { *this = FacadeMap(params_); }
+
+double FacadeMap::squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const {
+  const double since_sec = std::abs(stamp_sec - window.last_seen_sec);
+  return squaresBetween(window.place, place, std::pow(params_.drift_m_per_sqrt_sec, 2) * since_sec);
+}
+
+void FacadeMap::associate(double stamp_sec, std::vector<Sight>& sights) const {
+  std::vector<std::tuple<double, std::uint32_t, Sight*>> pairs;
+  const double limit = params_.max_deviation * params_.max_deviation;
+  for (const KnownWindow& window : windows_)
+    for (Sight& sight : sights)
+      if (const double squares = this->squares(window, sight.place, stamp_sec); squares < limit)
+        pairs.emplace_back(squares, window.id, &sight);
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& [squares, id, sight] : pairs) {
+    const auto is_taken = [id = id](const Sight& other) { return other.id == id; };
+    if (sight->id == 0 && std::none_of(sights.begin(), sights.end(), is_taken)) sight->id = id;
+  }
+}
+
+void FacadeMap::learn(double stamp_sec, Sight& sight) {
+  KnownWindow* window = find(sight.id);
+  if (window == nullptr) {
+    if (windows_.size() >= kMostWindows) return;
+    windows_.emplace_back();
+    window = &windows_.back();
+    window->id = sight.id = ++last_id_;
+    window->place = sight.place;
+  } else {
+    window->place = fused(window->place, sight.place);
+  }
+  window->last_seen_sec = stamp_sec;
+  ++window->sights;
+  window->score = sight.seen->score;
+  window->may_be_target = sight.seen->may_be_target;
+  if (sight.seen->has_appearance)
+    window->bhattacharyya = std::min(sight.seen->bhattacharyya, window->bhattacharyya.value_or(1.0));
+  if (sight.seen->is_target) followed_id_ = sight.id;
+}
+
+void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {
+  for (const Sight& a : sights)
+    for (const Sight& b : sights)
+      if (a.id != 0 && a.id < b.id) apart_.emplace(a.id, b.id);
+}
+
+// The older one stays.
+void FacadeMap::merge(double stamp_sec) {
+  const double limit = params_.max_deviation * params_.max_deviation;
+  for (std::size_t i = 0; i < windows_.size(); ++i)
+    for (std::size_t k = windows_.size(); --k > i;) {
+      KnownWindow &older = windows_[i], &younger = windows_[k];
+      const double width_m = std::min(older.place.size.width_m, younger.place.size.width_m);
+      if (apart_.count({older.id, younger.id}) != 0 || apartM(older, younger) > kSameSpot * width_m ||
+          squares(older, younger.place, stamp_sec) > limit)
+        continue;
+      if (followed_id_ == younger.id) followed_id_ = older.id;
+      absorb(older, younger);
+      windows_.erase(windows_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+}
+
+void FacadeMap::prune(double stamp_sec) {
+  const auto is_stale = [&](const KnownWindow& window) {
+    return !isConfirmed(window) && stamp_sec - window.last_seen_sec > params_.forget_sec;
+  };
+  windows_.erase(std::remove_if(windows_.begin(), windows_.end(), is_stale), windows_.end());
+}
+
+void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
+                    const geometry::OpeningSize& looked_for) {
+  std::vector<Sight> sights;
+  for (const detection::SeenWindow& seen : view.windows)
+    if (const auto place = placeOf(seen.corners, view.from, wall, looked_for, params_))
+      sights.push_back({&seen, *place});
+  followed_id_.reset();
+  associate(view.stamp_sec, sights);
+  for (Sight& sight : sights) learn(view.stamp_sec, sight);
+  noteSideBySide(sights);
+  merge(view.stamp_sec);
+  prune(view.stamp_sec);
+}
+
+void FacadeMap::correct(std::uint32_t id, const WindowPlace& place) {
+  if (KnownWindow* window = find(id)) window->place = place;
+}
+
+const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) const {
+  const KnownWindow* nearest = nullptr;
+  double least = params_.max_deviation * params_.max_deviation;
+  for (const KnownWindow& window : windows_)
+    if (const double squares = this->squares(window, place, stamp_sec); squares < least)
+      least = squares, nearest = &window;
+  return nearest;
+}
+
+const KnownWindow* FacadeMap::find(std::uint32_t id) const {
+  const auto it = std::find_if(windows_.begin(), windows_.end(),
+                               [id](const KnownWindow& window) { return window.id == id; });
+  return it == windows_.end() ? nullptr : &*it;
+}
+
+KnownWindow* FacadeMap::find(std::uint32_t id) {
+  return const_cast<KnownWindow*>(static_cast<const FacadeMap&>(*this).find(id));
+}
+
+}  // namespace window_ingress::facade

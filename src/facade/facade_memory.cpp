@@ -1,0 +1,196 @@
+#include "window_ingress/facade/facade_memory.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <tuple>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::facade {
+namespace {
+
+constexpr double kNearestSigmaM = 0.03;  // of a place in odom, however well the filter knows it
+
+FacadeParams checked(const FacadeParams& params) {
+  const auto faults = parameters::outOfRange(params);
+  if (!faults.empty()) throw std::invalid_argument("facade: " + parameters::joined(faults));
+  return params;
+}
+
+WindowPlace placeFrom(const pose::FilteredWindow& filtered) {
+  WindowPlace place;
+  place.position_m = filtered.T_odom_window.translation();
+  place.covariance = filtered.covariance.topLeftCorner<3, 3>() +
+                     kNearestSigmaM * kNearestSigmaM * Eigen::Matrix3d::Identity();
+  place.heading_rad = geometry::yawOf(filtered.T_odom_window.linear());
+  place.size = filtered.size.size;
+  place.on_wall = true;
+  return place;
+}
+
+Wall wallFrom(const pose::FilteredWindow& filtered) {
+  const Eigen::Vector3d through = filtered.T_odom_window.linear().col(0);
+  Wall wall;
+  wall.position_m = filtered.T_odom_window.translation();
+  wall.heading_rad = geometry::yawOf(filtered.T_odom_window.linear());
+  wall.sigma_m = std::sqrt(through.dot(filtered.covariance.topLeftCorner<3, 3>() * through));
+  wall.heading_sigma_rad = std::sqrt(filtered.covariance(5, 5));
+  return wall;
+}
+
+std::string name(std::uint32_t id) { return "window " + std::to_string(id); }
+
+bool isClosed(const KnownWindow& window) { return window.openness.openness == openness::Openness::kClosed; }
+
+}  // namespace
+
+FacadeMemory::FacadeMemory(const FacadeParams& params) : params_(checked(params)), map_(params) {}
+
+void FacadeMemory::reset() { *this = FacadeMemory(params_); }
+
+void FacadeMemory::forgetPlaces() {
+  const bool lost = target() == nullptr ? choice_is_lost_ : is_chosen_;
+  const std::uint32_t track_id = target_track_id_;
+  reset();
+  choice_is_lost_ = lost;
+  target_track_id_ = track_id;
+}
+
+void FacadeMemory::setTarget(std::uint32_t id, bool is_chosen) {
+  target_id_ = id;
+  is_chosen_ = is_chosen;
+  choice_is_lost_ = false;
+  missing_since_sec_.reset();
+}
+
+void FacadeMemory::see(const FacadeView& view, const std::optional<pose::FilteredWindow>& filtered,
+                       const geometry::OpeningSize& looked_for) {
+  if (!params_.enabled) return;
+  if (filtered && filtered->sign_trusted) wall_ = wallFrom(*filtered);
+  map_.see(view, wall_, looked_for);
+  if (target() == nullptr) target_id_ = 0;
+  if (filtered) adopt(*filtered, view.track_id);
+  yieldToBetterLook();
+  releaseIfGone(view);
+}
+
+void FacadeMemory::adopt(const pose::FilteredWindow& filtered, std::uint32_t track_id) {
+  const auto followed = map_.followed();
+  if (!followed) return;
+  if (choice_is_lost_ && track_id != 0 && track_id == target_track_id_) setTarget(*followed, true);
+  if (filtered.sign_trusted) map_.correct(*followed, placeFrom(filtered));
+  const bool has_settled = filtered.updates >= params_.settled_updates;
+  const bool is_free = target_id_ == 0 && !choice_is_lost_;
+  if (is_free && has_settled && map_.find(*followed)->failures == 0) setTarget(*followed, false);
+  if (*followed == target_id_) target_track_id_ = track_id;
+}
+
+// A reference says which window is meant: one that is clearly more like it is no neighbour but the target.
+void FacadeMemory::yieldToBetterLook() {
+  const KnownWindow* now = target();
+  if (now == nullptr || is_chosen_ || !now->bhattacharyya) return;
+  const double needed = *now->bhattacharyya - params_.likeness_margin;
+  const auto is_better = [&](const KnownWindow& other) {
+    return other.may_be_target && other.failures == 0 && map_.isConfirmed(other) &&
+           other.bhattacharyya.value_or(1.0) < needed;
+  };
+  if (std::any_of(windows().begin(), windows().end(), is_better)) setTarget(0, false);
+}
+
+void FacadeMemory::releaseIfGone(const FacadeView& view) {
+  const KnownWindow* now = target();
+  if (now == nullptr || now->last_seen_sec >= view.stamp_sec || !expected(view.from)) {
+    missing_since_sec_.reset();
+    return;
+  }
+  if (!missing_since_sec_) missing_since_sec_ = view.stamp_sec;
+  if (view.stamp_sec - *missing_since_sec_ > params_.release_sec) setTarget(0, false);
+}
+
+std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& window, const Viewpoint& from,
+                                       const geometry::OpeningSize& looked_for) const {
+  const KnownWindow* target = this->target();
+  if (!params_.enabled || !window.whole()) return "";
+  if (choice_is_lost_ && window.target_id != target_track_id_)
+    return "the window that was chosen is lost, for the odometry jumped: choose again (~select_window)";
+  if (target == nullptr) return "";
+  const Wall wall{target->place.position_m, target->place.heading_rad, params_.wall_sigma_m, 0.0};
+  const auto place = placeOf(window.corners, from, target->place.on_wall ? std::optional(wall) : std::nullopt,
+                             looked_for, params_);
+  if (!place) return "";
+  const KnownWindow* seen = map_.at(*place, window.stamp_sec);
+  if (seen != nullptr && seen->id == target->id) return "";
+  const double apart_m = (place->position_m - target->place.position_m).norm();
+  char text[120];
+  std::snprintf(text, sizeof text, "%s, %.1f m from window %u, which is the target",
+                seen != nullptr ? name(seen->id).c_str() : "another window", apart_m, target->id);
+  return text;
+}
+
+std::optional<geometry::Quadrilateral> FacadeMemory::expected(const Viewpoint& from) const {
+  const KnownWindow* target = this->target();
+  if (!params_.enabled || target == nullptr) return std::nullopt;
+  const auto quad = geometry::projectOpening(
+      from.camera, from.T_odom_camera.inverse() * poseOf(target->place), target->place.size);
+  if (!quad || !geometry::isConvex(*quad)) return std::nullopt;
+  const auto in_view = [&](const Eigen::Vector2d& corner) { return from.camera.contains(corner); };
+  return std::all_of(quad->begin(), quad->end(), in_view) ? quad : std::nullopt;
+}
+
+Answer FacadeMemory::select(std::uint32_t id) {
+  const KnownWindow* window = map_.find(id);
+  if (window == nullptr || !map_.isConfirmed(*window)) return {false, "no " + name(id) + " is known"};
+  if (isClosed(*window)) return {false, name(id) + " was seen to be closed: " + window->openness.reason};
+  setTarget(id, true);
+  map_.find(id)->failures = 0;
+  return {true, name(id) + " is the target"};
+}
+
+Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
+  const KnownWindow* nearest = nullptr;
+  double least_m = params_.click_m;
+  for (const KnownWindow& window : windows()) {
+    const double apart_m = (window.place.position_m - point_odom_m).norm();
+    if (map_.isConfirmed(window) && apart_m < least_m) least_m = apart_m, nearest = &window;
+  }
+  if (nearest != nullptr) return select(nearest->id);
+  char text[120];
+  std::snprintf(text, sizeof text, "no window is known within %.1f m of (%.1f, %.1f, %.1f)", params_.click_m,
+                point_odom_m.x(), point_odom_m.y(), point_odom_m.z());
+  return {false, text};
+}
+
+void FacadeMemory::giveUp(const std::vector<std::uint32_t>& ids, bool next_one) {
+  for (const std::uint32_t id : ids)
+    if (KnownWindow* window = map_.find(id)) ++window->failures;
+  if (target_id_ == 0 || std::find(ids.begin(), ids.end(), target_id_) == ids.end()) return;
+  const KnownWindow* next = next_one ? nextBest() : nullptr;
+  setTarget(next == nullptr ? 0 : next->id, next != nullptr);
+}
+
+const KnownWindow* FacadeMemory::nextBest() const {
+  const KnownWindow* best = nullptr;
+  const auto rank = [](const KnownWindow& window) {
+    return std::make_tuple(window.openness.openness == openness::Openness::kOpen,
+                           -window.bhattacharyya.value_or(1.0), window.score);
+  };
+  for (const KnownWindow& window : windows()) {
+    if (!map_.isConfirmed(window) || !window.may_be_target || window.failures > 0 || isClosed(window))
+      continue;
+    if (best == nullptr || rank(window) > rank(*best)) best = &window;
+  }
+  return best;
+}
+
+void FacadeMemory::noteFlownAt(std::uint32_t id) {
+  if (KnownWindow* window = id != flown_at_ ? map_.find(id) : nullptr) ++window->visits;
+  flown_at_ = id;
+}
+
+void FacadeMemory::judge(const openness::OpennessVerdict& verdict) {
+  if (KnownWindow* window = map_.find(target_id_)) window->openness = verdict;
+}
+
+}  // namespace window_ingress::facade

@@ -1,0 +1,109 @@
+#include "window_ingress/facade/facade_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "window_row.hpp"
+
+namespace window_ingress::facade {
+namespace {
+
+const Wall kWall{{0.0, 0.0, 1.5}, 0.0, 0.02, 0.01};
+
+/// A way along the row, looking at it, with or without the wall being known.
+void walkAlong(FacadeMap& map, const test::WindowRow& row, const std::optional<Wall>& wall, double begin_sec,
+               unsigned seed) {
+  std::mt19937 random(seed);
+  for (int n = 0; n < 60; ++n)
+    map.see(row.look(begin_sec + 0.1 * n, row.from({-5.0, 1.0 - 0.15 * n, 1.5}), -1, random), wall, row.size);
+}
+
+int confirmed(const FacadeMap& map) {
+  int count = 0;
+  for (const KnownWindow& window : map.windows()) count += map.isConfirmed(window);
+  return count;
+}
+
+TEST(FacadeMap, GivesEachOfEqualWindowsOneNumberAndKeepsIt) {
+  const test::WindowRow row;
+  for (const bool knows_wall : {true, false}) {
+    FacadeMap map{FacadeParams()};
+    walkAlong(map, row, knows_wall ? std::optional(kWall) : std::nullopt, 10.0, 1);
+    ASSERT_EQ(confirmed(map), 5) << knows_wall;
+    const auto before = map.windows();
+    walkAlong(map, row, knows_wall ? std::optional(kWall) : std::nullopt, 30.0, 2);
+    ASSERT_EQ(confirmed(map), 5) << knows_wall;
+    for (const KnownWindow& window : before) {
+      const KnownWindow* now = map.find(window.id);
+      ASSERT_NE(now, nullptr);
+      EXPECT_LT((now->place.position_m - window.place.position_m).norm(), knows_wall ? 0.05 : 0.8);
+    }
+  }
+}
+
+TEST(FacadeMap, FindsAWindowAgainWhereItWasAfterALossAlthoughOdometryDrifted) {
+  std::mt19937 random(5);
+  const test::WindowRow row;
+  FacadeMap map{FacadeParams()};
+  walkAlong(map, row, kWall, 10.0, 3);
+  const auto before = map.windows();
+  for (int n = 0; n < 4; ++n) {  // ten seconds later and 6 cm beside
+    auto look = row.look(26.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
+    look.from.T_odom_camera.translation() += Eigen::Vector3d(0.0, 0.06, 0.0);
+    map.see(look, kWall, row.size);
+  }
+  EXPECT_EQ(map.windows().size(), before.size());
+}
+
+TEST(FacadeMap, ForgetsWhatWasSeenButOnce) {
+  std::mt19937 random(6);
+  const test::WindowRow row;
+  FacadeMap map{FacadeParams()};
+  auto look = row.look(10.0, row.from({-5.0, 0.0, 1.5}), -1, random);
+  map.see(look, kWall, row.size);
+  EXPECT_FALSE(map.windows().empty());
+  EXPECT_EQ(confirmed(map), 0);
+  map.see({13.0, look.from, {}, 0}, kWall, row.size);
+  EXPECT_TRUE(map.windows().empty());
+}
+
+TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySide) {
+  std::mt19937 random(7);
+  test::WindowRow row;
+  row.count = 1;
+  FacadeMap map{FacadeParams()};
+  // As far away as a window twice as large would be; then the wall is known.
+  for (int n = 0; n < 5; ++n)
+    map.see(row.look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt, {3.6, 3.0});
+  for (int n = 0; n < 40; ++n)
+    map.see(row.look(11.0 + 0.1 * n, row.from({-5.0, 1.0 - 0.05 * n, 1.5}), -1, random), kWall, row.size);
+  ASSERT_GE(map.windows().size(), 1u);
+  EXPECT_NE(map.at({row.centre(0), 1e-4 * Eigen::Matrix3d::Identity(), 0.0, row.size, true}, 15.0), nullptr);
+  FacadeMap near{FacadeParams()};
+  test::WindowRow pair;
+  pair.count = 2, pair.spacing_m = 1.25;
+  walkAlong(near, pair, kWall, 10.0, 8);
+  EXPECT_EQ(confirmed(near), 2);
+}
+
+TEST(FacadeMap, KeepsItsSizeHoweverMuchIsSeen) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> anywhere(0.0, 600.0);
+  FacadeMap map{FacadeParams()};
+  const auto view = test::WindowRow::from({-5.0, 0.0, 1.5});
+  for (int n = 0; n < 2000; ++n) {
+    FacadeView look{10.0 + 0.01 * n, view, {}, 0};
+    for (int i = 0; i < 12; ++i) {
+      const double x = anywhere(random), y = 0.7 * anywhere(random);
+      detection::SeenWindow window;
+      window.corners = {Eigen::Vector2d(x, y), Eigen::Vector2d(x + 30, y), Eigen::Vector2d(x + 30, y + 30),
+                        Eigen::Vector2d(x, y + 30)};
+      look.windows.push_back(window);
+    }
+    map.see(look, kWall, {1.2, 1.0});
+  }
+  EXPECT_LE(map.windows().size(), 64u);
+  for (const KnownWindow& window : map.windows()) EXPECT_TRUE(window.place.position_m.allFinite());
+}
+
+}  // namespace
+}  // namespace window_ingress::facade
