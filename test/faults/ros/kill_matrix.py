@@ -103,7 +103,8 @@ class KillMatrix:
         way = self.truth.since(killed)
         furthest = max(math.dist(place_of(before), place_of(t)) for t in way)
         verdict = self.verdicts.since(0.0)[-1]
-        problems = [] if verdict.outcome_name in ("RUNNING", "PASSED") else [f"{verdict.outcome_name}: {verdict.reason}"]
+        touched = verdict.outcome_name in ("COLLISION", "FALSE_INGRESS")
+        problems = [f"{verdict.outcome_name}: {verdict.reason}"] if touched else []
         if node == "ingress_navigator":
             end = killed + WATCH_S
             problems += [v.text for v in oracles.O4_stop(self.monitor.part(killed, end), self.monitor.limits, killed, end)
