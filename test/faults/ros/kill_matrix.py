@@ -31,7 +31,7 @@ FAST_MPS = {"APPROACH": 0.5, "ALIGN": 0.2, "BACK_OFF": 0.2}
 
 
 def call(name):
-    rospy.wait_for_service(name, support.DEADLINE_S)
+    rospy.wait_for_service(name, 3 * support.DEADLINE_S)
     return rospy.ServiceProxy(name, Trigger)()
 
 
