@@ -260,6 +260,10 @@ class SpokenCausesTest(unittest.TestCase):
     def test_setpoints_that_stop(self):
         self.while_silent("cmd_vel_in", ("setpoint_guard: cmd_vel_in", "/cmd_vel_in is silent", "sending zero"))
 
+    def test_setpoints_that_are_too_fast(self):
+        self.while_sent("cmd_vel_in", changed(setpoint, twist__linear__x=9.0),
+                        ("setpoint_guard: cmd_vel_in", "/cmd_vel_in", "speed of 9.00 m/s is above the limit, max_speed_mps: 1.2"))
+
     def test_outputs_that_nobody_hears(self):
         self.while_unheard("seen", "window_detector: window")
         self.while_unheard("estimated", "homography_pose: window_pose")

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""doctor about nodes in the wrong surroundings: a topic of another type, a camera frame that is none, nobody who takes the
+setpoints, no reference picture."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import CameraInfo, CompressedImage, Imu
+
+import support
+from doctor_test import doctor
+
+
+def looking_left():
+    """Mounted with the axes of a body, not of an optical frame, and turned to the left."""
+    message = support.mounting()
+    rotation = message.transform.rotation
+    rotation.x = rotation.y = 0.0
+    rotation.z = rotation.w = 0.5 ** 0.5
+    return message
+
+
+class DoctorBrokenTest(unittest.TestCase):
+    def test_each_fault_is_a_line_with_what_mends_it(self):
+        kind = support.transforms_type()
+        frames = rospy.Publisher("/tf_static", kind, queue_size=1, latch=True)
+        frames.publish(kind([looking_left()]))
+        streams = [support.Stream(topic, type_, make, rate) for topic, type_, make, rate in (
+            ("/camera/image_raw", CompressedImage, lambda stamp: CompressedImage(), 10.0),
+            ("/camera/camera_info", CameraInfo, support.camera_info, 10.0),
+            ("/odom", Odometry, support.odometry, 50.0), ("/imu", Imu, support.imu, 50.0))]
+        expected = ("/camera/image_raw: is a sensor_msgs/CompressedImage, window_detector reads sensor_msgs/Image",
+                    "tf: camera_optical_frame does not look forward: its z axis is (+0.00, +0.00, +1.00) in base_link",
+                    "/cmd_vel: nobody takes setpoints", "cmd_vel:=ITS_TOPIC",
+                    "window_detector: no reference picture", "scripts/run make_reference PICTURE")
+        for _ in range(4):  # nodes learn of each other one by one
+            code, said = doctor()
+            if all(words in said for words in expected):
+                break
+        for stream in streams:
+            stream.stop()
+        self.assertEqual(code, 1, said)
+        for words in expected:
+            self.assertIn(words, said)
+
+
+if __name__ == "__main__":
+    rospy.init_node("doctor_broken_test")
+    rostest.rosrun("window_ingress", "doctor_broken_test", DoctorBrokenTest, sys.argv)

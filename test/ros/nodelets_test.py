@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""The nodelets: what the nodes do, in one process; one can be taken out and put in again, which the others survive."""
+import subprocess
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import CameraInfo, Image, Imu
+from window_ingress.msg import IngressState, WindowDetection, WindowPose
+
+import support
+
+NODELET = ("rosrun", "nodelet", "nodelet")  # its services have no Python types on Debian
+
+
+class NodeletsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        pixels = support.picture()
+        cls.mounting = support.publish_mounting()
+        cls.streams = [support.Stream(topic, kind, make, rate) for topic, kind, make, rate in (
+            ("image_raw", Image, lambda stamp: support.image_message(pixels, stamp), 10.0),
+            ("camera_info", CameraInfo, support.camera_info, 10.0),
+            ("imu", Imu, support.imu, 50.0), ("odom", Odometry, support.odometry, 50.0))]
+        cls.windows = support.Listener("window", WindowDetection)
+        cls.poses = support.Listener("window_pose", WindowPose)
+        cls.states = support.Listener("state", IngressState)
+
+    def test_1_from_picture_to_pose_in_one_process(self):
+        self.windows.wait(lambda w: w.detected, "a window", begin=0.0)
+        self.poses.wait(lambda p: p.reject == p.OK, "a pose", begin=0.0)
+        self.states.wait(lambda s: s.state_name == "IDLE", "the navigator's state", begin=0.0)
+
+    def test_2_one_of_them_is_taken_out_and_put_in_again(self):
+        subprocess.run([*NODELET, "unload", "/window_detector", "/manager"], check=True, timeout=support.DEADLINE_S)
+        begin = time.monotonic()
+        loader = subprocess.Popen([*NODELET, "load", "window_ingress/WindowDetectorNodelet", "/manager",
+                                   "__name:=window_detector_again"])
+        try:
+            self.windows.wait(lambda w: w.detected, "a window after it", begin=begin)
+            self.poses.wait(lambda p: p.reject == p.OK, "a pose after it", begin=begin)
+        finally:
+            loader.terminate()
+            loader.wait()
+
+
+if __name__ == "__main__":
+    rospy.init_node("nodelets_test")
+    rostest.rosrun("window_ingress", "nodelets_test", NodeletsTest, sys.argv)
