@@ -100,8 +100,8 @@ def test_the_usb_camera_publishes_what_the_detector_takes():
     assert camera["params"]["/usb_cam/camera_frame_id"] == "camera_optical_frame"
 
 
-OUTPUTS = ("/window", "/window_pose", "/window_pose_cov", "/window_polygon", "/markers", "/debug_image", "/state", "/cmd_vel",
-           "/ingress_navigator/cmd_vel", "/mavros/setpoint_velocity/cmd_vel", "/engaged", "/diagnostics", "/rosout")
+OUTPUTS = ("/window", "/window_pose", "/window_pose_cov", "/window_polygon", "/markers", "/debug_image", "/facade", "/state",
+           "/cmd_vel", "/ingress_navigator/cmd_vel", "/mavros/setpoint_velocity/cmd_vel", "/engaged", "/diagnostics", "/rosout")
 
 
 def test_a_replay_moves_recorded_outputs_aside_and_commands_nobody():
