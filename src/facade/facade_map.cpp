@@ -11,6 +11,15 @@ namespace {
 constexpr std::size_t kMostWindows = 64;
 constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two windows can be
 
+constexpr double kSizeRatio = 1.35;  // beyond which two loops are not one window
+
+// Where both were measured: a pane, or what is seen through the window, is not the window.
+bool sizesAgree(const WindowPlace& a, const WindowPlace& b) {
+  if (!a.on_wall || !b.on_wall) return true;
+  const double wider = a.size.width_m / b.size.width_m, higher = a.size.height_m / b.size.height_m;
+  return std::max({wider, 1.0 / wider, higher, 1.0 / higher}) < kSizeRatio;
+}
+
 double apartM(const KnownWindow& a, const KnownWindow& b) {
   return (a.place.position_m - b.place.position_m).norm();
 }
@@ -42,7 +51,8 @@ void FacadeMap::associate(double stamp_sec, std::vector<Sight>& sights) const {
   const double limit = params_.max_deviation * params_.max_deviation;
   for (const KnownWindow& window : windows_)
     for (Sight& sight : sights)
-      if (const double squares = this->squares(window, sight.place, stamp_sec); squares < limit)
+      if (const double squares = this->squares(window, sight.place, stamp_sec);
+          squares < limit && sizesAgree(window.place, sight.place))
         pairs.emplace_back(squares, window.id, &sight);
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [squares, id, sight] : pairs) {
@@ -85,7 +95,7 @@ void FacadeMap::merge(double stamp_sec) {
       KnownWindow &older = windows_[i], &younger = windows_[k];
       const double width_m = std::min(older.place.size.width_m, younger.place.size.width_m);
       if (apart_.count({older.id, younger.id}) != 0 || apartM(older, younger) > kSameSpot * width_m ||
-          squares(older, younger.place, stamp_sec) > limit)
+          squares(older, younger.place, stamp_sec) > limit || !sizesAgree(older.place, younger.place))
         continue;
       if (followed_id_ == younger.id) followed_id_ = older.id;
       absorb(older, younger);
@@ -122,7 +132,8 @@ const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) con
   const KnownWindow* nearest = nullptr;
   double least = params_.max_deviation * params_.max_deviation;
   for (const KnownWindow& window : windows_)
-    if (const double squares = this->squares(window, place, stamp_sec); squares < least)
+    if (const double squares = this->squares(window, place, stamp_sec);
+        squares < least && sizesAgree(window.place, place))
       least = squares, nearest = &window;
   return nearest;
 }

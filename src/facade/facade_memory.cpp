@@ -149,11 +149,15 @@ Answer FacadeMemory::select(std::uint32_t id) {
 }
 
 Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
-  const KnownWindow* nearest = nullptr;
-  double least_m = params_.click_m;
-  for (const KnownWindow& window : windows()) {
+  // The one clicked into; of several, as a window and its pane, the one that was seen most often.
+  const auto rank = [&](const KnownWindow& window) {
     const double apart_m = (window.place.position_m - point_odom_m).norm();
-    if (map_.isConfirmed(window) && apart_m < least_m) least_m = apart_m, nearest = &window;
+    return std::make_tuple(std::max(0.0, apart_m - 0.5 * window.place.size.width_m), -window.sights);
+  };
+  const KnownWindow* nearest = nullptr;
+  for (const KnownWindow& window : windows()) {
+    if (!map_.isConfirmed(window) || std::get<0>(rank(window)) > params_.click_m) continue;
+    if (nearest == nullptr || rank(window) < rank(*nearest)) nearest = &window;
   }
   if (nearest != nullptr) return select(nearest->id);
   char text[120];

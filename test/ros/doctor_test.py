@@ -99,8 +99,8 @@ class DoctorTest(unittest.TestCase):
         subprocess.run(["rosnode", "kill", "/homography_pose"], stdout=subprocess.DEVNULL, check=True, timeout=30)
         self.expect("homography_pose is not running", "mend: scripts/run roslaunch window_ingress ingress.launch",
                     "ingress_navigator: window_pose: no more window_pose on /window_pose (0 publishers)")
-        subprocess.run(["rosnode", "kill", "/setpoint_guard"], stdout=subprocess.DEVNULL, check=True, timeout=30)
-        self.expect("setpoint_guard is not running", "nobody subscribes to /ingress_navigator/cmd_vel")
+        subprocess.run(["rosnode", "kill", "/window_detector"], stdout=subprocess.DEVNULL, check=True, timeout=30)
+        self.expect("window_detector is not running")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ struct FacadeParams {
   int settled_updates = 15;            ///< of the filter, after which the window followed is the target
   double release_sec = 8.0;      ///< in view and not seen for so long, the target is no target any more [s]
   double likeness_margin = 0.2;  ///< another window is the target if it is more like the reference by this
-  double click_m = 1.0;          ///< furthest from a window that a click on it may be [m]
+  double click_m = 1.0;          ///< furthest beside a window that a click on it may be [m]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("enabled", self.enabled);

@@ -85,6 +85,21 @@ TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySid
   EXPECT_EQ(confirmed(near), 2);
 }
 
+TEST(FacadeMap, DoesNotTakeAPaneForItsWindow) {
+  std::mt19937 random(10);
+  test::WindowRow row, panes;
+  row.count = panes.count = 1;
+  panes.size = {0.55, 0.45};
+  FacadeMap map{FacadeParams()};
+  for (int n = 0; n < 30; ++n) {
+    const auto view = row.from({-5.0, 0.5 - 0.03 * n, 1.5});
+    map.see((n % 3 == 0 ? panes : row).look(10.0 + 0.1 * n, view, -1, random), kWall, row.size);
+  }
+  ASSERT_EQ(map.windows().size(), 2u);
+  for (const KnownWindow& window : map.windows())
+    EXPECT_NEAR(window.place.size.width_m, window.sights > 15 ? 1.2 : 0.55, 0.06);
+}
+
 TEST(FacadeMap, KeepsItsSizeHoweverMuchIsSeen) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> anywhere(0.0, 600.0);
