@@ -207,7 +207,8 @@ void Flight::expectTarget() {
     expected_ = tracker_.expected(*last_seen_sec_, *camera_, world_.T_base_camera());
 }
 
-// What the operator of a scenario does: points at the target as soon as it is in the memory of all windows.
+// What the operator of a scenario does: points at the target as soon as it is in the memory of all windows,
+// and then starts the mission.
 void Flight::chooseTarget() {
   if (!world_.scenario().target_chosen || was_chosen_ || params_.without_pictures) return;
   const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
@@ -220,8 +221,8 @@ void Flight::step() {
   input_.target = tracker_.target(now_sec);
   const facade::KnownWindow* remembered = tracker_.facade().target();
   input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
-  if (!started_sec_ && input_.image_stamp_sec && navigator_.start(input_, now_sec).success)
-    started_sec_ = now_sec;
+  const bool may_start = input_.image_stamp_sec && (was_chosen_ || !world_.scenario().target_chosen);
+  if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
   output_ = navigator_.step(input_, now_sec);
   tracker_.heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
   if (!output_.enabled) return;

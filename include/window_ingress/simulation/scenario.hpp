@@ -49,7 +49,7 @@ struct Scenario {
   double time_limit_sec = 60.0;  ///< of the flight [s]
   std::string unverified_opening =
       "as_set";  ///< `commit/unverified_opening` of the navigator in `fly`; as_set: as its parameters say
-  bool target_chosen = false;  ///< somebody points at the target among the windows seen, in `fly`
+  bool target_chosen = false;  ///< in `fly` somebody points at the target, once seen, and then starts
   StartParams start;
   WindowParams window;
   std::vector<DecoyParams> decoys;
