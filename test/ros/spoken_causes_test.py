@@ -57,22 +57,8 @@ class Journal:
         return found[0]
 
 
-def changed(make, **what):
-    """The same messages with these members set; 'header__frame_id' is a member of a member."""
-    def altered(stamp):
-        message = make(stamp)
-        for path, value in what.items():
-            *owners, name = path.split("__")
-            owner = message
-            for part in owners:
-                owner = getattr(owner, part)
-            setattr(owner, name, value(stamp) if callable(value) else value)
-        return message
-    return altered
-
-
 def ago(seconds):
-    return lambda stamp: stamp - rospy.Duration(seconds)
+    return lambda message: message.header.stamp - rospy.Duration(seconds)
 
 
 class Camera:
@@ -178,7 +164,7 @@ class SpokenCausesTest(unittest.TestCase):
                           ("homography_pose: camera_info", "no more camera_info on /camera_info"))
 
     def test_sizes_that_differ(self):
-        self.while_sent("camera_info", changed(support.camera_info, width=320, height=240),
+        self.while_sent("camera_info", support.changed(support.camera_info, width=320, height=240),
                         *((f"{node}: calibration", "sizes differ", "640x480", "camera_info on /camera_info is for 320x240")
                           for node in ("window_detector", "homography_pose")))
 
@@ -188,12 +174,12 @@ class SpokenCausesTest(unittest.TestCase):
                         ("window_detector: camera_info", "/camera_info", "uncalibrated"))
 
     def test_stamps_that_are_apart(self):
-        self.while_sent("camera_info", changed(support.camera_info, header__stamp=ago(3.0)),
+        self.while_sent("camera_info", support.changed(support.camera_info, header__stamp=ago(3.0)),
                         *((f"{node}: calibration", "stamps of image and camera_info on /camera_info are ", " s apart")
                           for node in ("window_detector", "homography_pose")))
 
     def test_calibration_of_another_camera(self):
-        self.while_sent("camera_info", changed(support.camera_info, header__frame_id="rear"),
+        self.while_sent("camera_info", support.changed(support.camera_info, header__frame_id="rear"),
                         ("homography_pose: calibration", "frames differ", "'camera_optical_frame'", "'rear'"))
 
     # --- pictures
@@ -202,11 +188,11 @@ class SpokenCausesTest(unittest.TestCase):
         self.while_silent("image_raw", ("window_detector: image", "no more image on /image_raw"))
 
     def test_pictures_of_days_ago(self):
-        self.while_sent("image_raw", changed(self.camera, header__stamp=ago(50 * DAY_S)),
+        self.while_sent("image_raw", support.changed(self.camera, header__stamp=ago(50 * DAY_S)),
                         ("window_detector: image", "/image_raw", "stamp is 50 days old", "use_sim_time", "--clock"))
 
     def test_pictures_of_an_unknown_encoding(self):
-        self.while_sent("image_raw", changed(self.camera, encoding="florp"),
+        self.while_sent("image_raw", support.changed(self.camera, encoding="florp"),
                         ("window_detector: image", "/image_raw", "refused", "florp"))
 
     def test_a_camera_that_is_stuck(self):
@@ -232,7 +218,7 @@ class SpokenCausesTest(unittest.TestCase):
         self.while_silent("imu", ("homography_pose: imu", "no more imu on /imu"))
 
     def test_an_imu_without_attitude(self):
-        self.while_sent("imu", changed(support.imu, orientation_covariance=[-1.0] + 8 * [0.0]),
+        self.while_sent("imu", support.changed(support.imu, orientation_covariance=[-1.0] + 8 * [0.0]),
                         ("homography_pose: imu", "/imu", "refused"))
 
     def test_attitude_missing_in_tf(self):
@@ -242,11 +228,11 @@ class SpokenCausesTest(unittest.TestCase):
         self.while_silent("odom", *((f"{node}: odom", "no more odom on /odom") for node in ("homography_pose", "ingress_navigator")))
 
     def test_odometry_of_another_frame(self):
-        self.while_sent("odom", changed(support.odometry, header__frame_id="map"),
+        self.while_sent("odom", support.changed(support.odometry, header__frame_id="map"),
                         *((f"{node}: odom", "/odom", "refused", "'map'", "'odom'") for node in ("homography_pose", "ingress_navigator")))
 
     def test_a_camera_that_nobody_mounted(self):
-        self.while_sent("window", changed(corners, header__frame_id="nobody_mounted_this"),
+        self.while_sent("window", support.changed(corners, header__frame_id="nobody_mounted_this"),
                         ("homography_pose: camera mounting", "base_link <- 'nobody_mounted_this'", "not in tf"))
 
     # --- between the nodes
@@ -261,7 +247,7 @@ class SpokenCausesTest(unittest.TestCase):
         self.while_silent("cmd_vel_in", ("setpoint_guard: cmd_vel_in", "/cmd_vel_in is silent", "sending zero"))
 
     def test_setpoints_that_are_too_fast(self):
-        self.while_sent("cmd_vel_in", changed(setpoint, twist__linear__x=9.0),
+        self.while_sent("cmd_vel_in", support.changed(setpoint, twist__linear__x=9.0),
                         ("setpoint_guard: cmd_vel_in", "/cmd_vel_in", "speed of 9.00 m/s is above the limit, max_speed_mps: 1.2"))
 
     def test_outputs_that_nobody_hears(self):

@@ -185,6 +185,20 @@ def imu(stamp):
     return message
 
 
+def changed(make, **what):
+    """The same messages with these members set; 'header__frame_id' is a member of a member, a function gets the message."""
+    def altered(stamp):
+        message = make(stamp)
+        for path, value in what.items():
+            *owners, name = path.split("__")
+            owner = message
+            for part in owners:
+                owner = getattr(owner, part)
+            setattr(owner, name, value(message) if callable(value) else value)
+        return message
+    return altered
+
+
 def transforms_type():
     """tf2_msgs/TFMessage, whose Python package need not be installed."""
     text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"

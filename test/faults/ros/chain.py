@@ -38,20 +38,6 @@ class Camera:
         return support.image_message(self.pixels, stamp)
 
 
-def changed(make, **what):
-    """The same messages with these members set; 'header__frame_id' is a member of a member, a function gets the message."""
-    def altered(stamp):
-        message = make(stamp)
-        for path, value in what.items():
-            *owners, name = path.split("__")
-            owner = message
-            for part in owners:
-                owner = getattr(owner, part)
-            setattr(owner, name, value(message) if callable(value) else value)
-        return message
-    return altered
-
-
 def later(seconds):
     """For `changed(..., header__stamp=later(-5.0))`."""
     return lambda message: message.header.stamp + rospy.Duration(seconds)

@@ -27,7 +27,8 @@ import homography_pose_test
 import monitor as monitors
 import oracles
 import support
-from chain import changed, later
+from chain import later
+from support import changed
 from fault_notes import note
 from homography_pose_test import detection
 
