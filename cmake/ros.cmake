@@ -32,9 +32,9 @@ install(TARGETS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_nodelets
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.hpp")
 install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/check_frames scripts/doctor scripts/engaged_from_mavros.py scripts/plot_flight
-                      scripts/plot_gusts scripts/plot_miss scripts/plot_replay.py scripts/report_replay.py
-                      scripts/report_flight scripts/start_mission.py
+catkin_install_python(PROGRAMS scripts/check_frames scripts/doctor scripts/engaged_from_mavros.py scripts/look_at_board.py
+                      scripts/plot_flight scripts/plot_gusts scripts/plot_miss scripts/plot_replay.py
+                      scripts/report_replay.py scripts/report_flight scripts/start_mission.py
                       DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(FILES scripts/campaign_data.py scripts/command_line.py scripts/flight_bag.py scripts/flight_data.py scripts/live_system.py
               scripts/svg_chart.py

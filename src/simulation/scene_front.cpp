@@ -17,6 +17,11 @@ void addPlinth(const Scenario& scenario, const Rectangle& wall, Scene& scene) {
               painted({125, 120, 115}, Texture::kPlaster), plinth.top_m + 1);
 }
 
+Texture printOf(const PosterParams& poster) {
+  if (poster.look == "window") return Texture::kPrintedWindow;
+  return poster.look == "chessboard" ? Texture::kChessboard : Texture::kPoster;
+}
+
 }  // namespace
 
 void addFront(const Scenario& scenario, Scene& scene) {
@@ -57,8 +62,7 @@ void addPoster(const Scenario& scenario, const PosterParams& poster, Scene& scen
   scene.mesh.addBox(box(wall_m - 0.004, wall_m, face), painted(poster.border));
   const Rectangle picture =
       face.grown(-std::min({poster.border_m, 0.4 * poster.width_m, 0.4 * poster.height_m}));
-  const Texture print = poster.look == "window" ? Texture::kPrintedWindow : Texture::kPoster;
-  addPane(scene.mesh, wall_m - 0.008, picture, {print, Eigen::Vector3d::Constant(255.0)});
+  addPane(scene.mesh, wall_m - 0.008, picture, {printOf(poster), Eigen::Vector3d::Constant(255.0)});
 }
 
 }  // namespace window_ingress::simulation

@@ -77,6 +77,8 @@ cv::Mat makeTexture(Texture texture, std::uint32_t seed) {
       return printedWindow(random, makeTexture(Texture::kPoster, seed));
     case Texture::kView:
       return gardenView(random);
+    case Texture::kChessboard:
+      return chessboard();
     case Texture::kClouds:
       return tinted(232.0 + 14.0 * noise(random, {{4, 0.6}, {8, 0.5}, {16, 0.3}, {32, 0.2}}),
                     {255, 255, 255});

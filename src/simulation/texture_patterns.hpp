@@ -32,5 +32,7 @@ cv::Mat curtain(cv::RNG& random);
 cv::Mat poster(cv::RNG& random);
 cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall);
 cv::Mat gardenView(cv::RNG& random);
+/// 9 x 7 squares, 8 x 6 inner corners, and a margin as wide as a square.
+cv::Mat chessboard();
 
 }  // namespace window_ingress::simulation

@@ -119,4 +119,15 @@ cv::Mat gardenView(cv::RNG& random) {
   return roughened(random, image, 3.0);
 }
 
+cv::Mat chessboard() {
+  constexpr int kColumns = 11, kRows = 9;
+  cv::Mat squares(kRows, kColumns, CV_8UC3, cv::Scalar::all(235)), fine, image;
+  for (int row = 1; row + 1 < kRows; ++row)
+    for (int column = 1; column + 1 < kColumns; ++column)
+      if ((row + column) % 2 == 0) squares.at<cv::Vec3b>(row, column) = {25, 25, 25};
+  cv::resize(squares, fine, {kColumns * 64, kRows * 64}, 0, 0, cv::INTER_NEAREST);
+  cv::resize(fine, image, {kSize, kSize}, 0, 0, cv::INTER_AREA);
+  return image;
+}
+
 }  // namespace window_ingress::simulation

@@ -88,6 +88,18 @@ class HomographyPoseTest(unittest.TestCase):
         self.assertGreater(pose.filtered.covariance[0], 0.0)
         self.assertEqual((pose.window_width, pose.window_height), (WINDOW_W, WINDOW_H))
 
+    def test_a_transform_is_published_where_asked_for_only_and_no_pose_is_latched(self):
+        transforms = support.Listener("/tf", support.transforms_type())
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, support.camera_info)
+        self.stream("window", WindowDetection, detection)
+        message = transforms.wait(what="a transform")
+        self.assertEqual((message.transforms[0].header.frame_id, message.transforms[0].child_frame_id), ("odom", "window"))
+        self.assertAlmostEqual(message.transforms[0].transform.translation.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.1)
+        self.assertFalse(support.is_latched(self.poses.wait(lambda p: p.filtered_valid, "a filtered pose")))
+        self.assertEqual({m._connection_header["callerid"] for m in transforms.since(0.0)}, {"/second/homography_pose"})
+        transforms.stop()
+
     def test_two_sides_near_the_window_update_the_filter(self):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, support.camera_info)

@@ -108,6 +108,10 @@ class IngressNavigatorTest(unittest.TestCase):
         self.assertGreater(len(setpoints) / STREAM_FOR_S, STREAM_HZ)
         self.assertEqual({s.header.frame_id for s in setpoints}, {"odom"})
 
+    def test_the_state_is_latched_and_setpoints_never_are(self):
+        self.assertTrue(support.is_latched(self.states.wait(what="a state", begin=0.0)))
+        self.assertFalse(support.is_latched(self.setpoints.wait(what="a setpoint")))
+
     def test_lost_odometry_means_zero_and_the_stream_goes_on(self):
         self.start()
         self.setpoints.wait(lambda s: speed(s) > 0.0, "motion")

@@ -68,6 +68,10 @@ class Listener:
         self._subscriber.unregister()
 
 
+def is_latched(message):
+    return message._connection_header["latching"] == "1"
+
+
 class Stream:
     """Publishes what `make(stamp)` gives at a rate of wall time until it is stopped.
 

@@ -1,4 +1,5 @@
-"""Documents: every link leads somewhere, every command of the README runs, Doxygen has nothing to say."""
+"""Documents: every link leads somewhere, every command can be pasted and those of the README run, Doxygen has nothing to say."""
+import functools
 import os
 import pathlib
 import re
@@ -8,6 +9,7 @@ import signal
 import socket
 import subprocess
 import time
+import xml.etree.ElementTree as ElementTree
 
 import pytest
 
@@ -72,11 +74,51 @@ def test_doxygen_has_nothing_to_say(tmp_path):
     assert (tmp_path / "html/index.html").is_file()
 
 
-# --- commands of the README ----------------------------------------------------------------------------------------
-def readme_commands():
-    blocks = re.findall(r"^ *```bash\n(.*?)^ *```", (ROOT / "README.md").read_text(), flags=re.M | re.S)
-    lines = "\n".join(blocks).replace("\\\n", " ").splitlines()
+# --- commands that are printed -------------------------------------------------------------------------------------
+def printed_commands(document):
+    blocks = re.findall(r"^ *```bash\n(.*?)^ *```", document.read_text(encoding="utf-8"), flags=re.M | re.S)
+    lines = "\n".join(blocks).replace("\\\n", " ").replace("&&", "\n").splitlines()
     return [" ".join(shlex.split(line, comments=True)) for line in lines if shlex.split(line, comments=True)]
+
+
+def readme_commands():
+    return printed_commands(ROOT / "README.md")
+
+
+ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun plotjuggler) "  # of other packages
+ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
+
+
+@functools.lru_cache(maxsize=None)
+def explained(tool):
+    """All that is known of the tool's options: its own help, or the text of a script."""
+    script = ROOT / "scripts" / tool
+    return script.read_text(encoding="utf-8") if script.is_file() else run("scripts/run", tool, "--help").stdout
+
+
+def arguments_of(launch_file):
+    return {arg.get("name") for arg in ElementTree.parse(ROOT / "launch" / launch_file).getroot().findall("arg")}
+
+
+@pytest.mark.parametrize("document", [file for file in DOCUMENTS if printed_commands(file)], ids=lambda file: file.name)
+def test_printed_commands_can_be_pasted(document):
+    """From the repository's folder, once it is built: what they call is there and takes these options."""
+    for command in printed_commands(document):
+        if re.match(ELSEWHERE, command):
+            continue
+        first, *words = command.split()
+        assert re.match(r"(\./)?scripts/", first), f"{command}: begins with neither ./scripts/ nor ./scripts/run"
+        assert (ROOT / first).is_file(), command
+        tool = words.pop(0) if first.endswith("/run") else pathlib.Path(first).name
+        if tool == "roslaunch":
+            assert words[0] == "window_ingress" and {word.split(":=")[0] for word in words[2:]} <= arguments_of(words[1]), command
+        elif tool not in ROS:
+            options = {word.split("=")[0] for word in words if word.startswith("--")}
+            assert explained(tool), f"{command}: no such tool"
+            assert all(re.search(rf"{option}\b", explained(tool)) for option in options), command
+        if tool == "rosservice":
+            assert f"~{words[1].split('/')[-1]}`" in (ROOT / "README.md").read_text(encoding="utf-8"), command
+        assert all((ROOT / word).exists() for word in words if word.startswith("config/") and "*" not in word), command
 
 
 def checked_elsewhere(command, _):
@@ -97,7 +139,7 @@ def runs_a_tool(command, folder):
 def launches(command, folder):
     (folder / "my_drone.yaml").write_text("{}\n")
     words = command.replace("/home/me", str(folder)).split()
-    done = run("scripts/run", "roslaunch", "--nodes", *words[1:])
+    done = run(*words[:2], "--nodes", *words[2:])
     assert done.returncode == 0 and "/setpoint_guard" in done.stdout, done.stderr
 
 
@@ -114,7 +156,7 @@ def calls_a_service(command, folder):
     try:
         end = time.monotonic() + 60.0
         while True:
-            done = subprocess.run([ROOT / "scripts/run", *command.split()], env=environment, capture_output=True, text=True,
+            done = subprocess.run(command.split(), cwd=ROOT, env=environment, capture_output=True, text=True,
                                   timeout=60, check=False)
             if done.returncode == 0 or time.monotonic() > end:
                 break
@@ -126,9 +168,9 @@ def calls_a_service(command, folder):
 
 
 CHECKS = [(r"\./scripts/(demo|test|bench|build|build_deb|check_deb|check_install)\b", checked_elsewhere),
-          (r"\./scripts/run \w+", runs_a_tool),
-          (r"roslaunch window_ingress", launches),
-          (r"rosservice call", calls_a_service)]
+          (r"\./scripts/run roslaunch window_ingress", launches),
+          (r"\./scripts/run rosservice call", calls_a_service),
+          (r"\./scripts/run \w+", runs_a_tool)]
 
 
 @pytest.mark.parametrize("command", readme_commands())

@@ -104,6 +104,12 @@ OUTPUTS = ("/window", "/window_pose", "/window_pose_cov", "/window_polygon", "/m
            "/cmd_vel", "/ingress_navigator/cmd_vel", "/mavros/setpoint_velocity/cmd_vel", "/engaged", "/diagnostics", "/rosout")
 
 
+def test_a_debugger_goes_before_the_nodes_but_not_before_the_guard():
+    prefixes = {name: node["prefix"] for name, node in dump("ingress", "launch_prefix:=gdb -ex run --args")["nodes"].items()}
+    assert prefixes.pop("/setpoint_guard") is None
+    assert set(prefixes.values()) == {"gdb -ex run --args"}
+
+
 def test_a_replay_moves_recorded_outputs_aside_and_commands_nobody():
     launch = dump("replay", "rviz:=true", "loop:=true", "rate:=0.5", "start:=3", "odom_frame:=map")
     assert remaps(launch, "play") == {**{topic: f"/rosbag{topic}" for topic in OUTPUTS}, **{

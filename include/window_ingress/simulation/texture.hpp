@@ -1,5 +1,5 @@
 /// Procedural surfaces, drawn from a seed. All of them tile without a seam, except the pictures: glass,
-/// curtain, poster and printed window.
+/// curtain, poster, printed window, chessboard.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ enum class Texture {
   kCurtain = 11,
   kLouvres = 12,
   kPrintedWindow = 13,
-  kView = 14
+  kView = 14,
+  kChessboard = 15
 };
 
 /// Colour factors, 255 for "as the surface's own colour"; CV_8UC3 in RGB order, square, sides a power of two.

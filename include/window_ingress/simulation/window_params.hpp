@@ -100,7 +100,7 @@ struct PosterParams {
   double height_m = 0.9;             ///< with its border [m]
   double border_m = 0.05;            ///< width of its border [m]
   ColourParams border{30, 60, 150};  ///< of its border
-  std::string look = "picture";      ///< what is printed: a picture, or the view through an open window
+  std::string look = "picture";      ///< printed: a picture, the view through an open window, a chessboard
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);
@@ -109,7 +109,7 @@ struct PosterParams {
     field("height_m", self.height_m, 0.1, 3.0);
     field("border_m", self.border_m, 0.0, 0.3);
     field.group("border", self.border);
-    field.choice("look", self.look, {"picture", "window"});
+    field.choice("look", self.look, {"picture", "window", "chessboard"});
   }
 };
 
