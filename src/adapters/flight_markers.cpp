@@ -14,9 +14,9 @@ namespace {
 using navigation::NavigatorParams;
 
 constexpr std::size_t kMostPlaces = 2000;
-constexpr double kFunnelM = 1.5;  // shown outside the commit line
-constexpr double kViewM = 0.35;   // length of the pyramid that stands for the camera
-constexpr double kTextAboveM = 0.75;
+constexpr double kFunnelM = 1.5;     // shown outside the commit line
+constexpr double kViewM = 0.35;      // length of the pyramid that stands for the camera
+constexpr double kTextBelowM = 0.6;  // above are the texts of windows
 constexpr std::size_t kTextWidth = 30;
 constexpr int kTurnParts = 10;
 
@@ -151,7 +151,7 @@ visualization_msgs::MarkerArray flightMarkers(const navigation::NavigatorOutput&
   drawTrail(sketch, trail, position, output.state);
   sketch.arrow("setpoint", position, position + output.setpoint.velocity_odom_mps, colourOf(kSetpointRgb));
   drawTurn(sketch, T_odom_base, output.setpoint);
-  sketch.text("state", position + Eigen::Vector3d(0.0, 0.0, kTextAboveM),
+  sketch.text("state", position - Eigen::Vector3d(0.0, 0.0, kTextBelowM),
               std::string(navigation::toString(output.state)) + "\n" + wrapped(output.reason, kTextWidth));
   const bool knows_where = input.target && input.target->sign_trusted;
   const auto sections =

@@ -13,15 +13,20 @@ namespace {
 
 constexpr double kArrowM = 0.9, kFanM = 0.75;
 constexpr double kSigmas = 3.0;
-constexpr double kWallM = 1.2;        // shown beyond the opening's border
-constexpr double kTextBesideM = 1.1;  // left of the opening's border
-constexpr double kFaintest = 0.5;     // of the less likely hypothesis
+constexpr double kWallM = 1.2;                            // shown beyond the opening's border
+constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // the opening's upper border
+constexpr double kFaintest = 0.5;                         // of the less likely hypothesis
+constexpr double kHintM = 0.2, kHint = 0.25;              // smaller, or of another look: no more than a hint
 constexpr int kFanParts = 12;
 
 Points cornersOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
   Points corners;
   for (const Eigen::Vector3d& corner : geometry::openingCorners(size)) corners.push_back(T * corner);
   return corners;
+}
+
+Eigen::Vector3d above(const Eigen::Isometry3d& T, double height_m, double above_m) {
+  return T * Eigen::Vector3d(0.0, 0.0, 0.5 * height_m + above_m);
 }
 
 Points closed(Points corners) {
@@ -77,6 +82,13 @@ void drawHypothesis(MarkerSketch& sketch, const Look& look, const Eigen::Isometr
 void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
   for (const char* part : {"", ": way through", ": heading, 3 sigma", ": centre, 3 sigma"})
     sketch.gone(name + part);
+}
+
+// Nothing was found out about it, and nobody would fly at it.
+bool isHint(const window_ingress::KnownWindow& window) {
+  const bool is_candidate = window.may_be_target && std::min(window.width, window.height) >= kHintM;
+  return !is_candidate && window.openness == window_ingress::WindowPose::OPENNESS_UNKNOWN &&
+         window.failures == 0;
 }
 
 std::string chances(const pose::FilteredWindow& window) {
@@ -139,8 +151,7 @@ visualization_msgs::MarkerArray windowMarkers(const pose::FilteredWindow& window
     sketch.surface("wall", wallOf(window.T_odom_window, size), colourOf(kWallRgb, 0.45));
   else
     sketch.gone("wall");
-  const double left_m = 0.5 * size.width_m + kTextBesideM;
-  sketch.text("window: text", window.T_odom_window * Eigen::Vector3d(0.0, left_m, 0.0),
+  sketch.text("window: text", above(window.T_odom_window, size.height_m, kTextAboveM),
               is_open ? text + chances(window) : text);
   return sketch.markers();
 }
@@ -155,11 +166,12 @@ visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& faca
     const std::string name = "window " + std::to_string(window.id);
     const int verdict = std::min<int>(window.openness, 2);
     const bool is_target = window.id == facade.target_id;
+    const bool is_hint = !is_target && isHint(window);
     const auto border = closed(cornersOf(*T.value, {window.width, window.height}));
-    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], 0.9));
-    std::string text = std::to_string(window.id) + (is_target ? " target" : "") + "\n" + kVerdicts[verdict];
-    if (window.failures > 0) text += "\ngiven up";
-    sketch.text(name + ": text", T.value->translation(), text);
+    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], is_hint ? kHint : 0.9));
+    std::string text = std::to_string(window.id) + (is_target ? ", target: " : ": ") + kVerdicts[verdict];
+    if (window.failures > 0) text += ", given up";
+    sketch.text(name + ": text", above(*T.value, window.height, kNumberAboveM), is_hint ? "" : text);
   }
   return sketch.markers();
 }
