@@ -62,6 +62,19 @@ std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowD
   return windows;
 }
 
+void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target) {
+  message.window_id = target.id;
+  message.remembered = toPoseMsg(facade::poseOf(target.place)).position;
+}
+
+void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected) {
+  message.has_expected = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    message.expected_x[i] = expected[i].x();
+    message.expected_y[i] = expected[i].y();
+  }
+}
+
 window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec) {
   window_ingress::Facade message;
   for (const facade::KnownWindow& window : memory.windows())

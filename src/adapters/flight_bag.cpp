@@ -91,6 +91,9 @@ void FlightBag::onStep(const evaluation::FlightRecord&, const navigation::Naviga
   state.header = headerOf(now, frames_.odom);
   write("/state", now, state);
   write("/ground_truth/odom", now, toOdometryMsg(world_->truth(), now, frames_));
+  if (world_->scenario().sway.amplitude_m > 0.0)
+    write("/ground_truth/window", now,
+          toPoseStampedMsg(world_->T_odom_window(), headerOf(now, frames_.odom)));
 }
 
 void FlightBag::onEnd() { bag_->close(); }

@@ -99,6 +99,9 @@ void fill(window_ingress::WindowPose& message, const pose::SizeBelief& measured)
 void fill(window_ingress::WindowPose& message, const pose::FitVerdict& fit);
 void fill(window_ingress::WindowPose& message, const pose::FramesVerdict& frames);
 void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);
+void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target);
+/// \param expected where the target must be in the picture
+void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
 

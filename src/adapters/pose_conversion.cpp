@@ -56,6 +56,14 @@ pose::Matrix6d covarianceFromMsg(const geometry_msgs::PoseWithCovariance& messag
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data());
 }
 
+// Its numbers are judged by the navigator, with all others.
+pose::TargetMotion motionFromMsg(const PoseMsg& message) {
+  const auto& velocity = message.filtered_velocity;
+  return {{message.target_speed, message.target_speed_time},
+          {velocity.x, velocity.y, velocity.z},
+          message.filtered_velocity_sigma};
+}
+
 }  // namespace
 
 void fill(PoseMsg& message, const pose::PoseResult& result) {
@@ -112,6 +120,10 @@ void fill(PoseMsg& message, const pose::FilteredWindow& filtered) {
   message.nis = filtered.consistency.mean_nis;
   message.nis_images = static_cast<std::uint32_t>(std::max(0, filtered.consistency.images));
   message.consistent = filtered.consistency.consistent;
+  message.filtered_velocity = toVectorMsg(filtered.motion.velocity_odom_mps);
+  message.filtered_velocity_sigma = filtered.motion.velocity_sigma_mps;
+  message.target_speed = filtered.motion.model.speed_mps;
+  message.target_speed_time = filtered.motion.model.stands() ? 0.0 : filtered.motion.model.time_sec;
 }
 
 void fill(PoseMsg& message, const pose::SizeBelief& measured) {
@@ -176,6 +188,8 @@ Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, cons
   target.stamp_sec = *stamp_sec;
   target.T_odom_window = *pose.value;
   target.covariance = covarianceFromMsg(message.filtered);
+  target.motion = motionFromMsg(message);
+  target.pose_stamp_sec = *stamp_sec + message.filtered_age;
   target.sign_trusted = message.filtered_sign_trusted != 0;
   target.updates = static_cast<int>(std::min<std::uint32_t>(message.filtered_updates, 1u << 30));
   target.opening = {message.window_width, message.window_height};

@@ -213,18 +213,9 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
 
 void PoseNode::expectTarget(double stamp_sec, const geometry::PinholeCamera& camera,
                             window_ingress::WindowPose& out) const {
-  if (const facade::KnownWindow* target = tracker_.facade().target()) {
-    out.window_id = target->id;
-    out.remembered = toPoseMsg(facade::poseOf(target->place)).position;
-  }
+  if (const facade::KnownWindow* target = tracker_.facade().target()) fill(out, *target);
   if (!T_base_camera_) return;
-  const auto expected = tracker_.expected(stamp_sec, camera, *T_base_camera_.value);
-  if (!expected) return;
-  out.has_expected = true;
-  for (std::size_t i = 0; i < 4; ++i) {
-    out.expected_x[i] = (*expected)[i].x();
-    out.expected_y[i] = (*expected)[i].y();
-  }
+  if (const auto expected = tracker_.expected(stamp_sec, camera, *T_base_camera_.value)) fill(out, *expected);
 }
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {

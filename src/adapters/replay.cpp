@@ -62,7 +62,6 @@ class Replay {
   void takeOdometry(const nav_msgs::Odometry& message);
   void takeImu(const sensor_msgs::Imu& message);
   void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
-  void takeTruth(const geometry_msgs::PoseStamped& message);
   void noticeJump(const ros::Time& stamp);
   void forgetAll();
   void count(const ReplayedFrame& frame);
@@ -73,8 +72,7 @@ class Replay {
                                 const Converted<geometry::PinholeCamera>& camera);
   void locate(ReplayedFrame& frame, const std::string& camera_frame);
   Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image) const;
-  Converted<Eigen::Isometry3d> mountingIfKnown(const std::string& camera_frame) const;
-  std::optional<Eigen::Isometry3d> mounting(const std::string& camera_frame);
+  Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   void refuse(const std::string& what, const std::string& why) {
     ++summary_.refused;
     ++summary_.reasons[what + ": " + parameters::withoutNumbers(why)];
@@ -106,7 +104,8 @@ void Replay::prepare(const rosbag::Bag& bag) {
     if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) transforms_.take(*transforms);
   if (params_.topics.truth.empty()) return;
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(params_.topics.truth)))
-    if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>()) takeTruth(*truth);
+    if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>())
+      if (const auto pose = fromMsg(truth->pose)) truth_[truth->header.stamp] = *pose.value;
 }
 
 void Replay::take(const rosbag::MessageInstance& message) {
@@ -198,24 +197,13 @@ void Replay::forgetAll() {
   odometry_sec_ = attitude_sec_ = -1.0;
 }
 
-void Replay::takeTruth(const geometry_msgs::PoseStamped& message) {
-  const auto pose = fromMsg(message.pose);
-  if (pose) truth_[message.header.stamp] = *pose.value;
-}
-
 Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
   if (!camera_ || (camera_.value->width == image.cols && camera_.value->height == image.rows)) return camera_;
   return {std::nullopt, "camera_info is for pictures of another size"};
 }
 
-Converted<Eigen::Isometry3d> Replay::mountingIfKnown(const std::string& camera_frame) const {
+Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) const {
   return transforms_.between(params_.frames.base, camera_frame);
-}
-
-std::optional<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) {
-  const auto found = mountingIfKnown(camera_frame);
-  if (!found) refuse("mounting of the camera", found.reason);
-  return found.value;
 }
 
 void Replay::processFirst() {
@@ -263,7 +251,7 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
   input.expected = expected_;
   const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
   if (!T_odom_base) return input;
-  if (const auto T_base_camera = mountingIfKnown(header.frame_id).value)
+  if (const auto T_base_camera = mounting(header.frame_id).value)
     input.R_world_camera = T_odom_base->linear() * T_base_camera->linear();
   return input;
 }
@@ -271,7 +259,9 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
 void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
   frame.why_not_filtered = "no window";
   const double stamp_sec = frame.stamp.toSec();
-  const auto T_base_camera = frame.row.window ? mounting(camera_frame) : mountingIfKnown(camera_frame).value;
+  const auto mounted = mounting(camera_frame);
+  if (!mounted && frame.row.window) refuse("mounting of the camera", mounted.reason);
+  const std::optional<Eigen::Isometry3d>& T_base_camera = mounted.value;
   tracker_.see({stamp_sec, *frame.camera, T_base_camera, frame.row.window, detector_.windows()});
   tracker_.flush();
   expected_ = T_base_camera ? tracker_.expected(stamp_sec, *frame.camera, *T_base_camera) : std::nullopt;

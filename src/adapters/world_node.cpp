@@ -149,7 +149,7 @@ void WorldNode::stepOnce() {
   while (const auto sample = world_->takeOdometry()) sendOdometry(*sample);
   while (const auto sample = world_->takeTransform())
     publishers_.transform(*sample, stampOf(sample->stamp_sec));
-  if (truth_due_->due(world_->timeSec())) publishers_.truth(world_->truth(), now());
+  if (truth_due_->due(world_->timeSec())) publishers_.truth(*world_, now());
   referee_.judge(*world_, now());
 }
 

@@ -62,13 +62,18 @@ void WorldPublishers::imu(const simulation::ImuSample& sample, const ros::Time& 
   imu_.publish(toImuMsg(sample, stamp, frames_));
 }
 
-void WorldPublishers::truth(const simulation::VehicleTruth& truth, const ros::Time& stamp) {
-  truth_odom_.publish(toOdometryMsg(truth, stamp, frames_));
+void WorldPublishers::truth(const simulation::World& world, const ros::Time& stamp) {
+  truth_odom_.publish(toOdometryMsg(world.truth(), stamp, frames_));
+  if (world.scenario().sway.amplitude_m > 0.0) truthOfWindow(world, stamp);
+}
+
+void WorldPublishers::truthOfWindow(const simulation::World& world, const ros::Time& stamp) {
+  truth_window_.publish(toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
 }
 
 void WorldPublishers::facts(const simulation::World& world, const ros::Time& stamp) {
   static_tf_.sendTransform(mountingOf(world.T_base_camera(), stamp, frames_, camera_frame_));
-  truth_window_.publish(toPoseStampedMsg(world.T_odom_window(), headerOf(stamp, frames_.odom)));
+  truthOfWindow(world, stamp);
   reference_.publish(toReferenceMsg(world, headerOf(stamp, camera_frame_)));
   twist_in_odom_ = world.scenario().odometry.twist_frame == "world";
 }

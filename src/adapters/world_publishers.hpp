@@ -25,7 +25,8 @@ class WorldPublishers {
   void odometry(const simulation::OdometrySample& sample, const ros::Time& stamp);
   void transform(const simulation::OdometrySample& sample, const ros::Time& stamp);
   void imu(const simulation::ImuSample& sample, const ros::Time& stamp);
-  void truth(const simulation::VehicleTruth& truth, const ros::Time& stamp);
+  /// Of the vehicle, and of a window that moves.
+  void truth(const simulation::World& world, const ros::Time& stamp);
   /// What does not change during a flight: camera's mounting, the window, the operator's picture of it.
   void facts(const simulation::World& world, const ros::Time& stamp);
 
@@ -33,6 +34,7 @@ class WorldPublishers {
   bool odometryIsAwaited() const { return odom_.getNumSubscribers() > 0; }
 
  private:
+  void truthOfWindow(const simulation::World& world, const ros::Time& stamp);
   FrameNames frames_;
   std::string camera_frame_;
   bool twist_in_odom_ = false;  // as some simulators say it, against REP 147

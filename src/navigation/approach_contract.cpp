@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "window_ingress/navigation/moving_target.hpp"
+
 namespace window_ingress::navigation {
 
 double stoppingSpeed(double distance_m, double braking_mps2, double response_sec) {
@@ -118,8 +120,12 @@ Contract evaluateContract(const ContractInput& input, const NavigatorParams& par
   contract.clearance_vertical_m = input.opening.height_m / 2.0 - params.vehicle.half_height_m - margin_m;
   contract.commit_distance_m = commitDistance(relative, input.opening, input.pitch_rad, params);
   const double blind_sec = blindSec(input, params);
-  const double lateral_m = spreadOf(relative.sigma_lateral_m, input.gust_lateral_mps, blind_sec, params);
-  const double vertical_m = spreadOf(relative.sigma_vertical_m, input.gust_vertical_mps, blind_sec, params);
+  const double way_sec = blind_sec - input.unseen_sec;
+  const auto atPlane = [&](double sigma_m) { return sigmaAhead(sigma_m, input.motion, way_sec); };
+  const double lateral_m =
+      spreadOf(atPlane(relative.sigma_lateral_m), input.gust_lateral_mps, blind_sec, params);
+  const double vertical_m =
+      spreadOf(atPlane(relative.sigma_vertical_m), input.gust_vertical_mps, blind_sec, params);
   const Eigen::Vector3d offset = coastedOffset(relative, params).cwiseAbs();
   const double left = remaining(relative, params);
   contract.miss_lateral_m = left * offset.y() + lateral_m;

@@ -82,6 +82,7 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   input.opening = target.opening;
   input.pitch_rad = pitchOf(vehicle);
   input.unseen_sec = unseen_sec;
+  input.motion = target.motion;
   input.gust_lateral_mps = along(1);
   input.gust_vertical_mps = along(2);
   Contract contract = evaluateContract(input, params);
@@ -109,14 +110,16 @@ Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEst
   const auto& align = params.align;
   Eigen::Vector3d velocity_window(0.0, climbFor(-coasted.y(), align.lateral_speed_mps, params),
                                   climbFor(-coasted.z(), align.vertical_speed_mps, params));
-  const Eigen::Vector3d wind_window = uprightRotation(target).transpose() * wind_odom_mps;
-  velocity_window.tail<2>() -= wind_window.tail<2>();
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const Eigen::Vector3d carried_window =
+      R_odom_window.transpose() * (target.motion.velocity_odom_mps - wind_odom_mps);
+  velocity_window.tail<2>() += carried_window.tail<2>();
   const double across = velocity_window.norm();
   if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
   const double left =
       std::sqrt(std::max(0.0, std::pow(params.limits.speed_mps, 2) - velocity_window.squaredNorm()));
   velocity_window.x() = std::clamp(forward_mps, -left, left);
-  return uprightRotation(target) * velocity_window;
+  return R_odom_window * velocity_window;
 }
 
 }  // namespace window_ingress::navigation

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "window_ingress/navigation/moving_target.hpp"
 #include "window_ingress/navigation/opening_policy.hpp"
 
 namespace window_ingress::navigation {
@@ -43,7 +44,7 @@ bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
   if (!situation.target || !situation.target->sign_trusted) return false;
   const Eigen::Vector3d moved =
       situation.target->T_odom_window.translation() - committed.T_odom_window.translation();
-  return moved.norm() < params.commit.max_update_jump_m;
+  return moved.norm() < params.commit.max_update_jump_m + reachM(committed.motion);
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ void Commit::enter() { *this = Commit(params_); }
 
 Decision Commit::step(const Situation& situation, MissionMemory& memory) {
   refine(situation, memory);
-  const auto& target = *memory.committed;
+  const TargetEstimate target = ahead(*memory.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, target);
   const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
   const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
@@ -99,7 +100,7 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
   if (!situation.target || !situation.target->sign_trusted) return;
   const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
   disagreement_m_ = moved.norm();
-  if (disagreement_m_ < params_.commit.max_update_jump_m) {
+  if (disagreement_m_ < params_.commit.max_update_jump_m + reachM(situation.target->motion)) {
     memory.committed = situation.target;
     memory.committed_sec = situation.now_sec;
     disagreements_ = 0;
@@ -127,10 +128,11 @@ bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
                        const NavigatorParams& params) {
   if (!memory.committed || !situation.vehicle) return false;
   const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
-  const RelativeState relative = relate(*situation.vehicle, *memory.committed);
+  const TargetEstimate committed = ahead(*memory.committed, situation.now_sec);
+  const RelativeState relative = relate(*situation.vehicle, committed);
   if (relative.distance() < -params.vehicle.half_length_m) return true;
-  if (canStop(relative, params) && !seesCommitted(situation, *memory.committed, params)) return false;
-  return !isBroken(contractWith(*memory.committed, *situation.vehicle, memory, params, unknown_sec), params);
+  if (canStop(relative, params) && !seesCommitted(situation, committed, params)) return false;
+  return !isBroken(contractWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
 }
 
 }  // namespace window_ingress::navigation

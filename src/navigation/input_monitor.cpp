@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/navigation/moving_target.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -51,6 +52,17 @@ bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
   return is_symmetric && block.llt().info() == Eigen::Success;  // which reads one half only
 }
 
+bool hasUsableMotion(const TargetEstimate& target) {
+  constexpr double kFastestWindowMps = 2.0, kLongestSec = 1000.0;
+  const auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; };
+  const pose::TargetMotion& motion = target.motion;
+  const double velocity_mps = motion.velocity_odom_mps.stableNorm();
+  if (motion.model.stands()) return isWithin(motion.model.speed_mps, 0.0) && isWithin(velocity_mps, 0.0);
+  return isWithin(motion.model.speed_mps, kFastestWindowMps) && isWithin(velocity_mps, kFastestWindowMps) &&
+         isWithin(motion.velocity_sigma_mps, kFastestWindowMps) && motion.model.time_sec > 0.0 &&
+         motion.model.time_sec <= kLongestSec && std::isfinite(target.pose_stamp_sec);
+}
+
 }  // namespace
 
 std::string faultOf(const VehicleState& vehicle) {
@@ -73,6 +85,7 @@ std::string faultOf(const TargetEstimate& target, double max_tilt_rad) {
   const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
   if (tilt_rad > max_tilt_rad) return format("window: leans by %.2f rad", tilt_rad);
   if (!isPositive(target.covariance)) return "window: covariance unknown";
+  if (!hasUsableMotion(target)) return "window: its motion is out of this world";
   const auto& opening = target.opening;
   const bool has_size =
       opening.width_m > 0.0 && opening.height_m > 0.0 && opening.width_m < 20.0 && opening.height_m < 20.0;
@@ -188,7 +201,7 @@ void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation
   const std::string age = ageFault("window", target_->stamp_sec, situation.now_sec,
                                    params_.max_target_age_sec, params_.max_future_sec);
   if (age.empty()) {
-    situation.target = target_;
+    situation.target = ahead(*target_, situation.now_sec);
     situation.target_fault.clear();
   }
 }

@@ -31,7 +31,8 @@ RelativeState relate(const VehicleState& vehicle, const TargetEstimate& target) 
   const double heading_rad = geometry::yawOf(vehicle.T_odom_base.linear());
   RelativeState relative;
   relative.position_window_m = -(R_odom_window.transpose() * to_window_odom_m);
-  relative.velocity_window_mps = R_odom_window.transpose() * vehicle.velocity_odom_mps;
+  relative.velocity_window_mps =
+      R_odom_window.transpose() * (vehicle.velocity_odom_mps - target.motion.velocity_odom_mps);
   relative.bearing_rad =
       geometry::wrapAngle(std::atan2(to_window_odom_m.y(), to_window_odom_m.x()) - heading_rad);
   relative.heading_error_rad = geometry::wrapAngle(geometry::yawOf(R_odom_window) - heading_rad);

@@ -42,6 +42,8 @@ TargetEstimate targetFrom(const pose::FilteredWindow& window) {
   target.sign_trusted = window.sign_trusted;
   target.updates = window.updates;
   target.opening = window.size.size;
+  target.motion = window.motion;
+  target.pose_stamp_sec = window.stamp_sec + window.age_sec;
   return target;
 }
 
@@ -51,6 +53,7 @@ TargetTracker::TargetTracker(const pose::PoseParams& pose, const pose::FilterPar
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
       frames_(pose, filter, params.frames, sizeSaid(pose)),
+      parallax_(filter.target_speed_mps),
       judge_(params.openness, neededBy(params.fit)),
       facade_(params.facade),
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
@@ -164,7 +167,12 @@ void TargetTracker::judgeOpenness(const SeenPicture& picture) {
   const auto window = filter_.state(picture.stamp_sec);
   const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
   if (!window || !T_odom_camera) return;
-  judge_.see({*picture.window, picture.camera, *T_odom_camera, window->T_odom_window, window->size.size});
+  // What lies behind a window that moves is taken to move along: all is seen from the window.
+  const Eigen::Vector3d moved =
+      window->motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window->T_odom_window.translation();
+  const Eigen::Translation3d back(-moved);
+  judge_.see({*picture.window, picture.camera, back * *T_odom_camera, back * window->T_odom_window,
+              window->size.size});
 }
 
 void TargetTracker::rememberWindows(const SeenPicture& picture) {
@@ -193,25 +201,23 @@ std::optional<geometry::Quadrilateral> TargetTracker::expected(double stamp_sec,
 }
 
 // What was found out about the window before does not hold for another one.
-void TargetTracker::startAnewIfOther(std::uint32_t target_before) {
-  if (facade_.targetId() == target_before || !facade_.isChosen()) return;
+template <typename Choice>
+auto TargetTracker::startAnewIfOther(const Choice& choose) {
+  const std::uint32_t before = facade_.targetId();
+  auto answer = choose();
+  if (facade_.targetId() == before || !facade_.isChosen()) return answer;
   filter_.reset();
   parallax_.clear();
   judge_.reset();
+  return answer;
 }
 
 facade::Answer TargetTracker::selectWindow(std::uint32_t id) {
-  const std::uint32_t before = facade_.targetId();
-  const facade::Answer answer = facade_.select(id);
-  startAnewIfOther(before);
-  return answer;
+  return startAnewIfOther([&] { return facade_.select(id); });
 }
 
 facade::Answer TargetTracker::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
-  const std::uint32_t before = facade_.targetId();
-  const facade::Answer answer = facade_.selectNear(point_odom_m);
-  startAnewIfOther(before);
-  return answer;
+  return startAnewIfOther([&] { return facade_.selectNear(point_odom_m); });
 }
 
 void TargetTracker::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one) {
@@ -220,10 +226,7 @@ void TargetTracker::heed(std::uint32_t flown_at, const std::vector<std::uint32_t
   const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(heeded_),
                                         given_up.end());
   heeded_ = given_up.size();
-  if (news.empty()) return;
-  const std::uint32_t before = facade_.targetId();
-  facade_.giveUp(news, next_one);
-  startAnewIfOther(before);
+  if (!news.empty()) startAnewIfOther([&] { return facade_.giveUp(news, next_one), true; });
 }
 
 std::string TargetTracker::whyNotUsed(const SeenPicture& picture) {
@@ -231,10 +234,10 @@ std::string TargetTracker::whyNotUsed(const SeenPicture& picture) {
   const int sides = window.visibleSides();  // none: only corners are known
   const bool is_whole = window.whole() && (sides == 4 || sides == 0);
   const auto T_odom_camera = cameraAt(window.stamp_sec, picture.T_base_camera);
-  if (T_odom_camera) {
-    const auto other = facade_.whyNotTarget(window, {picture.camera, *T_odom_camera}, lookedFor());
-    if (!other.empty()) return other;
-  }
+  if (T_odom_camera)
+    if (auto other = facade_.whyNotTarget(window, {picture.camera, *T_odom_camera}, lookedFor());
+        !other.empty())
+      return other;
   // A camera that is not mounted as said may give no pose at all.
   if (is_whole && T_odom_camera)
     frames_.mounting().see(window, picture.camera, *T_odom_camera * picture.T_base_camera->inverse(),

@@ -59,7 +59,8 @@ void ParallaxCheck::judge() {
   const double noise_m = std::hypot(kPlaceSigmaM, kBearingSigmaRad * distance_m);
   const double drift_m =
       std::hypot(kDriftMPerSqrtSec, kTurnRadPerSqrtSec * distance_m) * std::sqrt(elapsed_sec);
-  const double spread = (kLateM + kSigmas * std::hypot(kSpanFactor * noise_m, drift_m)) / span_m;
+  const double moved_m = kSigmas * target_speed_mps_ * elapsed_sec;
+  const double spread = (kLateM + moved_m + kSigmas * std::hypot(kSpanFactor * noise_m, drift_m)) / span_m;
   if (std::abs(slope) - spread > kOtherSlope) {
     verdict_ = Verdict::kOther;
     factor_ = 1.0 / std::max(0.01, 1.0 - slope);

@@ -1,5 +1,6 @@
 #include "window_ingress/pose/window_filter.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -203,6 +204,14 @@ struct WindowFilter::Impl {
     return covariance;
   }
 
+  TargetMotion motionOf(const WindowHypothesis& window) const {
+    const MotionModel model = params.targetMotion();
+    if (model.stands()) return {};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(window.velocityCovariance(),
+                                                                Eigen::EigenvaluesOnly);
+    return {model, window.state().velocity(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))};
+  }
+
   WindowHypothesis predicted(WindowHypothesis window, double age_sec) const {
     window.predict(params, std::max(age_sec, 0.0), 0.0, camera_position);
     return window;
@@ -234,6 +243,7 @@ struct WindowFilter::Impl {
     out.size = window.size();
     out.camera_turn = cameraTurn(window);
     out.consistency = consistency.consistency();
+    out.motion = motionOf(window);
     return out;
   }
 };

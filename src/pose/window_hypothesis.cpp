@@ -1,6 +1,7 @@
 #include "window_ingress/pose/window_hypothesis.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -17,6 +18,7 @@ using Weight = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 constexpr int kMaxIterations = 20;
 constexpr double kConverged = 1e-5;  // of a step's squared Mahalanobis length
 constexpr double kPriorPositionSigmaM = 3.0;
+constexpr double kStandingSigma = 1e-6;  // heights per second: beyond all doubt, yet invertible
 
 template <typename Llt>
 double halfLogDeterminant(const Llt& llt) {
@@ -121,8 +123,10 @@ WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isom
   state_.anchor_m = anchor_m;
   state_.values << inverse_height * (T_odom_window.translation() - anchor_m),
       geometry::yawOf(T_odom_window.linear()), 0.0, 0.0, 0.0,
-      std::log(size.size.width_m / size.size.height_m), inverse_height;
+      std::log(size.size.width_m / size.size.height_m), inverse_height, Eigen::Vector3d::Zero();
+  const double speed = inverse_height * params.target_speed_mps;
   Vector sigma = Vector::Zero();
+  sigma.tail<3>().setConstant(std::max(speed, kStandingSigma));
   sigma.head<7>() << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), yaw_sigma_rad,
       params.attitude_bias_sigma_rad, params.mounting_yaw_sigma_rad, params.attitude_bias_sigma_rad;
   covariance_ = sigma.cwiseAbs2().asDiagonal();
@@ -130,11 +134,13 @@ WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isom
   aspect_and_scale << 1.0, -1.0, 0.0, -inverse_height;
   const Eigen::Matrix2d at_least =
       std::pow(params.known_size_sigma, 2) * Eigen::Matrix2d::Identity() + size.log_covariance;
-  covariance_.bottomRightCorner<2, 2>() = aspect_and_scale * at_least * aspect_and_scale.transpose();
+  covariance_.block<2, 2>(WindowState::kLogAspect, WindowState::kLogAspect) =
+      aspect_and_scale * at_least * aspect_and_scale.transpose();
 }
 
 void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec, double way_m,
                                const Eigen::Vector3d& camera_position) {
+  move(params.targetMotion(), elapsed_sec);
   const double kept = std::exp(-elapsed_sec / params.attitude_bias_time_sec);
   const double renewed = (1.0 - kept * kept) * std::pow(params.attitude_bias_sigma_rad, 2);
   for (const Index bias : {WindowState::kPitchBias, WindowState::kRollBias}) {
@@ -152,6 +158,24 @@ void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec, d
   turn.head<3>() = inverse_height * Eigen::Vector3d::UnitZ().cross(state_.position() - camera_position);
   turn(WindowState::kYaw) = 1.0;
   covariance_ += std::pow(params.drift_rad_per_sqrt_sec, 2) * elapsed_sec * turn * turn.transpose();
+}
+
+void WindowHypothesis::move(const MotionModel& motion, double elapsed_sec) {
+  if (motion.stands()) return;
+  const MotionModel::While passed = motion.over(elapsed_sec);
+  Matrix step = Matrix::Identity();
+  step.block<3, 3>(WindowState::kX, WindowState::kVelocityX).diagonal().setConstant(passed.way_sec);
+  step.block<3, 3>(WindowState::kVelocityX, WindowState::kVelocityX).diagonal().setConstant(passed.kept);
+  state_.values = step * Vector(state_.values);
+  covariance_ = step * Matrix(covariance_) * step.transpose();
+  const double heights = std::pow(state_.values(WindowState::kInverseHeight), 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int place = WindowState::kX + axis, velocity = WindowState::kVelocityX + axis;
+    covariance_(place, place) += heights * passed.place_variance;
+    covariance_(velocity, velocity) += heights * passed.velocity_variance;
+    covariance_(place, velocity) += heights * passed.cross_covariance;
+    covariance_(velocity, place) += heights * passed.cross_covariance;
+  }
 }
 
 std::optional<WindowHypothesis::Outcome> WindowHypothesis::update(const FilterParams& params,
@@ -198,10 +222,17 @@ Eigen::Matrix4d WindowHypothesis::poseCovariance() const {
   return slope * covariance_ * slope.transpose();
 }
 
+Eigen::Matrix3d WindowHypothesis::velocityCovariance() const {
+  const double height_m = state_.heightM();
+  return height_m * height_m * covariance_.block<3, 3>(WindowState::kVelocityX, WindowState::kVelocityX);
+}
+
 SizeBelief WindowHypothesis::size() const {
   Eigen::Matrix2d log_size;
   log_size << 1.0, -state_.heightM(), 0.0, -state_.heightM();
-  return {state_.opening(), log_size * covariance_.bottomRightCorner<2, 2>() * log_size.transpose()};
+  const Eigen::Matrix2d aspect_and_scale =
+      covariance_.block<2, 2>(WindowState::kLogAspect, WindowState::kLogAspect);
+  return {state_.opening(), log_size * aspect_and_scale * log_size.transpose()};
 }
 
 double WindowHypothesis::yawFromSight(const Eigen::Vector3d& camera_position) const {

@@ -10,6 +10,7 @@
 #include "window_ingress/simulation/followed_vehicle.hpp"
 #include "window_ingress/simulation/reference_picture.hpp"
 #include "window_ingress/simulation/scene.hpp"
+#include "window_ingress/simulation/sway.hpp"
 #include "window_ingress/simulation/wind.hpp"
 
 namespace window_ingress::simulation {
@@ -71,6 +72,7 @@ struct World::Impl {
         model(modelOf(scenario.camera)),
         T_base_camera(scenario.camera.T_base_camera()),
         T_odom_window(scenario.T_odom_window()),
+        sway(scenario.sway, T_odom_window.linear()),
         camera(pictures == Pictures::kDrawn ? makeCamera(scene, scenario.camera, seed) : nullptr),
         wind(scenario.wind, wallOf(scenario, scene), scenario.vehicle.half_length_m, seed),
         quadrotor(scenario.vehicle, scenario.startPoseInOdom(),
@@ -87,13 +89,15 @@ struct World::Impl {
 
   bool external() const { return scenario.vehicle.profile == "external"; }
   const VehicleTruth& truth() const { return external() ? followed.truth() : quadrotor.truth(); }
+  VehicleTruth besideHouse() const { return sway.besideHouse(truth(), time_sec); }
   const FaultParams* acting(const char* unit) const { return faults.acting(unit, time_sec); }
 
   void move() {
     obey();
     const Eigen::Matrix3d& turn = T_odom_window.linear();
-    const Air air = wind.step(kStepSec, T_odom_window.inverse() * truth().T_odom_base.translation(),
-                              turn.transpose() * truth().velocity_odom_mps);
+    const VehicleTruth beside = besideHouse();
+    const Air air = wind.step(kStepSec, T_odom_window.inverse() * beside.T_odom_base.translation(),
+                              turn.transpose() * beside.velocity_odom_mps);
     const Eigen::Vector3d estimate = odometry.drift().linear().transpose() * odometry.velocityEstimate();
     quadrotor.step(kStepSec, {turn * air.wind_mps, turn * air.push_mps2}, estimate);
   }
@@ -104,19 +108,19 @@ struct World::Impl {
       imu.update(time_sec, truth(), quadrotor.specificForceBase(), odometry.drift());
     }
     if (shutter.due(time_sec)) expose();
-    referee.update(time_sec, truth());
+    referee.update(time_sec, besideHouse());
     if (referee.touched() && !external() && !quadrotor.crashed()) quadrotor.crash(restHeight());
   }
 
   void expose() {
-    const Exposure exposure{exposure_count++, time_sec, truth(), truth(), Exposure::Spoilt::kNot};
+    const Exposure exposure{exposure_count++, time_sec, truth(), besideHouse(), Exposure::Spoilt::kNot};
     if (const auto arrival_sec = transport.arrivalOf(time_sec)) exposures.pushUntil(*arrival_sec, exposure);
   }
 
   // In odom, where z = 0 is the ground.
   double restHeight() const {
     const double centre_m = T_odom_window.translation().z();
-    const Eigen::Vector3d position = T_odom_window.inverse() * quadrotor.truth().T_odom_base.translation();
+    const Eigen::Vector3d position = T_odom_window.inverse() * besideHouse().T_odom_base.translation();
     return centre_m + topBelow(scene.obstacles, position, scene.ground_z_m) + scenario.vehicle.half_height_m;
   }
 
@@ -141,15 +145,17 @@ struct World::Impl {
     }
   }
 
-  Eigen::Isometry3d cameraInWindow(const VehicleTruth& truth) const {
-    return T_odom_window.inverse() * truth.T_odom_base * T_base_camera;
+  Eigen::Isometry3d cameraInWindow(const Exposure& exposure) const {
+    const VehicleTruth beside = sway.besideHouse(exposure.truth, exposure.stamp_sec);
+    return T_odom_window.inverse() * beside.T_odom_base * T_base_camera;
   }
 
   Scenario scenario;
   std::uint32_t seed;
   Scene scene;
   geometry::PinholeCamera model;
-  Eigen::Isometry3d T_base_camera, T_odom_window;
+  Eigen::Isometry3d T_base_camera, T_odom_window;  ///< the house at its resting place
+  Sway sway;
   std::unique_ptr<CameraSensor> camera;  ///< null: no pictures
   Wind wind;
   Quadrotor quadrotor;
@@ -211,7 +217,7 @@ std::optional<CameraFrame> World::takeFrame() {
   CameraFrame frame;
   frame.stamp_sec = exposure->stamp_sec;
   frame.truth = exposure->truth;
-  frame.T_camera_window = impl_->cameraInWindow(exposure->truth).inverse();
+  frame.T_camera_window = impl_->cameraInWindow(*exposure).inverse();
   if (!impl_->camera) return frame;
   const auto motion = CameraMotion::of(exposure->shown, impl_->T_odom_window, impl_->T_base_camera);
   frame.image = impl_->camera->expose(motion, exposure->index, exposure->stamp_sec);
@@ -247,7 +253,11 @@ const geometry::PinholeCamera& World::camera() const { return impl_->model; }
 
 Eigen::Isometry3d World::T_base_camera() const { return impl_->T_base_camera; }
 
-Eigen::Isometry3d World::T_odom_window() const { return impl_->T_odom_window; }
+Eigen::Isometry3d World::T_odom_window() const {
+  Eigen::Isometry3d now = impl_->T_odom_window;
+  now.translation() += impl_->sway.offsetOdom(impl_->time_sec);
+  return now;
+}
 
 Eigen::Isometry3d World::odometryDrift() const { return impl_->odometry.drift(); }
 

@@ -9,6 +9,7 @@
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 #include "window_ingress/pose/opening_fit.hpp"
+#include "window_ingress/pose/target_motion.hpp"
 
 namespace window_ingress::navigation {
 
@@ -26,6 +27,9 @@ struct TargetEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< odom axes; m, rad
   /// The window's normal is unambiguous. While false, only the bearing of the position may be used.
   bool sign_trusted = false;
+  /// Of a window that does not stand still; pose and motion are those of `pose_stamp_sec`, see `ahead`.
+  pose::TargetMotion motion;
+  double pose_stamp_sec = 0.0;
   int updates = 0;  ///< images that contributed since the window was last acquired
   geometry::OpeningSize opening;
   /// GO: the vehicle fits; UNKNOWN: the size of the opening is still to be found out.

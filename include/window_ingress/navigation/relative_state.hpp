@@ -9,7 +9,7 @@ namespace window_ingress::navigation {
 /// The vehicle as seen from the window, and how well that is known. In front of the window x is negative.
 struct RelativeState {
   Eigen::Vector3d position_window_m = Eigen::Vector3d::Zero();    ///< of the body's centre
-  Eigen::Vector3d velocity_window_mps = Eigen::Vector3d::Zero();  ///< window axes
+  Eigen::Vector3d velocity_window_mps = Eigen::Vector3d::Zero();  ///< beside the window, its axes
   double bearing_rad = 0.0;        ///< of the opening's centre against the vehicle's heading, left positive
   double heading_error_rad = 0.0;  ///< window's normal against the vehicle's heading, left positive
   double sigma_lateral_m = 0.0;    ///< of y: its part from the normal's direction grows with the distance

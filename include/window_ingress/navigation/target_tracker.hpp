@@ -122,7 +122,8 @@ class TargetTracker {
   std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
                                             const std::optional<Eigen::Isometry3d>& T_base_camera) const;
   void rememberWindows(const SeenPicture& picture);
-  void startAnewIfOther(std::uint32_t target_before);
+  template <typename Choice>
+  auto startAnewIfOther(const Choice& choose);
   std::string whyNotUsed(const SeenPicture& picture);
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "window_ingress/pose/target_motion.hpp"
+
 namespace window_ingress::pose {
 
 /// Parameters of `WindowFilter`.
@@ -21,6 +23,12 @@ struct FilterParams {
   double drift_m_per_sqrt_sec = 0.01;      ///< odometry's random walk in time [m/sqrt(s)]
   double drift_m_per_sqrt_m = 0.03;        ///< and in distance flown [m/sqrt(m)]
   double drift_rad_per_sqrt_sec = 0.002;   ///< and in heading [rad/sqrt(s)]
+  double target_speed_mps =
+      0.0;  ///< of a target that moves, root mean square a direction; 0: it stands [m/s]
+  double target_speed_time_sec =
+      2.0;  ///< how long its velocity lasts: half the period of one that swings [s]
+
+  MotionModel targetMotion() const { return {target_speed_mps, target_speed_time_sec}; }
 
   double gate_squares = 35.0;  ///< largest normalised innovation squared; 8 degrees of freedom
   double max_mean_squares =
@@ -53,6 +61,8 @@ struct FilterParams {
     field("drift_m_per_sqrt_sec", self.drift_m_per_sqrt_sec, 0.0, 1.0);
     field("drift_m_per_sqrt_m", self.drift_m_per_sqrt_m, 0.0, 1.0);
     field("drift_rad_per_sqrt_sec", self.drift_rad_per_sqrt_sec, 0.0, 0.5);
+    field("target_speed_mps", self.target_speed_mps, 0.0, 0.5);
+    field("target_speed_time_sec", self.target_speed_time_sec, 0.2, 60.0);
     field("gate_squares", self.gate_squares, 10.0, 1000.0);
     field("max_mean_squares", self.max_mean_squares, 9.0, 1000.0);
     field("outliers_until_restart", self.outliers_until_restart, 1, 1000);

@@ -12,13 +12,16 @@ namespace window_ingress::pose {
 /// than said: 1 - 1/k cannot tell much larger ones.
 class ParallaxCheck {
  public:
+  /// \param target_speed_mps at which the window itself may move: what it may have moved proves nothing
+  explicit ParallaxCheck(double target_speed_mps = 0.0) : target_speed_mps_(target_speed_mps) {}
+
   enum class Verdict { kOpen, kAsSaid, kOther };
 
   /// One image's answer. \param camera_odom_m where it was taken \param window_odom_m the window's centre as
   /// computed with the size said. Not finite, or not later than the last: ignored.
   void see(double stamp_sec, const Eigen::Vector3d& camera_odom_m, const Eigen::Vector3d& window_odom_m);
   /// Another window, or another odometry frame.
-  void clear() { *this = ParallaxCheck(); }
+  void clear() { *this = ParallaxCheck(target_speed_mps_); }
 
   Verdict verdict() const { return verdict_; }
   double factor() const { return factor_; }  ///< true size over the one said; only with a verdict
@@ -31,6 +34,7 @@ class ParallaxCheck {
   bool isNew(double stamp_sec, const Eigen::Vector3d& camera_odom_m) const;
   void judge();
 
+  double target_speed_mps_;
   std::deque<Sight> sights_;
   Verdict verdict_ = Verdict::kOpen;
   double factor_ = 1.0;

@@ -8,6 +8,7 @@
 #include "window_ingress/pose/consistency_monitor.hpp"
 #include "window_ingress/pose/filter_params.hpp"
 #include "window_ingress/pose/size_belief.hpp"
+#include "window_ingress/pose/target_motion.hpp"
 #include "window_ingress/pose/window_pose_estimate.hpp"
 
 namespace window_ingress::pose {
@@ -43,6 +44,7 @@ struct FilteredWindow {
 
   CameraTurn camera_turn;
   Consistency consistency;
+  TargetMotion motion;  ///< of the window; stands still unless `FilterParams::target_speed_mps` says else
 };
 
 /// Carries both planar hypotheses until the images, seen from a moving vehicle, have killed one. A size of

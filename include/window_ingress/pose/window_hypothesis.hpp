@@ -49,7 +49,8 @@ class WindowHypothesis {
   const WindowState& state() const { return state_; }
   const WindowState::Matrix& covariance() const { return covariance_; }
   Eigen::Isometry3d T_odom_window() const { return state_.T_odom_window(); }
-  Eigen::Matrix4d poseCovariance() const;  ///< x, y, z [m], yaw [rad]; odom axes
+  Eigen::Matrix4d poseCovariance() const;      ///< x, y, z [m], yaw [rad]; odom axes
+  Eigen::Matrix3d velocityCovariance() const;  ///< of the window, odom axes [(m/s)^2]
   SizeBelief size() const;
   double yawSigma() const { return std::sqrt(covariance_(WindowState::kYaw, WindowState::kYaw)); }
 
@@ -63,6 +64,7 @@ class WindowHypothesis {
   double distanceTo(const WindowHypothesis& other) const;
 
  private:
+  void move(const MotionModel& motion, double elapsed_sec);
   void keepScale(double inverse_height, double variance);
 
   WindowState state_;

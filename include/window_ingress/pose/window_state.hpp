@@ -16,7 +16,7 @@ namespace window_ingress::pose {
 /// images depend on the inverse height nearly linearly, so that a scale known to a factor of two is no
 /// trouble.
 struct WindowState {
-  static constexpr int kSize = 9;
+  static constexpr int kSize = 12;
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   enum Index {
@@ -29,6 +29,9 @@ struct WindowState {
     kRollBias,       ///< about its own z axis [rad]
     kLogAspect,      ///< logarithm of width over height of the opening
     kInverseHeight,  ///< of the opening [1/m]
+    kVelocityX,      ///< of the window, odom axes [heights of the opening per second]
+    kVelocityY,
+    kVelocityZ,
   };
 
   Vector values = Vector::Zero();
@@ -37,6 +40,7 @@ struct WindowState {
   double heightM() const { return 1.0 / values(kInverseHeight); }
   double yaw() const { return values(kYaw); }
   Eigen::Vector3d position() const { return anchor_m + heightM() * values.head<3>(); }
+  Eigen::Vector3d velocity() const { return heightM() * values.segment<3>(kVelocityX); }
   geometry::OpeningSize opening() const { return {std::exp(values(kLogAspect)) * heightM(), heightM()}; }
   Eigen::Isometry3d T_odom_window() const;
   Eigen::Isometry3d T_camera_window(const Eigen::Isometry3d& T_odom_camera) const;

@@ -38,7 +38,7 @@ struct Exposure {
   std::uint64_t index = 0;  ///< of the picture that is shown, for its noise
   double stamp_sec = 0.0;
   VehicleTruth truth;  ///< at the stamp
-  VehicleTruth shown;  ///< from where the picture shows the world
+  VehicleTruth shown;  ///< from where the picture shows the world, as beside a house at its resting place
   enum class Spoilt { kNot, kGarbage, kMirrored } spoilt = Spoilt::kNot;
 };
 

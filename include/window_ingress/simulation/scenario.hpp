@@ -14,6 +14,7 @@
 #include "window_ingress/simulation/fault_params.hpp"
 #include "window_ingress/simulation/house_params.hpp"
 #include "window_ingress/simulation/sensor_params.hpp"
+#include "window_ingress/simulation/sway_params.hpp"
 #include "window_ingress/simulation/vehicle_params.hpp"
 
 namespace window_ingress::simulation {
@@ -56,6 +57,7 @@ struct Scenario {
   std::vector<DoorParams> doors;
   std::vector<PosterParams> posters;
   HouseParams house;
+  SwayParams sway;
   CameraParams camera;
   OdometryParams odometry;
   ImuParams imu;
@@ -73,6 +75,7 @@ struct Scenario {
     field.list("doors", self.doors);
     field.list("posters", self.posters);
     field.group("house", self.house);
+    field.group("sway", self.sway);
     field.group("camera", self.camera);
     field.group("odometry", self.odometry);
     field.group("imu", self.imu);
@@ -88,7 +91,7 @@ struct Scenario {
   Eigen::Isometry3d startPoseInWindow() const;  ///< T_window_base
   /// T_odom_base; the origin of odom lies on the ground below the start.
   Eigen::Isometry3d startPoseInOdom() const;
-  Eigen::Isometry3d T_odom_window() const;
+  Eigen::Isometry3d T_odom_window() const;  ///< of a house at its resting place
 };
 
 /// What is wrong with the scenario, one text a fault: values out of range, things that do not fit together.

@@ -96,6 +96,28 @@ TEST(WindowPose, FilteredWindowBecomesTheTarget) {
   EXPECT_EQ(target.value->opening.width_m, 1.2);
 }
 
+TEST(WindowPose, CarriesTheMotionOfAWindow) {
+  pose::FilteredWindow filtered;
+  filtered.stamp_sec = 12.0;
+  filtered.age_sec = 0.25;
+  filtered.covariance = 0.01 * pose::Matrix6d::Identity();
+  filtered.size = {{1.3, 0.9}, Eigen::Matrix2d::Zero()};
+  filtered.motion = {{0.12, 2.0}, {0.1, -0.05, 0.01}, 0.04};
+  window_ingress::WindowPose message;
+  message.filtered_frame_id = "odom";
+  fill(message, filtered);
+  const auto target = targetFromMsg(message, "odom");
+  ASSERT_TRUE(target) << target.reason;
+  EXPECT_EQ(target.value->pose_stamp_sec, 12.25);
+  EXPECT_EQ(target.value->motion.velocity_odom_mps, filtered.motion.velocity_odom_mps);
+  EXPECT_EQ(target.value->motion.velocity_sigma_mps, 0.04);
+  EXPECT_EQ(target.value->motion.model.speed_mps, 0.12);
+  EXPECT_EQ(target.value->motion.model.time_sec, 2.0);
+  filtered.motion = {};
+  fill(message, filtered);
+  EXPECT_TRUE(targetFromMsg(message, "odom").value->motion.model.stands());
+}
+
 TEST(WindowPose, WhatForbidsTheApproachReachesTheTarget) {
   auto message = makeFiltered();
   EXPECT_EQ(targetFromMsg(message, "odom").value->fit, pose::Fit::kGo) << "nothing said against it";
