@@ -40,8 +40,7 @@ VehicleState standingAt(double distance_m) {
 
 TEST(MovingTarget, GoesOnWithItsVelocity) {
   const auto later = ahead(swinging(), 10.2);
-  const Eigen::Vector3d way =
-      later.T_odom_window.translation() - swinging().T_odom_window.translation();
+  const Eigen::Vector3d way = later.T_odom_window.translation() - swinging().T_odom_window.translation();
   EXPECT_NEAR(way.dot(geometry::yawRotation(0.4).col(1)), 0.15 * 0.2, 0.002);
   EXPECT_GT(later.covariance(1, 1), std::pow(0.01 + 0.18 * 0.03, 2));
   EXPECT_GT(later.motion.velocity_sigma_mps, 0.03);

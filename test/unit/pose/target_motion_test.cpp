@@ -39,8 +39,7 @@ TEST(MotionModel, IsAMarkovProcess) {
                          b.way_sec * b.way_sec * a.velocity_variance + b.place_variance;
     EXPECT_NEAR(both.place_variance, place, 1e-4 * both.place_variance);
     EXPECT_NEAR(both.cross_covariance,
-                b.kept * (a.cross_covariance + b.way_sec * a.velocity_variance) + b.cross_covariance,
-                1e-9);
+                b.kept * (a.cross_covariance + b.way_sec * a.velocity_variance) + b.cross_covariance, 1e-9);
     EXPECT_NEAR(both.velocity_variance, b.kept * b.kept * a.velocity_variance + b.velocity_variance, 1e-12);
   }
 }
