@@ -16,7 +16,8 @@ constexpr double kSigmas = 3.0;
 constexpr double kWallM = 1.2;                            // shown beyond the opening's border
 constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // the opening's upper border
 constexpr double kFaintest = 0.5;                         // of the less likely hypothesis
-constexpr double kHintM = 0.2, kHint = 0.25;              // smaller, or of another look: no more than a hint
+constexpr double kHintM = 0.3, kHintScore = 0.5;          // smaller, or worse: no more than a hint
+constexpr double kHint = 0.25;                            // how faint that is
 constexpr int kFanParts = 12;
 
 Points cornersOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
@@ -86,7 +87,8 @@ void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
 
 // Nothing was found out about it, and nobody would fly at it.
 bool isHint(const window_ingress::KnownWindow& window) {
-  const bool is_candidate = window.may_be_target && std::min(window.width, window.height) >= kHintM;
+  const bool is_candidate =
+      window.may_be_target && window.score >= kHintScore && std::min(window.width, window.height) >= kHintM;
   return !is_candidate && window.openness == window_ingress::WindowPose::OPENNESS_UNKNOWN &&
          window.failures == 0;
 }

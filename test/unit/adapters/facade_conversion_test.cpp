@@ -38,29 +38,33 @@ TEST(FacadeConversion, TellsEveryWindowWithItsNumberAndWhichIsTheTarget) {
   EXPECT_EQ(facadeMarkers(message).markers.size(), 4u + 5u) << "a border each but the target's, and a text";
 }
 
-TEST(FacadeConversion, WhatIsTooSmallOrOfAnotherLookIsDrawnFaintlyWithoutANumber) {
+TEST(FacadeConversion, WhatIsTooSmallOrBadOrOfAnotherLookIsDrawnFaintlyWithoutANumber) {
   window_ingress::Facade message;
-  for (const auto& [id, width, alike, openness] :
-       {std::tuple{1u, 1.2, true, 0}, {2u, 0.1, true, 0}, {3u, 1.2, false, 0}, {4u, 1.2, false, 2}}) {
+  for (const auto& [id, width, alike, score, openness] : {std::tuple{1u, 1.2, true, 0.9, 0},
+                                                          {2u, 0.1, true, 0.9, 0},
+                                                          {3u, 1.2, false, 0.9, 0},
+                                                          {4u, 1.2, true, 0.2, 0},
+                                                          {5u, 1.2, false, 0.0, 2}}) {
     window_ingress::KnownWindow& window = message.windows.emplace_back();
     window.id = id;
     window.pose.orientation.w = 1.0;
     window.width = window.height = width;
     window.may_be_target = alike;
+    window.score = score;
     window.openness = static_cast<std::uint8_t>(openness);
   }
   const auto markers = facadeMarkers(message).markers;
-  ASSERT_EQ(markers.size(), 8u);
-  for (const std::size_t plain : {0u, 3u}) {
+  ASSERT_EQ(markers.size(), 10u);
+  for (const std::size_t plain : {0u, 4u}) {
     EXPECT_GT(markers[2 * plain].color.a, 0.8F);
     EXPECT_EQ(markers[2 * plain + 1].action, visualization_msgs::Marker::ADD);
   }
-  for (const std::size_t faint : {1u, 2u}) {
+  for (const std::size_t faint : {1u, 2u, 3u}) {
     EXPECT_LT(markers[2 * faint].color.a, 0.5F);
     EXPECT_EQ(markers[2 * faint + 1].action, visualization_msgs::Marker::DELETE);
   }
-  EXPECT_EQ(markers[7].text, "4: CLOSED");
-  EXPECT_GT(markers[7].pose.position.z, 0.6) << "above its border";
+  EXPECT_EQ(markers[9].text, "5: CLOSED");
+  EXPECT_GT(markers[9].pose.position.z, 0.6) << "above its border";
 }
 
 TEST(FacadeConversion, WindowsOfAPictureGoThereAndBackAndBadOnesAreLeftOut) {
