@@ -55,7 +55,8 @@ class Chooser {
 
  private:
   std::string named(const std::string& option, const std::string& wanted, const Types& types) const {
-    for (const std::string& topic : {wanted, wanted + "/compressed"}) {
+    for (const std::string& topic :
+         {wanted, wanted + "/compressed", "/" + wanted, "/" + wanted + "/compressed"}) {
       const auto found = topics_.find(topic);
       if (found != topics_.end() && types.count(found->second) > 0) return topic;
     }

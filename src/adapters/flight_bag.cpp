@@ -59,14 +59,14 @@ void FlightBag::onImage(const simulation::CameraFrame& frame, const detection::D
   picture.format = "bgr8; jpeg compressed bgr8";
   cv::imencode(".jpg", frame.image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, 95});
   picture.data.assign(jpeg_.begin(), jpeg_.end());
-  write("/image_raw/compressed", now, picture);
+  write("/camera/image_raw/compressed", now, picture);
   write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, picture.header));
 }
 
 void FlightBag::onCalibration(const simulation::CalibrationSample& sample) {
   sensor_msgs::CameraInfo info = toMsg(sample.camera);
   info.header = headerOf(stampOf(sample.stamp_sec), kCameraFrame);
-  write("/camera_info", stampOf(world_->timeSec()), info);
+  write("/camera/camera_info", stampOf(world_->timeSec()), info);
 }
 
 void FlightBag::onOdometry(const simulation::OdometrySample& sample) {

@@ -12,9 +12,9 @@
 
 namespace window_ingress::adapters {
 
-/// Records a flight of `fly` as the nodes would have published it: image_raw/compressed (JPEG), camera_info,
-/// odom, imu, tf, reference, cmd_vel, state, ground_truth/{odom, window, window_in_camera}. `replay_bag` and
-/// rviz read it.
+/// Records a flight of `fly` as the nodes would have published it: camera/{image_raw/compressed (JPEG),
+/// camera_info}, odom, imu, tf, reference, cmd_vel, state, ground_truth/{odom, window, window_in_camera}.
+/// `replay_bag` and rviz read it.
 class FlightBag : public evaluation::FlightObserver {
  public:
   /// Here and in every call: \throws rosbag::BagException if the file cannot be written

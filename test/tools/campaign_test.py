@@ -55,6 +55,13 @@ def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
     assert not (tmp_path / "out/table.md").exists()
 
 
+def test_scenarios_flown_elsewhere_are_left_out_with_a_line(tmp_path):
+    external = ROOT / "config/scenarios/external.yaml"
+    done = run(ROOT / "scripts/campaign", "--output", tmp_path / "out", "--seeds", "1..1", "--shards", "1", external, scenario_in(tmp_path))
+    assert done.returncode == 0 and "external.yaml left out" in done.stderr and "| short | 1 |" in done.stdout, done.stderr
+    assert run(ROOT / "scripts/campaign", "--output", tmp_path / "none", external).returncode == 2
+
+
 def test_wrong_usage_says_what_to_do(tmp_path):
     scenario = scenario_in(tmp_path)
     for arguments, text in [([tmp_path / "none.yaml"], "no such file"), ([scenario, "--shards", "0"], "--shards"),
@@ -72,5 +79,6 @@ def test_failures_are_kept_with_bag_and_picture(tmp_path):
     bag = tmp_path / "out/failures/flight_3.bag"
     assert os.path.getsize(tmp_path / "out/failures/flight_3.png") > 1000
     info = run(ROOT / "scripts/run", "rosbag", "info", bag)
-    for topic in ("/camera_info", "/cmd_vel", "/ground_truth/odom", "/image_raw/compressed", "/imu", "/odom", "/state", "/tf_static"):
+    for topic in ("/camera/camera_info", "/camera/image_raw/compressed", "/cmd_vel", "/ground_truth/odom", "/imu", "/odom", "/state",
+                  "/tf_static"):  # as sim.launch names them, and replay.launch expects them
         assert topic in info.stdout, info.stdout + info.stderr

@@ -89,6 +89,8 @@ def test_raw_and_compressed_and_any_names_of_topics(tmp_path):
     for words in (["raw"], ["compressed"], ["raw", "image=/uav1/eye/image_raw"]):
         replay(bag_of(tmp_path, *words, "seconds=1"), tmp_path / "out", *SIZE)
         found["".join(words)] = [row["detected"] for row in rows(tmp_path / "out/frames.csv")]
+    replay(bag_of(tmp_path, "seconds=1"), tmp_path / "out", *SIZE, "--image", "camera/image_raw", "--odom", "/odom")
+    found["as relative names"] = [row["detected"] for row in rows(tmp_path / "out/frames.csv")]
     assert set(map(tuple, found.values())) == {("1",) * 20}
 
 
