@@ -13,11 +13,14 @@ constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two wind
 
 constexpr double kSizeRatio = 1.35;  // beyond which two loops are not one window
 
+bool areAlike(const geometry::OpeningSize& a, const geometry::OpeningSize& b) {
+  const double wider = a.width_m / b.width_m, higher = a.height_m / b.height_m;
+  return std::max({wider, 1.0 / wider, higher, 1.0 / higher}) < kSizeRatio;
+}
+
 // Where both were measured: a pane, or what is seen through the window, is not the window.
 bool sizesAgree(const WindowPlace& a, const WindowPlace& b) {
-  if (!a.on_wall || !b.on_wall) return true;
-  const double wider = a.size.width_m / b.size.width_m, higher = a.size.height_m / b.size.height_m;
-  return std::max({wider, 1.0 / wider, higher, 1.0 / higher}) < kSizeRatio;
+  return !a.on_wall || !b.on_wall || areAlike(a.size, b.size);
 }
 
 double apartM(const KnownWindow& a, const KnownWindow& b) {
@@ -79,6 +82,10 @@ void FacadeMap::learn(double stamp_sec, Sight& sight) {
   if (sight.seen->has_appearance)
     window->bhattacharyya = std::min(sight.seen->bhattacharyya, window->bhattacharyya.value_or(1.0));
   if (sight.seen->is_target) followed_id_ = sight.id;
+}
+
+bool FacadeMap::isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for) {
+  return window.place.on_wall && areAlike(window.place.size, looked_for);
 }
 
 void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {

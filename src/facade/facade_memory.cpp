@@ -11,6 +11,7 @@
 namespace window_ingress::facade {
 namespace {
 
+constexpr double kLongestGapSec = 0.5;   // between pictures; longer ones show nothing
 constexpr double kNearestSigmaM = 0.03;  // of a place in odom, however well the filter knows it
 
 FacadeParams checked(const FacadeParams& params) {
@@ -61,13 +62,20 @@ void FacadeMemory::forgetPlaces() {
 void FacadeMemory::setTarget(std::uint32_t id, bool is_chosen) {
   target_id_ = id;
   is_chosen_ = is_chosen;
-  choice_is_lost_ = false;
-  missing_since_sec_.reset();
+  choice_is_lost_ = is_next_ = false;
+  missing_sec_ = 0.0;
+}
+
+void FacadeMemory::setNextBest() {
+  const KnownWindow* next = nextBest();
+  setTarget(next == nullptr ? 0 : next->id, next != nullptr);
+  is_next_ = next != nullptr;
 }
 
 void FacadeMemory::see(const FacadeView& view, const std::optional<pose::FilteredWindow>& filtered,
                        const geometry::OpeningSize& looked_for) {
   if (!params_.enabled) return;
+  looked_for_ = looked_for;
   if (filtered && filtered->sign_trusted) wall_ = wallFrom(*filtered);
   map_.see(view, wall_, looked_for);
   if (target() == nullptr) target_id_ = 0;
@@ -100,13 +108,18 @@ void FacadeMemory::yieldToBetterLook() {
 }
 
 void FacadeMemory::releaseIfGone(const FacadeView& view) {
+  const double elapsed_sec =
+      std::clamp(view.stamp_sec - last_view_sec_.value_or(view.stamp_sec), 0.0, kLongestGapSec);
+  last_view_sec_ = view.stamp_sec;
   const KnownWindow* now = target();
-  if (now == nullptr || now->last_seen_sec >= view.stamp_sec || !expected(view.from)) {
-    missing_since_sec_.reset();
-    return;
-  }
-  if (!missing_since_sec_) missing_since_sec_ = view.stamp_sec;
-  if (view.stamp_sec - *missing_since_sec_ > params_.release_sec) setTarget(0, false);
+  if (now == nullptr || now->last_seen_sec >= view.stamp_sec)
+    missing_sec_ = 0.0;
+  else if (expected(view.from))
+    missing_sec_ += elapsed_sec;
+  if (missing_sec_ <= (is_next_ ? params_.next_release_sec : params_.release_sec)) return;
+  if (!is_next_) return setTarget(0, false);
+  ++map_.find(target_id_)->failures;
+  setNextBest();
 }
 
 std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& window, const Viewpoint& from,
@@ -170,8 +183,7 @@ void FacadeMemory::giveUp(const std::vector<std::uint32_t>& ids, bool next_one) 
   for (const std::uint32_t id : ids)
     if (KnownWindow* window = map_.find(id)) ++window->failures;
   if (target_id_ == 0 || std::find(ids.begin(), ids.end(), target_id_) == ids.end()) return;
-  const KnownWindow* next = next_one ? nextBest() : nullptr;
-  setTarget(next == nullptr ? 0 : next->id, next != nullptr);
+  next_one ? setNextBest() : setTarget(0, false);
 }
 
 const KnownWindow* FacadeMemory::nextBest() const {
@@ -181,8 +193,9 @@ const KnownWindow* FacadeMemory::nextBest() const {
                            -window.bhattacharyya.value_or(1.0), window.score);
   };
   for (const KnownWindow& window : windows()) {
-    if (!map_.isConfirmed(window) || !window.may_be_target || window.failures > 0 || isClosed(window))
-      continue;
+    const bool may_be = map_.isConfirmed(window) && window.may_be_target && window.failures == 0 &&
+                        !isClosed(window) && FacadeMap::isOfSize(window, looked_for_);
+    if (!may_be) continue;
     if (best == nullptr || rank(window) > rank(*best)) best = &window;
   }
   return best;

@@ -205,7 +205,7 @@ template <typename Choice>
 auto TargetTracker::startAnewIfOther(const Choice& choose) {
   const std::uint32_t before = facade_.targetId();
   auto answer = choose();
-  if (facade_.targetId() == before || !facade_.isChosen()) return answer;
+  if (facade_.targetId() == before) return answer;
   filter_.reset();
   parallax_.clear();
   judge_.reset();

@@ -21,8 +21,8 @@ struct Answer {
 ///
 /// The target is the one that the operator chose, else the window that was followed until the filter had
 /// settled. It stays the target until it is given up, until another one is clearly more like the reference,
-/// or until its place was in view without it for `FacadeParams::release_sec`. While there is one, no other
-/// window is taken for it.
+/// or until its place was in view without it for `FacadeParams::release_sec` in all. While there is one, no
+/// other window is taken for it.
 class FacadeMemory {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
@@ -47,7 +47,8 @@ class FacadeMemory {
   Answer selectNear(const Eigen::Vector3d& point_odom_m);  ///< a click on it, or beside it
 
   /// Windows given up by who flies: closed, or tried in vain. \param next_one the next best becomes the
-  /// target: like the reference, not closed, never given up
+  /// target: like the reference, of the size looked for, not closed, never given up. If it turns out not to
+  /// be there, the next; where none is known, the one that the detector follows next
   void giveUp(const std::vector<std::uint32_t>& ids, bool next_one);
   void noteFlownAt(std::uint32_t id);                    ///< 0: none
   void judge(const openness::OpennessVerdict& verdict);  ///< of the target
@@ -64,15 +65,18 @@ class FacadeMemory {
   void yieldToBetterLook();
   void releaseIfGone(const FacadeView& view);
   void setTarget(std::uint32_t id, bool is_chosen);
+  void setNextBest();
   const KnownWindow* nextBest() const;
 
   FacadeParams params_;
   FacadeMap map_;
   std::optional<Wall> wall_;
   std::uint32_t target_id_ = 0, flown_at_ = 0;
-  std::optional<double> missing_since_sec_;
+  geometry::OpeningSize looked_for_;
+  std::optional<double> last_view_sec_;
+  double missing_sec_ = 0.0;  ///< in view, and not seen
   std::uint32_t target_track_id_ = 0;
-  bool is_chosen_ = false, choice_is_lost_ = false;
+  bool is_chosen_ = false, is_next_ = false, choice_is_lost_ = false;
 };
 
 }  // namespace window_ingress::facade

@@ -12,9 +12,10 @@ struct FacadeParams {
   int confirmations = 3;               ///< pictures that must show a window before it has a number
   double forget_sec = 2.0;             ///< one that has none yet is forgotten when unseen for so long [s]
   int settled_updates = 15;            ///< of the filter, after which the window followed is the target
-  double release_sec = 8.0;      ///< in view and not seen for so long, the target is no target any more [s]
-  double likeness_margin = 0.2;  ///< another window is the target if it is more like the reference by this
-  double click_m = 1.0;          ///< furthest beside a window that a click on it may be [m]
+  double release_sec = 8.0;       ///< in view and not seen for so long, the target is no target any more [s]
+  double next_release_sec = 1.5;  ///< the same for one that nobody chose, the next best after another [s]
+  double likeness_margin = 0.2;   ///< another window is the target if it is more like the reference by this
+  double click_m = 1.0;           ///< furthest beside a window that a click on it may be [m]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("enabled", self.enabled);
@@ -27,6 +28,7 @@ struct FacadeParams {
     field("forget_sec", self.forget_sec, 0.0, 600.0);
     field("settled_updates", self.settled_updates, 1, 1000);
     field("release_sec", self.release_sec, 0.1, 600.0);
+    field("next_release_sec", self.next_release_sec, 0.1, 600.0);
     field("likeness_margin", self.likeness_margin, 0.01, 1.0);
     field("click_m", self.click_m, 0.05, 10.0);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "window_row.hpp"
@@ -120,6 +121,44 @@ TEST(FacadeMemory, TriesEachWindowOnceAndThenNone) {
     watch.memory.giveUp({watch.memory.targetId()}, true);
   }
   EXPECT_EQ(watch.memory.targetId(), 0u);
+}
+
+TEST(FacadeMemory, TheNextOneHasTheSizeLookedFor) {
+  Watch watch;
+  watch.row.count = 1;
+  for (int n = 0; n < 20; ++n, watch.now_sec += 0.1) {
+    auto look = watch.row.look(watch.now_sec, watch.view, 0, watch.random);
+    auto pane = look.windows.front();  // half as large, a metre beside
+    const Eigen::Vector2d centre = geometry::centroid(pane.corners);
+    for (auto& corner : pane.corners) corner = centre + 0.5 * (corner - centre) + Eigen::Vector2d(60.0, 0.0);
+    pane.is_target = false;
+    look.windows.push_back(pane);
+    watch.memory.see(look, watch.row.filtered(0, watch.now_sec), watch.row.size);
+  }
+  ASSERT_EQ(watch.memory.windows().size(), 2u);
+  watch.memory.giveUp({watch.memory.targetId()}, true);
+  EXPECT_EQ(watch.memory.targetId(), 0u);
+}
+
+TEST(FacadeMemory, ANextOneThatIsNotThereIsFollowedByAnother) {
+  Watch watch;
+  watch.look(20, 0);
+  watch.memory.giveUp({watch.memory.targetId()}, true);
+  const std::uint32_t next = watch.memory.targetId();
+  ASSERT_NE(next, 0u);
+  const auto gone = [&](const detection::SeenWindow& window) {
+    const auto place = watch.memory.expected(watch.view);
+    return place && (geometry::centroid(window.corners) - geometry::centroid(*place)).norm() < 20.0;
+  };
+  for (int n = 0; n < 40 && watch.memory.targetId() == next; ++n, watch.now_sec += 0.1) {
+    const bool away = n % 3 == 0;  // it looks elsewhere now and then
+    const auto view = away ? test::WindowRow::from({-8.0, -3.8, 1.5}, 2.0) : watch.view;
+    auto look = watch.row.look(watch.now_sec, view, -1, watch.random);
+    look.windows.erase(std::remove_if(look.windows.begin(), look.windows.end(), gone), look.windows.end());
+    watch.memory.see(look, std::nullopt, watch.row.size);
+  }
+  EXPECT_NE(watch.memory.targetId(), next);
+  EXPECT_NE(watch.memory.targetId(), 0u);
 }
 
 TEST(FacadeMemory, YieldsToAWindowThatIsClearlyMoreLikeTheReferenceUnlessItWasChosen) {
