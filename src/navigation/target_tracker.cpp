@@ -201,23 +201,25 @@ std::optional<geometry::Quadrilateral> TargetTracker::expected(double stamp_sec,
 }
 
 // What was found out about the window before does not hold for another one.
-template <typename Choice>
-auto TargetTracker::startAnewIfOther(const Choice& choose) {
-  const std::uint32_t before = facade_.targetId();
-  auto answer = choose();
-  if (facade_.targetId() == before) return answer;
+void TargetTracker::startAnewIfNot(std::uint32_t target_before) {
+  if (facade_.targetId() == target_before) return;
   filter_.reset();
   parallax_.clear();
   judge_.reset();
-  return answer;
 }
 
 facade::Answer TargetTracker::selectWindow(std::uint32_t id) {
-  return startAnewIfOther([&] { return facade_.select(id); });
+  const std::uint32_t before = facade_.targetId();
+  auto answer = facade_.select(id);
+  startAnewIfNot(before);
+  return answer;
 }
 
 facade::Answer TargetTracker::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
-  return startAnewIfOther([&] { return facade_.selectNear(point_odom_m); });
+  const std::uint32_t before = facade_.targetId();
+  auto answer = facade_.selectNear(point_odom_m);
+  startAnewIfNot(before);
+  return answer;
 }
 
 void TargetTracker::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one) {
@@ -226,7 +228,10 @@ void TargetTracker::heed(std::uint32_t flown_at, const std::vector<std::uint32_t
   const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(heeded_),
                                         given_up.end());
   heeded_ = given_up.size();
-  if (!news.empty()) startAnewIfOther([&] { return facade_.giveUp(news, next_one), true; });
+  if (news.empty()) return;
+  const std::uint32_t before = facade_.targetId();
+  facade_.giveUp(news, next_one);
+  if (next_one) startAnewIfNot(before);
 }
 
 std::string TargetTracker::whyNotUsed(const SeenPicture& picture) {

@@ -122,8 +122,7 @@ class TargetTracker {
   std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
                                             const std::optional<Eigen::Isometry3d>& T_base_camera) const;
   void rememberWindows(const SeenPicture& picture);
-  template <typename Choice>
-  auto startAnewIfOther(const Choice& choose);
+  void startAnewIfNot(std::uint32_t target_before);
   std::string whyNotUsed(const SeenPicture& picture);
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
