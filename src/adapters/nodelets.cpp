@@ -1,6 +1,9 @@
 // The nodes as nodelets, for a nodelet manager that shares images without copying. The setpoint_guard and the
-// world are processes of their own on purpose.
+// world are processes of their own on purpose. Each has a queue and a thread of its own: the manager's would
+// call into a node that is still being made, or is on its way out.
 #include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
 
 #include <exception>
 #include <memory>
@@ -16,6 +19,7 @@ template <typename Class>
 class NodeletOf : public nodelet::Nodelet {
  public:
   ~NodeletOf() override {
+    spinner_.stop();
     if (node_) node_->stop();
   }
 
@@ -23,12 +27,18 @@ class NodeletOf : public nodelet::Nodelet {
   // An exception out of onInit would end the manager and every nodelet in it.
   void onInit() override {
     try {
-      node_ = std::make_unique<Class>(getNodeHandle(), getPrivateNodeHandle());
+      ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
+      nh.setCallbackQueue(&queue_);
+      pnh.setCallbackQueue(&queue_);
+      node_ = std::make_unique<Class>(nh, pnh);
+      spinner_.start();
     } catch (const std::exception& error) {
       NODELET_FATAL("%s: not started: %s", getName().c_str(), error.what());
     }
   }
+  ros::CallbackQueue queue_;
   std::unique_ptr<Class> node_;
+  ros::AsyncSpinner spinner_{1, &queue_};
 };
 
 class WindowDetectorNodelet : public NodeletOf<DetectorNode> {};

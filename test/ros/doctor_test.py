@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """doctor finds nothing in a healthy simulation, and in each broken one what was broken, with the command that mends it."""
 import os
-import pathlib
 import subprocess
 import sys
 import time
@@ -10,16 +9,17 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
+from roslib.packages import find_node
 from sensor_msgs.msg import CameraInfo
 
 import support
 
-DOCTOR = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "doctor"
+DOCTOR = find_node("window_ingress", "doctor")[0]  # in the source or the install space
 READY_S = 40.0
 
 
 def doctor(*arguments, **environment):
-    done = subprocess.run([str(DOCTOR), "--seconds", "2.5", *arguments], capture_output=True, text=True, timeout=60, check=False,
+    done = subprocess.run([DOCTOR, "--seconds", "2.5", *arguments], capture_output=True, text=True, timeout=60, check=False,
                           env={**os.environ, **environment})
     return done.returncode, done.stdout + done.stderr
 
