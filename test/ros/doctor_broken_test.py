@@ -44,6 +44,7 @@ class DoctorBrokenTest(unittest.TestCase):
         self.assertEqual(code, 1, said)
         for words in expected:
             self.assertIn(words, said)
+        self.assertNotIn("image:=/debug_image", said)  # the detector's own
 
 
 if __name__ == "__main__":
