@@ -46,9 +46,9 @@ class FacadeMap {
   explicit FacadeMap(const FacadeParams& params) : params_(params) {}
 
   void reset();
-  /// \param wall in which unknown windows are taken to lie
   /// Measured, and as large as the window looked for.
   static bool isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for);
+  /// \param wall in which unknown windows are taken to lie
   /// \param looked_for size that windows are taken to have where nothing else tells their distance
   void see(const FacadeView& view, const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for);
   /// A place that is better known than by one sight.
