@@ -89,6 +89,7 @@ class Annotations {
 };
 
 std::string rate(const char* name, double value, int part, int all) {
+  if (all == 0) return std::string(name) + " unknown (0 of 0)";
   const Interval interval = wilson95(part, all);
   char text[120];
   std::snprintf(text, sizeof text, "%s %.1f %% (%.1f to %.1f %%, %d of %d)", name, 100.0 * value,

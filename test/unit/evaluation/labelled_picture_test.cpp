@@ -40,6 +40,7 @@ TEST(DetectionCounts, RatesOfNothingAreOne) {
 TEST(DetectionCounts, SaysRatesWithTheirIntervals) {
   DetectionCounts counts;
   counts.found = 27, counts.missed = 3, counts.wrong = 1;
+  EXPECT_NE(DetectionCounts().text().find("precision unknown (0 of 0)"), std::string::npos);
   EXPECT_EQ(counts.text(),
             "recall 90.0 % (74.4 to 96.5 %, 27 of 30), precision 96.4 % (82.3 to 99.4 %, 27 of 28)");
   EXPECT_NEAR(counts.f1(), 54.0 / 58.0, 1e-12);
