@@ -63,9 +63,10 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     diagnostics_.addOutput("window_pose",
                            {pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_});
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
-  diagnostics_.add("frames check", [this] { return framesHealth(); });
-  diagnostics_.add("consistency", [this] { return consistencyHealth(); });
-  diagnostics_.add("openness", [this] { return opennessHealth(); });
+  diagnostics_.add("frames check", [this] { return framesHealth(tracker_.frames()); });
+  diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset()); });
+  diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_, params_.filter); });
+  diagnostics_.add("openness", [this] { return opennessHealth(tracker_.openness()); });
   if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -265,31 +266,6 @@ Health PoseNode::mountingHealth() const {
   if (T_base_camera_) return {};
   const bool no_image_yet = window_health_.silentSec() > kSilenceSec;
   return {no_image_yet ? Health::kOk : Health::kError, T_base_camera_.reason};
-}
-
-Health PoseNode::framesHealth() const {
-  const pose::FramesVerdict frames = tracker_.frames();
-  if (frames.state == pose::FramesVerdict::kWrong) return {Health::kError, frames.what + "; no approach"};
-  if (frames.state == pose::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
-  return {Health::kOk, "camera mounting and velocity frame verified"};
-}
-
-// Closed is no fault of this node's: it is for the navigator to act upon.
-Health PoseNode::opennessHealth() const {
-  const openness::OpennessVerdict& verdict = tracker_.openness();
-  return {Health::kOk, std::string(openness::toString(verdict.openness)) + ": " + verdict.reason +
-                           (verdict.openness == openness::Openness::kOpen
-                                ? "; a mirroring pane that shows a nearby scene cannot be told from a room"
-                                : "")};
-}
-
-Health PoseNode::consistencyHealth() const {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
-                consistency_.mean_nis, consistency_.images, params_.filter.consistency_images,
-                params_.filter.max_consistency);
-  return {consistency_.consistent ? Health::kOk : Health::kWarn, text};
 }
 
 }  // namespace window_ingress::adapters

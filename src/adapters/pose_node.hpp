@@ -17,6 +17,7 @@
 #include "adapters/facade_link.hpp"
 #include "adapters/lockstep.hpp"
 #include "adapters/msg_conversion.hpp"
+#include "adapters/pose_health.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/stamps.hpp"
 #include "adapters/tf_attitude.hpp"
@@ -76,9 +77,6 @@ class PoseNode : public Node {
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
-  Health framesHealth() const;
-  Health consistencyHealth() const;
-  Health opennessHealth() const;
 
   PoseNodeParams params_;
   Diagnostics diagnostics_;

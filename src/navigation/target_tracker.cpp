@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -16,12 +15,6 @@ TrackerParams checked(const TrackerParams& params) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("tracker: " + parameters::joined(faults));
   return params;
-}
-
-std::string otherWindowText(double factor) {
-  char text[100];
-  std::snprintf(text, sizeof text, "another window: about %.1f times as large as the one looked for", factor);
-  return text;
 }
 
 geometry::OpeningSize neededBy(const pose::FitParams& fit) {
@@ -62,6 +55,7 @@ void TargetTracker::forgetPlaces() {
   filter_.forgetPlaces();
   frames_.forgetPlaces();
   parallax_.clear();
+  clocks_.forgetPlaces();
   judge_.reset();
   facade_.forgetPlaces();
   odometry_.clear();
@@ -75,6 +69,7 @@ void TargetTracker::reset() {
   forgetPlaces();
   filter_.reset();
   frames_.clear();
+  clocks_.clear();
   facade_.reset();
   heeded_ = 0;
 }
@@ -142,12 +137,7 @@ void TargetTracker::noticeTarget(std::uint32_t target_id) {
   if (target_id == target_id_) return;
   target_id_ = target_id;
   parallax_.clear();
-}
-
-void TargetTracker::checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera) {
-  if (!size_is_known_ || !last_.pose.estimate || !picture.window->whole()) return;
-  parallax_.see(picture.stamp_sec, T_odom_camera.translation(),
-                T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
+  clocks_.forgetPlaces();
 }
 
 void TargetTracker::process(const SeenPicture& picture) {
@@ -161,18 +151,7 @@ void TargetTracker::use(const SeenPicture& picture) {
   last_.why_not = whyNotUsed(picture);
   last_.used = last_.why_not.empty();
   if (last_.used) judgeOpenness(picture);
-}
-
-void TargetTracker::judgeOpenness(const SeenPicture& picture) {
-  const auto window = filter_.state(picture.stamp_sec);
-  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
-  if (!window || !T_odom_camera) return;
-  // What lies behind a window that moves is taken to move along: all is seen from the window.
-  const Eigen::Vector3d moved =
-      window->motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window->T_odom_window.translation();
-  const Eigen::Translation3d back(-moved);
-  judge_.see({*picture.window, picture.camera, back * *T_odom_camera, back * window->T_odom_window,
-              window->size.size});
+  checkClocks(picture);
 }
 
 void TargetTracker::rememberWindows(const SeenPicture& picture) {
@@ -285,23 +264,6 @@ std::optional<TargetEstimate> TargetTracker::target(double now_sec) const {
   target.openness = openness();
   target.window_id = facade_.targetId();
   return target;
-}
-
-// A factor out of all proportion speaks of the frames, not of the window.
-std::optional<double> TargetTracker::otherWindow() const {
-  constexpr double kLargest = 5.0;
-  if (parallax_.verdict() != pose::ParallaxCheck::Verdict::kOther) return std::nullopt;
-  const double factor = parallax_.factor();
-  return factor < kLargest && factor > 1.0 / kLargest ? std::optional(factor) : std::nullopt;
-}
-
-std::string TargetTracker::approachForbidden(const pose::FilteredWindow& window) const {
-  const pose::FramesVerdict frames = frames_.verdict();
-  if (frames.state == pose::FramesVerdict::kWrong) return frames.what;
-  if (const auto factor = otherWindow()) return otherWindowText(*factor);
-  const pose::FitVerdict verdict = fit(window);
-  if (verdict.fit == pose::Fit::kGo) return "";
-  return std::string("fit ") + pose::toString(verdict.fit) + ": " + verdict.reason;
 }
 
 }  // namespace window_ingress::navigation

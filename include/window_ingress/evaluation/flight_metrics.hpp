@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "window_ingress/evaluation/statistics.hpp"
+#include "window_ingress/pose/clock_check.hpp"
 #include "window_ingress/simulation/referee.hpp"
 
 namespace window_ingress::evaluation {
@@ -30,6 +31,7 @@ struct FlightResult {
   double max_speed_mps = 0.0;
   double blind_sec = 0.0;                  ///< longest time without sight of the window before the plane
   std::optional<double> predicted_miss_m;  ///< by the navigator, at its last commit
+  std::optional<pose::ClockCheck::Offset> clock_offset;  ///< of pictures beside odometry, as found on the way
   std::string reason;
   std::vector<TrackPoint> track;  ///< ten points a second
 };

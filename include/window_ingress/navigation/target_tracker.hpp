@@ -10,6 +10,7 @@
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/openness/openness_judge.hpp"
+#include "window_ingress/pose/clock_check.hpp"
 #include "window_ingress/pose/frames_check.hpp"
 #include "window_ingress/pose/opening_fit.hpp"
 #include "window_ingress/pose/parallax_check.hpp"
@@ -110,6 +111,8 @@ class TargetTracker {
   pose::FramesVerdict frames() const { return frames_.verdict(); }
   /// The opening's size as measured on the way flown, whatever it is said to be.
   const std::optional<pose::SizeBelief>& measuredSize() const { return frames_.mounting().measuredSize(); }
+  /// By how much the stamps of pictures and odometry differ, once a turn has shown it.
+  const std::optional<pose::ClockCheck::Offset>& clockOffset() const { return clocks_.offset(); }
   /// Why nobody should fly towards this window; empty if there is no reason.
   std::string approachForbidden(const pose::FilteredWindow& window) const;
   /// The window seen is not the one looked for, but so many times as large.
@@ -127,6 +130,7 @@ class TargetTracker {
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
   void checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera);
+  void checkClocks(const SeenPicture& picture);
   bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
   std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
   std::optional<pose::GravityPrior> gravity(const SeenPicture& picture);
@@ -138,6 +142,7 @@ class TargetTracker {
   pose::WindowFilter filter_;
   pose::FramesCheck frames_;
   pose::ParallaxCheck parallax_;
+  pose::ClockCheck clocks_;
   openness::OpennessJudge judge_;
   facade::FacadeMemory facade_;
   std::size_t heeded_ = 0;  ///< how many of those given up are known

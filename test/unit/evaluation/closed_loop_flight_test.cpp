@@ -55,6 +55,20 @@ TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
   EXPECT_FALSE(flight.offset_y_m);
 }
 
+TEST(ClosedLoopFlight, FindsOutByHowMuchTheClocksOfCameraAndOdometryDiffer) {
+  for (const double offset_sec : {-0.04, 0.0, 0.08, 0.15}) {
+    auto scenario = shortFlight();
+    scenario.start.heading_rad = 1.2;  // it has to turn towards the window
+    scenario.start.distance_m = 4.0;
+    scenario.odometry.stamp_offset_sec = offset_sec;  // late: pictures are early beside it
+    FlightParams params;
+    params.without_pictures = true;
+    const auto flight = flyOnce(scenario, 3, params);
+    ASSERT_TRUE(flight.clock_offset) << flight.reason;
+    EXPECT_NEAR(flight.clock_offset->late_sec, -offset_sec, 0.04) << flight.clock_offset->sigma_sec;
+  }
+}
+
 TEST(ClosedLoopFlight, LogHoldsWhatEachImageSaidAndThePredictedMiss) {
   FlightLog log;
   const auto flight = flyOnce(shortFlight(), 1, FlightParams(), {&log});

@@ -1,0 +1,43 @@
+#include "adapters/pose_health.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace window_ingress::adapters {
+
+Health framesHealth(const pose::FramesVerdict& frames) {
+  if (frames.state == pose::FramesVerdict::kWrong) return {Health::kError, frames.what + "; no approach"};
+  if (frames.state == pose::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
+  return {Health::kOk, "camera mounting and velocity frame verified"};
+}
+
+Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset) {
+  constexpr double kMostOffsetSec = 0.05, kSigmas = 3.0;
+  if (!offset) return {Health::kOk, "to be seen in the first turn before a window"};
+  char text[120];
+  std::snprintf(text, sizeof text, "pictures are stamped %.2f +- %.2f s %s beside odometry",
+                std::abs(offset->late_sec), offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
+  const double least_sec = std::max(kMostOffsetSec, kSigmas * offset->sigma_sec);
+  if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text};
+  return {Health::kWarn, std::string(text) + ": correct the driver's stamps, or the autopilot's time sync"};
+}
+
+// Closed is no fault of the node's: it is for the navigator to act upon.
+Health opennessHealth(const openness::OpennessVerdict& verdict) {
+  return {Health::kOk, std::string(openness::toString(verdict.openness)) + ": " + verdict.reason +
+                           (verdict.openness == openness::Openness::kOpen
+                                ? "; a mirroring pane that shows a nearby scene cannot be told from a room"
+                                : "")};
+}
+
+Health consistencyHealth(const pose::Consistency& consistency, const pose::FilterParams& params) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
+                consistency.mean_nis, consistency.images, params.consistency_images, params.max_consistency);
+  return {consistency.consistent ? Health::kOk : Health::kWarn, text};
+}
+
+}  // namespace window_ingress::adapters
