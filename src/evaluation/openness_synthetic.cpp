@@ -13,13 +13,14 @@ using simulation::RandomStream;
 
 constexpr double kGrowth = 1.25, kOldest_sec = 4.0, kShared = 0.4, kMargin = 0.07;
 constexpr double kBoard_m = 0.02;     // behind the border
+constexpr double kDirty = 0.05;       // of the points on a pane of glass
 constexpr double kWrongWay_px = 4.0;  // of a point that is followed wrongly
 
 /// What is seen within the border, in the window's axes.
 class Surfaces {
  public:
-  Surfaces(Interior interior, const geometry::OpeningSize& opening, RandomStream& random)
-      : interior_(interior), opening_(opening) {
+  Surfaces(Interior interior, const geometry::OpeningSize& opening, double reflectivity, RandomStream& random)
+      : interior_(interior), opening_(opening), reflectivity_(reflectivity) {
     behind_m_ = interior == Interior::kPane ? random.uniform(0.0, 0.15) : random.uniform(0.0, 0.24);
     wave_rad_m_ = random.uniform(15.0, 40.0);
     sway_m_ = random.uniform(0.0, 0.05), sway_rate_ = random.uniform(1.0, 6.0);
@@ -52,6 +53,9 @@ class Surfaces {
         return at(std::max(0.0, 0.15 + tilt_ * front.y() / opening_.width_m));
       case Interior::kMirror:
         return at(random.uniform(2.0, 40.0));
+      case Interior::kGlass:
+        if (random.uniform(0.0, 1.0) < kDirty) return front;
+        return random.uniform(0.0, 1.0) < reflectivity_ ? at(random.uniform(2.0, 40.0)) : room(front, way);
       case Interior::kPartly:
         if (!onBoard(front)) return room(front, way);
         return is_board_plain_ ? std::nullopt : std::optional(at(kBoard_m));
@@ -99,7 +103,7 @@ class Surfaces {
 
   Interior interior_;
   geometry::OpeningSize opening_;
-  double behind_m_, wave_rad_m_, sway_m_, sway_rate_, tilt_, depth_m_, half_width_m_;
+  double reflectivity_, behind_m_, wave_rad_m_, sway_m_, sway_rate_, tilt_, depth_m_, half_width_m_;
   int side_;
   bool is_board_plain_;
   std::array<Thing, 4> things_;
@@ -115,7 +119,7 @@ class SyntheticFollower {
         opening_(opening),
         camera_(camera),
         random_(seed, "synthetic interior"),
-        surfaces_(interior, opening, random_),
+        surfaces_(interior, opening, range.reflectivity, random_),
         count_(random_.uniformInt(12, 60)),
         wrong_part_(random_.uniform(0.0, 0.1)) {}
 
@@ -209,7 +213,7 @@ class SyntheticFollower {
 
 const char* toString(Interior interior) {
   static constexpr std::array<const char*, kInteriors> kNames{"poster", "pane", "curtain", "tilted", "partly",
-                                                              "dirt",   "jump", "mirror",  "room"};
+                                                              "dirt",   "jump", "mirror",  "glass",  "room"};
   return kNames[static_cast<int>(interior)];
 }
 

@@ -1,5 +1,6 @@
 /// Measures the verdict on openness on approaches to windows that are open or closed; see --help.
 #include <boost/program_options.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -23,14 +24,15 @@ using tools::UsageError;
 struct Options {
   std::vector<std::string> scenarios;
   std::string output, params, trace;
-  int open = 0, closed = 0, synthetic = 0;
+  int open = 0, closed = 0, synthetic = 0, glass = 0;
   std::uint32_t seed = 1;
   evaluation::OpennessRange range;
 };
 
 po::options_description describe(Options& o) {
   po::options_description description(
-      "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--scenario FILE.yaml...] --output "
+      "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--glass N] [--scenario FILE.yaml...] "
+      "--output "
       "DIR\n"
       "Approaches random windows and asks whether they are open. Writes DIR/openness.csv with a row an "
       "approach and\n"
@@ -42,6 +44,8 @@ po::options_description describe(Options& o) {
   add("closed", po::value(&o.closed)->default_value(o.closed), "drawn approaches to closed ones");
   add("synthetic", po::value(&o.synthetic)->default_value(o.synthetic),
       "approaches of each kind without pictures");
+  add("glass", po::value(&o.glass)->default_value(o.glass),
+      "approaches without pictures to panes of each of several reflectivities");
   add("scenario", po::value(&o.scenarios)->composing()->multitoken(),
       "scenario files instead of random windows, --open approaches each");
   add("seed", po::value(&o.seed)->default_value(o.seed),
@@ -123,6 +127,13 @@ class Survey {
   void synthesise(evaluation::Interior interior, std::uint32_t seed) {
     take(evaluation::flySynthetic(interior, seed, options_.range, params_, tracer(seed)));
   }
+  void lookThroughGlass(double reflectivity, std::uint32_t seed) {
+    evaluation::OpennessRange range = options_.range;
+    range.reflectivity = reflectivity;
+    auto result = evaluation::flySynthetic(evaluation::Interior::kGlass, seed, range, params_, tracer(seed));
+    result.kind += " " + std::to_string(std::lround(100.0 * reflectivity)) + " %";
+    take(result);
+  }
   int finish() {
     if (!csv_.flush()) throw std::runtime_error(options_.output + ": cannot be written; is the disk full?");
     std::cout << table_.markdown() << "called open though it is not: " << table_.falseOpen() << std::endl;
@@ -159,7 +170,8 @@ class Survey {
 
 int run(const Options& o) {
   if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  if (o.open + o.closed + o.synthetic < 1) throw UsageError("nothing to do: --open, --closed or --synthetic");
+  if (o.open + o.closed + o.synthetic + o.glass < 1)
+    throw UsageError("nothing to do: --open, --closed, --synthetic or --glass");
   if (!(o.range.rate_hz >= 1.0 && o.range.rate_hz <= 120.0)) throw UsageError("--rate: needs 1 to 120");
   tools::makeFolder(o.output);
   Survey survey(o);
@@ -170,9 +182,15 @@ int run(const Options& o) {
   }
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.closed); ++i)
     survey.draw(anyWindow(o.seed + i, false), o.seed + i);
-  for (int kind = 0; kind < evaluation::kInteriors; ++kind)
+  for (int kind = 0; kind < evaluation::kInteriors; ++kind) {
+    const auto interior = static_cast<evaluation::Interior>(kind);
+    if (interior == evaluation::Interior::kGlass) continue;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.synthetic); ++i)
-      survey.synthesise(static_cast<evaluation::Interior>(kind), o.seed + i);
+      survey.synthesise(interior, o.seed + i);
+  }
+  for (const double reflectivity : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0})
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.glass); ++i)
+      survey.lookThroughGlass(reflectivity, o.seed + i);
   return survey.finish();
 }
 

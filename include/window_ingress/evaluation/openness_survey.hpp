@@ -27,6 +27,7 @@ struct OpennessRange {
   double attitude_noise_rad = 0.004, attitude_bias_rad = 0.01;
   double window_error_m = 0.05, window_error_rad = 0.03;  ///< of the filtered window, lasting
   double flow_noise_px = 0.3;                             ///< of synthetic points [px]
+  double reflectivity = 0.5;  ///< of a glass pane: so many of its points are mirrored, the others in the room
 };
 
 /// What one approach ended with.
@@ -60,6 +61,7 @@ enum class Interior {
   kDirt,     ///< stuck to the lens
   kJump,     ///< a poster; the border jumps to another edge on the way: not open
   kMirror,   ///< a mirrored scene, 2 to 40 m behind the pane
+  kGlass,    ///< a pane before a room: in it points of the room, mirrored ones, and a few of its own dirt
   kRoom      ///< a room 1 to 6 m deep with things in it: open
 };
 constexpr int kInteriors = static_cast<int>(Interior::kRoom) + 1;

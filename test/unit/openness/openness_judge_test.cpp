@@ -198,6 +198,22 @@ TEST(OpennessJudge, nothingClosedIsEverCalledOpen) {
           << evaluation::toString(interior) << " " << seed;
 }
 
+// Not that it would be seen: one camera cannot tell. But the more a pane mirrors, the less it passes for a
+// way.
+TEST(OpennessJudge, theMoreAPaneMirrorsTheSeldomerItIsCalledOpen) {
+  evaluation::OpennessRange range;
+  std::vector<int> open;
+  for (const double reflectivity : {0.1, 0.6, 1.0}) {
+    range.reflectivity = reflectivity;
+    open.push_back(0);
+    for (std::uint32_t seed = 1; seed <= 200; ++seed)
+      open.back() +=
+          evaluation::flySynthetic(Interior::kGlass, seed, range, {}).at_decision.openness == Openness::kOpen;
+  }
+  EXPECT_GT(open[0], 1.2 * open[1]);
+  EXPECT_GT(open[1], 1.2 * open[2]);
+}
+
 TEST(OpennessJudge, roomsAreCalledOpenInTimeAndNeverClosed) {
   const evaluation::OpennessRange range;
   int open = 0;
