@@ -18,7 +18,7 @@ function(add_sanitized_library name)
 endfunction()
 
 set(core_files "")
-foreach(stage geometry parameters detection openness pose navigation)
+foreach(stage geometry parameters detection openness pose facade navigation)
   list(APPEND core_files ${source_root}/${stage}/*.cpp)
 endforeach()
 add_sanitized_library(fuzz_core FILES ${core_files}
@@ -28,7 +28,8 @@ add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
                       LIBRARIES fuzz_world nlohmann_json::nlohmann_json Threads::Threads)
 
 # Of the adapters only what has no node behind it.
-set(messages image_guard compressed_size msg_conversion camera_info_conversion detection_conversion pose_conversion stamps
+set(messages image_guard compressed_size msg_conversion camera_info_conversion detection_conversion facade_conversion
+    pose_conversion stamps
     setpoint_gate)
 list(TRANSFORM messages PREPEND ${source_root}/adapters/)
 list(TRANSFORM messages APPEND .cpp)
@@ -67,7 +68,7 @@ function(add_sanitized_test name)
     WINDOW_INGRESS_COMPILER="${CMAKE_CXX_COMPILER}" WINDOW_INGRESS_EIGEN="${EIGEN3_INCLUDE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} nlohmann_json::nlohmann_json GTest::GTest)
 endfunction()
-foreach(stage geometry parameters detection openness pose navigation simulation evaluation)
+foreach(stage geometry parameters detection openness pose facade navigation simulation evaluation)
   add_sanitized_test(unit_${stage} FILES ${PROJECT_SOURCE_DIR}/test/unit/${stage}/*_test.cpp LIBRARIES fuzz_evaluation)
 endforeach()
 add_sanitized_test(faults FILES ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${fuzz_folder}/*.cpp
