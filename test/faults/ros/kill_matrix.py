@@ -27,6 +27,7 @@ STATES = ("SEARCH", "ALIGN", "APPROACH", "COMMIT", "HOLD", "BACK_OFF")
 RESPAWN_S = 5              # of all but the guard, which is back at once
 WATCH_S = 4.5              # after the kill: longer than the autopilot flies the last velocity on
 INTO_STATE_S, BACK_S = 180.0, 60.0
+NEAR_M = 2.0
 FAST_MPS = {"APPROACH": 0.5, "ALIGN": 0.2, "BACK_OFF": 0.2}
 
 
@@ -68,15 +69,17 @@ class KillMatrix:
         self.take_off()
         begin = time.monotonic()
         if state in ("HOLD", "BACK_OFF"):
-            self.wait_in("APPROACH", begin, 0.3)
+            # Further off there is nothing to go back from.
+            self.wait_in("APPROACH", begin, 0.3, NEAR_M if state == "BACK_OFF" else math.inf)
             self.inject("image", "off", 60.0)
         self.wait_in(state, begin, FAST_MPS.get(state, 0.0))
 
-    def wait_in(self, state, begin, fast_mps):
+    def wait_in(self, state, begin, fast_mps, nearer_m=math.inf):
         def there():
             states = self.states.since(max(begin, time.monotonic() - 0.25))
             last = states[-1] if states else None
-            return last and last.state_name == state and speed_of(self.truth.since(time.monotonic() - 1.0)[-1]) >= fast_mps
+            return last and last.state_name == state and last.distance <= nearer_m and \
+                speed_of(self.truth.since(time.monotonic() - 1.0)[-1]) >= fast_mps
         support.wait_for(there, state, INTO_STATE_S)
 
     # --- one cell
