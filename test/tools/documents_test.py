@@ -52,6 +52,23 @@ def test_links_lead_somewhere(document):
         assert not anchor or anchor in anchors(target.read_text()), f"{document.name}: {link}"
 
 
+def files_named(cell, *folders):
+    """Names in backquotes that look like files; one without a folder lies beside the one before."""
+    folder = ""
+    for name in re.findall(r"`([\w/]+\.(?:hpp|cpp|py|cfg))`", cell):
+        folder, _, file = name.rpartition("/") if "/" in name else (folder, "", name)
+        yield f"{folder}/{file}", any((ROOT / root / folder / file).is_file() for root in folders)
+
+
+def test_each_part_of_the_paper_names_files_and_tests_that_are_there():
+    rows = re.findall(r"^\| P(\d+) \|[^|]*\|([^|]*)\|([^|]*)\|$", (ROOT / "doc/paper_coverage.md").read_text(), flags=re.M)
+    assert [int(row[0]) for row in rows] == list(range(1, 25))
+    for number, file, test in rows:
+        files = [*files_named(file, ".", "include/window_ingress")]
+        tests = [*files_named(test, ".", "test/unit")]
+        assert files and tests and all(there for _, there in files + tests), f"P{number}: {files} {tests}"
+
+
 def test_every_document_is_reached_from_the_readme():
     reached, ahead = set(), [ROOT / "README.md"]
     while ahead:
