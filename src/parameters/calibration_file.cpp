@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <ios>
 #include <stdexcept>
 #include <vector>
 
@@ -22,6 +23,8 @@ YAML::Node load(const std::string& file) {
     return root;
   } catch (const YAML::BadFile&) {
     refuse(file, "cannot be read; does it exist?");
+  } catch (const std::ios_base::failure&) {
+    refuse(file, "cannot be read; a folder?");
   } catch (const YAML::Exception& error) {
     refuse(file, "line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
   }

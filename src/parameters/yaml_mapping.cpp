@@ -1,5 +1,6 @@
 #include "window_ingress/parameters/yaml_mapping.hpp"
 
+#include <ios>
 #include <utility>
 
 #include "window_ingress/parameters/yaml.hpp"
@@ -39,6 +40,8 @@ YAML::Node loadYaml(const std::string& file) {
     return YAML::LoadFile(file);
   } catch (const YAML::BadFile&) {
     throw YamlError(file + ": cannot be read; does it exist?");
+  } catch (const std::ios_base::failure&) {
+    throw YamlError(file + ": cannot be read; a folder?");
   } catch (const YAML::Exception& error) {
     throw YamlError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
   }

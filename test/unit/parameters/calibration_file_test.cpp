@@ -55,6 +55,7 @@ TEST(CalibrationFile, ReadsAFisheyeWithItsFourCoefficients) {
 
 TEST(CalibrationFile, RefusesWithFileAndReason) {
   expectRefused("/nowhere/camera.yaml", "cannot be read");
+  expectRefused("/", "cannot be read");
   expectRefused(written(""), "not a yaml mapping");
   expectRefused(written("image_width: [1"), "line");
   expectRefused(written(replaced(kGood, "image_width: 640", "image_width: wide")), "image_width");

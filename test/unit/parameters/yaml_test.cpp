@@ -80,13 +80,15 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
 }
 
-TEST_F(YamlFile, MissingFileSaysSo) {
-  Sample sample;
-  try {
-    readYamlFile("/nowhere/params.yaml", "", sample);
-    FAIL();
-  } catch (const YamlError& e) {
-    EXPECT_NE(std::string(e.what()).find("/nowhere/params.yaml: cannot be read"), std::string::npos);
+TEST_F(YamlFile, MissingFileAndFolderSaySo) {
+  for (const std::string file : {"/nowhere/params.yaml", "/"}) {
+    Sample sample;
+    try {
+      readYamlFile(file, "", sample);
+      FAIL();
+    } catch (const YamlError& e) {
+      EXPECT_NE(std::string(e.what()).find(file + ": cannot be read"), std::string::npos) << e.what();
+    }
   }
 }
 
