@@ -67,13 +67,13 @@ class Sample:
     """What passed on a topic, of whatever type; stamps are read from the bytes of those that begin with a header."""
 
     def __init__(self, topic, stamped=True):
-        self.times, self.stamps, self.ages, self.last = [], [], [], None
+        self.times, self.stamps, self.ages, self.last, self.type = [], [], [], None, None
         self._stamped = stamped
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, queue_size=100)
 
     def _receive(self, message):
         self.times.append(time.monotonic())
-        self.last = message._buff
+        self.last, self.type = message._buff, message._connection_header.get("type")
         if self._stamped and len(self.last) >= 12:
             _, sec, nsec = struct.unpack_from("<III", self.last)
             self.stamps.append(sec + 1e-9 * nsec)
@@ -96,8 +96,9 @@ class Sample:
         return (len(moments) - 1) / max(1e-6, moments[-1] - moments[0]) if len(moments) > 1 else 0.0
 
     def message(self, kind):
-        """The last one, or None. rospy gives all subscribers of a topic what the first of them asked for: bytes."""
-        if self.last is None:
+        """The last one, or None, also if it is of another type. rospy gives all subscribers of a topic what the first of them
+        asked for: bytes."""
+        if self.type != kind._type:
             return None
         message = kind()
         message.deserialize(self.last)
@@ -109,7 +110,7 @@ class Sample:
 
     def image_size(self):
         """(width, height) of a sensor_msgs/Image, or None."""
-        if self.last is None:
+        if self.type != "sensor_msgs/Image":
             return None
         length = struct.unpack_from("<I", self.last, 12)[0]
         height, width = struct.unpack_from("<II", self.last, 16 + length)

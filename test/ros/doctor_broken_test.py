@@ -4,10 +4,12 @@ setpoints, no reference picture."""
 import sys
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, CompressedImage, Imu
+from std_msgs.msg import String
 
 import support
 from doctor_test import doctor
@@ -45,6 +47,27 @@ class DoctorBrokenTest(unittest.TestCase):
         for words in expected:
             self.assertIn(words, said)
         self.assertNotIn("image:=/debug_image", said)  # the detector's own
+
+    def test_types_that_nobody_expects(self):
+        """Bytes that are no camera_info, and words where numbers belong: findings, not a crash."""
+        support.Stream._publishers.pop("/camera/camera_info").unregister()
+        stream = support.Stream("/camera/camera_info", String, lambda stamp: String("hello"), 20.0)
+        wide = "/homography_pose/pose/opening_width_m"
+        before = rospy.get_param(wide)
+        rospy.set_param(wide, "wide")
+        expected = "/camera/camera_info: is a std_msgs/String, ", "homography_pose: pose/opening_width_m is 'wide', not a number"
+        for _ in range(4):
+            code, said = doctor()
+            if all(words in said for words in expected):
+                break
+        stream.stop()
+        rospy.set_param(wide, before)
+        self.assertEqual(code, 1, said)
+        self.assertNotIn("Traceback", said)
+        for words in expected:
+            self.assertIn(words, said)
+        readers = dict(rosgraph.Master("/test").getSystemState()[1])["/tf"]
+        self.assertFalse([node for node in readers if node.startswith("/doctor_") and "test" not in node], "does not stay registered")
 
 
 if __name__ == "__main__":
