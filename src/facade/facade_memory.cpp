@@ -54,15 +54,17 @@ void FacadeMemory::reset() { *this = FacadeMemory(params_); }
 void FacadeMemory::forgetPlaces() {
   const bool lost = target() == nullptr ? choice_is_lost_ : is_chosen_;
   const std::uint32_t track_id = target_track_id_;
+  const bool given_up = choice_is_given_up_;
   reset();
   choice_is_lost_ = lost;
+  choice_is_given_up_ = given_up;
   target_track_id_ = track_id;
 }
 
 void FacadeMemory::setTarget(std::uint32_t id, bool is_chosen) {
   target_id_ = id;
   is_chosen_ = is_chosen;
-  choice_is_lost_ = is_next_ = false;
+  choice_is_lost_ = choice_is_given_up_ = is_next_ = false;
   missing_sec_ = 0.0;
 }
 
@@ -90,7 +92,7 @@ void FacadeMemory::adopt(const pose::FilteredWindow& filtered, std::uint32_t tra
   if (choice_is_lost_ && track_id != 0 && track_id == target_track_id_) setTarget(*followed, true);
   if (filtered.sign_trusted) map_.correct(*followed, placeFrom(filtered));
   const bool has_settled = filtered.updates >= params_.settled_updates;
-  const bool is_free = target_id_ == 0 && !choice_is_lost_;
+  const bool is_free = target_id_ == 0 && !choice_is_lost_ && !choice_is_given_up_;
   if (is_free && has_settled && map_.find(*followed)->failures == 0) setTarget(*followed, false);
   if (*followed == target_id_) target_track_id_ = track_id;
 }
@@ -128,6 +130,9 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
   if (!params_.enabled || !window.whole()) return "";
   if (choice_is_lost_ && window.target_id != target_track_id_)
     return "the window that was chosen is lost, for the odometry jumped: choose again (~select_window)";
+  if (choice_is_given_up_)
+    return "the window that was chosen was given up: choose another one (~select_window), or allow "
+           "search/next_window";
   if (target == nullptr) return "";
   const Wall wall{target->place.position_m, target->place.heading_rad, params_.wall_sigma_m, 0.0};
   const auto place = placeOf(window.corners, from, target->place.on_wall ? std::optional(wall) : std::nullopt,
@@ -183,7 +188,10 @@ void FacadeMemory::giveUp(const std::vector<std::uint32_t>& ids, bool next_one) 
   for (const std::uint32_t id : ids)
     if (KnownWindow* window = map_.find(id)) ++window->failures;
   if (target_id_ == 0 || std::find(ids.begin(), ids.end(), target_id_) == ids.end()) return;
-  next_one ? setNextBest() : setTarget(0, false);
+  if (next_one) return setNextBest();
+  const bool was_chosen = is_chosen_;
+  setTarget(0, false);
+  choice_is_given_up_ = was_chosen;
 }
 
 const KnownWindow* FacadeMemory::nextBest() const {

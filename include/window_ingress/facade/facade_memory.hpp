@@ -46,9 +46,10 @@ class FacadeMemory {
   Answer select(std::uint32_t id);
   Answer selectNear(const Eigen::Vector3d& point_odom_m);  ///< a click on it, or beside it
 
-  /// Windows given up by who flies: closed, or tried in vain. \param next_one the next best becomes the
-  /// target: like the reference, of the size looked for, not closed, never given up. If it turns out not to
-  /// be there, the next; where none is known, the one that the detector follows next
+  /// Windows given up by who flies: closed, or tried in vain. Without `next_one` nothing takes the place of
+  /// one that the operator chose; else another one that is found may. \param next_one the next best becomes
+  /// the target: like the reference, of the size looked for, not closed, never given up. If it turns out not
+  /// to be there, the next; where none is known, the one that the detector follows next
   void giveUp(const std::vector<std::uint32_t>& ids, bool next_one);
   void noteFlownAt(std::uint32_t id);                    ///< 0: none
   void judge(const openness::OpennessVerdict& verdict);  ///< of the target
@@ -76,7 +77,7 @@ class FacadeMemory {
   std::optional<double> last_view_sec_;
   double missing_sec_ = 0.0;  ///< in view, and not seen
   std::uint32_t target_track_id_ = 0;
-  bool is_chosen_ = false, is_next_ = false, choice_is_lost_ = false;
+  bool is_chosen_ = false, is_next_ = false, choice_is_lost_ = false, choice_is_given_up_ = false;
 };
 
 }  // namespace window_ingress::facade

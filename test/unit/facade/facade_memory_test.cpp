@@ -123,6 +123,21 @@ TEST(FacadeMemory, TriesEachWindowOnceAndThenNone) {
   EXPECT_EQ(watch.memory.targetId(), 0u);
 }
 
+TEST(FacadeMemory, NothingTakesThePlaceOfAChosenOneUnlessThatIsAllowed) {
+  Watch watch;
+  watch.look(20, 2);
+  ASSERT_TRUE(watch.memory.select(watch.at(2).id).success);
+  watch.memory.giveUp({watch.memory.targetId()}, false);
+  EXPECT_NE(watch.whyNot(1).find("search/next_window"), std::string::npos);
+  watch.look(60, 1);
+  EXPECT_EQ(watch.memory.targetId(), 0u);
+  watch.memory.forgetPlaces();
+  watch.look(60, 1);
+  EXPECT_EQ(watch.memory.targetId(), 0u) << "nor after a jump of the odometry";
+  ASSERT_TRUE(watch.memory.select(watch.at(1).id).success);
+  EXPECT_EQ(watch.whyNot(1), "");
+}
+
 TEST(FacadeMemory, TheNextOneHasTheSizeLookedFor) {
   Watch watch;
   watch.row.count = 1;
