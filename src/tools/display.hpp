@@ -1,14 +1,35 @@
 /// Whether there is a screen: the toolkits behind highgui end the program where there is none.
 #pragma once
 
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
 #include <cstdlib>
+#include <cstring>
+#include <string>
 
 namespace window_ingress::tools {
 
+/// Whether a server listens on the socket of a display of this machine, ":7" or ":7.0".
+inline bool listensLocally(const std::string& display) {
+  const std::string path = "/tmp/.X11-unix/X" + display.substr(1, display.find('.') - 1);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path)) return false;
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  const int handle = socket(AF_UNIX, SOCK_STREAM, 0);
+  const bool there = connect(handle, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(handle);
+  return there;
+}
+
+/// A display of another machine is taken to be there.
 inline bool hasDisplay() {
-  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"})
-    if (const char* value = std::getenv(name); value && *value) return true;
-  return false;
+  if (const char* wayland = std::getenv("WAYLAND_DISPLAY"); wayland && *wayland) return true;
+  const char* display = std::getenv("DISPLAY");
+  if (!display || !*display) return false;
+  return *display != ':' || listensLocally(display);
 }
 
 }  // namespace window_ingress::tools

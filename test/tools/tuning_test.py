@@ -133,6 +133,12 @@ def test_tune_detector_says_what_is_wrong(labelled, arguments, words):
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
 
 
+def test_a_display_that_is_gone_is_said(labelled, tmp_path):
+    for tool, source in (("tune_detector", labelled), ("make_reference", next(labelled.glob("*.png")))):
+        code, _, errors = run(tool, source, "--output", tmp_path / "x.yaml", DISPLAY=":4711", WAYLAND_DISPLAY="")
+        assert code == 2 and "there is no display" in errors and len(errors.strip().splitlines()) == 1, errors
+
+
 @pytest.fixture(name="display")
 def fixture_display(screen):
     """A screen with somebody who types and clicks."""
