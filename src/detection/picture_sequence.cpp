@@ -1,7 +1,9 @@
 #include "window_ingress/detection/picture_sequence.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "window_ingress/detection/track_picture.hpp"
 
@@ -27,6 +29,9 @@ bool PictureSequence::take(const TrackInput& input) {
   if (has_attitude && attitude_ && camera_) {
     const Eigen::Matrix3d K = camera_->K(), R_now_last = input.R_world_camera->transpose() * *attitude_;
     turn_ = K * R_now_last * K.inverse();
+    noteJitter(R_now_last);
+  } else {
+    last_turn_rad_.reset();
   }
   attitude_.reset();
   if (has_attitude) attitude_ = input.R_world_camera;
@@ -34,9 +39,24 @@ bool PictureSequence::take(const TrackInput& input) {
   return continued;
 }
 
+// White noise of attitudes has six times its variance in the difference of two turns in a row.
+void PictureSequence::noteJitter(const Eigen::Matrix3d& R_now_last) {
+  constexpr double kRate = 0.1, kSquares = 6.0, kAxes = 3.0;
+  const Eigen::AngleAxisd turned(R_now_last);
+  const Eigen::Vector3d turn_rad = turned.angle() * turned.axis();
+  if (last_turn_rad_)
+    jitter_rad2_ += kRate * ((turn_rad - *last_turn_rad_).squaredNorm() / (kSquares * kAxes) - jitter_rad2_);
+  last_turn_rad_ = turn_rad;
+}
+
+double PictureSequence::turnSigmaPx() const {
+  return camera_ ? camera_->fx * std::sqrt(2.0 * jitter_rad2_) : 0.0;
+}
+
 void PictureSequence::forget() {
   last_sec_.reset();
   attitude_.reset();
+  last_turn_rad_.reset();
 }
 
 int PictureSequence::longerSide() const { return std::max(size_.width, size_.height); }

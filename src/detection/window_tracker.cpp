@@ -46,15 +46,24 @@ void WindowTracker::Impl::heedExpected(const TrackInput& input) {
   has_motion = true;
 }
 
+// An attitude that jitters by more than what is unforeseen without it is worse than none.
+bool WindowTracker::Impl::knowsTurn() const {
+  return pictures.turn() &&
+         pictures.turnSigmaPx() < params.track.turn * pictures.longerSide() * pictures.elapsedSec();
+}
+
 QuadSpread WindowTracker::Impl::spread() const {
   const double side = sizeOf(motion.quad()), elapsed_sec = pictures.elapsedSec();
-  const double place = pictures.turn() ? params.track.turn_known : params.track.turn;
-  return {place * pictures.longerSide() * elapsed_sec, params.track.reshape * side * elapsed_sec,
-          params.track.warp * side * elapsed_sec};
+  const double unforeseen_px = pictures.longerSide() * elapsed_sec;
+  const double place_px = knowsTurn()
+                              ? std::hypot(params.track.turn_known * unforeseen_px, pictures.turnSigmaPx())
+                              : params.track.turn * unforeseen_px;
+  return {place_px, params.track.reshape * side * elapsed_sec, params.track.warp * side * elapsed_sec};
 }
 
 void WindowTracker::Impl::predict(const TrackInput& input) {
-  motion.predict(pictures.turn().value_or(Eigen::Matrix3d::Identity()), pictures.elapsedSec(), spread());
+  motion.predict(knowsTurn() ? *pictures.turn() : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
+                 pictures.elapsedSec(), spread());
   place_given =
       input.predicted && geometry::isFinite(*input.predicted) && geometry::isConvex(*input.predicted);
   if (!place_given) return;

@@ -38,6 +38,7 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> updated(const TrackInput& input);
   void survey(const TrackInput& input, const std::optional<WindowObservation>& target);
   void predict(const TrackInput& input);
+  bool knowsTurn() const;
   QuadSpread spread() const;
   bool follow(const TrackInput& input);
   void watch(const TrackInput& input);

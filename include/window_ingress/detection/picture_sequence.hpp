@@ -28,8 +28,12 @@ class PictureSequence {
   /// Homography of the undistorted image by the turn since the picture before; nothing where an attitude of
   /// the two or the camera is not known.
   const std::optional<Eigen::Matrix3d>& turn() const { return turn_; }
+  /// How far the jitter of the attitudes moves what `turn` says [px]: noise makes each turn the opposite of
+  /// the one before, which no vehicle does.
+  double turnSigmaPx() const;
 
  private:
+  void noteJitter(const Eigen::Matrix3d& R_now_last);
   bool isContinuedBy(const TrackInput& input) const;
 
   double max_gap_sec_;
@@ -38,6 +42,8 @@ class PictureSequence {
   std::optional<double> last_sec_;
   std::optional<Eigen::Matrix3d> attitude_, turn_;
   double elapsed_sec_ = 0.0;
+  std::optional<Eigen::Vector3d> last_turn_rad_;
+  double jitter_rad2_ = 0.0;  ///< variance of an attitude about an axis, a running mean
 };
 
 }  // namespace window_ingress::detection

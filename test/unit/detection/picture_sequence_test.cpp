@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -41,6 +42,26 @@ TEST(PictureSequence, ContinuesWhileTimeGoesOnAndTheCameraIsTheSame) {
   EXPECT_TRUE(sequence.take(pictures.at(1.1 + 2.0 * kGap_sec)));
   sequence.forget();
   EXPECT_FALSE(sequence.take(pictures.at(1.2 + 2.0 * kGap_sec)));
+}
+
+TEST(PictureSequence, TellsAttitudesThatJitterFromAVehicleThatTurns) {
+  for (const double noise_rad : {0.0, 0.002, 0.009}) {
+    const Pictures pictures;
+    PictureSequence sequence(kGap_sec);
+    std::mt19937 random(4);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    for (int i = 0; i < 200; ++i) {
+      const double t = 0.05 * i;
+      Matrix3d R = Eigen::AngleAxisd(0.4 * std::sin(1.5 * t), Vector3d::UnitZ()).toRotationMatrix();
+      for (int axis = 0; axis < 3; ++axis)
+        R = R * Eigen::AngleAxisd(noise_rad * noise(random), Vector3d::Unit(axis)).toRotationMatrix();
+      sequence.take(pictures.at(t, R));
+    }
+    const double expected_px = std::sqrt(2.0) * noise_rad * pictures.camera.fx;
+    EXPECT_NEAR(sequence.turnSigmaPx(), expected_px, 0.3 * expected_px + 0.08);
+    sequence.take(pictures.at(1000.0));
+    EXPECT_FALSE(sequence.turn());
+  }
 }
 
 TEST(PictureSequence, AnotherSizeOrCalibrationBeginsAnew) {
