@@ -19,7 +19,7 @@ WindowState randomState(std::mt19937& random) {
   state.anchor_m = {unit(random), unit(random), 1.5};
   state.values << 4.0 + unit(random), unit(random), 0.3 * unit(random), 0.6 * unit(random),
       0.3 * unit(random), 0.3 * unit(random), 0.3 * unit(random), 0.3 * unit(random),
-      1.0 + 0.3 * unit(random);
+      1.0 + 0.3 * unit(random), 0.2 * unit(random), 0.2 * unit(random), 0.2 * unit(random);
   return state;
 }
 
@@ -44,8 +44,9 @@ ScaledCamera at(const ScaledCamera& camera, const WindowState& from, const Windo
 TEST(WindowState, PlaceAndSizeComeInHeightsOfTheOpening) {
   WindowState state;
   state.anchor_m = {1, 2, 3};
-  state.values << 4, 0, 1, 0.5, 0, 0, 0, std::log(1.5), 1.0 / 0.8;
+  state.values << 4, 0, 1, 0.5, 0, 0, 0, std::log(1.5), 1.0 / 0.8, 0.1, 0.0, -0.2;
   EXPECT_LT((state.position() - Eigen::Vector3d(1 + 3.2, 2, 3 + 0.8)).norm(), 1e-12);
+  EXPECT_LT((state.velocity() - Eigen::Vector3d(0.08, 0.0, -0.16)).norm(), 1e-12);
   EXPECT_NEAR(state.opening().width_m, 1.2, 1e-12);
   EXPECT_NEAR(state.opening().height_m, 0.8, 1e-12);
   EXPECT_NEAR(geometry::yawOf(state.T_odom_window().linear()), 0.5, 1e-12);
