@@ -4,6 +4,7 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -70,6 +71,7 @@ class Chooser {
 }  // namespace
 
 void openBag(rosbag::Bag& bag, const std::string& file) {
+  if (std::filesystem::is_directory(file)) throw BagError(file + ": is a folder; name one bag in it");
   if (const std::string damage = whyDamaged(file); !damage.empty())
     throw BagError(file + ": damaged: " + damage + "; see 'rosbag check' and 'rosbag reindex'");
   try {

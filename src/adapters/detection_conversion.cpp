@@ -88,6 +88,7 @@ void fillInterior(DetectionMsg& message, const detection::InteriorTracks& interi
     message.interior_y.push_back(static_cast<float>(point.now_px.y()));
     message.interior_normal_x.push_back(static_cast<float>(point.normal.x()));
     message.interior_normal_y.push_back(static_cast<float>(point.normal.y()));
+    message.interior_beside.push_back(point.beside);
   }
 }
 
@@ -98,7 +99,8 @@ detection::InteriorTracks readInterior(const DetectionMsg& m) {
   const auto key_stamp_sec = stampSec(m.interior_key_stamp);
   if (points == 0 || !key_stamp_sec || m.interior_key_x.size() != points ||
       m.interior_key_y.size() != points || m.interior_x.size() != points || m.interior_y.size() != points ||
-      m.interior_normal_x.size() != points || m.interior_normal_y.size() != points)
+      m.interior_normal_x.size() != points || m.interior_normal_y.size() != points ||
+      m.interior_beside.size() != points)
     return interior;
   interior.key_stamp_sec = *key_stamp_sec;
   interior.sigma_px = m.interior_sigma_px;
@@ -111,7 +113,8 @@ detection::InteriorTracks readInterior(const DetectionMsg& m) {
     interior.points.push_back({m.interior_id[i],
                                {m.interior_key_x[i], m.interior_key_y[i]},
                                {m.interior_x[i], m.interior_y[i]},
-                               {m.interior_normal_x[i], m.interior_normal_y[i]}});
+                               {m.interior_normal_x[i], m.interior_normal_y[i]},
+                               m.interior_beside[i]});
   return interior;
 }
 

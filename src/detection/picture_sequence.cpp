@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "window_ingress/detection/track_picture.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::detection {
 
@@ -24,7 +25,7 @@ bool PictureSequence::take(const TrackInput& input) {
   size_ = input.image.size();
   camera_.reset();
   if (input.camera) camera_ = *input.camera;
-  const bool has_attitude = input.R_world_camera && input.R_world_camera->allFinite();
+  const bool has_attitude = input.R_world_camera && geometry::isRotation(*input.R_world_camera);
   turn_.reset();
   if (has_attitude && attitude_ && camera_) {
     const Eigen::Matrix3d K = camera_->K(), R_now_last = input.R_world_camera->transpose() * *attitude_;

@@ -192,7 +192,7 @@ class SyntheticFollower {
                     !surfaces_.isFree(crossing(T_window_camera.translation(), point.place)));
       if (point.lost) continue;
       window.interior.points.push_back(
-          {static_cast<std::uint16_t>(i), point.key_px, *now_px, Vector2d::Zero()});
+          {static_cast<std::uint16_t>(i), point.key_px, *now_px, Vector2d::Zero(), 0});
     }
   }
 

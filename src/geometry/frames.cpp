@@ -28,8 +28,12 @@ double wrapAngle(double angle_rad) {
   return wrapped <= -M_PI ? wrapped + 2.0 * M_PI : wrapped;
 }
 
+bool isRotation(const Eigen::Matrix3d& matrix) {
+  return matrix.allFinite() && matrix.isUnitary(1e-6) && matrix.determinant() > 0.0;
+}
+
 bool isValidPose(const Eigen::Isometry3d& pose) {
-  return pose.matrix().allFinite() && pose.linear().isUnitary(1e-6) && pose.linear().determinant() > 0.0;
+  return pose.matrix().allFinite() && isRotation(pose.linear());
 }
 
 }  // namespace window_ingress::geometry

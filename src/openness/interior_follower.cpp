@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "window_ingress/openness/edge_flow.hpp"
+#include "window_ingress/openness/smooth_regions.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::openness {
@@ -99,6 +100,7 @@ struct InteriorFollower::Impl {
   cv::Matx33d key_to_picture;
   cv::Mat cut, straight, key_straight, mask, contrast;
   SlopePicture slopes;
+  SmoothRegions regions;
   std::vector<cv::Mat> key_pyramid, pyramid;
   std::vector<Track> points;
   std::size_t found = 0;
@@ -239,6 +241,7 @@ void InteriorFollower::Impl::report(WindowObservation& window) {
   const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.sigma_px = params.flow_sigma_px * std::max(scale, 1.0);
   tracks.points.clear();
+  regions.find(straight, params.most_slope);
   for (const Track& track : points) {
     const Eigen::Vector2d now = mapped(to_picture, track.now);
     Eigen::Vector2d normal = Eigen::Vector2d::Zero();
@@ -247,7 +250,8 @@ void InteriorFollower::Impl::report(WindowObservation& window) {
       const Eigen::Vector2d along = (mapped(to_picture, beside) - now).normalized();
       normal = {along.y(), -along.x()};
     }
-    tracks.points.push_back({track.id, mapped(key_to_picture, track.key), now, normal});
+    tracks.points.push_back(
+        {track.id, mapped(key_to_picture, track.key), now, normal, regions.cellsBeside(track.now)});
   }
   window.interior = tracks;
 }

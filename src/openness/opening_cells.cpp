@@ -35,6 +35,24 @@ void OpeningCells::see(const Eigen::Vector2d& place, double log_odds) {
     }
 }
 
+void OpeningCells::seeBeside(std::uint64_t cells, double log_odds) {
+  for (std::size_t i = 0; cells != 0 && i < deep_.size(); ++i, cells >>= 1) {
+    if ((cells & 1) == 0) continue;
+    deep_[i] += log_odds >= kSure;
+    shallow_[i] += log_odds < 0.0;
+  }
+}
+
+void OpeningCells::endPicture() {
+  for (std::size_t i = 0; i < deep_.size(); ++i) {
+    if (shallow_[i] > 0)
+      pictures_[i] = 0;
+    else
+      pictures_[i] += deep_[i] >= kLeastBeside;
+  }
+  deep_.fill(0), shallow_.fill(0);
+}
+
 bool OpeningCells::isClosed(int x, int y) const {
   const auto i = static_cast<std::size_t>(y * kSide + x);
   return closed_[i] >= kSure && closed_[i] >= open_[i];
@@ -42,7 +60,8 @@ bool OpeningCells::isClosed(int x, int y) const {
 
 bool OpeningCells::isOpen(int x, int y) const {
   if (x < 0 || y < 0 || x >= kSide || y >= kSide || isClosed(x, y)) return false;
-  return open_[static_cast<std::size_t>(y * kSide + x)] >= kSure;
+  const auto i = static_cast<std::size_t>(y * kSide + x);
+  return open_[i] >= kSure || pictures_[i] >= kLeastPictures;
 }
 
 // Nothing was seen through it, but on both sides of it.

@@ -142,7 +142,7 @@ void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T
     const auto look = pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px), point.normal);
     if (!look) continue;
     const bool through = passesReveal(look->place, eye, opening, params_.reveal_depth_m);
-    stretch_.see(point.id, *look, through);
+    stretch_.see(point.id, *look, through, point.beside);
   }
   const DepthParts parts = DepthParts::at(pair->distanceM(), params_);
   stretch_.mark(parts, params_, cells_);
@@ -164,6 +164,8 @@ void OpennessJudge::conclude() {
   const bool sure_open =
       all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed + 2 * all.moving;
   const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
+  // A stretch that hardly knows the depth takes nothing back.
+  const bool may_be_a_room = says_.depth_m - says_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;
     verdict.reason = text("what is within the border moves with it: %.2f +- %.2f m behind it",
@@ -171,7 +173,7 @@ void OpennessJudge::conclude() {
   } else if (says_.is_moving) {
     verdict.reason = text("%.0f of %.0f points do not move as anything that stands still", says_.unsteady,
                           says_.unsteady + says_.points);
-  } else if (says_.is_too_deep) {
+  } else if (says_.is_too_deep && !(sure_open && may_be_a_room)) {
     verdict.reason = text("deeper than a room: %.1f m; a mirror shows that, too", verdict.depth_behind_m);
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
     verdict.reason = text("%.0f stretches of the flight say open, %.0f closed", all.open, all.closed);

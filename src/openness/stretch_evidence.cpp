@@ -30,12 +30,13 @@ void StretchEvidence::begin(double key_stamp_sec) {
   entries_.clear();
 }
 
-void StretchEvidence::see(int id, const PointParallax& look, bool through) {
+void StretchEvidence::see(int id, const PointParallax& look, bool through, std::uint64_t beside) {
   if (id < 0 || id >= kMostIds) return;
   if (static_cast<std::size_t>(id) >= entries_.size()) entries_.resize(static_cast<std::size_t>(id) + 1);
   Entry& entry = entries_[static_cast<std::size_t>(id)];
   entry.track.see(look);
   entry.through = through;
+  entry.beside = beside;
   entry.current = true;
 }
 
@@ -47,7 +48,9 @@ void StretchEvidence::mark(const DepthParts& parts, const OpennessParams& params
     const double log_odds = parts.logOdds(entry.track.best().part, entry.track.best().part_sigma);
     if (log_odds < 0.0 && !entry.through) continue;
     cells.see(entry.track.last().place, log_odds);
+    cells.seeBeside(entry.beside, log_odds);
   }
+  cells.endPicture();
 }
 
 StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,

@@ -18,6 +18,9 @@ struct InteriorPoint {
   /// Of a point on an edge: the direction across it in this picture, in which alone its place is known. Zero
   /// of a corner, whose place is known in both directions.
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  /// Cells of the opening, 6 x 6, one bit each, row by row from the top left one, that are filled by a region
+  /// without edges that ends at this point: what is seen there is as deep as the point at least.
+  std::uint64_t beside = 0;
 };
 
 /// What became, since a key picture, of the texture that is seen within the opening. Without points: nothing

@@ -35,7 +35,9 @@ double yawOf(const Eigen::Matrix3d& rotation);
 /// The same angle in (-pi, pi] [rad].
 double wrapAngle(double angle_rad);
 
-/// True if every number of the pose is finite and its rotation is orthonormal to 1e-6.
+/// True if every number is finite, and the matrix orthonormal to 1e-6 and no reflection.
+bool isRotation(const Eigen::Matrix3d& matrix);
+/// True if every number of the pose is finite and its rotation is one.
 bool isValidPose(const Eigen::Isometry3d& pose);
 
 }  // namespace window_ingress::geometry

@@ -13,6 +13,7 @@ struct FollowerParams {
   double margin = 0.07;          ///< beside the border that is not looked at, part of the opening's sides
   double min_contrast = 1e-4;    ///< of a point: lesser eigenvalue of the gradient's moments
   double max_return_px = 0.8;    ///< that a point may miss itself by when followed there and back [px]
+  double most_slope = 0.7;       ///< of noise and shading within a surface [grey levels a pixel]
   double flow_sigma_px = 0.35;   ///< of a followed point, in the straightened picture [px]
   double max_growth = 1.25;      ///< of the window in the picture, until a new key picture
   double max_key_age_sec = 4.0;  ///< of a key picture [s]
@@ -29,6 +30,7 @@ struct FollowerParams {
     field("margin", self.margin, 0.0, 0.3);
     field("min_contrast", self.min_contrast, 1e-6, 1.0);
     field("max_return_px", self.max_return_px, 0.05, 5.0);
+    field("most_slope", self.most_slope, 0.0, 20.0);
     field("flow_sigma_px", self.flow_sigma_px, 0.05, 5.0);
     field("max_growth", self.max_growth, 1.05, 3.0);
     field("max_key_age_sec", self.max_key_age_sec, 0.2, 60.0);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 
 #include "window_ingress/geometry/opening.hpp"
 
@@ -19,7 +20,13 @@ class OpeningCells {
 
   /// \param place within the opening, 0 to 1, right and down; outside of it nothing happens
   void see(const Eigen::Vector2d& place, double log_odds);
-  void clear() { open_.fill(0.0f), closed_.fill(0.0f); }
+  /// The same of whole cells in which nothing is seen that ends: what is there is as deep as the point beside
+  /// them at least. It takes several points, on several pictures, and none of them in the plane.
+  /// \param cells as in `InteriorPoint::beside`
+  void seeBeside(std::uint64_t cells, double log_odds);
+  /// Takes what was seen beside the points of one picture.
+  void endPicture();
+  void clear() { *this = OpeningCells(); }
 
   struct Share {
     double open = 0.0, closed = 0.0;  ///< parts of the cells that are needed, 0 to 1
@@ -35,8 +42,12 @@ class OpeningCells {
   bool isOpen(int x, int y) const;
   bool isBetweenOpen(int x, int y) const;
   static constexpr float kMost = 12.0f;
-  static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
+  static constexpr float kSure = 2.0f;    ///< log odds by which a cell is one or the other
+  static constexpr int kLeastBeside = 3;  // points on one picture
+  static constexpr int kLeastPictures = 5;
   std::array<float, kSide * kSide> open_{}, closed_{};
+  std::array<int, kSide * kSide> deep_{}, shallow_{};  // points beside the cell, on this picture
+  std::array<int, kSide * kSide> pictures_{};          // on which the cell was beside deep points alone
 };
 
 }  // namespace window_ingress::openness

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "window_ingress/detection/interior_tracks.hpp"
@@ -27,7 +28,8 @@ class StretchEvidence {
   double keyStamp() const { return key_stamp_sec_; }
 
   /// \param through for each point: its sight would reach the room past the opening's inner faces
-  void see(int id, const PointParallax& look, bool through);
+  /// \param beside cells beside it, as in `InteriorPoint::beside`
+  void see(int id, const PointParallax& look, bool through, std::uint64_t beside);
   /// Takes what a point showed into the cells, if it stands still.
   void mark(const DepthParts& parts, const OpennessParams& params, OpeningCells& cells);
   StretchSays says(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
@@ -36,6 +38,7 @@ class StretchEvidence {
   struct Entry {
     TrackEvidence track;
     bool through = false, current = false;
+    std::uint64_t beside = 0;
   };
   double key_stamp_sec_ = -1.0;
   std::vector<Entry> entries_;  // by the point's number

@@ -58,8 +58,8 @@ TEST(WindowDetection, WhatIsFollowedWithinGoesThereAndBack) {
   window.interior.key_corners = window.corners;
   window.interior.key_covariance = window.corner_covariance;
   window.interior.sigma_px = 0.4;
-  window.interior.points.push_back({3, {120.5, 130.25}, {121.5, 129.75}, {0.0, 0.0}});
-  window.interior.points.push_back({9, {220.5, 130.25}, {221.5, 129.75}, {0.0, 1.0}});
+  window.interior.points.push_back({3, {120.5, 130.25}, {121.5, 129.75}, {0.0, 0.0}, 0b101});
+  window.interior.points.push_back({9, {220.5, 130.25}, {221.5, 129.75}, {0.0, 1.0}, std::uint64_t{1} << 35});
   window_ingress::WindowDetection message = toMsg(window);
   message.header.stamp = ros::Time(12.5);
   const auto back = fromMsg(message);
@@ -73,6 +73,8 @@ TEST(WindowDetection, WhatIsFollowedWithinGoesThereAndBack) {
   EXPECT_EQ(interior.points[1].key_px, window.interior.points[1].key_px);
   EXPECT_EQ(interior.points[1].now_px, window.interior.points[1].now_px);
   EXPECT_EQ(interior.points[1].normal, window.interior.points[1].normal);
+  EXPECT_EQ(interior.points[0].beside, window.interior.points[0].beside);
+  EXPECT_EQ(interior.points[1].beside, window.interior.points[1].beside);
   message.interior_x.pop_back();
   EXPECT_TRUE(fromMsg(message).value->interior.empty()) << "lists of different lengths";
   message = toMsg(window);

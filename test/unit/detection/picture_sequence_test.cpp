@@ -64,6 +64,24 @@ TEST(PictureSequence, TellsAttitudesThatJitterFromAVehicleThatTurns) {
   }
 }
 
+TEST(PictureSequence, WhatIsNoRotationIsNoAttitudeAndLeavesNothingBehind) {
+  const Pictures pictures;
+  const Matrix3d level = Matrix3d::Identity();
+  PictureSequence sequence(kGap_sec);
+  sequence.take(pictures.at(0.0, level));
+  int i = 1;
+  for (const Matrix3d& bad :
+       {Matrix3d::Zero().eval(), Matrix3d::Constant(1e200).eval(), (2.0 * level).eval(), (-level).eval()}) {
+    sequence.take(pictures.at(0.1 * i++, bad));
+    EXPECT_FALSE(sequence.turn().has_value());
+    sequence.take(pictures.at(0.1 * i++, level));
+  }
+  sequence.take(pictures.at(0.1 * i++, level));
+  sequence.take(pictures.at(0.1 * i++, level));
+  EXPECT_TRUE(sequence.turn().has_value());
+  EXPECT_EQ(sequence.turnSigmaPx(), 0.0);
+}
+
 TEST(PictureSequence, AnotherSizeOrCalibrationBeginsAnew) {
   Pictures pictures;
   PictureSequence sequence(kGap_sec);

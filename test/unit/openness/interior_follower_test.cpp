@@ -78,8 +78,8 @@ struct Flown {
   bool ever_open = false;
 };
 
-Flown fly(const Look& look) {
-  InteriorFollower follower{FollowerParams()};
+Flown fly(const Look& look, const FollowerParams& params = {}) {
+  InteriorFollower follower(params);
   OpennessJudge judge({}, kNeeded);
   Flown flown;
   for (double plane_m = 4.5; plane_m > 1.7; plane_m -= 0.07) {
@@ -122,10 +122,34 @@ TEST(InteriorFollower, halfABoardIsNotOpen) {
   EXPECT_FALSE(fly(halfBoard).ever_open) << fly(halfBoard).verdict.reason;
 }
 
-TEST(InteriorFollower, plainWallBehindACupboardIsNoProofOfAWay) {
+TEST(InteriorFollower, bareWallIsAsDeepAsTheEdgesItEndsAt) {
   const auto flown = fly(plainRoomWithCupboard);
-  EXPECT_EQ(flown.verdict.openness, Openness::kUnknown) << flown.verdict.reason;
-  EXPECT_GT(flown.verdict.log_odds, 0.0);
+  EXPECT_EQ(flown.verdict.openness, Openness::kOpen) << flown.verdict.reason;
+  FollowerParams params;
+  params.most_slope = 0.0;
+  EXPECT_EQ(fly(plainRoomWithCupboard, params).verdict.openness, Openness::kUnknown)
+      << "by the points alone most of it is unseen";
+}
+
+// What such a wall shows is the lack of edges, so a plain board before it must be given away by its own.
+TEST(InteriorFollower, plainBoardBeforeABareRoomIsNotOpen) {
+  for (const double contrast : {-20.0, 5.0, 60.0})
+    for (const double edge_m : {-0.1, 0.0})
+      for (int side = 0; side < 4; ++side) {
+        const auto look = [&](double y, double z, double across, double up) {
+          const double into[] = {y, -y, z, -z};
+          return into[side] > edge_m ? 120.0 + contrast : plainRoomWithCupboard(y, z, across, up);
+        };
+        EXPECT_FALSE(fly(look).ever_open)
+            << contrast << " grey levels, from " << edge_m << " m, side " << side;
+      }
+}
+
+TEST(InteriorFollower, whatIsTooDarkToShowAnEdgeIsUnknown) {
+  const auto dark = [](double y, double z, double across, double up) {
+    return 0.1 * plainRoomWithCupboard(y, z, across, up);
+  };
+  EXPECT_EQ(fly(dark).verdict.openness, Openness::kUnknown) << fly(dark).verdict.reason;
 }
 
 TEST(InteriorFollower, nothingToFollowIsUnknown) {

@@ -55,6 +55,33 @@ TEST(OpeningCells, strongerEvidenceDecides) {
   EXPECT_EQ(cells.shareOf(kNeeded, kOpening).open, 1.0);
 }
 
+void seeBeside(OpeningCells& cells, int deep, int shallow, int pictures) {
+  for (int i = 0; i < pictures; ++i) {
+    for (int j = 0; j < deep; ++j) cells.seeBeside(~std::uint64_t{0}, 4.0);
+    for (int j = 0; j < shallow; ++j) cells.seeBeside(~std::uint64_t{0}, -4.0);
+    cells.endPicture();
+  }
+}
+
+TEST(OpeningCells, whatLiesBesideDeepPointsIsOpenAfterSomePictures) {
+  OpeningCells cells;
+  seeBeside(cells, 3, 0, 4);
+  EXPECT_EQ(cells.shareOf(kNeeded, kOpening).open, 0.0);
+  seeBeside(cells, 3, 0, 1);
+  EXPECT_EQ(cells.shareOf(kNeeded, kOpening).open, 1.0);
+  sprinkle(cells, 0.0, 1.0, -4.0);
+  EXPECT_EQ(cells.shareOf(kNeeded, kOpening).closed, 1.0) << "what was seen outweighs what follows";
+}
+
+TEST(OpeningCells, fewPointsOrOneInThePlaneTellNothingOfWhatIsBeside) {
+  OpeningCells few, one;
+  seeBeside(few, 2, 0, 100);
+  EXPECT_EQ(few.shareOf(kNeeded, kOpening).open, 0.0);
+  seeBeside(one, 9, 0, 20);
+  seeBeside(one, 9, 1, 1);
+  EXPECT_EQ(one.shareOf(kNeeded, kOpening).open, 0.0);
+}
+
 TEST(OpeningCells, sharesStayWithinBoundsWhateverComes) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(-1.0, 2.0), odds(-10.0, 10.0), size(0.01, 3.0);

@@ -45,9 +45,9 @@ struct Approach {
       const Vector3d front(0.0, 0.15 * (i % 7 - 3), 0.13 * (i / 7 - 3));
       const Vector3d way = (front - camera(key_m).translation()) / key_m;
       const Vector3d point = front + depth_m * way;
-      tracks.points.push_back({static_cast<std::uint16_t>(i),
-                               *kCamera.project(camera(key_m).inverse() * point),
-                               *kCamera.project(camera(plane_m).inverse() * point), Eigen::Vector2d::Zero()});
+      tracks.points.push_back(
+          {static_cast<std::uint16_t>(i), *kCamera.project(camera(key_m).inverse() * point),
+           *kCamera.project(camera(plane_m).inverse() * point), Eigen::Vector2d::Zero(), 0});
     }
     return window;
   }
