@@ -115,7 +115,13 @@ class KillMatrix:
         problems += [v.text for v in self.monitor.violations(killed) if v.oracle in ("O1", "O2", "O3", "O9")]
         last = self.states.since(0.0)[-1].state_name
         ends = "passed" if verdict.outcome_name == "PASSED" else f"{furthest:.2f} m"
-        return problems, f"{ends}, {speed_of(before):.2f} to {speed_of(way[-1]):.2f} m/s, {last}"
+        silence = f", no setpoint for {self.silence(killed):.1f} s" if node == "setpoint_guard" else ""
+        return problems, f"{ends}, {speed_of(before):.2f} to {speed_of(way[-1]):.2f} m/s, {last}{silence}"
+
+    def silence(self, killed):
+        """The longest time without a setpoint."""
+        times = [s.at for s in self.monitor.part(killed - 0.5).setpoints if s.source == self.monitor.guard]
+        return max((after - before for before, after in zip(times, times[1:])), default=math.inf)
 
     def bring_back(self, node, pid):
         def is_back():

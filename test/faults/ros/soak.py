@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Flight after flight through the real nodes, with faults at random times and a viewer that is too slow; see scripts/soak.
 
-One line a flight, then a table; exit code 0 if no oracle was violated, 1 if one was, 2 if nothing could be flown.
+One line a flight, then a table; exit code 0 if no oracle was violated and nothing touched, 1 if one was, 2 if nothing could be
+flown. What is touched while the vehicle itself does not do as it is told (`DISOBEYS`) nobody aboard could have prevented: it is counted
+apart.
 """
 import argparse
 import collections
@@ -25,6 +27,8 @@ import oracles  # noqa: E402
 import support  # noqa: E402
 from own_system import OwnSystem  # noqa: E402
 
+TOUCHED = ("COLLISION", "FALSE_INGRESS")
+DISOBEYS = ("cmd_vel garbage", "cmd_vel wrong", "cmd_vel stuck")  # between the guard and the vehicle
 KINDS = {"image": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
          "camera_info": ("off", "garbage", "wrong", "slow", "delayed", "intermittent"),
          "odom": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
@@ -65,7 +69,7 @@ class Soak:
         self.states = support.Listener("state", IngressState)
         self.inject = service("world/inject", Inject)
         self.outcomes, self.faults = collections.Counter(), collections.Counter()
-        self.violations, self.memory = [], []
+        self.violations, self.memory, self.touched_disobeying = [], [], 0
         self.flights = self.pictures = 0
         self.least_hz, self.worst_frame_ms, self.blind_s = float("inf"), 0.0, 0.0
         self.began = time.monotonic()
@@ -125,6 +129,14 @@ class Soak:
         has_ended = states and states[-1].name in ("ABORTED", "PASSED")
         return has_ended or self.is_decided(started)
 
+    def contact(self, outcome, done):
+        if outcome not in TOUCHED:
+            return []
+        if any(fault.startswith(DISOBEYS) for fault in done):
+            self.touched_disobeying += 1
+            return []
+        return [oracles.Violation("contact", time.monotonic(), outcome)]
+
     def judge(self, began, started, done):
         last_word = time.monotonic() + LAST_WORD_S
         while time.monotonic() < last_word and not self.is_decided(started):
@@ -134,7 +146,7 @@ class Soak:
         verdicts = self.verdicts.since(started + 0.5)
         outcome = verdicts[-1].outcome_name if verdicts else "NO VERDICT"
         self.outcomes[outcome] += 1
-        found = self.monitor.violations(began, end)
+        found = self.monitor.violations(began, end) + self.contact(outcome, done)
         self.violations += found
         part = self.monitor.part(began, end)
         self.pictures += len(part.frames)
@@ -168,7 +180,8 @@ class Soak:
     def figures(self):
         first = self.memory[min(WARM_FLIGHTS, len(self.memory) - 1)]
         return {"minutes": round((time.monotonic() - self.began) / 60.0, 1), "flights": self.flights, "outcomes": dict(self.outcomes),
-                "faults": sum(self.faults.values()), "kinds_of_fault": len(self.faults), "messages": self.monitor.messages,
+                "faults": sum(self.faults.values()), "kinds_of_fault": len(self.faults),
+                "touched_while_the_vehicle_did_not_obey": self.touched_disobeying, "messages": self.monitor.messages,
                 "pictures": self.pictures, "longest_picture_ms": round(self.worst_frame_ms, 1),
                 "least_setpoints_a_second": self.least_hz, "observer_kept_from_looking_s": round(self.blind_s, 1),
                 "memory_mb": {node: [round(first[node][0], 1), round(last[0], 1)] for node, last in self.memory[-1].items() if node in first},
