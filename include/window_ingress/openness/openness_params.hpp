@@ -12,7 +12,7 @@ struct OpennessParams {
   double min_baseline_m = 0.12;      ///< between two pictures that are compared [m]
   double max_border_misfit = 0.05;   ///< of the corners against the filtered window, part of its size
   double max_sigmas = 3.0;           ///< by which a point may leave the way of anything that stands still
-  double max_unsteady = 0.45;        ///< part of the points that may do so
+  double max_unsteady = 0.3;         ///< part of the points that may do so
   int min_points = 5;                ///< that a verdict rests on
   double max_log_odds = 4.0;         ///< that one stretch of the flight may bring
   double sure_log_odds = 6.0;        ///< at which it is called open or closed
