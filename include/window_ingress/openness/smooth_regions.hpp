@@ -10,7 +10,7 @@ namespace window_ingress::openness {
 
 /// Regions of the straightened opening in which no edge is seen. An edge belongs to the nearer of the two
 /// surfaces that it parts, so the regions on both its sides are as deep as the edge, and so is all of them:
-/// the bare wall beside a cupboard is seen through all of the opening that it fills. What does not hold where
+/// the bare wall beside a cupboard is seen through all of the opening that it fills. This does not hold where
 /// two surfaces look so alike that no edge is seen between them; so regions that are too dark or too bright
 /// to show one are none.
 class SmoothRegions {
