@@ -170,7 +170,7 @@ void OpennessJudge::conclude() {
     verdict.openness = Openness::kClosed;
     verdict.reason = text("what is within the border moves with it: %.2f +- %.2f m behind it",
                           verdict.depth_behind_m, verdict.depth_sigma_m);
-  } else if (says_.is_moving) {
+  } else if (says_.is_moving && !(sure_open && says_.unsteady <= says_.points)) {
     verdict.reason = text("%.0f of %.0f points do not move as anything that stands still", says_.unsteady,
                           says_.unsteady + says_.points);
   } else if (says_.is_too_deep && !(sure_open && may_be_a_room)) {

@@ -11,7 +11,7 @@ struct FollowerParams {
   int max_edges = 30;            ///< points on edges, followed across them
   double least_slope = 3.0;      ///< of an edge that is followed [grey levels a pixel]
   double margin = 0.07;          ///< beside the border that is not looked at, part of the opening's sides
-  double min_contrast = 1e-4;    ///< of a point: lesser eigenvalue of the gradient's moments
+  double min_contrast = 5e-5;    ///< of a point: lesser eigenvalue of the gradient's moments
   double max_return_px = 0.8;    ///< that a point may miss itself by when followed there and back [px]
   double most_slope = 0.7;       ///< of noise and shading within a surface [grey levels a pixel]
   double flow_sigma_px = 0.35;   ///< of a followed point, in the straightened picture [px]

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "window_ingress/openness/edge_flow.hpp"
 #include "window_ingress/openness/opening_cells.hpp"
 
 namespace window_ingress::openness {
@@ -22,10 +23,11 @@ class SmoothRegions {
   std::uint64_t cellsBeside(const cv::Point2f& point) const;
 
  private:
-  void fillCells(const cv::Mat& grey, int regions);
+  void fillCells(int regions);
 
-  cv::Mat smooth_, dx_, dy_, slope_, is_smooth_, labels_;
-  std::vector<double> brightness_;  // by label: sum of it, and pixels, and those in one cell
+  SlopePicture slopes_;
+  cv::Mat small_, is_smooth_, labels_;  // half as wide and high
+  std::vector<double> brightness_;      // by label: sum of it, and pixels, and those in one cell
   std::vector<int> pixels_, within_;
   std::vector<std::uint64_t> cells_of_;  // by label; those that it fills
 };

@@ -24,6 +24,7 @@ const auto kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 struct Approach {
   double depth_m = 3.0, sideways_m = 0.0;
   std::uint32_t target_id = 1;
+  double moving = 0.0;  // part of the points that swirl around the picture's middle
 
   Isometry3d camera(double plane_m) const {
     return geometry::makePose(geometry::R_optical_flu().transpose(),
@@ -45,9 +46,12 @@ struct Approach {
       const Vector3d front(0.0, 0.15 * (i % 7 - 3), 0.13 * (i / 7 - 3));
       const Vector3d way = (front - camera(key_m).translation()) / key_m;
       const Vector3d point = front + depth_m * way;
-      tracks.points.push_back(
-          {static_cast<std::uint16_t>(i), *kCamera.project(camera(key_m).inverse() * point),
-           *kCamera.project(camera(plane_m).inverse() * point), Eigen::Vector2d::Zero(), 0});
+      Eigen::Vector2d now = *kCamera.project(camera(plane_m).inverse() * point);
+      const Eigen::Vector2d out = (now - Eigen::Vector2d(320, 240)).normalized();
+      if (i < 49 * moving && plane_m < key_m) now += 40.0 * Eigen::Vector2d(-out.y(), out.x());
+      tracks.points.push_back({static_cast<std::uint16_t>(i),
+                               *kCamera.project(camera(key_m).inverse() * point), now,
+                               Eigen::Vector2d::Zero(), 0});
     }
     return window;
   }
@@ -99,6 +103,19 @@ TEST(OpennessJudge, oneStretchIsNeverEnough) {
   EXPECT_EQ(judge.verdict().openness, Openness::kUnknown);
   EXPECT_GT(judge.verdict().log_odds, 0.0);
   EXPECT_LE(judge.verdict().log_odds, OpennessParams().max_log_odds);
+}
+
+TEST(OpennessJudge, whatMovesIsOutvotedUnlessItIsMost) {
+  const auto after = [](double still_m, double moving) {
+    OpennessJudge judge({}, kNeeded);
+    Approach{3.0}.fly(judge, 5.0, still_m);
+    Approach{3.0, 0.0, 1, moving}.fly(judge, still_m, still_m - 0.5);
+    return judge.verdict();
+  };
+  EXPECT_EQ(after(2.0, 0.0).openness, Openness::kOpen);
+  EXPECT_EQ(after(2.0, 0.42).openness, Openness::kOpen) << "three stretches say open";
+  EXPECT_EQ(after(2.0, 0.6).openness, Openness::kUnknown) << "most of it moves now";
+  EXPECT_EQ(after(4.0, 0.42).openness, Openness::kUnknown) << "one stretch does not outvote it";
 }
 
 TEST(OpennessJudge, hoveringTellsNothing) {
