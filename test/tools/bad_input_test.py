@@ -145,6 +145,10 @@ def test_file_that_is_no_bag_is_named(tmp_path, content):
     assert_refused(run("replay_bag", "--bag", bag, "--output", tmp_path / "out"), 2, bag)
 
 
+def test_a_folder_is_no_bag(tmp_path):
+    assert_refused(run("replay_bag", "--bag", tmp_path, "--output", tmp_path / "out"), 2, f"{tmp_path}: is a folder; name one bag in it")
+
+
 def test_truncated_bag_is_named(tmp_path):
     from std_msgs.msg import String
 

@@ -172,6 +172,18 @@ def test_O9_motion_without_permission():
     assert names(oracles.O9(recording, LIMITS)) == ["O9"]
 
 
+@pytest.mark.parametrize("outcome, faults, violations", [
+    ("COLLISION", ["odom garbage 2.0 s"], ["contact"]),
+    ("FALSE_INGRESS", [], ["contact"]),
+    ("COLLISION", ["image off 1.0 s", "cmd_vel garbage 2.0 s"], []),  # behind the guard
+    ("COLLISION", ["cmd_vel delayed 2.0 s"], ["contact"]),
+    ("PASSED", [], []),
+    ("ABORTED", ["image off 1.0 s"], []),
+])
+def test_nothing_is_touched_while_the_vehicle_obeys(outcome, faults, violations):
+    assert names(oracles.contact(5.0, outcome, faults)) == violations
+
+
 def test_a_permission_given_before_the_part_that_is_judged_holds_on():
     recording = good()
     recording.engaged = [Engaged(2.9, True), Engaged(3.3, False), Engaged(3.5, False)]

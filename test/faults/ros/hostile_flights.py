@@ -16,8 +16,8 @@ from own_system import OwnSystem
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from window_ingress.msg import IngressState, WindowDetection, WindowPose
 
+import oracles
 import soak
-import support
 
 SENSING = {"odom": Odometry, "imu": Imu, "camera/camera_info": CameraInfo, "camera/image_raw": Image, "window": WindowDetection,
            "window_pose": WindowPose, "state": IngressState}
@@ -119,10 +119,13 @@ class HostileFlights(soak.Soak):
         return f"{unit} {kind} {duration:.1f} s"
 
     def judge(self, began, started, done):
-        before = self.outcomes["COLLISION"] + self.outcomes["FALSE_INGRESS"]
+        before = self.contacts()
         super().judge(began, started, done)
-        if self.outcomes["COLLISION"] + self.outcomes["FALSE_INGRESS"] > before:
+        if self.contacts() > before:
             self.touched += done
+
+    def contacts(self):
+        return sum(self.outcomes[outcome] for outcome in oracles.TOUCHED)
 
 
 def main():

@@ -106,7 +106,7 @@ class KillMatrix:
         way = self.truth.since(killed)
         furthest = max(math.dist(place_of(before), place_of(t)) for t in way)
         verdict = self.verdicts.since(0.0)[-1]
-        touched = verdict.outcome_name in ("COLLISION", "FALSE_INGRESS")
+        touched = verdict.outcome_name in oracles.TOUCHED
         problems = [f"{verdict.outcome_name}: {verdict.reason}"] if touched else []
         if node == "ingress_navigator":
             end = killed + WATCH_S

@@ -29,6 +29,8 @@ Violation = collections.namedtuple("Violation", "oracle at text")
 
 OK = 0
 CONTEXT_S = 1.5
+TOUCHED = ("COLLISION", "FALSE_INGRESS")  # verdicts of the simulated world's referee
+DISOBEYS = ("cmd_vel garbage", "cmd_vel wrong", "cmd_vel stuck")  # between the guard and the vehicle
 
 
 @dataclasses.dataclass
@@ -252,6 +254,18 @@ def O9(recording, limits):
         if recording.engaged and not was(recording.engaged, engaged, setpoint.at, limits, lambda e: e.engaged):
             found.append(Violation("O9", setpoint.at, f"{setpoint.source} moves while the autopilot does not follow"))
     return found
+
+
+def disobeyed(faults):
+    """Whether the vehicle did not do as it was told: nobody aboard can answer for what it touches then."""
+    return any(fault.startswith(DISOBEYS) for fault in faults)
+
+
+def contact(at, outcome, faults):
+    """At a flight's end: nothing was touched, whatever faults it had."""
+    if outcome not in TOUCHED or disobeyed(faults):
+        return []
+    return [Violation("contact", at, outcome)]
 
 
 def was(entries, times, at, limits, accept):

@@ -2,8 +2,8 @@
 """Flight after flight through the real nodes, with faults at random times and a viewer that is too slow; see scripts/soak.
 
 One line a flight, then a table; exit code 0 if no oracle was violated and nothing touched, 1 if one was, 2 if nothing could be
-flown. What is touched while the vehicle itself does not do as it is told (`DISOBEYS`) nobody aboard could have prevented: it is counted
-apart.
+flown. What is touched while the vehicle itself does not do as it is told (`oracles.DISOBEYS`) nobody aboard could have prevented: it
+is counted apart.
 """
 import argparse
 import collections
@@ -27,8 +27,6 @@ import oracles  # noqa: E402
 import support  # noqa: E402
 from own_system import OwnSystem  # noqa: E402
 
-TOUCHED = ("COLLISION", "FALSE_INGRESS")
-DISOBEYS = ("cmd_vel garbage", "cmd_vel wrong", "cmd_vel stuck")  # between the guard and the vehicle
 KINDS = {"image": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
          "camera_info": ("off", "garbage", "wrong", "slow", "delayed", "intermittent"),
          "odom": ("off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"),
@@ -129,14 +127,6 @@ class Soak:
         has_ended = states and states[-1].name in ("ABORTED", "PASSED")
         return has_ended or self.is_decided(started)
 
-    def contact(self, outcome, done):
-        if outcome not in TOUCHED:
-            return []
-        if any(fault.startswith(DISOBEYS) for fault in done):
-            self.touched_disobeying += 1
-            return []
-        return [oracles.Violation("contact", time.monotonic(), outcome)]
-
     def judge(self, began, started, done):
         last_word = time.monotonic() + LAST_WORD_S
         while time.monotonic() < last_word and not self.is_decided(started):
@@ -146,7 +136,8 @@ class Soak:
         verdicts = self.verdicts.since(started + 0.5)
         outcome = verdicts[-1].outcome_name if verdicts else "NO VERDICT"
         self.outcomes[outcome] += 1
-        found = self.monitor.violations(began, end) + self.contact(outcome, done)
+        self.touched_disobeying += outcome in oracles.TOUCHED and oracles.disobeyed(done)
+        found = self.monitor.violations(began, end) + oracles.contact(end, outcome, done)
         self.violations += found
         part = self.monitor.part(began, end)
         self.pictures += len(part.frames)
