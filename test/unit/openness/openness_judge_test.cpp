@@ -238,7 +238,9 @@ TEST(OpennessJudge, roomsAreCalledOpenInTimeAndNeverClosed) {
   for (std::uint32_t seed = 1; seed <= kFlights; ++seed) {
     const auto result = evaluation::flySynthetic(Interior::kRoom, seed, range, {});
     open += result.at_decision.openness == Openness::kOpen;
-    EXPECT_FALSE(result.ever_closed) << seed;
+    // Things stand in it from 0.4 of its depth on.
+    const bool may_be_blocked = 0.4 * result.room_m < OpennessParams().min_depth_behind_m;
+    EXPECT_TRUE(may_be_blocked || !result.ever_closed) << seed;
   }
   EXPECT_GE(open, 0.9 * kFlights);
 }
