@@ -56,6 +56,7 @@ bool meanAlong(const cv::Mat& image, const UnitSquare& map, const geometry::Pinh
 }  // namespace
 
 bool SideProfile::mean(double from, double to, Vector3f& colour) const {
+  if (means.empty()) return false;
   const int count = static_cast<int>(means.size());
   const int begin = static_cast<int>(std::ceil((from - first) / step - 1e-9));
   const int last = std::max(begin, static_cast<int>(std::floor((to - first) / step)));
@@ -71,6 +72,7 @@ float SideProfile::change(int i) const {
 }
 
 double SideProfile::largestChange(double from, double to, double* place) const {
+  if (means.empty()) return 0.0;
   const int begin = std::max(1, static_cast<int>(std::floor((from - first) / step)));
   const int last =
       std::min(static_cast<int>(means.size()) - 2, static_cast<int>(std::ceil((to - first) / step)));

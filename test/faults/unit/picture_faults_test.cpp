@@ -29,7 +29,7 @@ sensor_msgs::ImagePtr message(const cv::Mat& mat, const std::string& encoding, s
   const std::size_t row = mat.cols * mat.elemSize();
   image->step = row + padding;
   image->data.assign(image->step * image->height, 0xa5);
-  for (int y = 0; y < mat.rows; ++y) std::memcpy(&image->data[y * image->step], mat.ptr(y), row);
+  for (int y = 0; row > 0 && y < mat.rows; ++y) std::memcpy(&image->data[y * image->step], mat.ptr(y), row);
   return image;
 }
 

@@ -31,6 +31,7 @@ TEST(SideProfile, MeansAndTheLargestChange) {
   EXPECT_EQ(profile.change(0), 0.0F);
   EXPECT_EQ(profile.change(1000), 0.0F);
   EXPECT_EQ(SideProfile().largestChange(0.0, 1.0), 0.0);
+  EXPECT_FALSE(SideProfile().mean(0.0, 1.0, colour));
 }
 
 TEST(SideProfile, SidesAreMeasuredFromTheLoopOutwards) {

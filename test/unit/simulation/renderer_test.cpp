@@ -59,10 +59,12 @@ Errors compareCorners(const PinholeCamera& camera, int views,
   Errors errors;
   cv::Mat ideal, image, grey;
   for (int view = 0; view < views; ++view) {
-    const Eigen::Vector3d turn(random.uniform(-0.1, 0.1), random.uniform(-0.08, 0.08),
-                               random.uniform(-0.08, 0.08));
-    const auto T_camera_window =
-        lookingFrom(random.uniform(2.2, 8.0), random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.8), turn);
+    // One after the other: the order in which arguments are drawn is each compiler's own.
+    Eigen::Vector3d turn;
+    turn.z() = random.uniform(-0.08, 0.08), turn.y() = random.uniform(-0.08, 0.08);
+    turn.x() = random.uniform(-0.1, 0.1);
+    const double up_m = random.uniform(-0.6, 0.8), azimuth_rad = random.uniform(-0.6, 0.6);
+    const auto T_camera_window = lookingFrom(random.uniform(2.2, 8.0), azimuth_rad, up_m, turn);
     renderer.render(T_camera_window, ideal);
     lens.distort(ideal, image);
     cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
