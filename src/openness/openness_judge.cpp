@@ -164,13 +164,14 @@ void OpennessJudge::conclude() {
   const bool sure_open =
       all.log_odds >= params_.sure_log_odds && all.open >= kOutvoted * all.closed + 2 * all.moving;
   const bool sure_closed = all.log_odds <= -params_.sure_log_odds && all.closed >= kOutvoted * all.open;
+  const bool most_moves = says_.unsteady > says_.points;
   // A stretch that hardly knows the depth takes nothing back.
   const bool may_be_a_room = says_.depth_m - says_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;
     verdict.reason = text("what is within the border moves with it: %.2f +- %.2f m behind it",
                           verdict.depth_behind_m, verdict.depth_sigma_m);
-  } else if (says_.is_moving && !(sure_open && says_.unsteady <= says_.points)) {
+  } else if (says_.is_moving && (most_moves || !sure_open)) {
     verdict.reason = text("%.0f of %.0f points do not move as anything that stands still", says_.unsteady,
                           says_.unsteady + says_.points);
   } else if (says_.is_too_deep && !(sure_open && may_be_a_room)) {

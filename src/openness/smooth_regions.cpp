@@ -20,7 +20,7 @@ void SmoothRegions::find(const cv::Mat& grey, double most_slope) {
   cv::GaussianBlur(small_, small_, {3, 3}, 0.0);
   slopes_.take(small_);
   slopes_.flatterThan(kShrink * most_slope, is_smooth_);
-  cv::erode(is_smooth_, is_smooth_, cv::Mat());  // closes gaps of up to two pixels in edges
+  cv::erode(is_smooth_, is_smooth_, cv::Mat());  // closes gaps of up to two of its pixels in edges
   fillCells(cv::connectedComponents(is_smooth_, labels_, 4, CV_32S));
 }
 
