@@ -16,6 +16,7 @@ class SlopePicture {
  public:
   void take(const cv::Mat& grey);                                                   ///< CV_8UC1
   int steeperThan(double slope) const { return cv::countNonZero(slope_ > slope); }  ///< pixels
+  /// \param mask receives 255 where the slope is less, else 0
   void flatterThan(double slope, cv::Mat& mask) const { cv::compare(slope_, slope, mask, cv::CMP_LT); }
   /// The steepest point in each block of `spacing_px` that is at least so steep; the steepest first.
   /// \param inner where to look
