@@ -275,6 +275,7 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
   result.min_clearance_m = referee.minClearance();
   result.wrong_side_m = referee.wrongSide();
   result.max_speed_mps = referee.maxSpeed();
+  result.nearest_m = referee.nearest();
   result.blind_sec = output_.report.blind_sec;
   result.clock_offset = tracker_.clockOffset();
   if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;

@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "window_ingress/evaluation/flight_draws.hpp"
+
 namespace window_ingress::evaluation {
 namespace {
 
@@ -48,12 +50,14 @@ std::vector<std::string> split(const std::string& line) {
 /// Lines of a csv file below its header, each with the words for an error in it.
 class Lines {
  public:
-  Lines(const std::string& file, const std::string& header) : name_(file), file_(file) {
-    std::string first;
-    if (!std::getline(file_, first)) throw TableError(file + ": cannot be read, or empty");
-    columns_ = split(header).size();
-    if (first != header) fail("is not '" + header + "': written by another version?");
+  Lines(const std::string& file, const std::string& header) : Lines(file) {
+    if (header_ != header) fail("is not '" + header + "': written by another version?");
   }
+  explicit Lines(const std::string& file) : name_(file), file_(file) {
+    if (!std::getline(file_, header_)) throw TableError(file + ": cannot be read, or empty");
+    columns_ = split(header_).size();
+  }
+  std::vector<std::string> header() const { return split(header_); }
   bool next(std::vector<std::string>& fields) {
     std::string line;
     if (!std::getline(file_, line)) return false;
@@ -78,7 +82,7 @@ class Lines {
   }
 
  private:
-  std::string name_;
+  std::string name_, header_;
   std::ifstream file_;
   std::size_t columns_ = 0;
   int number_ = 1;
@@ -104,6 +108,7 @@ FlightResult flightOf(const std::vector<std::string>& fields, const Lines& lines
   flight.blind_sec = lines.number(fields[8]);
   flight.predicted_miss_m = lines.optionalNumber(fields[9]);
   flight.reason = fields[10];
+  flight.nearest_m = lines.number(fields[11]);
   return flight;
 }
 
@@ -111,7 +116,7 @@ FlightResult flightOf(const std::vector<std::string>& fields, const Lines& lines
 
 std::string csvHeader() {
   return "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
-         "predicted_miss_m,reason";
+         "predicted_miss_m,reason,nearest_m";
 }
 
 std::string csvRow(const FlightResult& flight) {
@@ -119,7 +124,7 @@ std::string csvRow(const FlightResult& flight) {
          number(flight.time_sec, "%.3f") + "," + number(flight.offset_y_m) + "," + number(flight.offset_z_m) +
          "," + number(flight.min_clearance_m) + "," + number(flight.wrong_side_m) + "," +
          number(flight.max_speed_mps) + "," + number(flight.blind_sec, "%.3f") + "," +
-         number(flight.predicted_miss_m) + "," + field(flight.reason);
+         number(flight.predicted_miss_m) + "," + field(flight.reason) + "," + number(flight.nearest_m);
 }
 
 std::string trackHeader() { return "seed,time_s,x_m,y_m,z_m"; }
@@ -150,6 +155,20 @@ std::vector<FlightResult> readFlights(const std::string& folder) {
     flights.back().track = tracks[flights.back().seed];
   }
   return flights;
+}
+
+FlightDraws readDraws(const std::string& file) {
+  Lines lines(file);
+  const auto keys = lines.header();
+  if (keys.front() != "seed") lines.fail("must begin with 'seed'");
+  FlightDraws draws;
+  std::vector<std::string> fields;
+  while (lines.next(fields)) {
+    const auto [draw, is_new] = draws.try_emplace(lines.seed(fields[0]));
+    if (!is_new) lines.fail("seed " + fields[0] + " stands there twice");
+    for (std::size_t i = 1; i < keys.size(); ++i) draw->second[keys[i]] = lines.number(fields[i]);
+  }
+  return draws;
 }
 
 std::vector<FlightResult> joinFlights(const std::vector<std::string>& folders) {

@@ -10,11 +10,11 @@ constexpr double kNearAxisM = 0.3;
 
 double HeightProbe::climb(double height_m) {
   constexpr double kReachedM = 0.05;
-  const auto& align = params_.align;
+  const auto& align = params_->align;
   if (!start_m_) start_m_ = height_m;
   const double side = count_ % 2 == 0 ? 1.0 : -1.0;
-  const double turning_m = std::clamp(*start_m_ + side * align.probe_amplitude_m, params_.limits.min_height_m,
-                                      params_.limits.max_height_m);
+  const double turning_m = std::clamp(*start_m_ + side * align.probe_amplitude_m,
+                                      params_->limits.min_height_m, params_->limits.max_height_m);
   if (std::abs((returns_ ? *start_m_ : turning_m) - height_m) < kReachedM) {
     if (returns_) ++count_;
     returns_ = !returns_;
@@ -28,30 +28,30 @@ Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_odom_mps,
   constexpr double kStandingMps = 0.1, kThereM = 0.02;
   if (!isStepped()) return velocity_odom_mps;
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
-  const double left_m = from_odom_m_ ? params_.align.step_m - (position - *from_odom_m_).norm() : 0.0;
+  const double left_m = from_odom_m_ ? params_->align.step_m - (position - *from_odom_m_).norm() : 0.0;
   if (left_m > kThereM) return along(velocity_odom_mps, left_m);
   from_odom_m_.reset();
   const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStandingMps;
   if (!stands) standing_since_sec_.reset();
   if (stands && !standing_since_sec_) standing_since_sec_ = situation.now_sec;
   const bool has_looked =
-      standing_since_sec_ && situation.now_sec - *standing_since_sec_ >= params_.align.step_pause_sec;
+      standing_since_sec_ && situation.now_sec - *standing_since_sec_ >= params_->align.step_pause_sec;
   if (!has_looked) return Eigen::Vector3d::Zero();
   standing_since_sec_.reset();
   Eigen::Index axis;
   (R_odom_window.transpose() * velocity_odom_mps).cwiseAbs().maxCoeff(&axis);
   along_ = R_odom_window.col(axis);
   from_odom_m_ = position;
-  return along(velocity_odom_mps, params_.align.step_m);
+  return along(velocity_odom_mps, params_->align.step_m);
 }
 
 Eigen::Vector3d StepPacer::along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const {
-  const double most_mps = stoppingSpeed(left_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec);
+  const double most_mps = stoppingSpeed(left_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
   return std::clamp(velocity_odom_mps.dot(along_), -most_mps, most_mps) * along_;
 }
 
 void Align::enter(double now_sec) {
-  *this = Align(params_);
+  *this = Align(*params_);
   ambiguous_since_sec_ = now_sec;
 }
 
@@ -68,11 +68,11 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
   in_funnel_since_sec_.reset();
   Decision decision;
   decision.keeps_place = true;
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
   const double height_m = situation.vehicle->T_odom_base.translation().z();
-  if (situation.now_sec - ambiguous_since_sec_ < params_.align.settle_sec) {
-    const double limit_mps = params_.align.vertical_speed_mps;
-    decision.wish.velocity_odom_mps.z() = climbFor(-relative.vertical(), limit_mps, params_);
+  if (situation.now_sec - ambiguous_since_sec_ < params_->align.settle_sec) {
+    const double limit_mps = params_->align.vertical_speed_mps;
+    decision.wish.velocity_odom_mps.z() = climbFor(-relative.vertical(), limit_mps, *params_);
     decision.reason = "sign of the window's yaw not certain: looking";
     return decision;
   }
@@ -90,7 +90,7 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
 Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
-  const Contract contract = contractWith(target, *situation.vehicle, memory, params_);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);
   Decision decision;
   const bool has_size = target.fit != pose::Fit::kUnknown;
   if (has_size && std::min(contract.clearance_lateral_m, contract.clearance_vertical_m) <= 0.0) {
@@ -98,12 +98,12 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
     decision.reason = "the opening is too small for the vehicle";
     return decision;
   }
-  const double retreat_mps =
-      -climbFor(params_.align.min_distance_m - relative.distance(), params_.align.lateral_speed_mps, params_);
+  const double retreat_mps = -climbFor(params_->align.min_distance_m - relative.distance(),
+                                       params_->align.lateral_speed_mps, *params_);
   decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), memory.wind_odom_mps, params_),
+      velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), memory.wind_odom_mps, *params_),
       uprightRotation(target), situation);
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
   decision.reason = "moving onto the window's normal";
   const bool is_forbidden = !target.approach_forbidden.empty();
   const bool is_on_axis = std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
@@ -114,7 +114,7 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
   } else if (!in_funnel_since_sec_) {
     in_funnel_since_sec_ = situation.now_sec;
   }
-  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < params_.align.dwell_sec)
+  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < params_->align.dwell_sec)
     return decision;
   if (is_forbidden) return probeForLeave(situation, decision);
   decision.event = Event::kAligned;

@@ -22,14 +22,14 @@ bool isOutside(const Contract& contract, double factor) { return contract.fullne
 
 }  // namespace
 
-void Approach::enter() { *this = Approach(params_); }
+void Approach::enter() { *this = Approach(*params_); }
 
 Decision Approach::step(const Situation& situation, MissionMemory& memory) {
   if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const auto& target = *situation.target;
   const RelativeState relative = relate(*situation.vehicle, target);
   Decision decision;
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, params_);
+  decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), *params_);
   if (!target.sign_trusted) {
     decision.event = Event::kMisaligned;
     decision.reason = "sign of the window's yaw no longer certain";
@@ -40,11 +40,12 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
     decision.reason = "approach forbidden: " + target.approach_forbidden;
     return decision;
   }
-  const Contract contract = contractWith(target, *situation.vehicle, memory, params_);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);
   RelativeState to_goal = relative;
   to_goal.position_window_m.y() -= asideM(contract, situation.now_sec);
   decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(to_goal, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_),
+      velocityAlongAxis(to_goal, target, againstTailwind(forwardSpeed(contract, relative), target, memory),
+                        memory.wind_odom_mps, *params_),
       uprightRotation(target), situation);
   decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
   decision.event = judge(contract, relative, situation, decision.reason);
@@ -59,21 +60,20 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
 
 double Approach::forwardSpeed(const Contract& contract, const RelativeState& relative) const {
   const double in_view = std::clamp(1.5 - std::abs(relative.bearing_rad) / 0.3, 0.0, 1.0);
-  const double speed_mps = params_.approach.speed_mps * contract.openness * in_view;
-  if (contract.holds) return speed_mps;
-  const double room_m = relative.distance() - contract.commit_distance_m;
-  return std::min(speed_mps,
-                  stoppingSpeed(room_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec));
+  const double speed_mps = params_->approach.speed_mps * contract.openness * in_view;
+  const double end_m = contract.holds ? params_->vehicle.half_length_m : contract.commit_distance_m;
+  return std::min(speed_mps, stoppingSpeed(relative.distance() - end_m, params_->vehicle.braking_mps2,
+                                           params_->vehicle.response_sec));
 }
 
 double Approach::asideM(const Contract& contract, double now_sec) const {
   if (!looks_ || !waiting_since_sec_ || !contract.opening_unverified) return 0.0;
-  return lookAside(now_sec - *waiting_since_sec_, contract, params_.commit);
+  return lookAside(now_sec - *waiting_since_sec_, contract, params_->commit);
 }
 
 double Approach::patienceSec() const {
-  if (!looks_) return params_.approach.patience_sec;
-  return params_.commit.unverified_opening == "ask" ? params_.commit.ask_sec : params_.commit.look_sec;
+  if (!looks_) return params_->approach.patience_sec;
+  return params_->commit.unverified_opening == "ask" ? params_->commit.ask_sec : params_->commit.look_sec;
 }
 
 std::optional<Event> Approach::judge(const Contract& contract, const RelativeState& relative,
@@ -81,13 +81,13 @@ std::optional<Event> Approach::judge(const Contract& contract, const RelativeSta
   const bool at_line = relative.distance() <= contract.commit_distance_m + 0.05;
   if (at_line && contract.holds) return Event::kCommitReached;
   const double outside_sec =
-      heldSec(isOutside(contract, params_.approach.leave_factor), situation.now_sec, outside_since_sec_);
+      heldSec(isOutside(contract, params_->approach.leave_factor), situation.now_sec, outside_since_sec_);
   // Aside the line is further away from the window.
   const bool waits = at_line || (looks_ && relative.distance() <= contract.commit_distance_m + kLooksWithinM);
   const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);
   looks_ = waits && (looks_ || contract.opening_unverified);
   if (waiting_sec > patienceSec()) return Event::kContractUnmet;
-  if (outside_sec > params_.approach.leave_sec) {
+  if (outside_sec > params_->approach.leave_sec) {
     reason = "out of the funnel: " + contract.unmet;
     return at_line ? Event::kContractUnmet : Event::kMisaligned;
   }

@@ -40,7 +40,8 @@ double viewDistance(const RelativeState& relative, const geometry::OpeningSize& 
 double commitDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                       const NavigatorParams& params) {
   const auto& vehicle = params.vehicle;
-  const double stop_m = stoppingDistance(params.commit.speed_mps, vehicle.braking_mps2, vehicle.response_sec);
+  const double speed_mps = std::max(params.commit.speed_mps, relative.velocity_window_mps.x());
+  const double stop_m = stoppingDistance(speed_mps, vehicle.braking_mps2, vehicle.response_sec);
   return std::max(viewDistance(relative, opening, pitch_rad, vehicle) + params.commit.view_margin_m,
                   vehicle.half_length_m + stop_m);
 }

@@ -93,9 +93,18 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   return contract;
 }
 
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionMemory& memory) {
+  return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(memory.wind_odom_mps));
+}
+
 double yawRateFor(double error_rad, const NavigatorParams& params) {
   const double limit = params.limits.yaw_rate_radps;
   return std::clamp(params.align.yaw_gain_hz * error_rad, -limit, limit);
+}
+
+double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params) {
+  return relative.distance() < params.limits.wall_distance_m ? relative.heading_error_rad
+                                                             : relative.bearing_rad;
 }
 
 double climbFor(double error_m, double limit_mps, const NavigatorParams& params) {

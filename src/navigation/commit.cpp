@@ -11,6 +11,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr int kDisagreementsToTurnBack = 3;
+constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
 
 std::string text(const char* pattern, double value) {
   char buffer[80];
@@ -49,7 +50,7 @@ bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
 
 }  // namespace
 
-void Commit::enter() { *this = Commit(params_); }
+void Commit::enter() { *this = Commit(*params_); }
 
 Decision Commit::step(const Situation& situation, MissionMemory& memory) {
   refine(situation, memory);
@@ -57,21 +58,23 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
   const RelativeState relative = relate(*situation.vehicle, target);
   const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
   const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
-  const Contract contract = contractWith(target, *situation.vehicle, memory, params_, unknown_sec);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_, unknown_sec);
   if (relative.distance() > 0.0) memory.blind_sec = std::max(memory.blind_sec, blind_sec);
 
   Decision decision;
   decision.wish.velocity_odom_mps =
-      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, params_);
-  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, params_);
+      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, *params_);
   decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
+    const double room_m = params_->commit.exit_distance_m + relative.distance();
     decision.wish.velocity_odom_mps =
-        velocityAlongAxis(relative, target, -windAlong(target, memory), memory.wind_odom_mps, params_);
+        velocityAlongAxis(relative, target, speedToExit(room_m, relative) - windAlong(target, memory),
+                          memory.wind_odom_mps, *params_);
     decision.reason = text("%.2f m behind the window", -relative.distance());
-    if (situation.vehicle->velocity_odom_mps.norm() < params_.commit.standing_mps)
-      decision.event = Event::kCrossed;
-  } else if (canStop(relative, params_)) {
+    const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
+    if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
+  } else if (canStop(relative, *params_)) {
     memory.predicted_miss_m = contract.missM();
     turnBackIfUnsafe(contract, blind_sec, decision);
   }
@@ -79,7 +82,7 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
 }
 
 void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const {
-  if (isBroken(contract, params_)) {
+  if (isBroken(contract, *params_)) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + contract.unmet;
   } else if (disagreements_ >= kDisagreementsToTurnBack) {
@@ -88,7 +91,7 @@ void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decisi
   } else if (forbidden_ >= kDisagreementsToTurnBack) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + why_forbidden_;
-  } else if (blind_sec > params_.commit.max_blind_sec) {
+  } else if (blind_sec > params_->commit.max_blind_sec) {
     decision.event = Event::kContractUnmet;
     decision.reason = text("turning back: window not seen for %.2f s", blind_sec);
   }
@@ -100,7 +103,7 @@ void Commit::refine(const Situation& situation, MissionMemory& memory) {
   if (!situation.target || !situation.target->sign_trusted) return;
   const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
   disagreement_m_ = moved.norm();
-  if (disagreement_m_ < params_.commit.max_update_jump_m + reachM(situation.target->motion)) {
+  if (disagreement_m_ < params_->commit.max_update_jump_m + reachM(situation.target->motion)) {
     memory.committed = situation.target;
     memory.committed_sec = situation.now_sec;
     disagreements_ = 0;
@@ -116,12 +119,19 @@ void Commit::heedForbidden(const TargetEstimate& target) {
 }
 
 double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {
-  const double room_m = params_.commit.exit_distance_m + relative.distance();
+  const double room_m = params_->commit.exit_distance_m + relative.distance();
   if (room_m < 0.1) is_through_ = true;
-  const double stop_mps = stoppingSpeed(room_m, params_.vehicle.braking_mps2, params_.vehicle.response_sec);
+  const double stop_mps = stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
   const double off_axis = std::abs(relative.lateral()) / std::max(0.01, contract.clearance_lateral_m);
   const double slowed = relative.distance() > 0.0 ? std::clamp(2.0 - 1.5 * off_axis, 0.2, 1.0) : 1.0;
-  return std::min(std::max(stop_mps, 0.1), params_.commit.speed_mps * slowed);
+  return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps * slowed);
+}
+
+// Also back to it, if the vehicle has overshot it or was blown out again.
+double Commit::speedToExit(double room_m, const RelativeState& relative) const {
+  const double coasted_m = relative.velocity_window_mps.x() * params_->vehicle.response_sec;
+  const double wish_mps = params_->align.lateral_gain_hz * (room_m - coasted_m);
+  return std::clamp(wish_mps, -params_->hold.speed_mps, params_->hold.speed_mps);
 }
 
 bool Commit::canResume(const Situation& situation, const MissionMemory& memory,

@@ -23,7 +23,12 @@ Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
 }  // namespace
 
 void DisturbanceObserver::reset() {
-  model_mps_.setZero();
+  restart();
+  response_.reset();
+}
+
+void DisturbanceObserver::restart() {
+  response_.restart();
   disturbance_mps_.setZero();
   gust_mps_.setZero();
   gusts_.setZero();
@@ -37,7 +42,7 @@ double DisturbanceObserver::turnedRad() const {
 
 // Both in the plane: what was said as the real axis, what was done beside it.
 void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec) {
-  const Eigen::Vector2d said = model_mps_.head<2>(), done = measured_mps.head<2>();
+  const Eigen::Vector2d said = response_.velocity().head<2>(), done = measured_mps.head<2>();
   if (said.norm() < kWorthComparingMps) return;
   const double keep = 1.0 - share(dt_sec, approach_.gust_memory_sec);
   told_ = keep * told_ + dt_sec * Eigen::Vector2d(said.dot(done), said.x() * done.y() - said.y() * done.x());
@@ -47,13 +52,14 @@ void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps,
 void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,
                                  double dt_sec) {
   if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
-  model_mps_ += share(dt_sec, vehicle_.response_sec) * (commanded_mps - model_mps_);
+  response_.update(measured_mps, commanded_mps, dt_sec);
   compareDirections(measured_mps, dt_sec);
-  const Eigen::Vector3d surprise_mps = measured_mps - model_mps_ - disturbance_mps_;
+  const Eigen::Vector3d surprise_mps = measured_mps - response_.velocity() - disturbance_mps_;
   disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
   disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);
-  if ((commanded_mps - model_mps_).norm() > kSteadyMps) return;
-  gust_mps_ += share(dt_sec, vehicle_.response_sec) * (clipped(surprise_mps, kStrongestGustMps) - gust_mps_);
+  if ((commanded_mps - response_.velocity()).norm() > kSteadyMps) return;
+  gust_mps_ +=
+      share(dt_sec, response_.responseSec()) * (clipped(surprise_mps, kStrongestGustMps) - gust_mps_);
   gusts_ += share(dt_sec, approach_.gust_memory_sec) * (gust_mps_ * gust_mps_.transpose() - gusts_);
 }
 

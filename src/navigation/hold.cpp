@@ -5,7 +5,7 @@
 namespace window_ingress::navigation {
 
 void Hold::enter(State from) {
-  *this = Hold(params_);
+  *this = Hold(*params_);
   from_ = from;
 }
 
@@ -20,28 +20,30 @@ Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
                     : !is_good         ? situation.image_fault
                                        : situation.target_fault;
   if (decision.reason.empty()) decision.reason = "inputs are back";
-  if (is_good && good_sec_ >= params_.hold.dwell_sec) {
+  if (is_good && good_sec_ >= params_->hold.dwell_sec)
     decision.event = wayOn(situation, memory, decision.reason);
-  } else if (!is_good && mayRetreat(situation, memory)) {
+  if (!decision.event && !situation.target && mayRetreat(situation, memory))
     decision.event = Event::kWindowLost;
-  }
-  if (!decision.event && held_sec_ > params_.hold.timeout_sec) {
+  if (!decision.event && held_sec_ > params_->hold.timeout_sec) {
     decision.event = Event::kGiveUp;
     decision.reason = "held too long: " + decision.reason;
   }
   return decision;
 }
 
-// Without pictures nothing leads on, but odometry and the normal still lead away from the wall.
+// Without pictures nothing leads on, but odometry and the normal still lead away from the wall: at once where
+// wind could carry the vehicle into it meanwhile.
 bool Hold::mayRetreat(const Situation& situation, const MissionMemory& memory) const {
-  return from_ != State::kSearch && situation.vehicle && memory.trusted &&
-         held_sec_ > params_.hold.patience_sec;
+  if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;
+  const bool is_near = from_ != State::kCommit && relate(*situation.vehicle, *memory.trusted).distance() <
+                                                      params_->limits.wall_distance_m;
+  return is_near || held_sec_ > params_->hold.patience_sec;
 }
 
 std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory& memory,
                                  std::string& reason) const {
   if (from_ == State::kCommit) {
-    if (Commit::canResume(situation, memory, params_)) return Event::kResumed;
+    if (Commit::canResume(situation, memory, *params_)) return Event::kResumed;
     reason = "the commit cannot be resumed";
     if (memory.trusted) return Event::kWindowLost;
     if (!memory.was_in_front) return Event::kGiveUp;  // where the opening is now is not known
@@ -54,7 +56,7 @@ std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory
   if (from_ == State::kSearch || from_ == State::kBackOff) {
     return memory.trusted && from_ == State::kBackOff ? Event::kWindowLost : Event::kInputFresh;
   }
-  if (held_sec_ < params_.hold.patience_sec) return std::nullopt;
+  if (held_sec_ < params_->hold.patience_sec) return std::nullopt;
   return memory.trusted ? Event::kWindowLost : Event::kInputFresh;
 }
 

@@ -35,9 +35,8 @@ double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 
 constexpr double kFarAwayM = 1e5;
 constexpr double kFasterThanAnyMps = 20.0;
-constexpr double kLongestGapSec = 0.2;  // motion during a longer gap is no excuse for a jump
-constexpr double kMoving = 0.1;         // [m/s], [rad/s]
-constexpr double kDeadTimeSec = 0.5;    // after which no vehicle that is told to move stands as before
+constexpr double kMoving = 0.1;       // [m/s], [rad/s]
+constexpr double kDeadTimeSec = 0.5;  // after which no vehicle that is told to move stands as before
 constexpr double kTrustedYawJumpRad = 0.35;
 
 bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
@@ -92,7 +91,19 @@ std::string faultOf(const TargetEstimate& target, double max_tilt_rad) {
   return has_size ? "" : "window: size of the opening unknown";
 }
 
-void InputMonitor::reset() { *this = InputMonitor(params_, limits_); }
+void InputMonitor::reset() { *this = InputMonitor(params_); }
+
+// A window is where it is in odom as of its image.
+TargetEstimate InputMonitor::inSmooth(TargetEstimate target) const {
+  const Eigen::Isometry3d T_smooth_odom = odometry_.T_smooth_odom(target.stamp_sec);
+  const Eigen::Matrix3d& R = T_smooth_odom.linear();
+  target.T_odom_window = T_smooth_odom * target.T_odom_window;
+  target.covariance.topLeftCorner<3, 3>() = R * target.covariance.topLeftCorner<3, 3>() * R.transpose();
+  target.covariance.topRightCorner<3, 3>() = R * target.covariance.topRightCorner<3, 3>();
+  target.covariance.bottomLeftCorner<3, 3>() = target.covariance.topRightCorner<3, 3>().transpose();
+  target.motion.velocity_odom_mps = R * target.motion.velocity_odom_mps;
+  return target;
+}
 
 Situation InputMonitor::judge(const NavigatorInput& input, double now_sec) {
   Situation situation;
@@ -135,16 +146,17 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
     situation.vehicle_fault = format("odometry stuck for %.2f s", for_sec);
     return;
   }
-  const bool jumped = is_newer && hasJumped(sample, situation);
   vehicle_ = sample;
-  if (jumped) {
+  if (is_newer) smooth_ = odometry_.add(sample);
+  if (!smooth_) {
+    situation.vehicle_fault = "odometry went elsewhere while it was gone";
     situation.vehicle_jumped = true;
     not_before_sec_ = sample.stamp_sec;
     target_.reset();
     moved_target_.reset();
     return;
   }
-  situation.vehicle = sample;
+  situation.vehicle = smooth_;
   const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
   situation.vehicle->T_odom_base.translation() += sample.velocity_odom_mps * ahead_sec;
 }
@@ -168,21 +180,6 @@ bool InputMonitor::isStuck(const VehicleState& vehicle) {
   return is_stuck_;
 }
 
-bool InputMonitor::hasJumped(const VehicleState& vehicle, Situation& situation) const {
-  if (!vehicle_) return false;
-  const double dt_sec = std::min(vehicle.stamp_sec - vehicle_->stamp_sec, kLongestGapSec);
-  const double moved_m = (vehicle.T_odom_base.translation() - vehicle_->T_odom_base.translation()).norm();
-  const double speed_mps =
-      std::max({limits_.speed_mps, vehicle.velocity_odom_mps.norm(), vehicle_->velocity_odom_mps.norm()});
-  const double turned_rad = yawBetween(vehicle.T_odom_base, vehicle_->T_odom_base);
-  if (moved_m > params_.max_vehicle_jump_m + 2.0 * speed_mps * dt_sec) {
-    situation.vehicle_fault = format("odometry jumped by %.2f m", moved_m);
-  } else if (turned_rad > params_.max_vehicle_jump_rad + 2.0 * limits_.yaw_rate_radps * dt_sec) {
-    situation.vehicle_fault = format("odometry's heading jumped by %.2f rad", turned_rad);
-  }
-  return !situation.vehicle_fault.empty();
-}
-
 void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation) {
   situation.target_fault = "no window seen";
   if (input.target) {
@@ -194,7 +191,7 @@ void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation
     }
     if (fault.empty() && target.stamp_sec <= not_before_sec_)
       fault = "window: from before the odometry jumped";
-    if (fault.empty()) situation.target_is_new = acceptTarget(target, situation.now_sec);
+    if (fault.empty()) situation.target_is_new = acceptTarget(inSmooth(target), situation.now_sec);
     if (!fault.empty()) situation.target_fault = fault;
   }
   if (!target_) return;

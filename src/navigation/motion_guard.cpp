@@ -1,6 +1,7 @@
 #include "window_ingress/navigation/motion_guard.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "window_ingress/navigation/place_keeping.hpp"
 
@@ -22,9 +23,19 @@ Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situat
   return permitted;
 }
 
-Eigen::Vector3d onlyAway(const Eigen::Vector3d& velocity, const TargetEstimate& target) {
-  const Eigen::Vector3d normal = uprightRotation(target).col(0);
-  return std::min(0.0, velocity.dot(normal)) * normal;
+/// Away from the wall; and in front of the opening sideways and upward to its axis, which leads away from its
+/// frame.
+Eigen::Vector3d awayAndToAxis(const Eigen::Vector3d& velocity, const VehicleState& vehicle,
+                              const TargetEstimate& target) {
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const RelativeState relative = relate(vehicle, target);
+  Eigen::Vector3d kept = R_odom_window.transpose() * velocity;
+  kept.x() = std::min(0.0, kept.x());
+  const bool is_before_opening = std::abs(relative.lateral()) < target.opening.width_m / 2.0 &&
+                                 std::abs(relative.vertical()) < target.opening.height_m / 2.0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (!is_before_opening || kept[axis] * relative.position_window_m[axis] > 0.0) kept[axis] = 0.0;
+  return R_odom_window * kept;
 }
 
 /// Of a velocity that leads nowhere forward, what is permitted this near the wall outside the funnel.
@@ -32,7 +43,7 @@ Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& s
                              const Contract& contract, const NavigatorParams& params) {
   const auto& target = *situation.target;
   const bool is_near = relate(*situation.vehicle, target).distance() < params.limits.wall_distance_m;
-  return is_near && !contract.in_funnel ? onlyAway(velocity, target) : velocity;
+  return is_near && !contract.in_funnel ? awayAndToAxis(velocity, *situation.vehicle, target) : velocity;
 }
 
 Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
@@ -54,7 +65,8 @@ Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situat
   if (!memory.trusted) return Eigen::Vector3d::Zero();
   const bool in_reveal =
       relate(*situation.vehicle, *memory.trusted).distance() < params.vehicle.half_length_m;
-  return in_reveal ? onlyAway(velocity, *memory.trusted) : withoutForward(velocity, *memory.trusted);
+  return in_reveal ? awayAndToAxis(velocity, *situation.vehicle, *memory.trusted)
+                   : withoutForward(velocity, *memory.trusted);
 }
 
 Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,

@@ -27,7 +27,7 @@ constexpr double kBeyondFenceM = 1.0;
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
       : params(checked(given)),
-        monitor(params.input, params.limits),
+        monitor(params.input),
         limiter(params.limits),
         observer(params.vehicle, params.approach),
         search(params),
@@ -74,13 +74,14 @@ struct Navigator::Impl {
 void Navigator::Impl::remember(const Situation& situation, const NavigatorInput& input) {
   if (situation.vehicle_jumped) {
     memory.forgetPlaces();
-    observer.reset();
+    observer.restart();
     home.odometryJumped();
   }
   if (situation.vehicle) {
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
+    params.vehicle.response_sec = observer.response().responseSec();
     home.follow(*situation.vehicle, memory);
   }
   noteSide(situation, params, memory);
@@ -91,7 +92,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     memory.window_odom_m = situation.target->T_odom_window.translation();
     if (situation.target->sign_trusted) memory.trusted = situation.target;
   } else if (!situation.target && input.remembered_odom_m && input.remembered_odom_m->allFinite()) {
-    memory.window_odom_m = input.remembered_odom_m;
+    memory.window_odom_m = monitor.odometry().T_smooth_odom(situation.now_sec) * *input.remembered_odom_m;
   }
 }
 
@@ -191,7 +192,7 @@ void Navigator::Impl::enter(State from) {
       break;
     case State::kHold:
       hold.enter(from);
-      observer.reset();  // what moves the vehicle now is not known to be wind
+      observer.restart();  // what moves the vehicle now is not known to be wind
       break;
     case State::kIdle:
     case State::kPassed:
@@ -287,6 +288,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   rememberPlace(decision.keeps_place && input.engaged, situation, self.params.hold, self.memory);
   NavigatorOutput output;
   output.setpoint = self.last_setpoint = self.output(decision, situation);
+  output.setpoint.velocity_odom_mps = self.monitor.odometry().inOdomAxes(output.setpoint.velocity_odom_mps);
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
   output.reason = self.reason;

@@ -7,6 +7,10 @@ namespace {
 
 constexpr double kThereM = 0.01;
 
+Eigen::Vector3d levelDirection(const Eigen::Vector3d& way) {
+  return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
+}
+
 /// Direction in which the window lies, where that is known and the vehicle in front of it.
 std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionMemory& memory) {
   if (memory.trusted) {
@@ -15,9 +19,7 @@ std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, 
     return is_behind ? std::nullopt : std::optional(normal);
   }
   if (!memory.window_odom_m) return std::nullopt;
-  Eigen::Vector3d direction = *memory.window_odom_m - position_m;
-  direction.z() = 0.0;
-  return direction.normalized();
+  return levelDirection(*memory.window_odom_m - position_m);
 }
 
 /// Neither wind nor its own errors take a vehicle so far that keeps its place.
@@ -63,6 +65,12 @@ Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const Vehi
   Eigen::Vector3d velocity = std::clamp(velocity_odom_mps.dot(direction), 0.0, params.speed_mps) * direction;
   if (const auto forward = towardsWindow(position_m, memory))
     velocity -= std::max(0.0, velocity.dot(*forward)) * *forward;
+  for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m}) {
+    for (const Eigen::Vector3d& window_odom_m : *windows) {
+      const Eigen::Vector3d forward = levelDirection(window_odom_m - position_m);
+      if (velocity.dot(forward) > 0.0) velocity -= velocity.dot(forward) * forward;
+    }
+  }
   return velocity;
 }
 

@@ -6,6 +6,7 @@ std::string whyNoSuchFault(const FaultParams& fault) {
   const std::string what = fault.unit + " " + fault.kind + ": ";
   if (fault.unit == "clock" && fault.kind == "garbage")
     return what + "a time has no bits that are no time; take wrong";
+  if (fault.kind == "slide" && fault.unit != "odom") return what + "only odom slides";
   if (fault.unit == "camera_info" && fault.kind == "stuck")
     return what + "the calibration never changes; take off or wrong";
   return "";

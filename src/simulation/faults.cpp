@@ -1,5 +1,7 @@
 #include "window_ingress/simulation/faults.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "window_ingress/geometry/frames.hpp"
@@ -33,9 +35,20 @@ void FaultPlan::inject(const FaultParams& fault) {
 const FaultParams* FaultPlan::acting(const std::string& unit, double now_sec) const {
   const FaultParams* latest = nullptr;
   for (const FaultParams& fault : faults_)
-    if (fault.unit == unit && actsAt(fault, now_sec) && (!latest || fault.at_sec >= latest->at_sec))
+    if (fault.unit == unit && fault.kind != "slide" && actsAt(fault, now_sec) &&
+        (!latest || fault.at_sec >= latest->at_sec))
       latest = &fault;
   return latest;
+}
+
+Eigen::Vector3d FaultPlan::slideAt(double now_sec) const {
+  Eigen::Vector3d slide_m = Eigen::Vector3d::Zero();
+  for (const FaultParams& fault : faults_) {
+    if (fault.kind != "slide") continue;
+    const double slid_m = fault.slide_mps * std::clamp(now_sec - fault.at_sec, 0.0, fault.duration_sec);
+    slide_m += slid_m * Eigen::Vector3d(std::cos(fault.direction_rad), std::sin(fault.direction_rad), 0.0);
+  }
+  return slide_m;
 }
 
 Exposure ImageTraits::repeat(const Exposure& old, const Exposure& fresh) const {

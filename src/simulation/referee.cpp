@@ -45,6 +45,7 @@ void Referee::update(double time_sec, const VehicleTruth& truth) {
   const double speed_mps = truth.velocity_odom_mps.norm();
   max_speed_mps_ = std::max(max_speed_mps_, speed_mps);
   watchContacts(now);
+  watchNearest(now);
   watchSides(now);
   watchCrossing(now);
   watchClearance(now);
@@ -69,6 +70,16 @@ void Referee::watchContacts(const Sample& now) {
     if (obstacle.box.squaredExteriorDistance(position) > reach_m * reach_m) continue;
     if (touches(now.T_window_base, course_.vehicle_half_extents_m, obstacle.box))
       touch(obstacle.name, now.time_sec);
+  }
+}
+
+void Referee::watchNearest(const Sample& now) {
+  if (!airborne_) return;
+  const Eigen::Vector3d position = now.T_window_base.translation();
+  for (const Obstacle& obstacle : course_.obstacles) {
+    const Eigen::AlignedBox3d grown(obstacle.box.min() - now.reach_m, obstacle.box.max() + now.reach_m);
+    const double square = grown.squaredExteriorDistance(position);
+    if (square < nearest_m_ * nearest_m_) nearest_m_ = std::sqrt(square);
   }
 }
 

@@ -113,6 +113,13 @@ Eigen::Isometry3d CameraParams::T_base_camera() const {
   return geometry::makePose(look * geometry::R_optical_flu().transpose(), {x_m, y_m, z_m});
 }
 
+Eigen::Isometry3d CameraParams::toldT_base_camera() const {
+  CameraParams told = *this;
+  told.pitch_rad += told_pitch_error_rad;
+  told.yaw_rad += told_yaw_error_rad;
+  return told.T_base_camera();
+}
+
 Eigen::Isometry3d Scenario::startPoseInWindow() const {
   const double height_m =
       start.hovering ? start.height_offset_m : vehicle.half_height_m - windowCentreHeight();

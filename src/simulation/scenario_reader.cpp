@@ -1,6 +1,8 @@
 #include "window_ingress/simulation/scenario_reader.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/parameters/yaml_mapping.hpp"
@@ -17,6 +19,13 @@ using parameters::YamlReader;
 struct ScenarioReader::Impl {
   YamlMapping mapping;
   std::uint32_t seed;
+  Draws& draws;
+
+  std::optional<double> quantileOf(const std::string& path) const {
+    const auto given = draws.quantiles.find(path);
+    if (given != draws.quantiles.end()) draws.used.insert(path);
+    return given == draws.quantiles.end() ? std::nullopt : std::optional(std::clamp(given->second, 0.0, 1.0));
+  }
 
   // What may stand there: the items of `{one_of: [...]}`, or the value itself.
   std::vector<YAML::Node> optionsOf(const std::string& name, const YAML::Node& node) const {
@@ -28,6 +37,9 @@ struct ScenarioReader::Impl {
   }
 
   std::size_t drawOption(const std::string& name, std::size_t count) const {
+    const double size = static_cast<double>(count);
+    if (const auto quantile = quantileOf(mapping.path() + name))
+      return static_cast<std::size_t>(std::min(*quantile * size, size - 1.0));
     return static_cast<std::size_t>(
         RandomStream(seed, mapping.path() + name + " option").uniformInt(0, static_cast<int>(count) - 1));
   }
@@ -75,26 +87,29 @@ struct ScenarioReader::Impl {
     return range;
   }
 
-  static double draw(RandomStream stream, std::pair<double, double> range) {
-    return stream.uniform(range.first, range.second);
+  double draw(const std::string& path, std::pair<double, double> range) const {
+    if (const auto quantile = quantileOf(path)) return range.first + *quantile * (range.second - range.first);
+    return RandomStream(seed, path).uniform(range.first, range.second);
   }
-  static int draw(RandomStream stream, std::pair<int, int> range) {
-    return stream.uniformInt(range.first, range.second);
+  int draw(const std::string& path, std::pair<int, int> range) const {
+    if (const auto quantile = quantileOf(path))
+      return std::min(range.second,
+                      range.first + static_cast<int>(*quantile * (range.second - range.first + 1)));
+    return RandomStream(seed, path).uniformInt(range.first, range.second);
   }
 
   template <typename Number>
   void readNumber(const std::string& name, Number& value, double minimum, double maximum) {
     readDrawn(name, value, [&](const YAML::Node& node, Number& number) {
       if (!node.IsSequence()) return readOne(name, node, number, minimum, maximum);
-      number =
-          draw(RandomStream(seed, mapping.path() + name), readRange<Number>(name, node, minimum, maximum));
+      number = draw(mapping.path() + name, readRange<Number>(name, node, minimum, maximum));
     });
   }
 };
 
 ScenarioReader::ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
-                               std::uint32_t seed)
-    : impl_(new Impl{YamlMapping(file, mapping, path), seed}) {}
+                               std::uint32_t seed, Draws& draws)
+    : impl_(new Impl{YamlMapping(file, mapping, path), seed, draws}) {}
 
 ScenarioReader::~ScenarioReader() = default;
 
@@ -130,7 +145,8 @@ std::vector<ScenarioReader::MappingOption> ScenarioReader::descend(const std::st
   const std::string path = impl_->mapping.path() + name + "/";
   for (const auto& [node, drawn] : impl_->findOptions(name))
     options.push_back(
-        {std::make_unique<ScenarioReader>(impl_->mapping.file(), node, path, impl_->seed), drawn});
+        {std::make_unique<ScenarioReader>(impl_->mapping.file(), node, path, impl_->seed, impl_->draws),
+         drawn});
   return options;
 }
 
@@ -143,7 +159,7 @@ std::vector<ScenarioReader::ListOption> ScenarioReader::descendAll(const std::st
     for (std::size_t i = 0; i < node.size(); ++i) {
       const std::string path = impl_->mapping.path() + name + "[" + std::to_string(i) + "]/";
       option.readers.push_back(
-          std::make_unique<ScenarioReader>(impl_->mapping.file(), node[i], path, impl_->seed));
+          std::make_unique<ScenarioReader>(impl_->mapping.file(), node[i], path, impl_->seed, impl_->draws));
     }
   }
   return options;
@@ -172,22 +188,25 @@ void spellOutProfile(YAML::Node& root) {
 }
 
 // Twice: what the file leaves open follows from the profile, which stands in the file.
-Scenario readScenario(const std::string& file, std::uint32_t seed) {
+Scenario readScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles) {
   YAML::Node root = parameters::loadYaml(file);
   spellOutProfile(root);
+  Draws draws{quantiles};
   Scenario scenario, with_profile;
-  ScenarioReader(file, root, "", seed).fill(scenario);
+  ScenarioReader(file, root, "", seed, draws).fill(scenario);
   applyProfile(scenario.vehicle.profile, with_profile.vehicle, with_profile.odometry);
-  ScenarioReader(file, root, "", seed).fill(with_profile);
+  ScenarioReader(file, root, "", seed, draws).fill(with_profile);
+  for (const auto& [key, quantile] : quantiles)
+    if (draws.used.count(key) == 0) throw ScenarioError(file + ": " + key + ": has no range to draw from");
   return with_profile;
 }
 
 }  // namespace
 
-Scenario loadScenario(const std::string& file, std::uint32_t seed) {
+Scenario loadScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles) {
   Scenario scenario;
   try {
-    scenario = readScenario(file, seed);
+    scenario = readScenario(file, seed, quantiles);
   } catch (const YamlError& error) {
     throw ScenarioError(error.what());
   }

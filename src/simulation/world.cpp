@@ -126,7 +126,8 @@ struct World::Impl {
 
   // What the sensors deliver by now sets out on its way out of the world.
   void deliver() {
-    while (const auto sample = odometry.take(time_sec)) {
+    while (auto sample = odometry.take(time_sec)) {
+      sample->T_odom_base.translation() += faults.slideAt(time_sec);
       odometry_line.put(time_sec, *sample, acting("odom"));
       transforms.put(time_sec, *sample, acting("tf"));
     }
@@ -251,7 +252,7 @@ std::optional<double> World::readClock() {
 
 const geometry::PinholeCamera& World::camera() const { return impl_->model; }
 
-Eigen::Isometry3d World::T_base_camera() const { return impl_->T_base_camera; }
+Eigen::Isometry3d World::T_base_camera() const { return impl_->scenario.camera.toldT_base_camera(); }
 
 Eigen::Isometry3d World::T_odom_window() const {
   Eigen::Isometry3d now = impl_->T_odom_window;

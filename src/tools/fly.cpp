@@ -18,6 +18,7 @@
 #include "command_line.hpp"
 #include "window_ingress/evaluation/campaign.hpp"
 #include "window_ingress/evaluation/closed_loop_flight.hpp"
+#include "window_ingress/evaluation/flight_draws.hpp"
 #include "window_ingress/evaluation/flight_log.hpp"
 #include "window_ingress/evaluation/flight_picture.hpp"
 #include "window_ingress/evaluation/flight_table.hpp"
@@ -36,9 +37,16 @@ using tools::UsageError;
 using Observer = std::unique_ptr<evaluation::FlightObserver>;
 
 struct Job {
+  simulation::Scenario scenario(std::uint32_t seed) const {
+    const auto draw = draws.find(seed);
+    return simulation::loadScenario(scenario_file, seed,
+                                    draw == draws.end() ? simulation::Quantiles() : draw->second);
+  }
+
   std::string scenario_file, output_folder, log_folder, failures_folder;
   std::vector<std::string> join_folders;
   std::vector<std::uint32_t> seeds;
+  evaluation::FlightDraws draws;
   int jobs = 1;
   bool with_timing = false;
   evaluation::FlightParams params;
@@ -59,6 +67,9 @@ options::options_description describe() {
   add("scenario", options::value<std::string>(), "scenario file, e.g. config/scenarios/nominal.yaml");
   add("output", options::value<std::string>(), "folder for the results; made if missing");
   add("seeds", options::value<std::string>()->default_value("1"), "A..B, a flight each");
+  add("draws", options::value<std::string>(),
+      "csv file in place of --seeds: a row a flight, its seed and where in its range each named key lies, 0 "
+      "to 1");
   add("jobs", options::value<int>()->default_value(1), "flights at the same time");
   add("shard", options::value<std::string>(), "I/N: only every N-th seed, from the I-th on (1 to N)");
   add("join", options::value<std::vector<std::string>>()->multitoken(),
@@ -80,7 +91,13 @@ std::string required(const options::variables_map& given, const char* name) {
   return given[name].as<std::string>();
 }
 
-std::vector<std::uint32_t> seedsOf(const options::variables_map& given) {
+std::vector<std::uint32_t> seedsOf(const options::variables_map& given,
+                                   const evaluation::FlightDraws& draws) {
+  if (!draws.empty()) {
+    std::vector<std::uint32_t> seeds;
+    for (const auto& [seed, quantiles] : draws) seeds.push_back(seed);
+    return seeds;
+  }
   const std::string text = given["seeds"].as<std::string>();
   auto seeds = evaluation::parseSeeds(text);
   if (!seeds) throw UsageError("--seeds " + text + ": give A..B with A <= B, e.g. 1..20");
@@ -101,14 +118,15 @@ Job parse(int argc, char** argv, const options::options_description& description
   }
   job.scenario_file = required(given, "scenario");
   job.output_folder = required(given, "output");
-  job.seeds = seedsOf(given);
+  if (given.count("draws") != 0) job.draws = evaluation::readDraws(given["draws"].as<std::string>());
+  job.seeds = seedsOf(given, job.draws);
   job.jobs = given["jobs"].as<int>();
   if (job.jobs < 1 || job.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
   job.with_timing = given.count("timing") != 0;
   if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
   if (given.count("params") != 0) parameters::readYamlFile(given["params"].as<std::string>(), "", job.params);
   if (given.count("no-pictures") != 0) job.params.without_pictures = true;
-  for (const auto seed : job.seeds) simulation::loadScenario(job.scenario_file, seed);
+  for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(job.output_folder);
   if (given.count("log") != 0) makeFolder(job.log_folder = given["log"].as<std::string>());
   if (given.count("keep-failures") == 0) return job;
@@ -152,7 +170,7 @@ void recordAgain(const Job& job, const simulation::Scenario& scenario,
 }
 
 evaluation::FlightResult fly(const Job& job, std::uint32_t seed, evaluation::FlightTiming& timing) {
-  const auto scenario = simulation::loadScenario(job.scenario_file, seed);
+  const auto scenario = job.scenario(seed);
   auto flight = flyLogged(job, scenario, seed, timing);
   const bool failed = flight.outcome != simulation::Outcome::kPassed;
   if (failed && !job.failures_folder.empty()) recordAgain(job, scenario, flight);
@@ -183,7 +201,7 @@ class Results {
     std::ofstream summary(job_.output_folder + "/summary.json");
     summary << evaluation::toJson(evaluation::summarise(flights));
     summary.close();
-    const auto scenario = simulation::loadScenario(job_.scenario_file, seedOf(flights));
+    const auto scenario = job_.scenario(seedOf(flights));
     const std::string title =
         fs::path(job_.scenario_file).stem().string() + ", " + std::to_string(flights.size()) + " flights";
     const bool drawn = cv::imwrite(job_.output_folder + "/tracks.png",

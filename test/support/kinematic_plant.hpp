@@ -67,7 +67,9 @@ class KinematicPlant {
     velocity_ += step;
     yaw_rate_ += (command.yaw_rate_radps - yaw_rate_) * (kStepSec / params_.lag_sec);
     const double gust = params_.gust_mps * std::sin(0.9 * time_ + params_.seed);
-    position_ += (velocity_ + T_odom_window_.linear().col(1) * gust) * kStepSec;
+    carried_mps_ = T_odom_window_.linear().col(1) * gust + pushed_m_.cwiseMin(kPushM).cwiseMax(-kPushM) / kStepSec;
+    pushed_m_ -= pushed_m_.cwiseMin(kPushM).cwiseMax(-kPushM);
+    position_ += (velocity_ + carried_mps_) * kStepSec;
     yaw_ = geometry::wrapAngle(yaw_ + yaw_rate_ * kStepSec);
     time_ += kStepSec;
     drift_.y() += params_.odom_drift_mps * kStepSec;
@@ -83,7 +85,8 @@ class KinematicPlant {
   double furthestSideways() const { return furthest_; }
   double yaw() const { return yaw_; }
   const Eigen::Isometry3d& window() const { return T_odom_window_; }
-  void push(const Eigen::Vector3d& by_m) { position_ += by_m; }
+  /// Within a few steps.
+  void push(const Eigen::Vector3d& by_m) { pushed_m_ += by_m; }
   void shiftOdometry(const Eigen::Vector3d& by_m) { drift_ += by_m; }
 
   openness::Openness openness;
@@ -95,7 +98,7 @@ class KinematicPlant {
     navigation::VehicleState state;
     state.stamp_sec = time_;
     state.T_odom_base = geometry::makePose(geometry::yawRotation(yaw_), position_ + drift_);
-    state.velocity_odom_mps = velocity_;
+    state.velocity_odom_mps = velocity_ + carried_mps_;
     return state;
   }
 
@@ -153,6 +156,8 @@ class KinematicPlant {
   PlantParams params_;
   std::mt19937 random_;
   Eigen::Isometry3d T_odom_window_;
+  static constexpr double kPushM = 0.03;  ///< in a step
+  Eigen::Vector3d carried_mps_ = Eigen::Vector3d::Zero(), pushed_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero(),
                   drift_ = Eigen::Vector3d::Zero();
   double yaw_ = 0.0, yaw_rate_ = 0.0, time_ = 100.0, start_height_ = 0.0, furthest_ = 0.0;

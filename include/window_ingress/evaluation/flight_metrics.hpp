@@ -29,8 +29,9 @@ struct FlightResult {
   std::optional<double> min_clearance_m;  ///< between the body and the opening's borders
   double wrong_side_m = 0.0;              ///< furthest sideways beyond where it started, away from the axis
   double max_speed_mps = 0.0;
-  double blind_sec = 0.0;                  ///< longest time without sight of the window before the plane
-  std::optional<double> predicted_miss_m;  ///< by the navigator, at its last commit
+  double nearest_m = 0.0;  ///< smallest gap to anything solid but the ground, never more than the true one
+  double blind_sec = 0.0;  ///< longest time without sight of the window before the plane
+  std::optional<double> predicted_miss_m;                ///< by the navigator, at its last commit
   std::optional<pose::ClockCheck::Offset> clock_offset;  ///< of pictures beside odometry, as found on the way
   std::string reason;
   std::vector<TrackPoint> track;  ///< ten points a second

@@ -13,17 +13,18 @@ namespace window_ingress::navigation {
 /// differently for the two.
 class HeightProbe {
  public:
-  explicit HeightProbe(const NavigatorParams& params) : params_(params) {}
+  explicit HeightProbe(const NavigatorParams& params) : params_(&params) {}
+  explicit HeightProbe(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
-  void reset() { *this = HeightProbe(params_); }
-  bool isExhausted() const { return count_ >= params_.align.max_probes; }
+  void reset() { *this = HeightProbe(*params_); }
+  bool isExhausted() const { return count_ >= params_->align.max_probes; }
   int count() const { return count_; }
 
   /// Upward velocity of the probe at this height.
   double climb(double height_m);
 
  private:
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   std::optional<double> start_m_;
   bool returns_ = false;
   int count_ = 0;
@@ -33,9 +34,10 @@ class HeightProbe {
 /// so on; a step leads sideways or forward, never both.
 class StepPacer {
  public:
-  explicit StepPacer(const NavigatorParams& params) : params_(params) {}
+  explicit StepPacer(const NavigatorParams& params) : params_(&params) {}
+  explicit StepPacer(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
-  bool isStepped() const { return params_.scheme == "stepped"; }
+  bool isStepped() const { return params_->scheme == "stepped"; }
   /// The velocity as wished unless the scheme is stepped; then that of the present step, or none during the
   /// look. \param R_odom_window the window's axes
   Eigen::Vector3d pace(const Eigen::Vector3d& velocity_odom_mps, const Eigen::Matrix3d& R_odom_window,
@@ -45,7 +47,7 @@ class StepPacer {
   /// Of the wish, the part along the step's axis, so slow that the step can end in time.
   Eigen::Vector3d along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const;
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   std::optional<Eigen::Vector3d> from_odom_m_;       ///< where the present step began; none: looking
   Eigen::Vector3d along_ = Eigen::Vector3d::Zero();  ///< the present step's axis, odom
   std::optional<double> standing_since_sec_;
@@ -56,7 +58,8 @@ class StepPacer {
 /// only changes height.
 class Align {
  public:
-  explicit Align(const NavigatorParams& params) : params_(params), probe_(params), pacer_(params) {}
+  explicit Align(const NavigatorParams& params) : params_(&params), probe_(params), pacer_(params) {}
+  explicit Align(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter(double now_sec);
   Decision step(const Situation& situation, MissionMemory& memory);
@@ -66,7 +69,7 @@ class Align {
   Decision moveOntoAxis(const Situation& situation, MissionMemory& memory, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   HeightProbe probe_;
   StepPacer pacer_;
   double ambiguous_since_sec_ = 0.0;

@@ -10,7 +10,8 @@ namespace window_ingress::navigation {
 /// as the contract does not hold.
 class Approach {
  public:
-  explicit Approach(const NavigatorParams& params) : params_(params), pacer_(params) {}
+  explicit Approach(const NavigatorParams& params) : params_(&params), pacer_(params) {}
+  explicit Approach(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter();
   Decision step(const Situation& situation, MissionMemory& memory);
@@ -23,7 +24,7 @@ class Approach {
   std::optional<Event> judge(const Contract& contract, const RelativeState& relative,
                              const Situation& situation, std::string& reason);
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   StepPacer pacer_;
   std::optional<double> outside_since_sec_;
   std::optional<double> waiting_since_sec_;

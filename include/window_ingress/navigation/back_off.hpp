@@ -9,7 +9,8 @@ namespace window_ingress::navigation {
 /// camera at where the window must be.
 class BackOff {
  public:
-  explicit BackOff(const NavigatorParams& params) : params_(params) {}
+  explicit BackOff(const NavigatorParams& params) : params_(&params) {}
+  explicit BackOff(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter();
   Decision step(const Situation& situation, const MissionMemory& memory);
@@ -19,7 +20,7 @@ class BackOff {
   std::optional<Event> judge(const Situation& situation, const MissionMemory& memory,
                              const RelativeState& relative, std::string& reason);
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   int frames_ = 0;
 };
 

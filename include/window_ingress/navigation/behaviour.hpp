@@ -69,8 +69,16 @@ double pitchOf(const VehicleState& vehicle);
 Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory,
                       const NavigatorParams& params, double unseen_sec = 0.0);
 
+/// Forward velocity less what wind adds towards the window; wind that holds the vehicle back is not made up
+/// for.
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionMemory& memory);
+
 /// Yaw rate that takes the heading error away.
 double yawRateFor(double error_rad, const NavigatorParams& params);
+
+/// What the nose is off where it should point [rad]: at the window's middle, and near the wall along its
+/// normal, for a turned body is a wider one.
+double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params);
 
 /// Upward velocity that takes the height error (goal less present) away.
 double climbFor(double error_m, double limit_mps, const NavigatorParams& params);

@@ -10,7 +10,8 @@ namespace window_ingress::navigation {
 /// be stopped in front of the plane.
 class Commit {
  public:
-  explicit Commit(const NavigatorParams& params) : params_(params) {}
+  explicit Commit(const NavigatorParams& params) : params_(&params) {}
+  explicit Commit(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter();
   Decision step(const Situation& situation, MissionMemory& memory);
@@ -25,8 +26,9 @@ class Commit {
   void refine(const Situation& situation, MissionMemory& memory);
   void turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const;
   double forwardSpeed(const Contract& contract, const RelativeState& relative);
+  double speedToExit(double room_m, const RelativeState& relative) const;
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   std::optional<Eigen::Vector3d>
       entry_odom_m_;             ///< the window at the commit: no series of updates leads far from it
   int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere

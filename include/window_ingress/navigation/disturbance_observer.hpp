@@ -3,18 +3,23 @@
 #include <Eigen/Core>
 
 #include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/navigation/response_estimator.hpp"
 
 namespace window_ingress::navigation {
 
 /// How far the vehicle's velocity stays away from what was commanded, in wind: the measured velocity less
-/// that of a first-order model of the vehicle under the same commands, smoothed over `wind_sec`. To be taken
-/// off the next command (P24). Stable for vehicles that answer slower than the model, too: the model's error
-/// at high frequencies is smoothed away. One wild sample moves it no more than the strongest wind would.
+/// that of a model of the vehicle under the same commands, smoothed over `wind_sec`. To be taken
+/// off the next command (P24). The model answers as fast as the vehicle was seen to (`ResponseEstimator`):
+/// the lag of a slow vehicle taken for wind would be steered against out of phase. One wild sample moves it
+/// no more than the strongest wind would.
 class DisturbanceObserver {
  public:
   DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
-      : vehicle_(vehicle), approach_(approach) {}
+      : approach_(approach), response_(vehicle.response_sec) {}
 
+  /// What moves the vehicle now is not known to be wind.
+  void restart();
+  /// Another mission: how the vehicle answers is not known, either.
   void reset();
   /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
@@ -25,13 +30,13 @@ class DisturbanceObserver {
   /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
   /// plane; 0 as long as it moved too little to tell [rad].
   double turnedRad() const;
+  const ResponseEstimator& response() const { return response_; }
 
  private:
   void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
 
-  VehicleParams vehicle_;
   ApproachParams approach_;
-  Eigen::Vector3d model_mps_ = Eigen::Vector3d::Zero();
+  ResponseEstimator response_;
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
   Eigen::Vector2d told_ = Eigen::Vector2d::Zero();      ///< of what was told, done: along it, to its left

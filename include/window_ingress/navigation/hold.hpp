@@ -9,7 +9,8 @@ namespace window_ingress::navigation {
 /// Gives up when they do not come back.
 class Hold {
  public:
-  explicit Hold(const NavigatorParams& params) : params_(params) {}
+  explicit Hold(const NavigatorParams& params) : params_(&params) {}
+  explicit Hold(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   /// \param from the state that was left for the hold
   void enter(State from);
@@ -20,7 +21,7 @@ class Hold {
   std::optional<Event> wayOn(const Situation& situation, const MissionMemory& memory,
                              std::string& reason) const;
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   State from_ = State::kSearch;
   double held_sec_ = 0.0;
   double good_sec_ = 0.0;

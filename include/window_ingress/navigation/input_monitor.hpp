@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "window_ingress/navigation/continuous_odometry.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 
@@ -21,8 +22,8 @@ struct NavigatorInput {
   bool engaged = true;
 };
 
-/// The input of one step, judged. What is set can be used; what is not has a fault that says why, with
-/// numbers.
+/// The input of one step, judged, in a frame odom without jumps (`ContinuousOdometry`). What is set can be
+/// used; what is not has a fault that says why, with numbers.
 struct Situation {
   double now_sec = 0.0;
   double dt_sec = 0.0;                  ///< since the step before, 0 to 0.2 s
@@ -41,13 +42,14 @@ struct Situation {
 /// step.
 class InputMonitor {
  public:
-  explicit InputMonitor(const InputParams& params, const LimitParams& limits)
-      : params_(params), limits_(limits) {}
+  explicit InputMonitor(const InputParams& params) : params_(params) {}
 
   Situation judge(const NavigatorInput& input, double now_sec);
   /// What the vehicle was told last: odometry that repeats itself to the bit meanwhile is stuck.
   void told(const Setpoint& setpoint, double now_sec);
   void reset();
+  /// Between odom, as messages mean it, and the frame without jumps that situations are in.
+  const ContinuousOdometry& odometry() const { return odometry_; }
 
  private:
   void judgeClock(double now_sec, Situation& situation);
@@ -56,14 +58,15 @@ class InputMonitor {
   void judgeImage(const NavigatorInput& input, Situation& situation);
   bool isStuck(const VehicleState& vehicle);
   void measurePeriod(double image_stamp_sec);
-  bool hasJumped(const VehicleState& vehicle, Situation& situation) const;
+  TargetEstimate inSmooth(TargetEstimate target) const;
   bool staysAtNewPlace(const TargetEstimate& target) const;
   bool acceptTarget(const TargetEstimate& target, double now_sec);
 
   InputParams params_;
-  LimitParams limits_;
   std::optional<double> last_now_sec_;
-  std::optional<VehicleState> vehicle_;
+  std::optional<VehicleState> vehicle_;  ///< as it came
+  std::optional<VehicleState> smooth_;   ///< the same in the frame without jumps
+  ContinuousOdometry odometry_;
   std::optional<TargetEstimate> target_;
   std::optional<TargetEstimate> moved_target_;  ///< disagrees with `target_`; believed if it stays
   double moved_since_sec_ = 0.0;

@@ -13,13 +13,10 @@ struct InputParams {
   double max_vehicle_age_sec = 0.25;  ///< odometry older than this: stop [s]
   double max_target_age_sec = 0.3;    ///< window not seen for longer than this: stop [s]
   double max_image_age_sec = 1.0;     ///< no image processed for longer than this: stop searching [s]
-  double max_future_sec = 0.2;  ///< stamps this far ahead of now are believed (clock synchronisation) [s]
-  double max_vehicle_jump_m =
-      0.2;  ///< odometry moving this much more than its velocity explains is a jump [m]
-  double max_vehicle_jump_rad = 0.2;  ///< likewise its heading, between two samples [rad]
-  double max_turned_rad = 0.7;        ///< the vehicle going so far beside what it is told: give up [rad]
-  double max_target_jump_m = 0.4;     ///< window moving this far in odom between two estimates is a jump [m]
-  double max_window_shift_m = 0.8;    ///< a window this far from the one flown at is another one [m]
+  double max_future_sec = 0.2;      ///< stamps this far ahead of now are believed (clock synchronisation) [s]
+  double max_turned_rad = 0.7;      ///< the vehicle going so far beside what it is told: give up [rad]
+  double max_target_jump_m = 0.4;   ///< window moving this far in odom between two estimates is a jump [m]
+  double max_window_shift_m = 0.8;  ///< a window this far from the one flown at is another one [m]
   double target_jump_persist_sec = 0.5;  ///< a window that stays at its new place this long is believed [s]
   double max_target_tilt_rad = 0.26;     ///< a window leaning more than this is no window [rad]
 
@@ -29,8 +26,6 @@ struct InputParams {
     field("max_target_age_sec", self.max_target_age_sec, 0.05, 1.0);
     field("max_image_age_sec", self.max_image_age_sec, 0.1, 5.0);
     field("max_future_sec", self.max_future_sec, 0.0, 0.5);
-    field("max_vehicle_jump_m", self.max_vehicle_jump_m, 0.05, 5.0);
-    field("max_vehicle_jump_rad", self.max_vehicle_jump_rad, 0.05, 3.0);
     field("max_turned_rad", self.max_turned_rad, 0.1, 3.2);
     field("max_target_jump_m", self.max_target_jump_m, 0.05, 5.0);
     field("max_window_shift_m", self.max_window_shift_m, 0.1, 10.0);
@@ -68,10 +63,10 @@ struct SearchParams {
 /// ALIGN: onto the window's normal, the camera kept on the window; and the gains that APPROACH and COMMIT
 /// share.
 struct AlignParams {
-  double lateral_gain_hz = 1.0;     ///< sideways and upward velocity per offset [1/s]
+  double lateral_gain_hz = 1.5;     ///< sideways and upward velocity per offset [1/s]
   double lateral_speed_mps = 0.9;   ///< most sideways [m/s]
   double vertical_speed_mps = 0.5;  ///< most upward and downward [m/s]
-  double yaw_gain_hz = 2.0;         ///< yaw rate per bearing; keep above twice the lateral gain [1/s]
+  double yaw_gain_hz = 3.0;         ///< yaw rate per bearing; keep above twice the lateral gain [1/s]
   double min_distance_m = 2.0;      ///< to the window's plane while aligning; closer, it moves away [m]
   double dwell_sec = 0.2;           ///< within the funnel this long before going on [s]
   double settle_sec = 1.2;          ///< ambiguous for this long: probe [s]

@@ -9,7 +9,8 @@ namespace window_ingress::navigation {
 /// stops turning away from it until enough images have shown it.
 class Search {
  public:
-  explicit Search(const NavigatorParams& params) : params_(params) {}
+  explicit Search(const NavigatorParams& params) : params_(&params) {}
+  explicit Search(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   /// \param may_climb false after a mission has been near the window: what is above is then not known to be
   /// free
@@ -23,7 +24,7 @@ class Search {
   double sweep(const VehicleState& vehicle, MissionMemory& memory);
   void countTurn(double heading_rad, MissionMemory& memory);
 
-  NavigatorParams params_;
+  const NavigatorParams* params_;
   bool may_climb_ = true;
   std::optional<double> height_m_;
   std::optional<double> last_heading_rad_;

@@ -24,11 +24,14 @@ struct CameraParams {
   double z_m = 0.02;                  ///< of the camera, up [m]
   double pitch_rad = 0.0;             ///< of the camera: looking down is positive [rad]
   double yaw_rad = 0.0;               ///< of the camera: looking left is positive [rad]
-  double rate_hz = 30.0;              ///< pictures a second [1/s]
-  double latency_sec = 0.03;          ///< from exposure to delivery [s]
-  double latency_jitter_sec = 0.0;    ///< a picture takes up to so much longer, evenly distributed [s]
-  double drop_probability = 0.0;      ///< that a picture is lost
-  double exposure_sec = 0.004;        ///< the shutter is open so long, around the picture's stamp [s]
+  double told_pitch_error_rad =
+      0.0;                          ///< of what the vehicle is told of its mounting, beside `pitch_rad` [rad]
+  double told_yaw_error_rad = 0.0;  ///< likewise, beside `yaw_rad` [rad]
+  double rate_hz = 30.0;            ///< pictures a second [1/s]
+  double latency_sec = 0.03;        ///< from exposure to delivery [s]
+  double latency_jitter_sec = 0.0;  ///< a picture takes up to so much longer, evenly distributed [s]
+  double drop_probability = 0.0;    ///< that a picture is lost
+  double exposure_sec = 0.004;      ///< the shutter is open so long, around the picture's stamp [s]
   double readout_sec = 0.0;      ///< the last row is exposed so much later than the first; 0: all at once [s]
   double noise_grey = 2.0;       ///< of a black pixel, standard deviation of each channel [grey levels]
   double shot_noise_grey = 0.0;  ///< added in squares, times grey / 255: that of white [grey levels]
@@ -59,6 +62,8 @@ struct CameraParams {
     field("z_m", self.z_m, -1.0, 1.0);
     field("pitch_rad", self.pitch_rad, -1.5, 1.5);
     field("yaw_rad", self.yaw_rad, -3.15, 3.15);
+    field("told_pitch_error_rad", self.told_pitch_error_rad, -0.5, 0.5);
+    field("told_yaw_error_rad", self.told_yaw_error_rad, -0.5, 0.5);
     field("rate_hz", self.rate_hz, 1.0, 120.0);
     field("latency_sec", self.latency_sec, 0.0, 1.0);
     field("latency_jitter_sec", self.latency_jitter_sec, 0.0, 1.0);
@@ -81,6 +86,8 @@ struct CameraParams {
   /// \throws std::runtime_error as `parameters::readCalibrationFile` for a bad `calibration_file`
   geometry::PinholeCamera model() const;
   Eigen::Isometry3d T_base_camera() const;
+  /// The mounting as the vehicle is told of it.
+  Eigen::Isometry3d toldT_base_camera() const;
 };
 
 }  // namespace window_ingress::simulation

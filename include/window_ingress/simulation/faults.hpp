@@ -28,6 +28,9 @@ class FaultPlan {
   /// What acts on this unit at this time: of several the one that began last, of those the last named. Stays
   /// the same object while it acts.
   const FaultParams* acting(const std::string& unit, double now_sec) const;
+  /// How far all slides together have moved the position of odometry by this time; it stays where it slid to
+  /// [m].
+  Eigen::Vector3d slideAt(double now_sec) const;
 
  private:
   std::deque<FaultParams> faults_;  // a deque: those that act keep their address

@@ -77,6 +77,9 @@ class Referee {
   double wrongSide() const { return wrong_side_m_; }
   /// While outside: how far the vehicle went past the window's axis, to the side where it did not start [m].
   double overshoot() const { return overshoot_m_; }
+  /// Smallest gap to anything but the ground since it took off, of the boxes about both along the window's
+  /// axes: never more than the true gap [m].
+  double nearest() const { return nearest_m_; }
   double maxSpeed() const { return max_speed_mps_; }  ///< [m/s]
   double timeSec() const { return time_sec_; }
 
@@ -87,6 +90,7 @@ class Referee {
     Eigen::Vector3d reach_m = Eigen::Vector3d::Zero();  // of the turned box along the window's axes
   };
   void watchContacts(const Sample& now);
+  void watchNearest(const Sample& now);
   void watchCrossing(const Sample& now);
   void watchClearance(const Sample& now);
   void watchSides(const Sample& now);
@@ -98,6 +102,7 @@ class Referee {
   std::optional<Crossing> crossing_;
   std::optional<double> min_clearance_m_, start_y_m_, standing_since_sec_;
   std::string contact_;
+  double nearest_m_ = 1e3;
   bool airborne_ = false, stood_behind_ = false;
   double contact_time_sec_ = 0.0, wrong_side_m_ = 0.0, overshoot_m_ = 0.0, max_speed_mps_ = 0.0,
          time_sec_ = 0.0;

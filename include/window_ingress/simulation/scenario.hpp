@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -97,9 +98,14 @@ struct Scenario {
 /// What is wrong with the scenario, one text a fault: values out of range, things that do not fit together.
 std::vector<std::string> faultsOf(const Scenario& scenario);
 
+/// Where within its range a key's value lies, 0 to 1, by the key's path ("window/width_m",
+/// "faults[0]/at_sec"); of
+/// `{one_of: [...]}` which of the values. What is not named is drawn from the seed.
+using Quantiles = std::map<std::string, double>;
+
 /// Reads a scenario. Any number may be a fixed value or a range `[min, max]` that is drawn from the seed,
 /// each key for itself: a further range leaves the values of the others as they were. \throws ScenarioError
 /// with file, line and key
-Scenario loadScenario(const std::string& file, std::uint32_t seed);
+Scenario loadScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles = {});
 
 }  // namespace window_ingress::simulation

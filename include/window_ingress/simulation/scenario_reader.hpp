@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "window_ingress/simulation/scenario.hpp"
 
 namespace YAML {
 class Node;
@@ -11,13 +14,19 @@ class Node;
 
 namespace window_ingress::simulation {
 
+/// Where within its range a key's value is to lie; and which of these keys there were.
+struct Draws {
+  const Quantiles& quantiles;
+  std::set<std::string> used = {};
+};
+
 /// Visitor that fills a scenario from a yaml mapping. Beyond `parameters::YamlReader` it takes a range `[min,
 /// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. \throws parameters::YamlError
 /// with file, line and key
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
-                 std::uint32_t seed);
+                 std::uint32_t seed, Draws& draws);
   ~ScenarioReader();
   ScenarioReader(const ScenarioReader&) = delete;
   ScenarioReader& operator=(const ScenarioReader&) = delete;

@@ -15,6 +15,8 @@
 namespace window_ingress::navigation {
 namespace {
 
+const NavigatorParams kDefaults;
+
 Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool with_target,
                       double yaw_rad = 0.0) {
   Situation situation;
@@ -63,7 +65,7 @@ TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
   MissionMemory memory;
   for (const double yaw : {-1.0, 1.0}) {
     memory.window_odom_m = Eigen::Vector3d(0, 0, 1.5);
-    Search search{NavigatorParams()};
+    Search search{kDefaults};
     search.enter(false);
     const auto decision = search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), memory);
     EXPECT_LT(decision.wish.yaw_rate_radps * yaw, 0.0);
@@ -72,7 +74,7 @@ TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
 
 TEST(SearchBehaviour, OneImageIsNoWindow) {
   MissionMemory memory;
-  Search search{NavigatorParams()};
+  Search search{kDefaults};
   search.enter(true);
   EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), memory).event);
   EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), memory).event);
@@ -103,7 +105,7 @@ TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
 }
 
 TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
-  Align align{NavigatorParams()};
+  Align align{kDefaults};
   MissionMemory memory;
   align.enter(0.0);
   bool climbed = false, gave_up = false;
@@ -123,7 +125,7 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
 }
 
 TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
-  Approach approach{NavigatorParams()};
+  Approach approach{kDefaults};
   approach.enter();
   MissionMemory memory;
   auto situation = situationAt({-3.0, 0.0, 0.0}, 1.0, true);
@@ -137,7 +139,7 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
 
 TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
   MissionMemory memory;
-  Align align{NavigatorParams()};
+  Align align{kDefaults};
   align.enter(0.0);
   auto situation = situationAt({-5.0, 0.0, 1.5}, 0.0, true);
   situation.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 2.0, 1.5);
@@ -154,7 +156,7 @@ TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
   EXPECT_TRUE(memory.others_odom_m.front().isApprox(Eigen::Vector3d(0.0, 1.0, 1.5)));
   EXPECT_FALSE(memory.trusted || memory.window_odom_m) << "nothing may be flown by it any more";
 
-  Search search{NavigatorParams()};
+  Search search{kDefaults};
   search.enter(false);
   for (int i = 0; i < 10; ++i)
     EXPECT_FALSE(search.step(situationAt({-5.0, -1.0, 1.5}, 0.1 * i, false), memory).event);
@@ -170,7 +172,7 @@ TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
 TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
   MissionMemory memory;
   memory.others_odom_m.push_back({0.0, 0.0, 1.5});
-  Search search{NavigatorParams()};
+  Search search{kDefaults};
   search.enter(false);
   double yaw = 0.0;
   for (int i = 0; i < 10; ++i) search.step(situationAt({-4, 0, 1.5}, 0.0, true, yaw), memory);
@@ -220,27 +222,29 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.max_blur_px * params.vehicle.pixel_rad / 0.02);
 }
 
-TEST(BackOffBehaviour, GoesStraightBackAlongTheNormalAndDoesNotTurnInTheReveal) {
+TEST(BackOffBehaviour, GoesBackAlongTheAxisAndDoesNotTurnInTheReveal) {
   MissionMemory memory;
   memory.trusted = test::targetAtOrigin(0.0);
   memory.trusted->T_odom_window.linear() = geometry::yawRotation(0.4);
-  BackOff back_off{NavigatorParams()};
+  BackOff back_off{kDefaults};
   back_off.enter();
   const auto inside = back_off.step(situationAt({0.05, 0.05, 1.5}, 0.0, false, 0.8), memory);
   EXPECT_EQ(inside.wish.yaw_rate_radps, 0.0);
   const Eigen::Vector3d normal(std::cos(0.4), std::sin(0.4), 0.0);
-  EXPECT_NEAR(inside.wish.velocity_odom_mps.normalized().dot(normal), -1.0, 1e-12);
+  const Eigen::Vector3d left(-normal.y(), normal.x(), 0.0);
+  EXPECT_NEAR(inside.wish.velocity_odom_mps.dot(normal), -kDefaults.back_off.speed_mps, 1e-12);
+  const double offset_m = Eigen::Vector3d(0.05, 0.05, 0.0).dot(left);
+  EXPECT_NEAR(inside.wish.velocity_odom_mps.dot(left), -kDefaults.align.lateral_gain_hz * offset_m, 1e-12);
   const auto outside = back_off.step(situationAt({-1.2, 0.0, 1.5}, 0.0, false, 1.2), memory);
   EXPECT_LT(outside.wish.yaw_rate_radps, 0.0);
   EXPECT_NEAR(outside.wish.velocity_odom_mps.dot(normal), -NavigatorParams().back_off.speed_mps, 1e-12);
-  const Eigen::Vector3d left(-normal.y(), normal.x(), 0.0);
   EXPECT_LT(outside.wish.velocity_odom_mps.dot(left), -0.1) << "clear of the reveal, back onto the normal";
 }
 
 TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
   MissionMemory memory;
   memory.trusted = test::targetAtOrigin(0.0);
-  BackOff back_off{NavigatorParams()};
+  BackOff back_off{kDefaults};
   back_off.enter();
   EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false), memory).event, Event::kBackedOff);
   EXPECT_FALSE(
@@ -254,7 +258,7 @@ TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
 
 TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
   MissionMemory memory;
-  BackOff back_off{NavigatorParams()};
+  BackOff back_off{kDefaults};
   back_off.enter();
   const auto decision = back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory);
   EXPECT_EQ(decision.event, Event::kBackedOff);
@@ -267,18 +271,41 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
   MissionMemory memory;
   memory.committed = test::targetAtOrigin(0.0);
   memory.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
-  Commit commit{NavigatorParams()};
+  Commit commit{kDefaults};
   commit.enter();
-  const auto decision = commit.step(situationAt({1.1, 0.0, 1.5}, 0.0, false), memory);
+  auto at_exit = situationAt({1.0, 0.0, 1.5}, 0.0, false);
+  const auto decision = commit.step(at_exit, memory);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.x(), 0.4, 1e-9);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
+}
+
+TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
+  MissionMemory memory;
+  memory.committed = test::targetAtOrigin(0.0);
+  Commit commit{kDefaults};
+  commit.enter();
+  EXPECT_EQ(commit.step(situationAt({1.0, 0.0, 1.5}, 0.0, false), memory).event, Event::kCrossed);
+  const auto blown_back = commit.step(situationAt({0.1, 0.0, 1.5}, 0.1, false), memory);
+  EXPECT_FALSE(blown_back.event);
+  EXPECT_GT(blown_back.wish.velocity_odom_mps.x(), 0.3);
+}
+
+TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
+  MissionMemory memory;
+  memory.trusted = test::targetAtOrigin(0.0);
+  for (const double distance_m : {0.5, 2.0}) {
+    Hold hold{kDefaults};
+    hold.enter(State::kApproach);
+    const auto decision = hold.step(situationAt({-distance_m, 0.1, 1.5}, 0.0, false), memory);
+    EXPECT_EQ(decision.event == Event::kWindowLost, distance_m < kDefaults.limits.wall_distance_m);
+  }
 }
 
 TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyThePicturesAreMissing) {
   for (const auto from : {State::kAlign, State::kApproach, State::kSearch}) {
     MissionMemory memory;
     memory.trusted = test::targetAtOrigin(0.0);
-    Hold hold{NavigatorParams()};
+    Hold hold{kDefaults};
     hold.enter(from);
     std::optional<Event> event;
     for (double now = 0.0; now < 10.0 && !event; now += 0.03) {
@@ -292,7 +319,7 @@ TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyThePicturesAreMissing) {
 
 /// The first event of a hold that began at 0 s with these inputs standing still, or none within 10 s.
 std::optional<Event> wayOutOf(State from, const MissionMemory& memory, bool with_vehicle, bool with_target) {
-  Hold hold{NavigatorParams()};
+  Hold hold{kDefaults};
   hold.enter(from);
   for (double now = 0.0; now < 10.0; now += 0.03) {
     auto situation = situationAt({-0.8, 0, 1.5}, now, with_target);

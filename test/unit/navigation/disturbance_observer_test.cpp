@@ -85,6 +85,7 @@ TEST(DisturbanceObserver, TellsAVehicleThatGoesBesideWhatItIsToldFromOneInWind) 
   const NavigatorParams params;
   const auto turnedBy = [&](double turn_rad, const Eigen::Vector3d& wind_mps) {
     DisturbanceObserver observer(params.vehicle, params.approach);
+    observer.update(wind_mps, Eigen::Vector3d::Zero(), 0.03);
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector3d told(0.8, 0.0, 0.0);
       observer.update(geometry::yawRotation(turn_rad) * told + wind_mps, told, 0.03);

@@ -17,7 +17,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 const Eigen::Vector3d kThere(-4, 0, 1.5);
 
-InputMonitor monitor() { return InputMonitor(InputParams(), LimitParams()); }
+InputMonitor monitor() { return InputMonitor(InputParams()); }
 
 TEST(InputMonitor, TakesGoodSamplesAndPredictsTheVehicleToNow) {
   auto judge = monitor();
@@ -75,9 +75,6 @@ TEST(InputMonitor, ABadVehicleIsNeverUsedAndNamed) {
   EXPECT_NE(spoilt([](VehicleState& v) { v.T_odom_base.linear().setZero(); }), "");
   EXPECT_NE(spoilt([](VehicleState& v) { v.T_odom_base.translation().x() = 1e300; }), "");
   EXPECT_NE(spoilt([](VehicleState& v) { v.velocity_odom_mps.x() = 1e10; }), "");
-  EXPECT_EQ(spoilt([](VehicleState& v) { v.T_odom_base.translation().x() += 3.0; }),
-            "odometry jumped by 3.00 m");
-  EXPECT_NE(spoilt([](VehicleState& v) { v.T_odom_base.linear() = geometry::yawRotation(1.6); }), "");
 }
 
 TEST(InputMonitor, AnOlderVehicleSampleCountsAsNoneCame) {
@@ -89,21 +86,25 @@ TEST(InputMonitor, AnOlderVehicleSampleCountsAsNoneCame) {
   EXPECT_NEAR(situation.vehicle->T_odom_base.translation().x(), -4.0, 1e-12);
 }
 
-TEST(InputMonitor, AJumpVoidsTheWindowOfTheOldFrame) {
+TEST(InputMonitor, AJumpMovesNeitherTheVehicleNorTheWindow) {
   auto judge = monitor();
   judge.judge(inputAt(kThere, 10.0), 10.0);
-  auto jumped = inputAt(kThere + Eigen::Vector3d(4, 0, 0), 10.03);
-  jumped.target = targetAtOrigin(10.0);
+  const Eigen::Vector3d jump(4.0, 1.0, 0.0);
+  auto jumped = inputAt(kThere + jump, 10.03);
+  jumped.target = targetAtOrigin(10.0);  // of an image before the jump
   auto situation = judge.judge(jumped, 10.03);
-  EXPECT_TRUE(situation.vehicle_jumped);
-  EXPECT_FALSE(situation.vehicle);
-  EXPECT_FALSE(situation.target);
+  const auto isWhereItWas = [&] {
+    return situation.vehicle && situation.target &&
+           situation.vehicle->T_odom_base.translation().isApprox(kThere, 1e-3) &&
+           situation.target->T_odom_window.translation().isApprox(Eigen::Vector3d(0, 0, 1.5), 1e-3);
+  };
+  EXPECT_FALSE(situation.vehicle_jumped);
+  EXPECT_TRUE(isWhereItWas());
+  jumped.target = targetAtOrigin(10.05);
+  jumped.target->T_odom_window.translation() += jump;
   jumped.vehicle->stamp_sec = 10.06;
   situation = judge.judge(jumped, 10.06);
-  EXPECT_TRUE(situation.vehicle);
-  EXPECT_EQ(situation.target_fault, "window: from before the odometry jumped");
-  jumped.target = targetAtOrigin(10.05);
-  EXPECT_TRUE(judge.judge(jumped, 10.06).target);
+  EXPECT_TRUE(isWhereItWas());
 }
 
 TEST(InputMonitor, ABadTargetIsNeverUsedAndNamed) {

@@ -141,12 +141,26 @@ TEST_F(MotionGuard, AWindowSeenFromBehindIsNotFlownAt) {
       EXPECT_EQ(permittedVelocity(wish, state, situation_, memory_, params_).head<2>().norm(), 0.0);
 }
 
-TEST_F(MotionGuard, WithinTheRevealBackOffLeadsOnlyAway) {
+TEST_F(MotionGuard, WithinTheRevealBackOffLeadsOnlyAwayAndToTheAxis) {
   memory_.trusted = situation_.target;
-  situation_.vehicle = test::vehicleAt({-0.1, 0.0, 1.5}, 0.0);
-  EXPECT_EQ(permitted(State::kBackOff), kNothing);
+  situation_.vehicle = test::vehicleAt({-0.1, -0.05, 1.55}, 0.0);
+  EXPECT_TRUE(permitted(State::kBackOff).isApprox(Eigen::Vector3d(0.0, 0.4, 0.0)));
   const Eigen::Vector3d away = permittedVelocity(-kWish, State::kBackOff, situation_, memory_, params_);
-  EXPECT_TRUE(away.isApprox(Eigen::Vector3d(-0.5, 0.0, 0.0))) << away.transpose();
+  EXPECT_TRUE(away.isApprox(Eigen::Vector3d(-0.5, 0.0, -0.2))) << away.transpose();
+}
+
+TEST_F(MotionGuard, NearTheWallNothingLeadsAwayFromTheAxis) {
+  for (double angle = 0.0; angle < 6.28; angle += 0.05) {
+    const Eigen::Vector3d offset(0.0, 0.5 * std::cos(angle), 0.4 * std::sin(angle));
+    situation_.vehicle = test::vehicleAt(Eigen::Vector3d(-0.5, 0.0, 1.5) + offset, 0.0);
+    for (double way = 0.0; way < 6.28; way += 0.1) {
+      const Eigen::Vector3d wish(0.3, std::cos(way), std::sin(way));
+      const auto velocity = permittedVelocity(wish, State::kApproach, situation_, memory_, params_);
+      ASSERT_LE(velocity.x(), 1e-12);
+      ASSERT_LE(velocity.y() * offset.y(), 1e-12);
+      ASSERT_LE(velocity.z() * offset.z(), 1e-12);
+    }
+  }
 }
 
 TEST_F(MotionGuard, HeightLimitsLeaveRoomToStop) {

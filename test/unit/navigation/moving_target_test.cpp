@@ -124,7 +124,7 @@ TEST(MovingTarget, WithMotionOutOfThisWorldIsRefused) {
 }
 
 TEST(MovingTarget, IsHandedOnWhereItIsNow) {
-  InputMonitor monitor(InputParams{}, LimitParams{});
+  InputMonitor monitor(InputParams{});
   NavigatorInput input;
   input.vehicle = standingAt(3.0);
   input.vehicle->stamp_sec = 10.2;

@@ -160,17 +160,36 @@ TEST(NavigatorFlight, AWindowLostForGoodEndsInAnAbortAwayFromTheWall) {
   EXPECT_EQ(count(mission, State::kBackOff), 1);
 }
 
-TEST(NavigatorFlight, AJumpOfTheOdometryHoldsAndFindsTheWindowAgain) {
-  PlantParams params;
-  KinematicPlant plant(params);
-  Navigator navigator{NavigatorParams()};
-  bool jumped = false;
-  const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
-    if (!jumped && t > 3.0) plant.shiftOdometry({4.0, 1.0, 0.0});
-    jumped = jumped || t > 3.0;
-  });
-  EXPECT_EQ(count(mission, State::kHold), 1);
-  expectPassed(mission);
+TEST(NavigatorFlight, AJumpOfTheOdometryDoesNotDisturbIt) {
+  for (const double at_sec : {1.0, 2.0, 3.0, 4.0, 5.0, 5.5, 6.0}) {
+    KinematicPlant plant{PlantParams()};
+    Navigator navigator{NavigatorParams()};
+    bool jumped = false;
+    const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
+      if (!jumped && t > at_sec) plant.shiftOdometry({4.0, 1.0, 0.0});
+      jumped = jumped || t > at_sec;
+    });
+    EXPECT_TRUE(jumped);
+    EXPECT_EQ(count(mission, State::kHold), 0) << at_sec;
+    expectPassed(mission);
+  }
+}
+
+TEST(NavigatorFlight, ASlideOfTheOdometryDoesNotDisturbIt) {
+  for (const double at_sec : {1.0, 2.0, 3.0, 4.0, 5.0, 5.5}) {
+    for (const double side : {-1.0, 1.0}) {
+      PlantParams params;
+      params.opening = {0.8, 0.8};
+      KinematicPlant plant(params);
+      Navigator navigator{NavigatorParams()};
+      const Eigen::Vector3d slide = plant.window().linear() * Eigen::Vector3d(0.0, side * 0.5, 0.0);
+      const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
+        if (t > at_sec && t < at_sec + 2.0) plant.shiftOdometry(slide * KinematicPlant::kStepSec);
+      });
+      EXPECT_FALSE(mission.hit) << at_sec;
+      expectPassed(mission);
+    }
+  }
 }
 
 TEST(NavigatorFlight, TurnsBackWhenPushedAsideBeforeThePlane) {

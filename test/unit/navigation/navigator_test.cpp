@@ -25,21 +25,25 @@ class NavigatorSteps : public testing::Test {
   double now_ = 10.0;
 
   NavigatorOutput steps(Navigator& navigator, const Eigen::Vector3d& at, int count, bool with_target = true,
-                        bool trusted = true) {
+                        bool trusted = true, const Eigen::Vector3d& velocity_mps = Eigen::Vector3d::Zero()) {
     NavigatorOutput output;
     for (int i = 0; i < count; ++i) {
       now_ += kStep;
       auto input = inputAt(at, now_, with_target);
+      input.vehicle->velocity_odom_mps = velocity_mps;
       if (with_target) input.target = targetAtOrigin(now_, trusted);
       output = navigator.step(input, now_);
     }
     return output;
   }
-  /// Walks the vehicle there in small steps, so that nothing jumps.
+  /// Walks the vehicle there in small steps and to a stand, as odometry would tell it.
   NavigatorOutput walk(Navigator& navigator, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                        bool with_target = true) {
     NavigatorOutput output;
-    for (int i = 0; i <= 60; ++i) output = steps(navigator, from + (to - from) * i / 60.0, 1, with_target);
+    const Eigen::Vector3d velocity_mps = (to - from) / (60.0 * kStep);
+    for (int i = 1; i < 60; ++i)
+      output = steps(navigator, from + (to - from) * i / 60.0, 1, with_target, true, velocity_mps);
+    output = steps(navigator, to, 1, with_target);
     return output;
   }
   void start(Navigator& navigator, const Eigen::Vector3d& at) {
@@ -166,16 +170,16 @@ TEST_F(NavigatorSteps, AClockThatJumpsAheadHoldsAndGoesOn) {
 }
 
 TEST_F(NavigatorSteps, BacksOffFromTheLineWithoutAContractAndComesBack) {
+  params_.approach.margin_m = 0.33;  // which leaves next to nothing
   Navigator navigator(params_);
   start(navigator, kFar);
   walk(navigator, kFar, kFar);
-  const Eigen::Vector3d aside = kLine + Eigen::Vector3d(0, 0.36, 0);
-  auto output = walk(navigator, kFar, aside);
-  output = steps(navigator, aside, 65);
+  auto output = walk(navigator, kFar, kLine);
+  output = steps(navigator, kLine, 65);
   EXPECT_EQ(output.state, State::kBackOff) << output.reason;
   EXPECT_LT(output.setpoint.velocity_odom_mps.x(), 0.0);
   EXPECT_EQ(output.report.retries, 1);
-  output = walk(navigator, aside, {-2.6, 0.36, 1.5});
+  output = walk(navigator, kLine, {-2.6, 0.0, 1.5});
   EXPECT_TRUE(output.state == State::kAlign || output.state == State::kApproach) << toString(output.state);
 }
 
@@ -198,8 +202,8 @@ TEST_F(NavigatorSteps, YieldsToThePilotInEveryState) {
     Navigator navigator(params_);
     now_ += 100.0;
     start(navigator, kFar);
-    if (walked > 0) steps(navigator, kAside, 4);
-    if (walked > 1) walk(navigator, kFar, kFar);
+    if (walked > 0) steps(navigator, kFar, 4);
+    if (walked > 1) steps(navigator, kFar, 60);
     if (walked > 2) walk(navigator, kFar, kLine);
     if (walked > 3) steps(navigator, kLine, 20, false);
     auto input = inputAt(walked > 2 ? kLine : kFar, now_);

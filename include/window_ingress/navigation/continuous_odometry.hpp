@@ -1,0 +1,78 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "window_ingress/navigation/navigation_types.hpp"
+
+namespace window_ingress::navigation {
+
+/// Odometry without its jumps, slides and turns: the vehicle in a frame `smooth`, in which it moves as its
+/// own velocity says. Over a second, position and integrated velocity of an odometry that works agree to a
+/// few centimetres; what goes beyond `kUnexplainedM` is taken for an error of the position and taken off.
+/// Places that were known before (the window, above all) stay where they are beside the vehicle. Without such
+/// errors both frames are the same to the bit.
+///
+/// A steady difference of the velocity (an estimator's bias, fixed in the body) is no slide: the middle value
+/// of the last seconds is taken off. A heading that turns faster than any vehicle is corrected by the turn;
+/// whether the axes of the positions have turned along (the estimator was reset) or not (its attitude alone
+/// is wrong) the next motion shows.
+class ContinuousOdometry {
+ public:
+  static constexpr double kUnexplainedM = 0.05;  ///< within a second
+  static constexpr double kLongestGapSec = 0.25;
+
+  /// A sample younger than the one before. \return the vehicle in `smooth`; nothing if it went too far in a
+  /// gap longer than `kLongestGapSec` for anybody to know the way: everything starts anew from the next
+  /// sample.
+  std::optional<VehicleState> add(const VehicleState& odometry);
+  void reset() { *this = ContinuousOdometry(); }
+
+  /// From odom as it was at that time into `smooth`, for what is known from beside the vehicle: the vehicle's
+  /// reported pose becomes its pose there. The places in a message belong to its stamp.
+  Eigen::Isometry3d T_smooth_odom(double stamp_sec) const;
+  /// A velocity in the axes that whoever gets the setpoints has now.
+  Eigen::Vector3d inOdomAxes(const Eigen::Vector3d& velocity_smooth_mps) const;
+  /// How far the frame has been shifted since the start, all in all [m].
+  double shiftedM() const { return shifted_m_; }
+
+ private:
+  struct Sample {
+    double stamp_sec;
+    Eigen::Vector3d position_m;  ///< in smooth
+    Eigen::Vector3d way_m;       ///< integrated velocity
+  };
+  struct Frame {
+    double stamp_sec;
+    Eigen::Isometry3d T_smooth_odom;
+  };
+  /// Have the axes turned with the heading?
+  struct Turn {
+    double turn_rad;
+    Eigen::Vector3d from_odom_m, way_m;
+  };
+
+  VehicleState inSmooth(const VehicleState& odometry) const;
+  void judgeTurn(const VehicleState& odometry);
+  void learnBias(const VehicleState& smooth);
+  void shiftIfUnexplained(VehicleState& smooth);
+  void noteFrame();
+
+  std::optional<VehicleState> odometry_, smooth_;
+  Eigen::Isometry3d T_smooth_axes_ =
+      Eigen::Isometry3d::Identity();  ///< of the positions that odometry reports
+  std::deque<Frame> frames_;          ///< of late; empty: no error so far
+  std::deque<Sample> second_;
+  std::optional<Turn> turn_;
+  double heading_error_rad_ = 0.0;
+  bool is_erring_ = false;  ///< the two frames differ
+  Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  ///< of the frame, so far
+  double shifted_m_ = 0.0;
+  std::optional<Sample> piece_;             ///< where the present piece of the way began
+  std::deque<Eigen::Vector3d> pieces_mps_;  ///< unexplained velocity of the latest pieces, body axes
+  Eigen::Vector3d bias_base_mps_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace window_ingress::navigation

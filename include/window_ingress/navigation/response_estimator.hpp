@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace window_ingress::navigation {
+
+/// How fast the vehicle's velocity follows its setpoints, measured in flight: of first-order models with
+/// different time constants, all fed with the setpoints that were sent, the one whose velocity is most like
+/// the measured one. A steady difference (wind, a biased velocity) counts for nothing: each model learns its
+/// own and is judged by what remains. A vehicle whose acceleration is limited looks like a slow one, and that
+/// is how it has to be flown.
+class ResponseEstimator {
+ public:
+  /// \param assumed_sec is believed until the vehicle has been asked to change its velocity often enough to
+  /// tell
+  explicit ResponseEstimator(double assumed_sec);
+
+  /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
+  void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
+  /// The models start anew from the next measurement; what they showed stays.
+  void restart() { is_started_ = false; }
+  /// What was shown is forgotten, too.
+  void reset();
+
+  /// From a setpoint to the velocity following it [s]: between half and three times what was assumed.
+  double responseSec() const { return response_sec_; }
+  bool isMeasured() const { return excitation_ >= kEnoughExcitation; }
+  /// Velocity that the setpoints alone would have given the vehicle [m/s].
+  const Eigen::Vector3d& velocity() const { return models_[best_].velocity_mps; }
+
+ private:
+  struct Model {
+    double lag_sec;
+    Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+    Eigen::Vector3d offset_mps =
+        Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from it
+    double error = 0.0;           ///< mean square of what remains, fading [m^2/s^2]
+  };
+  static constexpr double kEnoughExcitation = 0.3;  ///< [m^2/s]
+
+  void choose();
+
+  double assumed_sec_, response_sec_;
+  std::vector<Model> models_;
+  std::size_t best_;
+  Eigen::Vector3d usual_command_mps_ = Eigen::Vector3d::Zero();
+  double excitation_ = 0.0;  ///< how much the setpoints have changed so far [m^2/s]
+  bool is_started_ = false;
+};
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,151 @@
+#include "window_ingress/navigation/continuous_odometry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
+constexpr double kSecond = 1.0, kFramesSec = 3.0;
+constexpr double kTellingM = 0.04;  // between the two ways flown, to tell whether the axes have turned
+constexpr double kPieceSec = 0.5, kMaxBiasMps = 0.4;
+constexpr std::size_t kPieces = 16;  // a slide of two seconds is a minority of them
+
+double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
+
+Eigen::Matrix3d uprightOf(const VehicleState& vehicle) { return geometry::yawRotation(yawOf(vehicle)); }
+
+Eigen::Vector3d middle(const std::deque<Eigen::Vector3d>& values) {
+  Eigen::Vector3d middle;
+  std::vector<double> sorted(values.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(values.begin(), values.end(), sorted.begin(),
+                   [axis](const auto& value) { return value[axis]; });
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    middle[axis] = sorted[sorted.size() / 2];
+  }
+  return middle;
+}
+
+}  // namespace
+
+std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry) {
+  if (!odometry_) {
+    odometry_ = smooth_ = odometry;
+    second_.push_back({odometry.stamp_sec, odometry.T_odom_base.translation(), way_m_});
+    return smooth_;
+  }
+  const double dt_sec = odometry.stamp_sec - odometry_->stamp_sec;
+  if (dt_sec <= 0.0) return smooth_;
+  if (dt_sec > kLongestGapSec) {
+    const double moved_m = (odometry.T_odom_base.translation() - odometry_->T_odom_base.translation()).norm();
+    const double speed_mps =
+        std::max({kFastestMps, odometry.velocity_odom_mps.norm(), odometry_->velocity_odom_mps.norm()});
+    const double turned_rad = std::abs(geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_)));
+    if (moved_m > kJumpInGapM + 2.0 * speed_mps * kLongestGapSec ||
+        turned_rad > kTurnJumpRad + kFastestRadps * kLongestGapSec) {
+      reset();
+      return std::nullopt;
+    }
+    second_.clear();
+    piece_.reset();
+  }
+  const double turned_rad = geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_));
+  const bool has_turned = std::abs(turned_rad) > kTurnJumpRad + kFastestRadps * dt_sec;
+  if (has_turned) heading_error_rad_ = geometry::wrapAngle(heading_error_rad_ + turned_rad);
+  is_erring_ = is_erring_ || has_turned;
+  const Eigen::Vector3d before_mps = smooth_->velocity_odom_mps;
+  VehicleState smooth = inSmooth(odometry);
+  way_m_ += dt_sec * 0.5 * (before_mps + smooth.velocity_odom_mps);
+  if (has_turned) turn_ = Turn{turned_rad, odometry.T_odom_base.translation(), way_m_};
+  odometry_ = odometry;
+  judgeTurn(odometry);
+  learnBias(smooth);
+  shiftIfUnexplained(smooth);
+  smooth_ = smooth;
+  noteFrame();
+  return smooth_;
+}
+
+Eigen::Isometry3d ContinuousOdometry::T_smooth_odom(double stamp_sec) const {
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame)
+    if (frame->stamp_sec <= stamp_sec || std::next(frame) == frames_.rend()) return frame->T_smooth_odom;
+  return Eigen::Isometry3d::Identity();
+}
+
+void ContinuousOdometry::noteFrame() {
+  if (!is_erring_) return;
+  if (frames_.empty()) frames_.push_back({-1e300, Eigen::Isometry3d::Identity()});
+  frames_.push_back({odometry_->stamp_sec, smooth_->T_odom_base * odometry_->T_odom_base.inverse()});
+  while (frames_.size() > 2 && frames_[1].stamp_sec < odometry_->stamp_sec - kFramesSec) frames_.pop_front();
+}
+
+Eigen::Vector3d ContinuousOdometry::inOdomAxes(const Eigen::Vector3d& velocity_smooth_mps) const {
+  return is_erring_ ? Eigen::Vector3d(T_smooth_axes_.linear().transpose() * velocity_smooth_mps)
+                    : velocity_smooth_mps;
+}
+
+VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
+  if (!is_erring_) return odometry;
+  VehicleState smooth = odometry;
+  const Eigen::Matrix3d turn_back = geometry::yawRotation(-heading_error_rad_);
+  smooth.T_odom_base.linear() = turn_back * odometry.T_odom_base.linear();
+  smooth.velocity_odom_mps = turn_back * odometry.velocity_odom_mps;
+  smooth.T_odom_base.translation() = T_smooth_axes_ * odometry.T_odom_base.translation();
+  return smooth;
+}
+
+void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
+  if (!turn_) return;
+  const Eigen::Vector3d way_m = way_m_ - turn_->way_m;
+  if (2.0 * way_m.norm() * std::sin(0.5 * std::abs(turn_->turn_rad)) < kTellingM) return;
+  const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
+  const Eigen::Vector3d moved_m = T_smooth_axes_.linear() * (position_m - turn_->from_odom_m);
+  const Eigen::Matrix3d turn_back = geometry::yawRotation(-turn_->turn_rad);
+  if ((turn_back * moved_m - way_m).norm() < (moved_m - way_m).norm()) {
+    const Eigen::Vector3d smooth_m = T_smooth_axes_ * position_m;
+    T_smooth_axes_.linear() = turn_back * T_smooth_axes_.linear();
+    T_smooth_axes_.translation() = smooth_m - T_smooth_axes_.linear() * position_m;
+    second_.clear();
+  }
+  turn_.reset();
+}
+
+// Of an estimator's velocity that is always off by the same, fixed in the body.
+void ContinuousOdometry::learnBias(const VehicleState& smooth) {
+  const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
+  if (!piece_) piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
+  const double piece_sec = smooth.stamp_sec - piece_->stamp_sec;
+  if (piece_sec < kPieceSec) return;
+  const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
+  pieces_mps_.push_back(uprightOf(smooth).transpose() * unexplained_m / piece_sec);
+  if (pieces_mps_.size() > kPieces) pieces_mps_.pop_front();
+  piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
+  if (pieces_mps_.size() < kPieces / 2) return;
+  bias_base_mps_ = middle(pieces_mps_);
+  if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
+}
+
+void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
+  const Eigen::Vector3d position_m = smooth.T_odom_base.translation();
+  second_.push_back(
+      {smooth.stamp_sec, position_m, way_m_});  // the only one after a gap: what was flown is not known
+  while (second_.front().stamp_sec < smooth.stamp_sec - kSecond) second_.pop_front();
+  const Sample& first = second_.front();
+  const Eigen::Vector3d steady_m = uprightOf(smooth) * bias_base_mps_ * (smooth.stamp_sec - first.stamp_sec);
+  const Eigen::Vector3d unexplained_m = (position_m - first.position_m) - (way_m_ - first.way_m) - steady_m;
+  if (unexplained_m.norm() < kUnexplainedM) return;
+  is_erring_ = true;
+  T_smooth_axes_.translation() -= unexplained_m;
+  smooth.T_odom_base.translation() -= unexplained_m;
+  shift_m_ -= unexplained_m;
+  shifted_m_ += unexplained_m.norm();
+  second_.clear();
+  second_.push_back({smooth.stamp_sec, smooth.T_odom_base.translation(), way_m_});
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,62 @@
+#include "window_ingress/navigation/response_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr int kModelsToEachSide = 4;
+constexpr double kFastestShare = 0.5, kSlowestShare = 3.0;  // of the time assumed
+constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
+constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
+
+double share(double dt_sec, double time_constant_sec) { return 1.0 - std::exp(-dt_sec / time_constant_sec); }
+
+}  // namespace
+
+ResponseEstimator::ResponseEstimator(double assumed_sec) : assumed_sec_(assumed_sec) { reset(); }
+
+void ResponseEstimator::reset() {
+  models_.clear();
+  for (int i = -kModelsToEachSide; i <= kModelsToEachSide; ++i) {
+    const double furthest = i < 0 ? kFastestShare : kSlowestShare;
+    const double factor = std::pow(furthest, std::abs(i) / static_cast<double>(kModelsToEachSide));
+    models_.push_back({std::max(1e-3, factor * assumed_sec_)});
+  }
+  best_ = kModelsToEachSide;
+  response_sec_ = assumed_sec_;
+  excitation_ = 0.0;
+  is_started_ = false;
+}
+
+void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,
+                               double dt_sec) {
+  if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
+  if (!is_started_) {
+    for (Model& model : models_) model.velocity_mps = measured_mps - model.offset_mps;
+    usual_command_mps_ = commanded_mps;
+    is_started_ = true;
+  }
+  const Eigen::Vector3d change_mps = commanded_mps - usual_command_mps_;
+  usual_command_mps_ += share(dt_sec, kChangeSec) * change_mps;
+  excitation_ += dt_sec * change_mps.squaredNorm();
+  for (Model& model : models_) {
+    model.velocity_mps += share(dt_sec, model.lag_sec) * (commanded_mps - model.velocity_mps);
+    const Eigen::Vector3d remains_mps = measured_mps - model.velocity_mps - model.offset_mps;
+    model.offset_mps += share(dt_sec, kOffsetSec) * remains_mps;
+    model.error += share(dt_sec, kErrorSec) * (remains_mps.squaredNorm() - model.error);
+  }
+  choose();
+}
+
+void ResponseEstimator::choose() {
+  if (!isMeasured()) return;
+  const auto better = [](const Model& a, const Model& b) { return a.error < b.error; };
+  const auto least = std::min_element(models_.begin(), models_.end(), better);
+  if (least->error < kClearlyBetter * models_[best_].error)
+    best_ = static_cast<std::size_t>(least - models_.begin());
+  response_sec_ = models_[best_].lag_sec;
+}
+
+}  // namespace window_ingress::navigation
