@@ -20,6 +20,7 @@ simulation::Scenario shortFlight() {
   scenario.start.distance_m = 2.5;
   scenario.start.off_axis_rad = 0.2;
   scenario.time_limit_sec = 20.0;
+  scenario.glass = "excluded";
   scenario.unverified_opening = "allow";
   return scenario;
 }
