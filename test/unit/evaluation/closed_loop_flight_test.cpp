@@ -56,6 +56,21 @@ TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
   EXPECT_FALSE(flight.offset_y_m);
 }
 
+TEST(ClosedLoopFlight, UnderTheDefaultsNobodyEntersACleanPaneThatLooksOpen) {
+  auto scenario = shortFlight();
+  scenario.glass = scenario.unverified_opening = "as_set";
+  scenario.window.closed_by = "glass";
+  scenario.house.furniture = "full";
+  scenario.time_limit_sec = 12.0;
+  const auto flight = flyOnce(scenario, 1, FlightParams());
+  EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
+  EXPECT_NE(flight.reason.find("glass is not excluded"), std::string::npos) << flight.reason;
+  scenario.glass = "excluded";  // the operator errs
+  const auto wrong = flyOnce(scenario, 1, FlightParams());
+  EXPECT_EQ(wrong.outcome, Outcome::kCollision) << wrong.reason;
+  EXPECT_NE(wrong.reason.find("touched glass"), std::string::npos) << wrong.reason;
+}
+
 TEST(ClosedLoopFlight, FindsOutByHowMuchTheClocksOfCameraAndOdometryDiffer) {
   for (const double offset_sec : {-0.04, 0.0, 0.08, 0.15}) {
     auto scenario = shortFlight();
