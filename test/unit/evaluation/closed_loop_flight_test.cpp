@@ -48,7 +48,6 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
 TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
   auto scenario = shortFlight();
   scenario.unverified_opening = "deny";
-  scenario.time_limit_sec = 12.0;
   FlightParams params;
   params.interior.enabled = false;
   const auto flight = flyOnce(scenario, 1, params);
@@ -61,7 +60,6 @@ TEST(ClosedLoopFlight, UnderTheDefaultsNobodyEntersACleanPaneThatLooksOpen) {
   scenario.glass = scenario.unverified_opening = "as_set";
   scenario.window.closed_by = "glass";
   scenario.house.furniture = "full";
-  scenario.time_limit_sec = 12.0;
   const auto flight = flyOnce(scenario, 1, FlightParams());
   EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
   EXPECT_NE(flight.reason.find("glass is not excluded"), std::string::npos) << flight.reason;
