@@ -16,9 +16,12 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   vehicle.vertical_fov_rad = 2.0 * std::atan(camera.height / (2.0 * camera.fy));
   vehicle.pixel_rad = 1.0 / camera.fx;
   vehicle.exposure_sec = world.scenario().camera.exposure_sec;
-  const std::string& opening_policy = world.scenario().unverified_opening;
-  if (opening_policy != "as_set") params.navigator.commit.unverified_opening = opening_policy;
-  if (params.without_pictures) params.navigator.commit.unverified_opening = "allow";  // nothing shows it
+  const std::string &glass = world.scenario().glass, &opening_policy = world.scenario().unverified_opening;
+  auto& commit = params.navigator.commit;
+  if (glass != "as_set") commit.glass = glass;
+  if (opening_policy != "as_set") commit.unverified_opening = opening_policy;
+  if (params.without_pictures)
+    commit.glass = "excluded", commit.unverified_opening = "allow";  // nothing shows it
   auto& fit = params.tracker.fit;
   fit.vehicle_width_m = 2.0 * half.y();
   fit.vehicle_height_m = 2.0 * half.z();

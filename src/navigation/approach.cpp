@@ -42,7 +42,7 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
   }
   const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);
   RelativeState to_goal = relative;
-  to_goal.position_window_m.y() -= asideM(contract, situation.now_sec);
+  to_goal.position_window_m.y() -= asideM(contract, situation);
   decision.wish.velocity_odom_mps = pacer_.pace(
       velocityAlongAxis(to_goal, target, againstTailwind(forwardSpeed(contract, relative), target, memory),
                         memory.wind_odom_mps, *params_),
@@ -66,14 +66,14 @@ double Approach::forwardSpeed(const Contract& contract, const RelativeState& rel
                                            params_->vehicle.response_sec));
 }
 
-double Approach::asideM(const Contract& contract, double now_sec) const {
-  if (!looks_ || !waiting_since_sec_ || !contract.opening_unverified) return 0.0;
-  return lookAside(now_sec - *waiting_since_sec_, contract, params_->commit);
+double Approach::asideM(const Contract& contract, const Situation& situation) const {
+  const bool knows = !contract.opening_unverified || isSeenOpen(*situation.target);
+  if (!looks_ || !waiting_since_sec_ || knows) return 0.0;
+  return lookAside(situation.now_sec - *waiting_since_sec_, contract, params_->commit);
 }
 
-double Approach::patienceSec() const {
-  if (!looks_) return params_->approach.patience_sec;
-  return params_->commit.unverified_opening == "ask" ? params_->commit.ask_sec : params_->commit.look_sec;
+double Approach::patienceSec(const TargetEstimate& target) const {
+  return looks_ ? waitAtLineSec(target, params_->commit) : params_->approach.patience_sec;
 }
 
 std::optional<Event> Approach::judge(const Contract& contract, const RelativeState& relative,
@@ -86,7 +86,7 @@ std::optional<Event> Approach::judge(const Contract& contract, const RelativeSta
   const bool waits = at_line || (looks_ && relative.distance() <= contract.commit_distance_m + kLooksWithinM);
   const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);
   looks_ = waits && (looks_ || contract.opening_unverified);
-  if (waiting_sec > patienceSec()) return Event::kContractUnmet;
+  if (waiting_sec > patienceSec(*situation.target)) return Event::kContractUnmet;
   if (outside_sec > params_->approach.leave_sec) {
     reason = "out of the funnel: " + contract.unmet;
     return at_line ? Event::kContractUnmet : Event::kMisaligned;

@@ -15,6 +15,7 @@
 #include "window_ingress/navigation/mission_report.hpp"
 #include "window_ingress/navigation/mission_rules.hpp"
 #include "window_ingress/navigation/motion_guard.hpp"
+#include "window_ingress/navigation/opening_policy.hpp"
 #include "window_ingress/navigation/place_keeping.hpp"
 #include "window_ingress/navigation/search.hpp"
 #include "window_ingress/navigation/setpoint_limiter.hpp"
@@ -35,7 +36,8 @@ struct Navigator::Impl {
         approach(params),
         commit(params),
         back_off(params),
-        hold(params) {}
+        hold(params),
+        reason(waiting()) {}
 
   NavigatorParams params;
   InputMonitor monitor;
@@ -48,7 +50,7 @@ struct Navigator::Impl {
   BackOff back_off;
   Hold hold;
   State state = State::kIdle;
-  std::string reason = "waiting for start";
+  std::string reason;
   MissionMemory memory;
   Setpoint last_setpoint;
   Home home;
@@ -56,6 +58,7 @@ struct Navigator::Impl {
   bool was_near = false;
   bool stands_down = false;  ///< aborted when it had ended already: keeps no place any more
 
+  std::string waiting() const { return "waiting for start; " + whatIsAssumed(params.commit); }
   bool isFlownAt() const { return state == State::kAlign || state == State::kApproach; }
   bool isInOpening(const Situation& situation) const;
   bool isLive() const { return isMoving(state) || state == State::kHold; }
@@ -236,7 +239,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
   self.limiter.stop();
   self.clock.startMission(now_sec);
   self.change(*next(self.state, Event::kStart), "started");
-  return {true, "started"};
+  return {true, "started; " + whatIsAssumed(self.params.commit)};
 }
 
 Reply Navigator::abort() {
@@ -255,7 +258,7 @@ Reply Navigator::reset() {
   const auto to = next(self.state, Event::kReset);
   if (!to) return {false, std::string("flying: ") + toString(self.state) + "; abort first"};
   self.monitor.reset();
-  self.change(*to, "waiting for start");
+  self.change(*to, self.waiting());
   return {true, "reset"};
 }
 
@@ -264,7 +267,7 @@ Reply Navigator::confirmOpening() {
   if (!self.isFlownAt() || !self.memory.trusted)
     return {false, std::string("no window is flown at: ") + toString(self.state)};
   self.memory.opening_confirmed = true;
-  return {true, "confirmed: the window flown at is open"};
+  return {true, "confirmed: the window flown at is open, without glass"};
 }
 
 void Navigator::sentZero() { impl_->last_setpoint = impl_->limiter.stop(); }

@@ -16,6 +16,9 @@ namespace window_ingress::simulation {
   F(Fogf, void, (GLenum, GLfloat))                                                                  \
   F(Fogfv, void, (GLenum, const GLfloat*))                                                          \
   F(Scissor, void, (GLint, GLint, GLsizei, GLsizei))                                                \
+  F(BlendFunc, void, (GLenum, GLenum))                                                              \
+  F(ColorMask, void, (GLboolean, GLboolean, GLboolean, GLboolean))                                  \
+  F(ClipPlane, void, (GLenum, const GLdouble*))                                                     \
   F(FrontFace, void, (GLenum))                                                                      \
   F(DepthFunc, void, (GLenum))                                                                      \
   F(Viewport, void, (GLint, GLint, GLsizei, GLsizei))                                               \
@@ -40,6 +43,7 @@ namespace window_ingress::simulation {
   F(GenFramebuffers, void, (GLsizei, GLuint*))                                                      \
   F(BindFramebuffer, void, (GLenum, GLuint))                                                        \
   F(CheckFramebufferStatus, GLenum, (GLenum))                                                       \
+  F(FramebufferTexture2D, void, (GLenum, GLenum, GLenum, GLuint, GLint))                            \
   F(FramebufferRenderbuffer, void, (GLenum, GLenum, GLenum, GLuint))                                \
   F(GenRenderbuffers, void, (GLsizei, GLuint*))                                                     \
   F(BindRenderbuffer, void, (GLenum, GLuint))                                                       \

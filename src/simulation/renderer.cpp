@@ -13,6 +13,7 @@
 #include "faces.hpp"
 #include "gl_context.hpp"
 #include "gl_target.hpp"
+#include "glazing.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
@@ -77,7 +78,7 @@ struct Renderer::Impl {
   Impl(const Scene& scene, const geometry::PinholeCamera& ideal, Antialiasing kind)
       : camera(ideal),
         opening(scene.opening),
-        other_ways_in(scene.other_ways_in),
+        other_clear_holes(scene.other_clear_holes),
         fog(scene.fog),
         antialiasing(kind),
         faces(facesOf(scene.mesh)),
@@ -87,6 +88,7 @@ struct Renderer::Impl {
     target.create(gl, rgba.size(), kind == Antialiasing::kMultisampling ? 4 : 0);
     upload(gl, scene);
     setState(gl);
+    glazing.create(gl, camera, scene.panes);
     if (fog) setFog(gl);
     if (gl.GetError() != GL_NO_ERROR)
       throw std::runtime_error("OpenGL reports an error while loading the scene");
@@ -117,11 +119,15 @@ struct Renderer::Impl {
       vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i].colour[3] = faces[i / 4].surface;
-    GLuint buffer = 0;
     gl.GenBuffers(1, &buffer);
     gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
     gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                   GL_STATIC_DRAW);
+    pointToFaces(gl);
+  }
+
+  void pointToFaces(const GlFunctions& gl) const {
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
     const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
     gl.VertexPointer(3, GL_FLOAT, sizeof(Vertex), at(offsetof(Vertex, position)));
     gl.TexCoordPointer(2, GL_FLOAT, sizeof(Vertex), at(offsetof(Vertex, uv)));
@@ -164,39 +170,57 @@ struct Renderer::Impl {
   // Part of the picture in which the room can be seen: seen from outside, what the opening spans.
   cv::Rect roomIn(const Eigen::Isometry3d& T_camera_window) const {
     const cv::Rect picture(0, 0, camera.width, camera.height);
-    if (other_ways_in) return picture;
+    if (other_clear_holes) return picture;
     const bool outside = T_camera_window.inverse().translation().x() < -kNear_m;
     if (!outside) return picture;
     if (!opening) return {};
-    const auto corners = geometry::projectOpening(camera, T_camera_window, *opening);
-    if (!corners) return picture;
-    Eigen::AlignedBox2d span;
-    for (const auto& corner : *corners) span.extend(corner);
-    const Eigen::Vector2d end(camera.width, camera.height);
-    const Eigen::Vector2d low = span.min().cwiseMax(0.0).cwiseMin(end),
-                          high = span.max().cwiseMax(-1.0).cwiseMin(end);
-    const cv::Point first(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
-    const cv::Point last(static_cast<int>(std::ceil(high.x())), static_cast<int>(std::ceil(high.y())));
-    if (last.x < first.x || last.y < first.y) return {};
-    return cv::Rect(first, last + cv::Point(1, 1)) & picture;
+    std::vector<Eigen::Vector3d> corners;
+    for (const auto& corner : geometry::openingCorners(*opening))
+      corners.emplace_back(T_camera_window * corner);
+    return partAround(camera, corners);
   }
 
   static void scissor(const GlFunctions& gl, const cv::Rect& part) {
     gl.Scissor(part.x, part.y, part.width, part.height);
   }
 
-  // Near faces hide far ones before those are painted; neighbours in this order with the same texture are
-  // drawn at once.
   void draw(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const cv::Range& rows) {
     const cv::Rect part(0, rows.start, camera.width, rows.size());
-    const cv::Rect indoors = roomIn(T_camera_window) & part;
+    const cv::Rect indoors = roomIn(T_camera_window) & part, panes = glazing.partIn(T_camera_window) & part;
+    if (!panes.empty()) drawMirrored(gl, T_camera_window, panes);
     visible.find(faces, camera, T_camera_window, !indoors.empty());
     target.bind(gl);
+    drawFaces(gl, T_camera_window, visible, part, indoors);
+    if (!panes.empty()) drawPanes(gl, T_camera_window, panes);
+  }
+
+  void drawMirrored(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const cv::Rect& part) {
+    const Eigen::Isometry3d T_camera_mirrored = glazing.mirrored(T_camera_window);
+    mirrored.find(faces, camera, T_camera_mirrored, false);
+    glazing.beginMirror(gl, T_camera_mirrored);
+    drawFaces(gl, T_camera_mirrored, mirrored, part, {});
+    glazing.endMirror(gl);
+  }
+
+  // The fog before them is in what they show and in what they mirror already.
+  void drawPanes(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const cv::Rect& part) {
+    scissor(gl, part);
+    gl.LoadMatrixd(T_camera_window.matrix().data());
+    if (fog) gl.Disable(GL_FOG);
+    glazing.draw(gl, projectionOf(camera), T_camera_window);
+    if (fog) gl.Enable(GL_FOG);
+    pointToFaces(gl);
+  }
+
+  // Near faces hide far ones before those are painted; neighbours in this order with the same texture are
+  // drawn at once.
+  void drawFaces(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_window, const VisibleFaces& seen,
+                 const cv::Rect& part, const cv::Rect& indoors) {
     gl.Enable(GL_SCISSOR_TEST);
     scissor(gl, part);
     gl.Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers what nothing else does
     gl.LoadMatrixd(T_camera_window.matrix().data());
-    const auto& order = visible.order();
+    const auto& order = seen.order();
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       const Mesh::Batch& batch = faces[order[first]].batch;
       indices.clear();
@@ -229,14 +253,16 @@ struct Renderer::Impl {
 
   geometry::PinholeCamera camera;
   std::optional<geometry::OpeningSize> opening;
-  bool other_ways_in;
+  bool other_clear_holes;
   std::optional<Fog> fog;
   Antialiasing antialiasing;
   GlContext context;
   GlTarget target;
   std::vector<Face> faces;
-  VisibleFaces visible;
+  Glazing glazing;
+  VisibleFaces visible, mirrored;
   EdgeSmoother smoother;
+  GLuint buffer = 0;
   std::map<Texture, GLuint> textures;
   std::vector<GLuint> indices;
   cv::Mat rgba;

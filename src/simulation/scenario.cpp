@@ -20,6 +20,8 @@ void checkFits(const Scenario& s, std::vector<std::string>& faults) {
     faults.push_back("window/sill_m: the window's frame reaches into the ground");
   if (s.window.bars != "none" && s.window.closed_by == "none")
     faults.push_back("window/bars: an open window has none; close it by glass or the like");
+  if (s.window.dirt > 0.0 && s.window.closed_by != "glass")
+    faults.push_back("window/dirt: is on glass only; say closed_by: glass");
 }
 
 // What a window or a poster takes of the wall, beside the target's centre.
@@ -71,8 +73,8 @@ void checkOpenDecoys(const Scenario& s, std::vector<std::string>& faults) {
     const bool fits = std::abs(patch.y_m) + patch.half_width_m + 0.2 <= 0.5 * s.house.width_m &&
                       bottom_m >= kLeastWallAround_m &&
                       bottom_m + 2.0 * patch.half_height_m + 0.05 <= s.house.eaves_m;
-    if (s.decoys[i].isOpen() && !fits)
-      faults.push_back("decoys[" + std::to_string(i) + "]: is open and reaches beyond the wall");
+    if (s.decoys[i].showsRoom() && !fits)
+      faults.push_back("decoys[" + std::to_string(i) + "]: shows the room and reaches beyond the wall");
   }
 }
 

@@ -18,7 +18,7 @@ bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
 
 Scene buildScene(const Scenario& scenario) {
   const HouseParams& house = scenario.house;
-  Scene scene{Mesh(daylight(scenario)), {}, 0.0, 0.0, std::nullopt, false, 0, fogOf(scenario)};
+  Scene scene{Mesh(daylight(scenario)), {}, 0.0, 0.0, std::nullopt, false, 0, fogOf(scenario), {}};
   scene.opening_depth_m = scenario.window.wallFront() + house.wall_thickness_m;
   scene.ground_z_m = -scenario.windowCentreHeight();
   if (scenario.window.present) scene.opening = scenario.opening();
@@ -39,6 +39,7 @@ Scenario asPhotographed(const Scenario& scenario) {
   Scenario expected = scenario;
   expected.window.present = true;
   expected.window.closed_by = "none";
+  expected.window.dirt = 0.0;
   expected.house.fog_m = 0.0;
   auto& posters = expected.posters;
   posters.erase(std::remove_if(posters.begin(), posters.end(),

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "scene_parts.hpp"
+#include "window_ingress/simulation/random_stream.hpp"
 
 namespace window_ingress::simulation {
 namespace {
@@ -19,7 +21,8 @@ struct Closure {
 
 const Closure& closureOf(const std::string& closed_by) {
   static const std::map<std::string, Closure> closures{
-      {"glass", {Texture::kGlass, {255, 255, 255}, kPaneDepth_m, true}},
+      {"glass", {Texture::kPlain, {170, 165, 155}, kPaneDepth_m, true}},  // of the dirt on it
+      {"tinted_glass", {Texture::kGlass, {255, 255, 255}, kPaneDepth_m, true}},
       {"curtain", {Texture::kCurtain, {214, 206, 190}, kPaneDepth_m, true}},
       {"blinds", {Texture::kLouvres, {222, 222, 216}, kPaneDepth_m, false}},
       {"shutter", {Texture::kLouvres, {122, 104, 82}, kShutterDepth_m, false}},
@@ -45,11 +48,30 @@ void addBars(const Fitting& fitting, double pane_m, Mesh& mesh) {
     mesh.addBox(box(pane_m - 0.03, pane_m, {right_m, left_m, z_m - half_m, z_m + half_m}), fitting.frame);
 }
 
+// Nothing is to be seen of a clear pane but the dirt on it and what it mirrors.
+void addClearPane(const Fitting& fitting, double pane_m, const Surface& dirt, Scene& scene) {
+  constexpr double kBefore_m = 0.001, kLeast_m = 0.004, kMost_m = 0.03;
+  const Rectangle& face = fitting.opening;
+  const double width_m = face.left_m - face.right_m, height_m = face.top_m - face.bottom_m;
+  scene.panes.push_back(
+      {pane_m, {Eigen::Vector2d(face.right_m, face.bottom_m), Eigen::Vector2d(face.left_m, face.top_m)}});
+  RandomStream random(scene.texture_seed, "dirt");
+  for (double left_m2 = fitting.dirt * width_m * height_m; left_m2 > 0.0;) {
+    const double size_m = kLeast_m * std::pow(kMost_m / kLeast_m, random.uniform(0.0, 1.0));
+    const double y_m = face.left_m - random.uniform(0.0, width_m - size_m);
+    const double z_m = face.bottom_m + random.uniform(0.0, height_m - size_m);
+    scene.mesh.addQuad({pane_m - kBefore_m, y_m, z_m}, {0, -size_m, 0}, {0, 0, size_m}, dirt);
+    left_m2 -= size_m * size_m;
+  }
+}
+
 void addClosure(const Fitting& fitting, double pane_m, Scene& scene) {
   const Closure& closure = closureOf(fitting.closed_by);
   const Rectangle& opening = fitting.opening;
   const Surface surface = painted(closure.colour, closure.texture);
-  if (closure.stretched)
+  if (fitting.closed_by == "glass")
+    addClearPane(fitting, pane_m, surface, scene);
+  else if (closure.stretched)
     addPane(scene.mesh, pane_m, opening, surface);
   else
     addWallFace(scene.mesh, pane_m, true, opening, {}, surface, opening.top_m);
@@ -117,10 +139,11 @@ void addFitting(const Scenario& scenario, const Fitting& fitting, Scene& scene) 
     addSolidWall(scene.obstacles, fitting.frame_name, outer, {fitting.opening}, front_m, wall_m);
     addFrameShadow(scenario, outer, front_m, scene.mesh);
   }
-  const double end_m = closed ? paneFront(scenario, fitting.closed_by) : scene.opening_depth_m;
+  const double pane_m = closed ? paneFront(scenario, fitting.closed_by) : scene.opening_depth_m;
+  const double end_m = fitting.closed_by == "glass" ? scene.opening_depth_m : pane_m;
   scene.mesh.setLighting(revealLight(scenario, fitting.opening, front_m));
   addReveal(scene.mesh, fitting.opening, front_m, end_m, fitting.reveal);
-  if (closed) addClosure(fitting, end_m, scene);
+  if (closed) addClosure(fitting, pane_m, scene);
   scene.mesh.setLighting(light);
   addSurround(scenario, fitting, outer, scene);
 }

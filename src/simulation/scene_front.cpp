@@ -30,8 +30,8 @@ void addFront(const Scenario& scenario, Scene& scene) {
   const Surface surface = painted(scenario.house.wall, wallTexture(scenario.house.wall_texture));
   addWallFace(scene.mesh, front_m, true, wall, wallHoles(scenario), surface, eavesShadow(scenario, front_m));
   addPlinth(scenario, wall, scene);
-  std::vector<Rectangle> holes = openHoles(scenario);
-  if (scenario.window.present && !scenario.window.isOpen()) holes.push_back(targetOpening(scenario));
+  std::vector<Rectangle> holes = clearHoles(scenario);
+  if (scenario.window.present && !scenario.window.showsRoom()) holes.push_back(targetOpening(scenario));
   addSolidWall(scene.obstacles, "wall", wall, holes, front_m, scene.opening_depth_m);
 }
 
@@ -43,7 +43,7 @@ void addTarget(const Scenario& scenario, Scene& scene) {
   addFitting(scenario,
              {targetOpening(scenario), window.frame_width_m, 0.0, painted(window.frame),
               painted(window.reveal, inner), window.surround, window.closed_by, window.bars, "frame",
-              window.closed_by},
+              window.closed_by, window.dirt},
              scene);
 }
 
@@ -52,7 +52,7 @@ void addDecoy(const Scenario& scenario, const DecoyParams& decoy, Scene& scene) 
   const Surface paint = painted(decoy.frame);
   addFitting(scenario,
              {openingOf(decoy), decoy.frame_width_m, front_m, paint, paint, decoy.surround, decoy.closed_by,
-              decoy.bars, "frame of another window", "closed window"},
+              decoy.bars, "frame of another window", "closed window", 0.0},
              scene);
 }
 

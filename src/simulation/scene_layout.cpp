@@ -27,11 +27,11 @@ Rectangle openingOf(const Scenario& scenario, const DoorParams& door) {
   return {door.y_m - 0.5 * door.width_m, door.y_m + 0.5 * door.width_m, ground_m, ground_m + door.height_m};
 }
 
-std::vector<Rectangle> openHoles(const Scenario& scenario) {
+std::vector<Rectangle> clearHoles(const Scenario& scenario) {
   std::vector<Rectangle> holes;
-  if (scenario.window.isOpen()) holes.push_back(targetOpening(scenario));
+  if (scenario.window.showsRoom()) holes.push_back(targetOpening(scenario));
   for (const auto& decoy : scenario.decoys)
-    if (decoy.isOpen()) holes.push_back(openingOf(decoy));
+    if (decoy.showsRoom()) holes.push_back(openingOf(decoy));
   return holes;
 }
 
@@ -50,7 +50,7 @@ Rectangle roomWalls(const Scenario& scenario) {
       std::max(std::min(kRoomHalfWidth_m, wall.left_m - kSideWall_m), 0.5 * scenario.window.width_m);
   const double least_top_m = 0.5 * scenario.window.height_m + 0.05;
   Rectangle room{-half_m, half_m, wall.bottom_m, std::max(wall.bottom_m + kRoomHeight_m, least_top_m)};
-  for (const auto& hole : openHoles(scenario)) {
+  for (const auto& hole : clearHoles(scenario)) {
     room.right_m = std::min(room.right_m, hole.right_m - kSideWall_m);
     room.left_m = std::max(room.left_m, hole.left_m + kSideWall_m);
     room.top_m = std::max(room.top_m, hole.top_m + 0.05);

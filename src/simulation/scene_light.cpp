@@ -34,7 +34,7 @@ std::vector<HalfSpace> houseShadow(const Scenario& scenario, const Vector3d& sun
 std::vector<HalfSpace> sunInRoom(const Scenario& scenario, const Vector3d& sun) {
   std::vector<HalfSpace> region;
   const double front_m = scenario.window.wallFront() + scenario.house.wall_thickness_m;
-  if (sun.x() < -kGrazing && scenario.window.isOpen()) {
+  if (sun.x() < -kGrazing && scenario.window.showsRoom()) {
     region = revealLight(scenario, targetOpening(scenario), 0.0).region;
     addBeam(region, front_m, targetOpening(scenario), sun);
   } else if (sun.x() > kGrazing && scenario.house.back_window) {
@@ -89,7 +89,7 @@ Lighting roomLight(const Scenario& scenario) {
   light.sun_colour = factors(scenario.house.light);
   light.region = sunInRoom(scenario, light.towards_sun);
   if (light.region.empty()) return light.inShadow();
-  if (light.towards_sun.x() > 0.0) light.sun *= kPaneTransmission;
+  if (light.towards_sun.x() > 0.0 || !scenario.window.isOpen()) light.sun *= kPaneTransmission;
   return light;
 }
 

@@ -30,6 +30,7 @@ struct Fitting {
   Surface frame, reveal;
   std::string surround, closed_by, bars;
   std::string frame_name, closed_name;  // what a contact with it is called
+  double dirt;                          // of its glass
 };
 
 Surface painted(const ColourParams& colour, Texture texture = Texture::kPlain);
@@ -75,8 +76,8 @@ Rectangle backWindow(const Scenario& scenario);
 Rectangle targetOpening(const Scenario& scenario);
 Rectangle openingOf(const DecoyParams& decoy);
 Rectangle openingOf(const Scenario& scenario, const DoorParams& door);
-/// Ways into the room: the target and other windows, if open.
-std::vector<Rectangle> openHoles(const Scenario& scenario);
+/// Through which the room is seen: the target and other windows, if open or of clear glass.
+std::vector<Rectangle> clearHoles(const Scenario& scenario);
 /// Recesses and holes in the front wall.
 std::vector<Rectangle> wallHoles(const Scenario& scenario);
 

@@ -45,7 +45,7 @@ void addRoomShell(const Scenario& scenario, Scene& scene) {
   const Surface paper = painted(scenario.house.room, wallTexture(scenario.house.room_texture));
   addBacking(scene.mesh, shell, paper);
   shell.walls.bottom_m += 0.005;  // above the lawn
-  addShell(scene.mesh, shell, openHoles(scenario), paper, painted({225, 225, 220}),
+  addShell(scene.mesh, shell, clearHoles(scenario), paper, painted({225, 225, 220}),
            painted({190, 150, 110}, Texture::kWood));
 }
 
@@ -90,9 +90,9 @@ void addGables(const Scenario& scenario, Scene& scene) {
 void addRoom(const Scenario& scenario, Scene& scene) {
   addGables(scenario, scene);
   addRoomSolids(scenario, scene);
-  const auto ways_in = openHoles(scenario);
-  if (ways_in.empty()) return;
-  scene.other_ways_in = ways_in.size() > 1 || !scenario.window.isOpen();
+  const auto clear = clearHoles(scenario);
+  if (clear.empty()) return;
+  scene.other_clear_holes = clear.size() > 1 || !scenario.window.showsRoom();
   const Lighting outdoors = scene.mesh.lighting();
   scene.mesh.setLighting(roomLight(scenario));
   scene.mesh.setIndoors(true);

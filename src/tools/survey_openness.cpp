@@ -91,7 +91,7 @@ simulation::Scenario anyWindow(std::uint32_t seed, bool is_open) {
   scenario.camera.noise_grey = random.uniform(0.5, 4.0);
   scenario.camera.horizontal_fov_rad = random.uniform(1.0, 1.4);
   if (is_open) return scenario;
-  window.closed_by = oneOf(random, {"glass", "curtain", "blinds", "shutter", "board", "poster"});
+  window.closed_by = oneOf(random, {"tinted_glass", "curtain", "blinds", "shutter", "board", "poster"});
   window.bars = oneOf(random, {"none", "none", "vertical", "cross"});
   if (window.closed_by != "poster") return scenario;
   window.closed_by = "none", window.present = false, window.frame_width_m = 0.0;

@@ -59,9 +59,13 @@ class IngressNavigatorTest(unittest.TestCase):
         self.streams["window_pose"] = support.Stream("window_pose", WindowPose, no_window, 30.0)
 
     def start(self):
+        def started():
+            reply = self.call("start")
+            return reply if reply.success else None
         self.feed()
-        support.wait_for(lambda: self.call("start").success, "a mission that starts")
+        reply = support.wait_for(started, "a mission that starts")
         self.wait_for_state("SEARCH")
+        return reply
 
     def test_start_without_data_lists_what_is_missing(self):
         def refused():  # what the test before has sent may still be fresh
@@ -72,6 +76,9 @@ class IngressNavigatorTest(unittest.TestCase):
             self.call("reset")
             return None
         self.assertIn("odom", support.wait_for(refused, "a start without data that is refused").message)
+
+    def test_start_says_what_will_be_asked(self):
+        self.assertIn("will ask for ~confirm_opening at the line: glass is not excluded", self.start().message)
 
     def test_start_twice_is_answered_twice(self):
         self.start()

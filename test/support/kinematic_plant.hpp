@@ -12,6 +12,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "without_glass.hpp"
 
 namespace window_ingress::test {
 

@@ -5,6 +5,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/input_monitor.hpp"
+#include "without_glass.hpp"
 
 namespace window_ingress::test {
 

@@ -76,7 +76,8 @@ def test_a_log_is_read_as_it_was_flown(log):
 
 def test_a_log_as_fly_writes_it_is_drawn_with_its_states(tmp_path):
     scenario = tmp_path / "near.yaml"
-    scenario.write_text("time_limit_sec: 20\nunverified_opening: allow\nstart: {distance_m: 2.5, off_axis_rad: 0.1}\n")
+    scenario.write_text("time_limit_sec: 20\nglass: excluded\nunverified_opening: allow\n"
+                        "start: {distance_m: 2.5, off_axis_rad: 0.1}\n")
     flown = run("fly", "--scenario", scenario, "--output", tmp_path / "fly", "--log", tmp_path / "log")
     assert flown.returncode == 0, flown.stderr
     done = run("plot_flight", tmp_path / "log/flight_1.csv")

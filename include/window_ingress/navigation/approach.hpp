@@ -19,8 +19,8 @@ class Approach {
  private:
   double forwardSpeed(const Contract& contract, const RelativeState& relative) const;
   /// Beside the axis, to see whether the opening is open.
-  double asideM(const Contract& contract, double now_sec) const;
-  double patienceSec() const;
+  double asideM(const Contract& contract, const Situation& situation) const;
+  double patienceSec(const TargetEstimate& target) const;
   std::optional<Event> judge(const Contract& contract, const RelativeState& relative,
                              const Situation& situation, std::string& reason);
 

@@ -135,12 +135,13 @@ struct CommitParams {
   double max_lateral_speed_mps = 0.3;  ///< across the window's normal at the commit line [m/s]
   double max_blind_sec = 6.0;          ///< in front of the plane without seeing the window: turn back [s]
   double max_update_jump_m = 0.15;     ///< updates on the way that differ more are ignored [m]
-  /// what becomes of an opening that was not seen to be open: allow it, ask the operator (~confirm_opening),
-  /// or deny it; one that was seen to be closed is never flown at
-  std::string unverified_opening = "ask";
-  double ask_sec = 30.0;       ///< at the commit line, for the operator's answer [s]
-  double look_sec = 8.0;       ///< at the commit line, for what is to be seen of the opening [s]
-  double look_aside_m = 0.25;  ///< meanwhile, so far to either side; within the clearance [m]
+  std::string glass = "possible";      ///< excluded: somebody has made sure that there is none in the window;
+                                       ///< possible: ~confirm_opening is asked for before each COMMIT
+  std::string unverified_opening = "ask";  ///< flying into what is not seen to be open; what is seen to be
+                                           ///< closed is never flown at
+  double ask_sec = 30.0;                   ///< at the commit line, for the operator's answer [s]
+  double look_sec = 8.0;                   ///< at the commit line, for what is to be seen of the opening [s]
+  double look_aside_m = 0.25;              ///< meanwhile, so far to either side; within the clearance [m]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -153,6 +154,7 @@ struct CommitParams {
     field("max_lateral_speed_mps", self.max_lateral_speed_mps, 0.01, 2.0);
     field("max_blind_sec", self.max_blind_sec, 0.5, 30.0);
     field("max_update_jump_m", self.max_update_jump_m, 0.0, 1.0);
+    field.choice("glass", self.glass, {"excluded", "possible"});
     field.choice("unverified_opening", self.unverified_opening, {"allow", "ask", "deny"});
     field("ask_sec", self.ask_sec, 0.1, 600.0);
     field("look_sec", self.look_sec, 0.1, 60.0);

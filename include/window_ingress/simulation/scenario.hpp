@@ -49,6 +49,7 @@ struct StartParams {
 /// One world. A plain `Scenario` is a calm day: 5 m straight in front of the window, facing it.
 struct Scenario {
   double time_limit_sec = 60.0;  ///< of the flight [s]
+  std::string glass = "as_set";  ///< `commit/glass` of the navigator in `fly`; as_set: as its parameters say
   std::string unverified_opening =
       "as_set";  ///< `commit/unverified_opening` of the navigator in `fly`; as_set: as its parameters say
   bool target_chosen = false;  ///< in `fly` somebody points at the target, once seen, and then starts
@@ -68,6 +69,7 @@ struct Scenario {
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("time_limit_sec", self.time_limit_sec, 1.0, 3600.0);
+    field.choice("glass", self.glass, {"as_set", "excluded", "possible"});
     field.choice("unverified_opening", self.unverified_opening, {"as_set", "allow", "ask", "deny"});
     field("target_chosen", self.target_chosen);
     field.group("start", self.start);

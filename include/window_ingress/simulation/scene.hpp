@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "window_ingress/simulation/glass.hpp"
 #include "window_ingress/simulation/mesh.hpp"
 #include "window_ingress/simulation/obstacle.hpp"
 #include "window_ingress/simulation/scenario.hpp"
@@ -28,9 +29,10 @@ struct Scene {
   double opening_depth_m = 0.0;  ///< where the opening ends in the room
   double ground_z_m = 0.0;
   std::optional<geometry::OpeningSize> opening;  ///< nothing without a target; may be closed all the same
-  bool other_ways_in = false;  ///< the room is seen through other windows too
+  bool other_clear_holes = false;                ///< the room is seen through other windows too
   std::uint32_t texture_seed = 0;
   std::optional<Fog> fog;
+  std::vector<Pane> panes;  ///< all in one plane
 };
 
 Scene buildScene(const Scenario& scenario);

@@ -23,7 +23,8 @@ struct WindowParams {
   std::string surround =
       "none";  ///< what is around the frame: a board below, folded shutters at both sides, a beam above
   std::string closed_by =
-      "none";  ///< none: open; else what closes it: solid, but `T_odom_window` tells its pose as ever
+      "none";         ///< none: open; else what closes it: solid, but `T_odom_window` tells its pose as ever
+  double dirt = 0.0;  ///< part of its glass that specks of dirt cover; 0: clean
   std::string bars = "none";  ///< in front of what closes it
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -36,26 +37,30 @@ struct WindowParams {
     field.group("frame", self.frame);
     field.group("reveal", self.reveal);
     field.choice("surround", self.surround, {"none", "sill", "shutters", "lintel"});
-    field.choice("closed_by", self.closed_by, {"none", "glass", "curtain", "blinds", "shutter", "board"});
+    field.choice("closed_by", self.closed_by,
+                 {"none", "glass", "tinted_glass", "curtain", "blinds", "shutter", "board"});
+    field("dirt", self.dirt, 0.0, 0.3);
     field.choice("bars", self.bars, {"none", "vertical", "cross"});
   }
   static constexpr double kLeastFrameDepth_m = 0.002;
   /// How far the wall's face lies behind the plane x = 0 of the window frame [m].
   double wallFront() const { return frame_width_m > 0.0 ? std::max(frame_depth_m, kLeastFrameDepth_m) : 0.0; }
   bool isOpen() const { return present && closed_by == "none"; }
+  /// The room is seen through it: it is open, or of clear glass.
+  bool showsRoom() const { return isOpen() || (present && closed_by == "glass"); }
 };
 
 /// A window that is no target.
 struct DecoyParams {
-  double y_m = 2.6;                   ///< centre, to the left of the target's centre [m]
-  double z_m = 0.0;                   ///< centre, above the target's centre [m]
-  double width_m = 1.0;               ///< inside its frame [m]
-  double height_m = 1.0;              ///< inside its frame [m]
-  double frame_width_m = 0.06;        ///< visible width of its frame; 0: none [m]
-  ColourParams frame{240, 240, 235};  ///< of its frame
-  std::string surround = "none";      ///< as of the target
-  std::string closed_by = "glass";    ///< none: an open way into the same room, and the wrong one
-  std::string bars = "vertical";      ///< in front of what closes it
+  double y_m = 2.6;                        ///< centre, to the left of the target's centre [m]
+  double z_m = 0.0;                        ///< centre, above the target's centre [m]
+  double width_m = 1.0;                    ///< inside its frame [m]
+  double height_m = 1.0;                   ///< inside its frame [m]
+  double frame_width_m = 0.06;             ///< visible width of its frame; 0: none [m]
+  ColourParams frame{240, 240, 235};       ///< of its frame
+  std::string surround = "none";           ///< as of the target
+  std::string closed_by = "tinted_glass";  ///< none: an open way into the same room, and the wrong one
+  std::string bars = "vertical";           ///< in front of what closes it
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);
@@ -65,10 +70,12 @@ struct DecoyParams {
     field("frame_width_m", self.frame_width_m, 0.0, 0.3);
     field.group("frame", self.frame);
     field.choice("surround", self.surround, {"none", "sill", "shutters", "lintel"});
-    field.choice("closed_by", self.closed_by, {"none", "glass", "curtain", "blinds", "shutter", "board"});
+    field.choice("closed_by", self.closed_by,
+                 {"none", "glass", "tinted_glass", "curtain", "blinds", "shutter", "board"});
     field.choice("bars", self.bars, {"none", "vertical", "cross"});
   }
   bool isOpen() const { return closed_by == "none"; }
+  bool showsRoom() const { return isOpen() || closed_by == "glass"; }
 };
 
 /// A closed door in the front wall.

@@ -53,7 +53,7 @@ TEST(Fault, M61_QuaternionsThatAreNone) {
 
 // The window's axis points along -x of odom, so that the heading to it lies where the angle wraps.
 TEST(Fault, M61_NoSpinWhereTheAngleWraps) {
-  navigation::Navigator navigator{navigation::NavigatorParams()};
+  navigation::Navigator navigator{test::withoutGlass()};
   double fastest = 0.0, now = 10.0, yaw = M_PI;
   Eigen::Vector3d position(4.0, 0.0, 1.5);
   for (int i = 0; i < 300; ++i, now += 0.033) {

@@ -20,6 +20,7 @@ simulation::Scenario shortFlight() {
   scenario.start.distance_m = 2.5;
   scenario.start.off_axis_rad = 0.2;
   scenario.time_limit_sec = 20.0;
+  scenario.glass = "excluded";
   scenario.unverified_opening = "allow";
   return scenario;
 }
@@ -53,6 +54,20 @@ TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
   const auto flight = flyOnce(scenario, 1, params);
   EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
   EXPECT_FALSE(flight.offset_y_m);
+}
+
+TEST(ClosedLoopFlight, UnderTheDefaultsNobodyEntersACleanPaneThatLooksOpen) {
+  auto scenario = shortFlight();
+  scenario.glass = scenario.unverified_opening = "as_set";
+  scenario.window.closed_by = "glass";
+  scenario.house.furniture = "full";
+  const auto flight = flyOnce(scenario, 1, FlightParams());
+  EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
+  EXPECT_NE(flight.reason.find("~confirm_opening"), std::string::npos) << flight.reason;
+  scenario.glass = "excluded";  // the operator errs: it is OPEN that leads in
+  const auto wrong = flyOnce(scenario, 1, FlightParams());
+  EXPECT_EQ(wrong.outcome, Outcome::kCollision) << wrong.reason;
+  EXPECT_NE(wrong.reason.find("touched glass"), std::string::npos) << wrong.reason;
 }
 
 TEST(ClosedLoopFlight, FindsOutByHowMuchTheClocksOfCameraAndOdometryDiffer) {

@@ -33,7 +33,7 @@ TEST(OpennessSurvey, ADrawnRoomIsOpenInTime) {
 }
 
 TEST(OpennessSurvey, WhatClosesADrawnWindowIsNeverCalledOpen) {
-  for (const std::string closed_by : {"curtain", "shutter", "glass"}) {
+  for (const std::string closed_by : {"curtain", "shutter", "tinted_glass"}) {
     const OpennessResult closed = approach(closed_by, 4);
     EXPECT_EQ(closed.kind, closed_by);
     EXPECT_FALSE(closed.is_open);

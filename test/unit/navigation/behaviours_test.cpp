@@ -15,7 +15,7 @@
 namespace window_ingress::navigation {
 namespace {
 
-const NavigatorParams kDefaults;
+const NavigatorParams kDefaults = test::withoutGlass();
 
 Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool with_target,
                       double yaw_rad = 0.0) {
@@ -30,7 +30,7 @@ Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool wi
 
 TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
   MissionMemory memory;
-  const NavigatorParams params;
+  const NavigatorParams params = test::withoutGlass();
   Search search(params);
   search.enter(true);
   double yaw = 0.0, height = 1.5, turned = 0.0;
@@ -50,7 +50,7 @@ TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
 
 TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
   MissionMemory memory;
-  NavigatorParams params;
+  NavigatorParams params = test::withoutGlass();
   params.search.height_m = 3.0;
   Search search(params);
   search.enter(false);
@@ -83,7 +83,7 @@ TEST(SearchBehaviour, OneImageIsNoWindow) {
 }
 
 TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
-  const NavigatorParams params;
+  const NavigatorParams params = test::withoutGlass();
   HeightProbe probe(params);
   double height = 1.5, highest = height, lowest = height;
   int steps = 0;
@@ -185,7 +185,7 @@ TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
 }
 
 TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
-  NavigatorParams params;
+  NavigatorParams params = test::withoutGlass();
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d wish(0.3, 0.5, 0);
   EXPECT_EQ(StepPacer(params).pace(wish, axes, situationAt({0, 0, 0}, 0.0, false)), wish);
@@ -207,7 +207,7 @@ TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
 }
 
 TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
-  NavigatorParams params;
+  NavigatorParams params = test::withoutGlass();
   const auto rateWith = [&](double image_period_sec) {
     Search search(params);
     search.enter(false);

@@ -120,7 +120,7 @@ void expectWithinLimits(const Setpoint& setpoint, const LimitParams& limits) {
 }
 
 TEST(NavigatorInvariants, HoldForHostileInput) {
-  const NavigatorParams params;
+  const NavigatorParams params = test::withoutGlass();
   int flown = 0, forward = 0, committed = 0, kept = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     HostileWorld world(seed);
@@ -183,7 +183,7 @@ TEST(NavigatorInvariants, HoldForHostileInput) {
 }
 
 TEST(NavigatorInvariants, StaleOrBrokenOdometryStopsInTheSameStepInEveryState) {
-  const NavigatorParams params;
+  const NavigatorParams params = test::withoutGlass();
   for (int moment = 1; moment < 110; moment += 3) {
     for (int kind = 0; kind < 4; ++kind) {
       Navigator navigator(params);

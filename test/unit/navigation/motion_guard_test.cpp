@@ -15,7 +15,7 @@ const Eigen::Vector3d kNothing = Eigen::Vector3d::Zero();
 /// 3 m in front of the window, on its axis.
 class MotionGuard : public testing::Test {
  protected:
-  NavigatorParams params_;
+  NavigatorParams params_ = test::withoutGlass();
   MissionMemory memory_;
   Situation situation_;
 

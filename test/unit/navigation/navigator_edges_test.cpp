@@ -17,7 +17,7 @@ constexpr State kLive[] = {State::kSearch, State::kAlign,   State::kApproach,
 
 /// A mission that has been led into a state.
 struct Mission {
-  explicit Mission(const NavigatorParams& params = {}) : navigator(params) {}
+  explicit Mission(const NavigatorParams& params = test::withoutGlass()) : navigator(params) {}
 
   Navigator navigator;
   double now = 10.0;
@@ -114,7 +114,7 @@ TEST(NavigatorEdges, AfterZerosOfTheCallerTheVelocityGrowsAnew) {
 
 TEST(NavigatorEdges, EveryLiveStateGivesUpWhenTheMissionTakesTooLong) {
   for (const State state : kLive) {
-    NavigatorParams params;
+    NavigatorParams params = test::withoutGlass();
     params.timeouts.total_sec = 30.0;
     Mission mission(params);
     mission.leadInto(state);
@@ -129,7 +129,7 @@ TEST(NavigatorEdges, EveryLiveStateGivesUpWhenTheMissionTakesTooLong) {
 
 TEST(NavigatorEdges, CommitAndBackOffTimeOutByName) {
   for (const State state : {State::kCommit, State::kBackOff}) {
-    NavigatorParams params;
+    NavigatorParams params = test::withoutGlass();
     params.timeouts.commit_sec = params.timeouts.back_off_sec = 1.0;
     Mission mission(params);
     mission.leadInto(state);

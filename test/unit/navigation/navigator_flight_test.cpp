@@ -13,7 +13,7 @@ using test::FlownMission;
 using test::KinematicPlant;
 using test::PlantParams;
 
-FlownMission flown(const PlantParams& plant_params, const NavigatorParams& params = {}) {
+FlownMission flown(const PlantParams& plant_params, const NavigatorParams& params = test::withoutGlass()) {
   KinematicPlant plant(plant_params);
   Navigator navigator(params);
   return test::fly(plant, navigator);
@@ -86,7 +86,7 @@ TEST(NavigatorFlight, ResolvesAnAmbiguousWindowByHeightAlone) {
   params.off_axis_rad = 0.3;
   params.height_error_m = 0.0;
   KinematicPlant plant(params);
-  Navigator navigator{NavigatorParams()};
+  Navigator navigator{test::withoutGlass()};
   const double start_y = plant.offset().y(), start_x = plant.offset().x();
   bool was_trusted = false;
   const auto mission = test::fly(plant, navigator, 120.0, [&](double, const NavigatorOutput&) {
@@ -104,7 +104,7 @@ TEST(NavigatorFlight, GivesUpOnASignThatStaysAmbiguous) {
   PlantParams params;
   params.is_ambiguous = true;
   params.height_error_m = 0.0;
-  NavigatorParams navigator;
+  NavigatorParams navigator = test::withoutGlass();
   navigator.align.probe_amplitude_m = 0.3;  // the plant's sign needs 0.4 m
   const auto mission = flown(params, navigator);
   EXPECT_EQ(mission.last.state, State::kAborted);
@@ -118,7 +118,7 @@ TEST(NavigatorFlight, LosingTheWindowNeverTouchesTheWall) {
       PlantParams params;
       params.off_axis_rad = 0.4;
       KinematicPlant plant(params);
-      Navigator navigator{NavigatorParams()};
+      Navigator navigator{test::withoutGlass()};
       const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
         plant.hides_window = t > from_sec && t < from_sec + lost_sec;
       });
@@ -134,7 +134,7 @@ TEST(NavigatorFlight, LosingOdometryNeverTouchesTheWall) {
       PlantParams params;
       params.off_axis_rad = -0.4;
       KinematicPlant plant(params);
-      Navigator navigator{NavigatorParams()};
+      Navigator navigator{test::withoutGlass()};
       const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
         plant.hides_odometry = t > from_sec && t < from_sec + lost_sec;
       });
@@ -150,7 +150,7 @@ TEST(NavigatorFlight, LosingOdometryNeverTouchesTheWall) {
 TEST(NavigatorFlight, AWindowLostForGoodEndsInAnAbortAwayFromTheWall) {
   PlantParams params;
   KinematicPlant plant(params);
-  Navigator navigator{NavigatorParams()};
+  Navigator navigator{test::withoutGlass()};
   const auto mission = test::fly(plant, navigator, 200.0, [&](double, const NavigatorOutput& output) {
     if (output.state == State::kApproach && output.report.distance_m < 1.8) plant.hides_window = true;
   });
@@ -163,7 +163,7 @@ TEST(NavigatorFlight, AWindowLostForGoodEndsInAnAbortAwayFromTheWall) {
 TEST(NavigatorFlight, AJumpOfTheOdometryDoesNotDisturbIt) {
   for (const double at_sec : {1.0, 2.0, 3.0, 4.0, 5.0, 5.5, 6.0}) {
     KinematicPlant plant{PlantParams()};
-    Navigator navigator{NavigatorParams()};
+    Navigator navigator{test::withoutGlass()};
     bool jumped = false;
     const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
       if (!jumped && t > at_sec) plant.shiftOdometry({4.0, 1.0, 0.0});
@@ -181,7 +181,7 @@ TEST(NavigatorFlight, ASlideOfTheOdometryDoesNotDisturbIt) {
       PlantParams params;
       params.opening = {0.8, 0.8};
       KinematicPlant plant(params);
-      Navigator navigator{NavigatorParams()};
+      Navigator navigator{test::withoutGlass()};
       const Eigen::Vector3d slide = plant.window().linear() * Eigen::Vector3d(0.0, side * 0.5, 0.0);
       const auto mission = test::fly(plant, navigator, 120.0, [&](double t, const NavigatorOutput&) {
         if (t > at_sec && t < at_sec + 2.0) plant.shiftOdometry(slide * KinematicPlant::kStepSec);
@@ -195,7 +195,7 @@ TEST(NavigatorFlight, ASlideOfTheOdometryDoesNotDisturbIt) {
 TEST(NavigatorFlight, TurnsBackWhenPushedAsideBeforeThePlane) {
   PlantParams params;
   KinematicPlant plant(params);
-  Navigator navigator{NavigatorParams()};
+  Navigator navigator{test::withoutGlass()};
   int pushes = 0;
   const auto mission = test::fly(plant, navigator, 120.0, [&](double, const NavigatorOutput& output) {
     if (pushes == 3 || output.state != State::kCommit) return;
@@ -219,7 +219,7 @@ TEST(NavigatorFlight, GivesUpWhereThereIsNoWindow) {
   PlantParams params;
   KinematicPlant plant(params);
   plant.hides_window = true;
-  Navigator navigator{NavigatorParams()};
+  Navigator navigator{test::withoutGlass()};
   const auto mission = test::fly(plant, navigator, 200.0);
   EXPECT_EQ(mission.last.state, State::kAborted);
   EXPECT_EQ(mission.last.reason, "window not found in 3 turns");
@@ -229,7 +229,7 @@ TEST(NavigatorFlight, GivesUpWhereThereIsNoWindow) {
 TEST(NavigatorFlight, PaperStepsPassTooButTakeLonger) {
   PlantParams plant;
   plant.off_axis_rad = 0.5;
-  NavigatorParams stepped;
+  NavigatorParams stepped = test::withoutGlass();
   stepped.scheme = "stepped";
   const auto fast = flown(plant), slow = flown(plant, stepped);
   expectPassed(slow);

@@ -21,7 +21,7 @@ constexpr double kStep = 1.0 / 30.0;
 /// Steps a navigator over inputs that stand still.
 class NavigatorSteps : public testing::Test {
  protected:
-  NavigatorParams params_;
+  NavigatorParams params_ = test::withoutGlass();
   double now_ = 10.0;
 
   NavigatorOutput steps(Navigator& navigator, const Eigen::Vector3d& at, int count, bool with_target = true,

@@ -62,7 +62,7 @@ TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
 }
 
 TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
-  const NavigatorParams params;
+  const NavigatorParams params = test::withoutGlass();
   MissionMemory memory;
   EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params), Eigen::Vector3d(0, 0, 0));
   memory.place_odom_m = Eigen::Vector3d(0, 0, 1);
@@ -75,7 +75,7 @@ TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
 }
 
 TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
-  NavigatorParams params;
+  NavigatorParams params = test::withoutGlass();
   params.hold.speed_mps = 0.0;
   MissionMemory memory;
   memory.place_odom_m = Eigen::Vector3d(0, 0, 1);

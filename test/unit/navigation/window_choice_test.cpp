@@ -17,7 +17,7 @@ NavigatorInput inputFor(std::uint32_t window_id, double now_sec, double aside_m 
 
 /// A navigator that flies at window 1.
 struct Flying {
-  Navigator navigator{NavigatorParams()};
+  Navigator navigator{test::withoutGlass()};
   double now_sec = 1.0;
   NavigatorOutput step(const NavigatorInput& input) { return navigator.step(input, now_sec); }
   Flying() {
@@ -68,7 +68,7 @@ TEST(WindowChoice, CommitFliesOn) {
 
 TEST(WindowChoice, AWindowTriedInVainIsLeftForTheNextOneOnlyIfThatIsAllowed) {
   for (const bool allowed : {false, true}) {
-    NavigatorParams params;
+    NavigatorParams params = test::withoutGlass();
     params.search.next_window = allowed;
     MissionMemory memory;
     memory.trusted = test::targetAtOrigin(1.0);
@@ -85,7 +85,7 @@ TEST(WindowChoice, AWindowTriedInVainIsLeftForTheNextOneOnlyIfThatIsAllowed) {
 }
 
 TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
-  NavigatorParams params;
+  NavigatorParams params = test::withoutGlass();
   params.search.next_window = true;
   MissionMemory memory;
   memory.trusted = test::targetAtOrigin(1.0);

@@ -116,7 +116,7 @@ TEST(BareHole, IsSeenWhereTheOpeningIsTold) {
 }
 
 TEST(ClosedWindow, IsSolidButItsPoseIsTold) {
-  for (const char* closed_by : {"glass", "curtain", "blinds", "shutter", "board"}) {
+  for (const char* closed_by : {"glass", "tinted_glass", "curtain", "blinds", "shutter", "board"}) {
     Scenario scenario;
     scenario.window.closed_by = closed_by;
     const Scene scene = buildScene(scenario);
@@ -150,7 +150,7 @@ TEST(OpenDecoy, IsAWayThroughTheWallAndTheOthersAreNot) {
   for (double x = -1.0; x < 1.5; x += 0.1) EXPECT_EQ(touchedBy(scene, {x, 2.0, 0}, small), "") << x;
   EXPECT_EQ(touchedBy(scene, {0.1, -2.0, 0}, small), "wall");
   EXPECT_EQ(touchedBy(scene, {0.0, -3.5, -0.5}, {0.05, 0.1, 0.1}), "wall");
-  EXPECT_TRUE(scene.other_ways_in);
+  EXPECT_TRUE(scene.other_clear_holes);
 }
 
 TEST(Scene, WaysThroughTheTargetStayFreeOfSurroundAndFurniture) {
