@@ -223,10 +223,12 @@ NODES = {  # node -> its struct and file
     "ingress_navigator": ("NavigatorNodeParams", "navigator.yaml"),
     "setpoint_guard": ("GuardParams", "guard.yaml"),
     "world": ("WorldNodeParams", "world.yaml"),
+    "vehicle": ("navigation::VehicleParams", "vehicle.yaml"),
 }
+TITLES = {"vehicle": "The vehicle, said once for all nodes: below the name 'vehicle', beside the nodes' own."}
 PARAMETERS_HEAD = """# Parameters
 
-Every parameter of every node, as `rosparam` knows it below the node's name; written by `scripts/write_parameter_files.py`
+Every parameter of every node, as `rosparam` knows it below the node's name, and the vehicle's, below `vehicle`; written by `scripts/write_parameter_files.py`
 from the parameter structs of the headers, like the yaml files in `config/`. Keys that are unknown and values out of range
 are refused by name when a node starts. How to choose them: [tuning](../README.md#on-a-drone),
 [navigation](navigation.md), [pose](pose.md). The detector's own (`detector/…`) can be changed while it runs, by dynamic_reconfigure.
@@ -270,7 +272,7 @@ def main():
     files = {
         "../doc/scenarios.md": scenarios_page(structs),
         "../doc/parameters.md": parameters_page(structs),
-        **{file: yaml_file(structs, kind, f"Parameters of the node {node}.") for node, (kind, file) in NODES.items()},
+        **{file: yaml_file(structs, kind, TITLES.get(node, f"Parameters of the node {node}.")) for node, (kind, file) in NODES.items()},
         "WindowDetector.cfg": cfg_file(structs),
     }
     stale = [name for name, text in files.items()

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/navigation/vehicle_params.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::adapters {
@@ -72,6 +73,11 @@ Params readParameters(const ros::NodeHandle& pnh, const std::set<std::string>& o
   Params::visit(params, reader);
   reader.throwIfFaulty();
   return params;
+}
+
+/// What all nodes know of the vehicle: `vehicle`, beside the nodes. \throws ParameterError
+inline navigation::VehicleParams readVehicle(const ros::NodeHandle& nh) {
+  return readParameters<navigation::VehicleParams>(ros::NodeHandle(nh, "vehicle"));
 }
 
 }  // namespace window_ingress::adapters

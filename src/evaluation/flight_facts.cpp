@@ -19,9 +19,7 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   const std::string& opening_policy = world.scenario().unverified_opening;
   if (opening_policy != "as_set") params.navigator.commit.unverified_opening = opening_policy;
   if (params.without_pictures) params.navigator.commit.unverified_opening = "allow";  // nothing shows it
-  auto& fit = params.tracker.fit;
-  fit.vehicle_width_m = 2.0 * half.y();
-  fit.vehicle_height_m = 2.0 * half.z();
+  params.tracker = navigation::forVehicle(params.tracker, vehicle);
   if (params.pose.scale_sigma > 0.0 || params.pose.aspect_sigma > 0.0) return params;  // to be found out
   params.pose.opening_width_m = world.opening().width_m;
   params.pose.opening_height_m = world.opening().height_m;

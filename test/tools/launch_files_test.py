@@ -84,6 +84,19 @@ def test_the_users_file_lies_over_the_frames_and_without_flying_nothing_commands
     assert {node for node in dump("px4", "fly:=false")["nodes"]} == {"/window_detector", "/homography_pose"}
 
 
+@pytest.mark.parametrize("name, half_width, braking, response", [
+    ("ingress", 0.25, 1.2, 0.3), ("px4", 0.25, 1.2, 0.3), ("ardupilot", 0.25, 0.9, 0.45), ("sim", 0.2, 1.2, 0.3)])
+def test_the_vehicle_is_said_once_for_all_nodes(tmp_path, name, half_width, braking, response):
+    params = dump(name)["params"]
+    assert [key for key in params if "half_width_m" in key or "vehicle_width_m" in key] == ["/vehicle/half_width_m"]
+    said = [params[f"/vehicle/{key}"] for key in ("half_width_m", "braking_mps2", "response_sec")]
+    assert said == [half_width, braking, response]
+    config = tmp_path / "drone.yaml"
+    config.write_text("vehicle: {half_width_m: 0.45}\n")
+    params = dump(name, f"config:={config}")["params"]
+    assert params["/vehicle/half_width_m"] == 0.45 and params["/vehicle/braking_mps2"] == braking
+
+
 def test_the_camera_is_mounted_where_it_is_said_to_be():
     assert "/camera_mounting" not in dump("px4")["nodes"]
     launch = dump("px4", "camera_pose:=[0.1, 0, 0.02, 0, 0.3, 0]", "image:=/eye/image_raw")
