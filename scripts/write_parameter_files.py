@@ -31,7 +31,7 @@ class Struct:
 
 def read_structs():
     structs = {}
-    headers = [*ROOT.glob("include/window_ingress/*/*.hpp"), *ROOT.glob("src/adapters/*.hpp")]
+    headers = ROOT.glob("include/window_ingress/*/*.hpp")
     for header in sorted(headers):
         for name, struct in structs_of(header.read_text(), header.parent.name):
             structs[struct.space, name] = struct
@@ -136,7 +136,7 @@ def commented(line, comment):
 
 def yaml_file(structs, kind, title):
     lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by scripts/write_parameter_files.py.",
-             *yaml_lines(structs, find(structs, "adapters", kind), "")]
+             *yaml_lines(structs, find(structs, "configuration", kind), "")]
     return "\n".join(lines) + "\n"
 
 
@@ -258,7 +258,7 @@ def parameters_page(structs):
     table = "| parameter | unit | default | allowed | meaning |\n|---|---|---|---|---|\n"
     text = PARAMETERS_HEAD
     for node, (kind, file) in NODES.items():
-        rows, inner = parameter_rows(structs, find(structs, "adapters", kind), "")
+        rows, inner = parameter_rows(structs, find(structs, "configuration", kind), "")
         text += f"\n## {node}\n\n`config/{file}`\n"
         for title, about, section in [(None, "", rows), *inner]:
             if section:

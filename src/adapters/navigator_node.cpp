@@ -198,7 +198,9 @@ bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
-  return answer("abort", navigator_.abort(), response);
+  const navigation::Reply reply = navigator_.abort();
+  if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
+  return answer("abort", reply, response);
 }
 
 bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
