@@ -238,7 +238,7 @@ TEST(DetectorParams, TheShippedFileHoldsEveryFieldAtItsDefault) {
   EXPECT_EQ(listed(params.detector), listed(DetectorParams()));
   std::ifstream stream(file);
   const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  std::istringstream names(listed(params));
+  std::istringstream names(listed(params.detector));
   for (std::string name, value; names >> name >> value;)
     EXPECT_NE(text.find(" " + name.substr(name.find('/') + 1) + ":"), std::string::npos) << name;
 }
