@@ -219,8 +219,8 @@ def test_a_reference_file_is_taken_as_params(tmp_path, picture):
 OVERLAY_TOOLS = {
     "detect_images": ("--output", "OUT/found.csv", "PICTURE"), "draw_stages": ("--scenario", NOMINAL, "--output", "OUT/sheet.jpg"),
     "fly": ("--scenario", NOMINAL, "--output", "OUT"), "make_reference": ("PICTURE", "--output", "OUT/reference.png", "--corners", "1,1,9,1,9,9,1,9"),
-    "survey_detector": ("--scenario", NOMINAL, "--frames", "1", "--output", "OUT"), "survey_filter": ("--runs", "1", "--output", "OUT"),
-    "survey_openness": ("--output", "OUT"), "survey_tracker": ("--scenario", NOMINAL, "--output", "OUT"),
+    "survey_detector": ("--scenario", NOMINAL, "--frames", "1", "--output", "OUT"), "survey_filter": ("--runs", "2", "--output", "OUT"),
+    "survey_openness": ("--synthetic", "1", "--output", "OUT"), "survey_tracker": ("--scenario", NOMINAL, "--output", "OUT"),
     "tune_detector": ("PICTURE", "--headless"), "check_overlay": ()}
 
 
