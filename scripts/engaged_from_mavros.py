@@ -6,19 +6,26 @@ autopilot is a silent topic. The message is read by the definition that comes wi
 Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
 default true: an autopilot that says it is in a failsafe (MAV_STATE critical and worse: low battery, lost link) is not flown.
 """
+import contextlib
+import functools
+import queue
 import sys
+import threading
 
 import genpy.dynamic
 import rospy
 from std_msgs.msg import Bool
 
 FIELDS = ("connected", "armed", "mode")
+LINES = 100  # that wait to be written
 MAV_STATE_CRITICAL = 5  # and above it: emergency, power off, termination
 
 
 class Relay:
     def __init__(self, modes, heeds_failsafe):
         self._modes, self._heeds_failsafe, self._class, self._said = modes, heeds_failsafe, None, None
+        self._lines = queue.Queue(LINES)
+        threading.Thread(target=self._speak, daemon=True).start()
         self._publisher = rospy.Publisher("engaged", Bool, queue_size=1, latch=False)
         self._subscriber = rospy.Subscriber("autopilot_state", rospy.AnyMsg, self._receive, queue_size=1)
 
@@ -33,8 +40,18 @@ class Relay:
                f"{'' if state.connected else 'not connected, '}{'armed' if state.armed else 'disarmed'}, mode {state.mode}" \
                f"{', in a failsafe' if fails else ''}"
         if said != self._said:
-            rospy.loginfo("the autopilot %s", said)
+            self._say(rospy.loginfo, "the autopilot " + said)
             self._said = said
+
+    def _say(self, log, text):
+        """Never waits for a terminal or a disk: the lines have a thread of their own, and are lost if it stands still."""
+        with contextlib.suppress(queue.Full):
+            self._lines.put_nowait((log, text))
+
+    def _speak(self):
+        while True:
+            log, text = self._lines.get()
+            log(text)
 
     def _decode(self, message):
         header = message._connection_header
@@ -42,8 +59,8 @@ class Relay:
             self._class = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])[header["type"]]
         missing = [name for name in FIELDS if name not in self._class.__slots__]
         if missing:
-            rospy.logerr_throttle(5.0, f"{self._subscriber.resolved_name} is {header['type']}, without "
-                                       f"{', '.join(missing)}; it must be mavros_msgs/State")
+            self._say(functools.partial(rospy.logerr_throttle, 5.0),
+                      f"{self._subscriber.resolved_name} is {header['type']}, without {', '.join(missing)}; it must be mavros_msgs/State")
             self._class = None
             return None
         return self._class().deserialize(message._buff)

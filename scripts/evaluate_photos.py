@@ -153,7 +153,7 @@ def parse():
     parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder with meta.csv and images/")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the csv files")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
-    parser.add_argument("--params", help="yaml file with a section 'detector'")
+    parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")
     parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those pictures")
     parser.add_argument("--iou", type=float, default=0.7)
     parser.add_argument("--per-scene", action="store_true")

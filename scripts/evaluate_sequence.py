@@ -83,7 +83,7 @@ def main():
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
     parser.add_argument("--rate", default="15", help="pictures a second")
     parser.add_argument("--single", action="store_true", help="every picture by itself, for comparison")
-    parser.add_argument("--params", help="yaml file with a section 'detector'")
+    parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")
     parser.add_argument("--camera", help="calibration")
     parser.add_argument("--overlay", action="store_true", help="also pictures of what happened to each candidate")
     options = parser.parse_args()

@@ -50,10 +50,10 @@ def yaml(folder):
                    "239.5, 0, 0, 1]}\ndistortion_model: plumb_bob\n"
                    "distortion_coefficients: {rows: 1, cols: 5, data: [-0.2, 0.05, 0.001, 0, 0]}\n")
     write(folder / "parameters", "calibration.yaml", calibration)
-    for section, keys in {"detector": "max_candidates: 5\n  preprocess: {}\n  track: {}\n  min_score: 0.1",
-                          "pose": "opening_width_m: 1.5\n  scale_sigma: 0.3", "filter": "max_age_sec: 1.0",
-                          "navigator": "limits: {speed_mps: 0.5}"}.items():
-        write(folder / "parameters", section + ".yaml", f"{section}:\n  {keys}\n")
+    for node, keys in {"window_detector": "detector: {max_candidates: 5, preprocess: {}, track: {}, min_score: 0.1}",
+                       "homography_pose": "{pose: {opening_width_m: 1.5, scale_sigma: 0.3}, filter: {max_age_sec: 1.0}}",
+                       "ingress_navigator": "navigator: {limits: {speed_mps: 0.5}}", "vehicle": "half_width_m: 0.3"}.items():
+        write(folder / "parameters", node + ".yaml", f"{node}:\n  {keys}\n")
     for file in sorted((ROOT / "config").glob("*.yaml")):
         if file.stat().st_size < 20000:
             write(folder / "parameters", file.name, file.read_bytes())

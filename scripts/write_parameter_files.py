@@ -31,7 +31,7 @@ class Struct:
 
 def read_structs():
     structs = {}
-    headers = [*ROOT.glob("include/window_ingress/*/*.hpp"), *ROOT.glob("src/adapters/*.hpp")]
+    headers = ROOT.glob("include/window_ingress/*/*.hpp")
     for header in sorted(headers):
         for name, struct in structs_of(header.read_text(), header.parent.name):
             structs[struct.space, name] = struct
@@ -136,7 +136,7 @@ def commented(line, comment):
 
 def yaml_file(structs, kind, title):
     lines = [f"# {title}", "# Each line: default, meaning [unit] (range). Written by scripts/write_parameter_files.py.",
-             *yaml_lines(structs, find(structs, "adapters", kind), "")]
+             *yaml_lines(structs, find(structs, "configuration", kind), "")]
     return "\n".join(lines) + "\n"
 
 
@@ -223,10 +223,12 @@ NODES = {  # node -> its struct and file
     "ingress_navigator": ("NavigatorNodeParams", "navigator.yaml"),
     "setpoint_guard": ("GuardParams", "guard.yaml"),
     "world": ("WorldNodeParams", "world.yaml"),
+    "vehicle": ("navigation::VehicleParams", "vehicle.yaml"),
 }
+TITLES = {"vehicle": "The vehicle, said once for all nodes: below the name 'vehicle', beside the nodes' own."}
 PARAMETERS_HEAD = """# Parameters
 
-Every parameter of every node, as `rosparam` knows it below the node's name; written by `scripts/write_parameter_files.py`
+Every parameter of every node, as `rosparam` knows it below the node's name, and the vehicle's, below `vehicle`; written by `scripts/write_parameter_files.py`
 from the parameter structs of the headers, like the yaml files in `config/`. Keys that are unknown and values out of range
 are refused by name when a node starts. How to choose them: [tuning](../README.md#on-a-drone),
 [navigation](navigation.md), [pose](pose.md). The detector's own (`detector/…`) can be changed while it runs, by dynamic_reconfigure.
@@ -256,7 +258,7 @@ def parameters_page(structs):
     table = "| parameter | unit | default | allowed | meaning |\n|---|---|---|---|---|\n"
     text = PARAMETERS_HEAD
     for node, (kind, file) in NODES.items():
-        rows, inner = parameter_rows(structs, find(structs, "adapters", kind), "")
+        rows, inner = parameter_rows(structs, find(structs, "configuration", kind), "")
         text += f"\n## {node}\n\n`config/{file}`\n"
         for title, about, section in [(None, "", rows), *inner]:
             if section:
@@ -270,7 +272,7 @@ def main():
     files = {
         "../doc/scenarios.md": scenarios_page(structs),
         "../doc/parameters.md": parameters_page(structs),
-        **{file: yaml_file(structs, kind, f"Parameters of the node {node}.") for node, (kind, file) in NODES.items()},
+        **{file: yaml_file(structs, kind, TITLES.get(node, f"Parameters of the node {node}.")) for node, (kind, file) in NODES.items()},
         "WindowDetector.cfg": cfg_file(structs),
     }
     stale = [name for name, text in files.items()

@@ -7,11 +7,28 @@
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
+namespace {
+
+constexpr double kFarthest_m = 2.0;    // from the middle of a small vehicle
+constexpr double kHalfTurn = 3.14160;  // [rad], rounded up
+const char* const kNames[] = {"x", "y", "z", "yaw", "pitch", "roll"};
+
+void checkRange(const std::vector<double>& pose) {
+  parameters::RangeCheck check;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double most = i < 3 ? kFarthest_m : kHalfTurn;
+    check(std::string("pose: ") + kNames[i] + (i < 3 ? " [m]" : " [rad, not degrees]"), pose[i], -most, most);
+  }
+  if (!check.faults().empty()) throw ParameterError(parameters::joined(check.faults()));
+}
+
+}  // namespace
 
 Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose) {
   if (pose.size() != 6)
     throw ParameterError("pose has " + std::to_string(pose.size()) +
                          " numbers, must have six: [x, y, z, yaw, pitch, roll] in metres and radians");
+  checkRange(pose);
   const Eigen::Matrix3d R_base_link = (Eigen::AngleAxisd(pose[3], Eigen::Vector3d::UnitZ()) *
                                        Eigen::AngleAxisd(pose[4], Eigen::Vector3d::UnitY()) *
                                        Eigen::AngleAxisd(pose[5], Eigen::Vector3d::UnitX()))

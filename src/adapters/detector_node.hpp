@@ -23,40 +23,14 @@
 #include "adapters/reference_source.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/stamps.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/openness/interior_follower.hpp"
 
 namespace window_ingress::adapters {
 
-struct DetectorNodeParams {
-  std::string image_transport = "raw";   ///< raw, compressed, or a plugin of image_transport
-  bool image_is_rectified = false;       ///< pictures are rectified: P of camera_info counts
-  bool use_imu = true;                   ///< tracks are led by the attitude on `imu`, where there is one
-  std::string base_frame = "base_link";  ///< the vehicle's, in which `imu` must be
-  double budget_ms =
-      0.0;  ///< diagnostics warn if a picture takes longer; 0: the time between two pictures [ms]
-  bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
-  ImageLimits image;
-  StampLimits stamps;
-  ReferenceParams reference;
-  detection::DetectorParams detector;
-  openness::FollowerParams interior;
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("image_transport", self.image_transport);
-    field("image_is_rectified", self.image_is_rectified);
-    field("use_imu", self.use_imu);
-    field("base_frame", self.base_frame);
-    field("budget_ms", self.budget_ms, 0.0, 10000.0);
-    field("lockstep", self.lockstep);
-    field.group("image", self.image);
-    field.group("stamps", self.stamps);
-    field.group("reference", self.reference);
-    field.group("detector", self.detector);
-    field.group("interior", self.interior);
-  }
-};
+using configuration::DetectorNodeParams;
 
 /// The detector between topics: images in, corners out, with or without calibration.
 class DetectorNode : public Node {

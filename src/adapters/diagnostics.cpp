@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "adapters/output_pump.hpp"
 #include "window_ingress/parameters/text.hpp"
 
 namespace window_ingress::adapters {
@@ -23,6 +24,14 @@ std::string withTwoDecimals(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f", value);
   return text;
+}
+
+Health consoleHealth() {
+  if (!consoleIsStuck()) return {};
+  return {
+      Health::kWarn,
+      "the terminal or log of this node takes nothing more (Ctrl-S? disk full?): its lines are lost there, "
+      "not in /rosout"};
 }
 
 }  // namespace
@@ -42,6 +51,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
   updater_.setHardwareID("none");
   add("callbacks", [this] { return failures_.health(); });
   add("clock", [this] { return clockHealth(); });
+  add("console", [] { return consoleHealth(); });
   timer_ = ros::NodeHandle(nh).createSteadyTimer(ros::WallDuration(kLookSec),
                                                  [this](const ros::SteadyTimerEvent&) {
                                                    try {

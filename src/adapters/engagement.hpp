@@ -3,19 +3,11 @@
 #include <string>
 
 #include "adapters/diagnostics.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
 
 namespace window_ingress::adapters {
 
-struct EngagementParams {
-  bool required =
-      false;  ///< a mission may only start once somebody has said that the vehicle follows setpoints
-  double max_silence_sec = 3.0;  ///< who has said so once must go on saying it [s]
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("required", self.required);
-    field("max_silence_sec", self.max_silence_sec, 0.1, 60.0);
-  }
-};
+using configuration::EngagementParams;
 
 /// Whether the vehicle follows setpoints: armed, and in a mode that does. Where nobody says so it is taken
 /// to, unless that is `required`; once anybody has said anything, only a recent yes is a yes. Times are those

@@ -10,15 +10,11 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "window_ingress/configuration/common_params.hpp"
+
 namespace window_ingress::adapters {
 
-struct ImageLimits {
-  int max_pixels = 8000000;  ///< larger pictures are refused [px]
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("max_pixels", self.max_pixels, 1, 100000000);
-  }
-};
+using configuration::ImageLimits;
 
 /// A picture as the detector takes it, or why there is none.
 struct GuardedImage {

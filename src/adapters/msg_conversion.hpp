@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/facade/facade_memory.hpp"
@@ -31,6 +32,8 @@
 #include "window_ingress/pose/window_pose_estimator.hpp"
 
 namespace window_ingress::adapters {
+
+using configuration::FrameNames;
 
 /// A converted message, or why it cannot be used.
 template <typename Value>
@@ -61,17 +64,6 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector);
 /// Binning and region of interest are applied: the camera is that of the picture as it comes (REP 104).
 Converted<geometry::PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified);
 sensor_msgs::CameraInfo toMsg(const geometry::PinholeCamera& camera);  ///< without header
-
-/// Names of frames that a message must carry.
-struct FrameNames {
-  std::string odom = "odom";
-  std::string base = "base_link";
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("odom_frame", self.odom);
-    field("base_frame", self.base);
-  }
-};
 
 /// The twist is taken in the child frame, as REP 147 and nav_msgs say, and rotated to odom.
 Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames);

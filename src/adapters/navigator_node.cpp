@@ -26,7 +26,8 @@ GuardParams lastGate(const navigation::LimitParams& limits) {
   return gate;
 }
 
-NavigatorNodeParams checked(NavigatorNodeParams params) {
+NavigatorNodeParams checked(NavigatorNodeParams params, const navigation::VehicleParams& vehicle) {
+  params.navigator.vehicle = vehicle;
   if (params.start_at_once && !params.lockstep)
     throw ParameterError("start_at_once is for lockstep only: call ~start");
   if (params.setpoint_frame == kOdomAxes || params.setpoint_frame == kBaseAxes) return params;
@@ -36,7 +37,7 @@ NavigatorNodeParams checked(NavigatorNodeParams params) {
 }  // namespace
 
 NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(checked(readParameters<NavigatorNodeParams>(pnh))),
+    : params_(checked(readParameters<NavigatorNodeParams>(pnh), readVehicle(nh))),
       diagnostics_(nh, pnh),
       odom_health_(diagnostics_, "odom", kSilenceSec),
       pose_health_(diagnostics_, "window_pose", kSilenceSec),
@@ -197,7 +198,9 @@ bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
-  return answer("abort", navigator_.abort(), response);
+  const navigation::Reply reply = navigator_.abort();
+  if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
+  return answer("abort", reply, response);
 }
 
 bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {

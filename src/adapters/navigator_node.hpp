@@ -19,38 +19,12 @@
 #include "adapters/run_node.hpp"
 #include "adapters/setpoint_gate.hpp"
 #include "adapters/stamps.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::adapters {
 
-struct NavigatorNodeParams {
-  double rate_hz = 30.0;  ///< of the setpoints [Hz]
-  double max_silence_sec =
-      0.25;  ///< odometry that has not arrived for this long, on the steady clock, is gone [s]
-  double max_pose_silence_sec = 1.5;  ///< likewise the messages on window_pose [s]
-  std::string setpoint_frame =
-      "odom";             ///< axes of the setpoints: odom or base_link, whatever these frames are called
-  bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
-  bool start_at_once =
-      false;  ///< in lockstep: the mission starts with the first step at which it may, not when asked
-  FrameNames frames;
-  StampLimits stamps;
-  EngagementParams engagement;
-  navigation::NavigatorParams navigator;
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("rate_hz", self.rate_hz, 20.0, 200.0);
-    field("max_silence_sec", self.max_silence_sec, 0.05, 5.0);
-    field("max_pose_silence_sec", self.max_pose_silence_sec, 0.05, 5.0);
-    field("setpoint_frame", self.setpoint_frame);
-    field("lockstep", self.lockstep);
-    field("start_at_once", self.start_at_once);
-    FrameNames::visit(self.frames, field);
-    field.group("stamps", self.stamps);
-    field.group("engagement", self.engagement);
-    field.group("navigator", self.navigator);
-  }
-};
+using configuration::NavigatorNodeParams;
 
 /// `navigation::Navigator` between topics and services: pose and odometry in, velocity out. In IDLE it sends
 /// zeros, so that an autopilot accepts the switch to the mode that follows them; after an abort it falls

@@ -11,6 +11,7 @@
 
 #include "adapters/detector_node.hpp"
 #include "adapters/navigator_node.hpp"
+#include "adapters/output_pump.hpp"
 #include "adapters/pose_node.hpp"
 
 namespace window_ingress::adapters {
@@ -26,6 +27,7 @@ class NodeletOf : public nodelet::Nodelet {
  private:
   // An exception out of onInit would end the manager and every nodelet in it.
   void onInit() override {
+    decoupleConsole();  // the manager's: it waits for no terminal either, from now on
     try {
       ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
       nh.setCallbackQueue(&queue_);

@@ -49,8 +49,9 @@ XmlRpcValue emptyStruct() {
 
 }  // namespace
 
-ParameterReader::ParameterReader(const std::string& name_space, const XmlRpcValue& tree)
-    : name_space_(name_space), tree_(tree) {}
+ParameterReader::ParameterReader(const std::string& name_space, const XmlRpcValue& tree,
+                                 const std::vector<std::string>& known)
+    : name_space_(name_space), known_(known), tree_(tree) {}
 
 const XmlRpcValue* ParameterReader::find(const std::string& name) {
   asked_.insert(name);
@@ -124,7 +125,9 @@ ParameterReader ParameterReader::descend(const std::string& name) {
   if (found && found->getType() != XmlRpcValue::TypeStruct)
     wrongType(name, "a mapping of names to values", *found);
   const bool usable = found && found->getType() == XmlRpcValue::TypeStruct;
-  return {name_space_ + "/" + name, usable ? *found : emptyStruct()};
+  ParameterReader child(name_space_ + "/" + name, usable ? *found : emptyStruct(), known_);
+  child.path_ = path_ + name + "/";
+  return child;
 }
 
 void ParameterReader::adopt(const ParameterReader& child) {
@@ -137,7 +140,8 @@ std::vector<std::string> ParameterReader::faults() const {
   XmlRpcValue tree(tree_);
   for (auto& member : tree)
     if (asked_.count(member.first) == 0)
-      faults.push_back("unknown parameter " + name_space_ + "/" + member.first);
+      faults.push_back("unknown parameter " + name_space_ + "/" + member.first +
+                       parameters::didYouMean(path_ + member.first, known_));
   return faults;
 }
 
@@ -148,8 +152,10 @@ void ParameterReader::throwIfFaulty() const {
 
 XmlRpcValue parameterTree(const ros::NodeHandle& nh) {
   XmlRpcValue tree;
-  if (!nh.getParam(nh.getNamespace(), tree) || tree.getType() != XmlRpcValue::TypeStruct)
-    return emptyStruct();
+  if (!nh.getParam(nh.getNamespace(), tree)) return emptyStruct();
+  if (tree.getType() != XmlRpcValue::TypeStruct)
+    throw ParameterError(nh.getNamespace() + " is " + typeName(tree) +
+                         ", must be a mapping of names to values: these parameters stand below it");
   return tree;
 }
 

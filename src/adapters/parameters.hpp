@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/navigation/vehicle_params.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/parameters/key_list.hpp"
 
 namespace window_ingress::adapters {
 
@@ -24,7 +26,9 @@ class ParameterError : public std::invalid_argument {
 /// as an int; wrong types, numbers out of range and names that nobody asked for are collected.
 class ParameterReader {
  public:
-  ParameterReader(const std::string& name_space, const XmlRpc::XmlRpcValue& tree);
+  /// \param known all names that may stand there, to say which may have been meant
+  ParameterReader(const std::string& name_space, const XmlRpc::XmlRpcValue& tree,
+                  const std::vector<std::string>& known = {});
 
   void operator()(const std::string& name, double& value, double minimum, double maximum);
   void operator()(const std::string& name, int& value, double minimum, double maximum);
@@ -53,13 +57,15 @@ class ParameterReader {
   void wrongType(const std::string& name, const char* expected, const XmlRpc::XmlRpcValue& found);
   void checkRange(const std::string& name, double number, double minimum, double maximum);
 
-  std::string name_space_;
+  std::string name_space_, path_;  // the latter from the node's own namespace on
+  std::vector<std::string> known_;
   XmlRpc::XmlRpcValue tree_;
   std::set<std::string> asked_;
   std::vector<std::string> faults_;
 };
 
-/// All parameters below the namespace of `nh`, an empty struct if there are none.
+/// All parameters below the namespace of `nh`, an empty struct if there are none. \throws ParameterError if
+/// there stands anything else
 XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& nh);
 
 /// Reads the parameters of one node; `Params::visit` lists all that may stand in its private namespace.
@@ -67,11 +73,16 @@ XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& nh);
 template <typename Params>
 Params readParameters(const ros::NodeHandle& pnh, const std::set<std::string>& others = {}) {
   Params params;
-  ParameterReader reader(pnh.getNamespace(), parameterTree(pnh));
+  ParameterReader reader(pnh.getNamespace(), parameterTree(pnh), parameters::keysOf(params));
   reader.ignore(others);
   Params::visit(params, reader);
   reader.throwIfFaulty();
   return params;
+}
+
+/// What all nodes know of the vehicle: `vehicle`, beside the nodes. \throws ParameterError
+inline navigation::VehicleParams readVehicle(const ros::NodeHandle& nh) {
+  return readParameters<navigation::VehicleParams>(ros::NodeHandle(nh, "vehicle"));
 }
 
 }  // namespace window_ingress::adapters

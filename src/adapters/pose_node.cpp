@@ -34,7 +34,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       window_gate_(limitsFor(params_.lockstep, params_.stamps)),
       odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
       camera_(nh, diagnostics_, params_.image_is_rectified),
-      tracker_(params_.pose, params_.filter, params_.tracker),
+      tracker_(params_.pose, params_.filter, navigation::forVehicle(params_.tracker, readVehicle(nh))),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_),
       facade_(nh, pnh, diagnostics_, tracker_, tf_, params_.frames.odom) {

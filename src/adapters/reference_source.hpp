@@ -5,26 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::adapters {
 
-/// The operator's picture of the target.
-struct ReferenceParams {
-  std::string picture;          ///< file; empty: no reference
-  std::vector<double> corners;  ///< of the opening's inner border in it, x1 y1 .. x4 y4 from top left,
-                                ///< clockwise [px]; empty: the whole picture is the target with its frame
-  std::string capture_file;     ///< picture that ~capture_reference writes; beside it .yaml, these parameters
-                             ///< for it, and _understood.png, what is made of it; empty: nothing is written
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("picture", self.picture);
-    field("corners", self.corners);
-    field("capture_file", self.capture_file);
-  }
-};
+using configuration::ReferenceParams;
 
 /// A reference from a picture and eight numbers, or none for the whole picture. \throws ParameterError
 detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "adapters/output_pump.hpp"
+
 namespace window_ingress::adapters {
 namespace {
 
@@ -38,6 +40,7 @@ void spinUntilStopped() {
 }  // namespace
 
 int runNode(int argc, char** argv, const std::string& name, const MakeNode& make) {
+  decoupleConsole();
   try {
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     catchSignals();

@@ -6,30 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "window_ingress/configuration/guard_params.hpp"
+
 namespace window_ingress::adapters {
 
-struct GuardParams {
-  double rate_hz = 30.0;            ///< of the setpoints sent [Hz]
-  double late_sec = 0.2;            ///< an input older than this, on the steady clock, no longer counts [s]
-  double max_speed_mps = 1.2;       ///< faster than this is a fault, not a wish: zero is sent [m/s]
-  double max_yaw_rate_radps = 1.0;  ///< likewise [rad/s]
-  double stop_streaming_after_sec =
-      10.0;  ///< zeros for this long when sane input has stopped coming, then nothing at all, so that the
-             ///< autopilot's own failsafe acts; 0: zeros for ever [s]
-  bool lockstep =
-      false;  ///< with the simulated world: each input is passed on at once, and nothing else is sent
-  std::string frame = "odom";  ///< frame_id of the zeros before the first input
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("rate_hz", self.rate_hz, 20.0, 200.0);
-    field("late_sec", self.late_sec, 0.05, 1.0);
-    field("max_speed_mps", self.max_speed_mps, 0.05, 10.0);
-    field("max_yaw_rate_radps", self.max_yaw_rate_radps, 0.05, 5.0);
-    field("stop_streaming_after_sec", self.stop_streaming_after_sec, 0.0, 3600.0);
-    field("lockstep", self.lockstep);
-    field("frame", self.frame);
-  }
-};
+using configuration::GuardParams;
 
 /// Why this velocity must not reach the autopilot; empty if it may.
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params);

@@ -6,24 +6,17 @@
 #include <optional>
 #include <string>
 
+#include "window_ingress/configuration/common_params.hpp"
+
 namespace window_ingress::adapters {
+
+using configuration::StampLimits;
 
 /// Seconds of a stamp; nothing if it is zero (unstamped) or its nanoseconds are not below 1e9.
 std::optional<double> stampSec(const ros::Time& stamp);
 
 /// The nearest stamp of a time in seconds; zero for what a stamp cannot hold.
 ros::Time toStamp(double sec);
-
-/// How old and how far ahead of the clock a message may be.
-struct StampLimits {
-  double max_age_sec = 0.5;     ///< older messages are refused [s]
-  double max_future_sec = 0.1;  ///< messages further ahead of the clock are refused [s]
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("max_age_sec", self.max_age_sec, 0.01, 60.0);
-    field("max_future_sec", self.max_future_sec, 0.0, 10.0);
-  }
-};
 
 /// Notices that the clock went back, as it does when a bag is looped or a simulation reset.
 class ClockWatch {

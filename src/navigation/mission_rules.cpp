@@ -11,6 +11,7 @@ namespace window_ingress::navigation {
 
 NavigatorParams checked(const NavigatorParams& params) {
   auto faults = parameters::outOfRange(params);
+  for (const auto& fault : parameters::outOfRange(params.vehicle)) faults.push_back("vehicle/" + fault);
   if (!(params.limits.min_height_m < params.limits.max_height_m)) {
     faults.push_back("limits/min_height_m must be below limits/max_height_m");
   }

@@ -27,6 +27,12 @@ pose::SizeBelief sizeSaid(const pose::PoseParams& pose) {
 
 }  // namespace
 
+TrackerParams forVehicle(TrackerParams params, const VehicleParams& vehicle) {
+  params.fit.vehicle_width_m = 2.0 * vehicle.half_width_m;
+  params.fit.vehicle_height_m = 2.0 * vehicle.half_height_m;
+  return params;
+}
+
 TargetEstimate targetFrom(const pose::FilteredWindow& window) {
   TargetEstimate target;
   target.stamp_sec = window.stamp_sec;

@@ -2,12 +2,29 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "window_ingress/parameters/yaml_mapping.hpp"
 
 namespace window_ingress::parameters {
 
+namespace {
+
+/// What the readers of one file share.
+struct File {
+  std::vector<std::string> known;
+  std::set<std::string> said;
+};
+
+bool isFinite(double value) { return std::isfinite(value); }
+
+}  // namespace
+
 struct YamlReader::Impl {
   YamlMapping mapping;
+  std::shared_ptr<File> shared;
 
   template <typename Value>
   bool read(const std::string& name, Value& value, const char* expected) {
@@ -16,9 +33,18 @@ struct YamlReader::Impl {
     try {
       value = node.as<Value>();
     } catch (const YAML::Exception&) {
-      mapping.fail(node, name + ": must be " + expected);
+      fail(name, std::string(": must be ") + expected);
     }
+    shared->said.insert(mapping.path() + name);
     return true;
+  }
+
+  [[noreturn]] void fail(const std::string& name, const std::string& text) {
+    mapping.fail(mapping.find(name), mapping.path() + name + text);
+  }
+
+  void refuse(const std::string& name, const RangeCheck& check) {
+    if (!check.faults().empty()) mapping.fail(mapping.find(name), mapping.path() + check.faults().front());
   }
 
   template <typename Number>
@@ -28,13 +54,15 @@ struct YamlReader::Impl {
     if (!read(name, number, expected)) return;
     RangeCheck check;
     check(name, number, minimum, maximum);
-    if (!check.faults().empty()) mapping.fail(mapping.find(name), check.faults().front());
+    refuse(name, check);
     value = number;
   }
 };
 
-YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping)
-    : impl_(new Impl{YamlMapping(file, mapping)}) {}
+YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known)
+    : impl_(new Impl{YamlMapping(file, mapping), std::make_shared<File>(File{std::move(known), {}})}) {}
+
+YamlReader::YamlReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 YamlReader::~YamlReader() = default;
 
@@ -54,53 +82,46 @@ void YamlReader::operator()(const std::string& name, std::string& value) {
   impl_->read(name, value, "a text");
 }
 
+void YamlReader::operator()(const std::string& name, std::vector<double>& value) {
+  std::vector<double> numbers;
+  if (!impl_->read(name, numbers, "a list of numbers")) return;
+  if (!std::all_of(numbers.begin(), numbers.end(), isFinite)) impl_->fail(name, ": must be finite numbers");
+  value = numbers;
+}
+
 void YamlReader::choice(const std::string& name, std::string& value,
                         const std::vector<std::string>& allowed) {
   std::string word = value;
   if (!impl_->read(name, word, "a text")) return;
   RangeCheck check;
   check.choice(name, word, allowed);
-  if (!check.faults().empty()) impl_->mapping.fail(impl_->mapping.find(name), check.faults().front());
+  impl_->refuse(name, check);
   value = word;
 }
 
 std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
   const YAML::Node node = impl_->mapping.find(name);
   if (!node.IsDefined()) return nullptr;
-  return std::make_unique<YamlReader>(impl_->mapping.file(), node);
+  const std::string path = impl_->mapping.path() + name;
+  if (!node.IsMap()) impl_->fail(name, ": must be a mapping of keys to values");
+  auto child =
+      std::make_unique<Impl>(Impl{YamlMapping(impl_->mapping.file(), node, path + "/"), impl_->shared});
+  return std::unique_ptr<YamlReader>(new YamlReader(std::move(child)));
 }
 
-void YamlReader::refuseUnknownKeys() const { impl_->mapping.refuseUnknownKeys(); }
-
-namespace {
-
-// At the top of the file, or below the name of a node, as in the files that launch files lay over the
-// defaults.
-YAML::Node sectionOf(const YAML::Node& root, const std::string& section) {
-  if (const YAML::Node found = root[section]; found.IsDefined()) return found;
-  for (const auto& node : root) {
-    if (!node.second.IsMap()) continue;
-    const YAML::Node& below = node.second;
-    if (const YAML::Node found = below[section]; found.IsDefined()) return found;
-  }
-  return YAML::Node(YAML::NodeType::Undefined);
+void YamlReader::refuseUnknownKeys() const {
+  impl_->mapping.refuseUnknownKeys(
+      [&](const std::string& path) { return didYouMean(path, impl_->shared->known); });
 }
 
-}  // namespace
+const std::set<std::string>& YamlReader::said() const { return impl_->shared->said; }
 
-bool visitYamlFile(const std::string& file, const std::string& section,
-                   const std::function<void(YamlReader&)>& visit) {
-  YAML::Node root = loadYaml(file);
-  if (!section.empty()) {
-    if (!root.IsMap()) throw YamlError(file + ":1: must be a mapping of keys to values");
-    const YAML::Node found = sectionOf(root, section);
-    if (!found.IsDefined()) return false;
-    root.reset(found);
-  }
-  YamlReader reader(file, root);
+std::set<std::string> visitYamlFile(const std::string& file, std::vector<std::string> known,
+                                    const std::function<void(YamlReader&)>& visit) {
+  YamlReader reader(file, loadYaml(file), std::move(known));
   visit(reader);
   reader.refuseUnknownKeys();
-  return true;
+  return reader.said();
 }
 
 }  // namespace window_ingress::parameters

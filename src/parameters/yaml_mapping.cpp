@@ -28,10 +28,10 @@ void YamlMapping::fail(const YAML::Node& at, const std::string& text) const {
   throw YamlError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
 }
 
-void YamlMapping::refuseUnknownKeys(const std::string& advice) const {
+void YamlMapping::refuseUnknownKeys(const std::function<std::string(const std::string&)>& advice) const {
   for (const auto& entry : mapping_) {
     const auto key = entry.first.as<std::string>();
-    if (asked_.count(key) == 0) fail(entry.first, path_ + key + ": unknown key" + advice);
+    if (asked_.count(key) == 0) fail(entry.first, path_ + key + ": unknown key" + advice(path_ + key));
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "scene_parts.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/simulation/obstacle.hpp"
 
 namespace window_ingress::simulation {
 namespace {
@@ -83,6 +85,8 @@ void checkStart(const Scenario& s, std::vector<std::string>& faults) {
   if (s.start.hovering && lowest_m < 0.05) faults.push_back("start/height_offset_m: starts in the ground");
   const double gap_m = -s.startPoseInWindow().translation().x() - s.vehicle.halfExtents().norm();
   if (gap_m < 0.05) faults.push_back("start/distance_m: starts in the wall");
+  if (touches(s.startPoseInWindow(), s.vehicle.halfExtents(), roofBox(s)))
+    faults.push_back("start/height_offset_m: starts in the roof");
 }
 
 // So that there is thrust left to climb and to tilt.

@@ -165,7 +165,9 @@ std::vector<ScenarioReader::ListOption> ScenarioReader::descendAll(const std::st
   return options;
 }
 
-void ScenarioReader::refuseUnknownKeys() const { impl_->mapping.refuseUnknownKeys("; see doc/scenarios.md"); }
+void ScenarioReader::refuseUnknownKeys() const {
+  impl_->mapping.refuseUnknownKeys([](const std::string&) { return "; see doc/scenarios.md"; });
+}
 
 namespace {
 

@@ -70,6 +70,8 @@ void addSolid(Scene& scene, const std::string& name, const Eigen::AlignedBox3d& 
 
 // --- what stands where (scene_layout.cpp)
 constexpr double kOverhang_m = 0.45;  // of the roof
+/// The roof, as something to run into.
+Eigen::AlignedBox3d roofBox(const Scenario& scenario);
 Rectangle frontWall(const Scenario& scenario);
 Rectangle roomWalls(const Scenario& scenario);
 Rectangle backWindow(const Scenario& scenario);

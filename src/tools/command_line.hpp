@@ -17,6 +17,11 @@
 
 namespace window_ingress::tools {
 
+/// Of --params, the same for every tool.
+constexpr const char* kParamsHelp =
+    "yaml file laid over the defaults, as config:= of launch files: its first level names the nodes, and the "
+    "vehicle";
+
 /// Wrong usage or input that cannot be used: one line, exit code 2.
 class UsageError : public std::runtime_error {
  public:

@@ -68,7 +68,7 @@ Options parse(int argc, char** argv) {
       ("reference", po::value(&o.reference), "picture of the target with its frame")                      //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses")     //
-      ("params", po::value(&o.params), "yaml file with sections 'detector', 'reference'")                 //
+      ("params", po::value(&o.params), tools::kParamsHelp)                                                //
       ("track", po::bool_switch(&o.track), "the pictures are a sequence: follow the window through it")   //
       ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: pictures a second")        //
       ("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
@@ -149,7 +149,7 @@ Job prepare(const Options& o) {
   std::string reference = o.reference;
   std::vector<double> corners;
   if (!o.corners.empty()) corners = numbers("--reference-corners", o.corners, 8);
-  tools::readParams(o.params, job.params, reference, corners);
+  job.params = tools::readParams(o.params, reference, corners);
   if (!o.camera.empty()) job.camera = parameters::readCalibrationFile(o.camera);
   if (!reference.empty()) job.reference = readReference(reference, corners, job.params);
   if (!o.size.empty()) {

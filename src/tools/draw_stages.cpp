@@ -7,8 +7,8 @@
 #include <string>
 
 #include "command_line.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/evaluation/stage_sheet.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/simulation/world.hpp"
 
 namespace {
@@ -42,7 +42,7 @@ options::options_description describe(Job& job) {
       ("distance", options::value(&job.distance_m), "instead of the start's [m]")                       //
       ("off-axis", options::value(&job.off_axis_rad), "with --distance: instead of the start's [rad]")  //
       ("image", options::value(&job.image), "a picture instead of a scenario; without a reference")     //
-      ("params", options::value(&job.params), "yaml file with a section 'detector'")                    //
+      ("params", options::value(&job.params), tools::kParamsHelp)                                       //
       ("width", options::value(&job.cell_width_px)->default_value(480), "of each picture on the sheet [px]");
   return description;
 }
@@ -81,9 +81,7 @@ int run(const Job& job) {
     throw UsageError("give either a scenario or a picture; see --help");
   if (!(job.distance_m >= 0.0)) throw UsageError("--distance: needs metres, above 0");
   if (job.off_axis_rad != 0.0 && job.distance_m == 0.0) throw UsageError("--off-axis needs --distance");
-  detection::DetectorParams params;
-  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", params))
-    throw UsageError(job.params + ": no section 'detector' in this file");
+  const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const Subject subject = job.image.empty() ? photograph(job) : read(job);
   const cv::Mat sheet = evaluation::stageSheet(
       subject.picture, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);

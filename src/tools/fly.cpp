@@ -22,7 +22,6 @@
 #include "window_ingress/evaluation/flight_log.hpp"
 #include "window_ingress/evaluation/flight_picture.hpp"
 #include "window_ingress/evaluation/flight_table.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 #ifdef WINDOW_INGRESS_WITH_ROS
 #include "adapters/flight_bag.hpp"
 #endif
@@ -74,8 +73,7 @@ options::options_description describe() {
   add("shard", options::value<std::string>(), "I/N: only every N-th seed, from the I-th on (1 to N)");
   add("join", options::value<std::vector<std::string>>()->multitoken(),
       "flies nothing: joins the folders of several shards into one");
-  add("params", options::value<std::string>(),
-      "yaml file with any of the sections detector, pose, filter, tracker, navigator");
+  add("params", options::value<std::string>(), tools::kParamsHelp);
   add("no-pictures",
       "draws none: the window is seen as by a detector that never errs. Many times faster; measures what "
       "comes "
@@ -124,7 +122,8 @@ Job parse(int argc, char** argv, const options::options_description& description
   if (job.jobs < 1 || job.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
   job.with_timing = given.count("timing") != 0;
   if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
-  if (given.count("params") != 0) parameters::readYamlFile(given["params"].as<std::string>(), "", job.params);
+  if (given.count("params") != 0)
+    job.params = evaluation::readFlightParams(given["params"].as<std::string>());
   if (given.count("no-pictures") != 0) job.params.without_pictures = true;
   for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(job.output_folder);
@@ -149,8 +148,10 @@ evaluation::FlightResult flyLogged(const Job& job, const simulation::Scenario& s
   if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params, {}, &timing);
   evaluation::FlightLog log;
   auto result = evaluation::flyOnce(scenario, seed, job.params, {&log}, &timing);
-  std::ofstream file(job.log_folder + "/flight_" + std::to_string(seed) + ".csv");
+  const std::string name = job.log_folder + "/flight_" + std::to_string(seed) + ".csv";
+  std::ofstream file(name);
   evaluation::writeCsv(log, file);
+  if (!file.flush()) throw std::runtime_error(name + ": cannot be written; is the disk full?");
   return result;
 }
 

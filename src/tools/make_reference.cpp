@@ -15,6 +15,7 @@
 #include "adapters/reference_source.hpp"
 #include "command_line.hpp"
 #include "display.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 
 namespace {
@@ -55,7 +56,7 @@ options::options_description describe(Job& job) {
       ("corners", options::value(&job.corners),
        "x1,y1,...,x4,y4 instead of clicking; pixel centres are integers")                //
       ("fit", options::bool_switch(&job.fit), "fit the corners to the edges near them")  //
-      ("params", options::value(&job.params), "yaml file with a section 'detector'");
+      ("params", options::value(&job.params), tools::kParamsHelp);
   return description;
 }
 
@@ -170,9 +171,7 @@ class Clicking {
 
 int run(const Job& job) {
   if (job.picture.empty()) throw UsageError("no picture given; see --help");
-  detection::DetectorParams params;
-  if (!job.params.empty() && !parameters::readYamlFile(job.params, "detector", params))
-    throw UsageError(job.params + ": no section 'detector' in this file");
+  const auto params = configuration::readOverlay(job.params).window_detector.detector;
   cv::Mat picture;
   if (fs::exists(job.picture))
     picture = cv::imread(job.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);

@@ -20,7 +20,6 @@
 #include "adapters/replay_tables.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
@@ -52,9 +51,9 @@ Options parse(int argc, char** argv) {
       ("imu", po::value(&o.topics.imu), "likewise")                                                       //
       ("reference", po::value(&o.reference.picture), "picture of the target with its frame")              //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
-      ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; without it no poses")      //
-      ("params", po::value(&o.params),
-       "yaml file with sections 'detector', 'reference', 'pose', 'filter', 'tracker', 'interior'")  //
+      ("window-size", po::value(&o.size),
+       "W,H: inner size of the opening [m]; without it, here or in --params, no poses")  //
+      ("params", po::value(&o.params), tools::kParamsHelp)                               //
       ("truth", po::value(&o.topics.truth), "PoseStamped with the true T_camera_window, by stamp");
   po::variables_map values;
   try {
@@ -77,19 +76,18 @@ Options parse(int argc, char** argv) {
 adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   adapters::ReplayParams params;
   params.topics = adapters::chooseTopics(bag, o.topics);
-  if (!o.params.empty()) {
-    parameters::readYamlFile(o.params, "detector", params.detector);
-    parameters::readYamlFile(o.params, "pose", params.pose);
-    parameters::readYamlFile(o.params, "filter", params.filter);
-    parameters::readYamlFile(o.params, "tracker", params.tracker);
-    parameters::readYamlFile(o.params, "interior", params.interior);
-  }
+  const configuration::Overlay overlay = configuration::readOverlay(o.params);
+  params.detector = overlay.window_detector.detector;
+  params.interior = overlay.window_detector.interior;
+  params.pose = overlay.homography_pose.pose;
+  params.filter = overlay.homography_pose.filter;
+  params.tracker = overlay.homography_pose.tracker;
   adapters::ReferenceParams reference = o.reference;
-  if (!o.params.empty() && reference.picture.empty())
-    tools::readReferenceSection(o.params, reference.picture, reference.corners);
+  tools::takeReference(o.params, overlay.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) params.reference = adapters::loadReference(reference, params.detector);
-  params.with_pose = !o.size.empty();
-  if (!params.with_pose) return params;
+  params.frames = overlay.homography_pose.frames;
+  params.with_pose = !o.size.empty() || overlay.said.count("homography_pose/pose/opening_width_m") > 0;
+  if (o.size.empty()) return params;
   const std::vector<double> size = numbers("--window-size", o.size, 2);
   params.pose.opening_width_m = size[0];
   params.pose.opening_height_m = size[1];

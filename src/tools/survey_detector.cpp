@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/evaluation/detection_survey.hpp"
 #include "window_ingress/evaluation/survey_folder.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 
 namespace {
 
@@ -51,7 +51,7 @@ po::options_description describe(Options& o) {
   add("frames", po::value(&o.frames)->default_value(o.frames), "of each scenario");
   add("seed", po::value(&o.seed)->default_value(o.seed), "of the first frame; each further one has the next");
   add("output,o", po::value(&o.output), "folder of the results");
-  add("params", po::value(&o.params), "yaml file with a section 'detector'");
+  add("params", po::value(&o.params), tools::kParamsHelp);
   add("no-reference", po::bool_switch(&o.no_reference), "without the picture of the target");
   add("distance", po::value(&o.distance)->default_value("2,8"), "NEAREST,FARTHEST [m]");
   add("at", po::value(&o.at), "D1,D2,...: at these distances in turn, instead of --distance [m]");
@@ -161,10 +161,7 @@ class Survey {
   }
 
   static detection::DetectorParams paramsOf(const Options& o) {
-    detection::DetectorParams params;
-    if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", params))
-      throw UsageError(o.params + ": no section 'detector' in this file");
-    return params;
+    return configuration::readOverlay(o.params).window_detector.detector;
   }
 
   Options options_;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/evaluation/filter_survey.hpp"
 #include "window_ingress/evaluation/statistics.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 
 namespace {
 
@@ -41,8 +41,7 @@ po::options_description describe(Options& o) {
   add("runs", po::value(&o.runs)->default_value(o.runs), "approaches");
   add("seed", po::value(&o.seed)->default_value(o.seed), "of the first approach");
   add("size", po::value(&o.size)->default_value(o.size), "of the opening: known or unknown");
-  add("params", po::value(&o.params),
-      "yaml file with a section 'filter'; the errors are drawn by the defaults");
+  add("params", po::value(&o.params), tools::kParamsHelp);
   return description;
 }
 
@@ -100,9 +99,7 @@ class AtWay {
 
 int survey(const Options& o) {
   check(o);
-  pose::FilterParams filter;
-  if (!o.params.empty() && !parameters::readYamlFile(o.params, "filter", filter))
-    throw UsageError(o.params + ": no section 'filter' in this file");
+  const auto filter = configuration::readOverlay(o.params).homography_pose.filter;
   tools::makeFolder(o.output);
   std::ofstream table(o.output + "/filter.csv");
   table << "run,time_s,flown_m,x_m,y_m,trusted,nees,position_error_m,yaw_error_deg,yaw_sigma_deg,relative_"

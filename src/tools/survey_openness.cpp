@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/evaluation/openness_survey.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/simulation/random_stream.hpp"
 
 namespace {
@@ -50,7 +50,7 @@ po::options_description describe(Options& o) {
       "scenario files instead of random windows, --open approaches each");
   add("seed", po::value(&o.seed)->default_value(o.seed),
       "of the first approach; each further one has the next");
-  add("params", po::value(&o.params), "yaml file with sections 'interior' and 'openness'");
+  add("params", po::value(&o.params), tools::kParamsHelp);
   add("rate", po::value(&o.range.rate_hz)->default_value(o.range.rate_hz), "of the pictures [1/s]");
   add("decide", po::value(&o.range.decide_m)->default_value(o.range.decide_m),
       "distance at which the verdict counts [m]");
@@ -110,10 +110,9 @@ class Survey {
  public:
   explicit Survey(const Options& o) : options_(o), csv_(fs::path(o.output) / "openness.csv") {
     csv_ << evaluation::opennessColumns() << "\n";
-    if (!o.params.empty()) {
-      parameters::readYamlFile(o.params, "interior", follower_);
-      parameters::readYamlFile(o.params, "openness", params_);
-    }
+    const auto overlay = configuration::readOverlay(o.params);
+    follower_ = overlay.window_detector.interior;
+    params_ = overlay.homography_pose.tracker.openness;
     if (o.trace.empty()) return;
     trace_.open(o.trace);
     trace_ << "kind,seed,plane_m,verdict,log_odds,depth_behind_m,open_share,reason\n";

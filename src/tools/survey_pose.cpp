@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/evaluation/pose_chain.hpp"
 #include "window_ingress/evaluation/pose_survey.hpp"
@@ -54,7 +55,7 @@ po::options_description describe(Options& o) {
   add("camera", po::value(&o.camera), "calibration without distortion; default 640 x 480, f = 554 px");
   add("window-size", po::value(&o.window_size), "W,H of the opening; default 1,1 [m]");
   add("load", po::value(&o.folders)->composing()->multitoken(), "folders of pictures");
-  add("params", po::value(&o.params), "with --load: yaml file with sections 'detector' or 'pose'");
+  add("params", po::value(&o.params), tools::kParamsHelp);
   add("attitude", po::value(&o.attitude_deg), "with --load: the attitude is known with this error [deg]");
   return description;
 }
@@ -109,19 +110,12 @@ int surveyNoise(const Options& o) {
   return 0;
 }
 
-template <typename Params>
-Params paramsOf(const Options& o, const char* section) {
-  Params params;
-  if (!o.params.empty()) parameters::readYamlFile(o.params, section, params);
-  return params;
-}
-
 /// Looks for the window in one picture after the other, and estimates its pose.
 class Chain {
  public:
   explicit Chain(const Options& o)
       : options_(o),
-        detector_(paramsOf<detection::DetectorParams>(o, "detector")),
+        detector_(configuration::readOverlay(o.params).window_detector.detector),
         estimator_(poseParams(o)),
         random_(o.seed) {}
 
@@ -138,7 +132,7 @@ class Chain {
 
  private:
   static pose::PoseParams poseParams(const Options& o) {
-    auto params = paramsOf<pose::PoseParams>(o, "pose");
+    auto params = configuration::readOverlay(o.params).homography_pose.pose;
     const auto size = tools::numbers("--window-size", o.window_size, 2);
     params.opening_width_m = size[0];
     params.opening_height_m = size[1];

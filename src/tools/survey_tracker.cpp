@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/evaluation/survey_flight.hpp"
 #include "window_ingress/evaluation/survey_picture.hpp"
 #include "window_ingress/evaluation/track_survey.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/simulation/camera_sensor.hpp"
 #include "window_ingress/simulation/random_stream.hpp"
 #include "window_ingress/simulation/reference_picture.hpp"
@@ -50,7 +50,7 @@ po::options_description describe(Options& o) {
   add("seed", po::value(&o.seed)->default_value(o.seed),
       "of the first flight; each further one has the next");
   add("output,o", po::value(&o.output), "folder of the results");
-  add("params", po::value(&o.params), "yaml file with a section 'detector'");
+  add("params", po::value(&o.params), tools::kParamsHelp);
   add("speed", po::value(&o.range.speed_mps)->default_value(o.range.speed_mps), "towards the plane [m/s]");
   add("end", po::value(&o.range.end_m)->default_value(o.range.end_m), "of the flight, before the plane [m]");
   add("wobble", po::value(&o.range.wobble_rad)->default_value(o.range.wobble_rad), "of the attitude [rad]");
@@ -71,10 +71,7 @@ void check(const Options& o) {
 }
 
 detection::DetectorParams paramsOf(const Options& o) {
-  detection::DetectorParams params;
-  if (!o.params.empty() && !parameters::readYamlFile(o.params, "detector", params))
-    throw UsageError(o.params + ": no section 'detector' in this file");
-  return params;
+  return configuration::readOverlay(o.params).window_detector.detector;
 }
 
 /// What an attitude estimate says: a constant error and noise.

@@ -54,8 +54,7 @@ options::options_description describe(Job& job) {
       ("source", options::value(&job.source), "see above")  //
       ("output", options::value(&job.output),
        "yaml file with what differs from the defaults, for config:= and --params")  //
-      ("params", options::value(&job.params),
-       "yaml file to start from, with sections 'detector', 'reference'")  //
+      ("params", options::value(&job.params), tools::kParamsHelp)                   //
       ("set", options::value(&job.settings)->composing(),
        "NAME=VALUE, like edges/floor=4.5; may be repeated")                           //
       ("reference", options::value(&job.reference.picture), "picture of the target")  //
@@ -207,9 +206,8 @@ int run(Job job) {
     throw UsageError("--every, --most: at least 1; --width: at least 64");
   if (!job.headless && job.output.empty())
     throw UsageError("--output is missing: where 's' saves; see --help");
-  detection::DetectorParams start;
   if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
-  tools::readParams(job.params, start, job.reference.picture, job.reference.corners);
+  auto start = tools::readParams(job.params, job.reference.picture, job.reference.corners);
   const auto fields = parameters::fieldsOf(start);
   for (const std::string& setting : job.settings) parameters::assign(fields, setting);
   std::optional<detection::ReferenceAppearance> reference;

@@ -62,9 +62,8 @@ options::options_description describe(Job& job) {
       ("every", options::value(&job.every)->default_value(1), "take one picture of a bag in so many")      //
       ("reference", options::value(&job.reference.picture), "picture of the target")                       //
       ("reference-corners", options::value(&job.corners),
-       "x1,y1,...,x4,y4: inner border of the opening in it")  //
-      ("params", options::value(&job.params),
-       "yaml file to start from, with sections 'detector', 'reference'")  //
+       "x1,y1,...,x4,y4: inner border of the opening in it")       //
+      ("params", options::value(&job.params), tools::kParamsHelp)  //
       ("names", options::value(&job.names),
        "parameters that may be changed, with commas between, like edges/floor")       //
       ("trials", options::value(&job.trials)->default_value(120), "settings to try")  //
@@ -147,10 +146,9 @@ void write(const std::string& file, const detection::DetectorParams& tuned, cons
 
 int run(const Job& job) {
   check(job);
-  detection::DetectorParams start;
   adapters::ReferenceParams wanted = job.reference;
   if (!job.corners.empty()) wanted.corners = tools::numbers("--reference-corners", job.corners, 8);
-  tools::readParams(job.params, start, wanted.picture, wanted.corners);
+  const auto start = tools::readParams(job.params, wanted.picture, wanted.corners);
   std::optional<detection::ReferenceAppearance> reference;
   if (!wanted.picture.empty()) reference = adapters::loadReference(wanted, start);
   const detection::ReferenceAppearance* const given = reference ? &*reference : nullptr;

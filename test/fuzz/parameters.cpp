@@ -2,6 +2,7 @@
 
 #include "memory_file.hpp"
 #include "targets.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
@@ -10,22 +11,6 @@
 
 namespace window_ingress::fuzz {
 namespace {
-
-struct All {
-  detection::DetectorParams detector;
-  pose::PoseParams pose;
-  pose::FilterParams filter;
-  navigation::TrackerParams tracker;
-  navigation::NavigatorParams navigator;
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field.group("detector", self.detector);
-    field.group("pose", self.pose);
-    field.group("filter", self.filter);
-    field.group("tracker", self.tracker);
-    field.group("navigator", self.navigator);
-  }
-};
 
 // What each field allows for itself may still contradict each other: constructors say so, and nothing else.
 template <typename Make>
@@ -47,12 +32,15 @@ void detectWith(const detection::DetectorParams& params) {
   for (input.stamp_sec = 1.0; input.stamp_sec < 1.09; input.stamp_sec += 0.033) tracker.update(input);
 }
 
-void use(const All& params) {
-  construct([&] { detectWith(params.detector); });
-  construct([&] { pose::WindowPoseEstimator{params.pose}; });
-  construct([&] { navigation::TargetTracker(params.pose, params.filter, params.tracker); });
+void use(const configuration::Overlay& overlay) {
+  construct([&] { detectWith(overlay.window_detector.detector); });
+  construct([&] { pose::WindowPoseEstimator{overlay.homography_pose.pose}; });
   construct([&] {
-    navigation::Navigator navigator(params.navigator);
+    const auto& params = overlay.homography_pose;
+    navigation::TargetTracker(params.pose, params.filter, params.tracker);
+  });
+  construct([&] {
+    navigation::Navigator navigator(overlay.ingress_navigator.navigator);
     navigator.start({}, 1.0);
     require(navigator.step({}, 1.02).setpoint.velocity_odom_mps.norm() == 0.0, "without odometry it stands");
   });
@@ -74,13 +62,13 @@ void calibration(const MemoryFile& file) {
 void parameters(const std::uint8_t* data, std::size_t size) {
   const MemoryFile file(data, size);
   calibration(file);
-  All params;
+  configuration::Overlay overlay;
   try {
-    if (!window_ingress::parameters::readYamlFile(file.name(), "", params)) return;
+    overlay = configuration::readOverlay(file.name());
   } catch (const window_ingress::parameters::YamlError& error) {
     return require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
   }
-  use(params);
+  use(overlay);
 }
 
 }  // namespace window_ingress::fuzz

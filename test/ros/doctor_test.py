@@ -73,7 +73,7 @@ class DoctorTest(unittest.TestCase):
 
     def test_unknown_parameters_and_what_does_not_fit(self):
         rospy.set_param("/window_detector/detector/edges/flor", 3.0)
-        wide, speed = "/ingress_navigator/navigator/vehicle/half_width_m", "/setpoint_guard/max_speed_mps"
+        wide, speed = "/vehicle/half_width_m", "/setpoint_guard/max_speed_mps"
         before = rospy.get_param(wide), rospy.get_param(speed)
         rospy.set_param(wide, 0.6)
         rospy.set_param(speed, 0.5)

@@ -84,13 +84,28 @@ class RefusedStartTest(unittest.TestCase):
         self.assertIn("/nowhere/window.jpg", errors)
 
     def test_a_mounting_that_has_not_six_numbers_is_refused(self):
-        for pose in ([], [0.1, 0.0, 0.02], [float("nan")] * 6):
+        for pose in ([], [0.1, 0.0, 0.02], [float("nan")] * 6, [0.1, 0.0, 0.0, 15.0, 0.0, 0.0], [100.0, 0.0, 0.0, 0.0, 0.0, 0.0]):
             rospy.set_param("/camera_mounting/pose", pose)
             process = launch("camera_mounting")
             _, errors = process.communicate(timeout=support.DEADLINE_S)
             rospy.delete_param("/camera_mounting/pose")
             self.assertEqual(process.returncode, 2, errors)
             self.assertIn("pose", errors)
+
+    def test_a_number_where_the_parameters_stand_is_refused(self):
+        for name, node in (("window_detector", "window_detector"), ("ingress_navigator", "ingress_navigator"), ("setpoint_guard", "setpoint_guard"),
+                           ("vehicle", "homography_pose"), ("vehicle", "ingress_navigator")):
+            rospy.set_param(f"/{name}", 5)
+            process = launch(node)
+            _, errors = process.communicate(timeout=support.DEADLINE_S)
+            rospy.delete_param(f"/{name}")
+            self.assertEqual(process.returncode, 2, errors)
+            self.assertIn(f"{node}: /{name} is a whole number, must be a mapping", errors)
+
+    def test_what_has_moved_is_named_with_its_new_place(self):
+        self.assert_refused("ingress_navigator", "navigator/vehicle", {"half_width_m": 0.45}, "it is now 'vehicle: {..}'")
+        self.assert_refused("homography_pose", "tracker/fit/vehicle_width_m", 0.9, "half_width_m")
+        self.assert_refused("setpoint_guard", "max_sped_mps", 0.9, "did you mean 'max_speed_mps'?")
 
     def assert_stops(self, node, number, frame="odom"):
         setpoints = support.Listener("cmd_vel", TwistStamped)

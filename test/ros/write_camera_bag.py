@@ -1,7 +1,7 @@
 """Writes a bag as a camera on a standing vehicle records it: usage write_camera_bag.py FILE.bag [WORD...]
 
 raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, twice (a looped replay, recorded), outputs (a
-window_pose and a cmd_vel of the flight, which nobody should take for new ones).
+window_pose and setpoints of the flight, which nobody should take for new ones).
 """
 import pathlib
 import sys
@@ -16,6 +16,7 @@ from window_ingress.msg import WindowPose
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import support  # noqa: E402
 
+COMMANDS = ("/cmd_vel", "/uav1/mavros/setpoint_velocity/cmd_vel", "/mavros/setpoint_position/local", "/ingress_navigator/cmd_vel")
 START_S, RATE_HZ, RECORDED_S = 1000.0, 20, 5000.0
 
 
@@ -32,7 +33,7 @@ def recorded_outputs(stamp):
     command = TwistStamped()
     pose.header.stamp = command.header.stamp = stamp
     command.twist.linear.x = 0.77
-    return [("/window_pose", pose), ("/cmd_vel", command)]
+    return [("/window_pose", pose), *((topic, command) for topic in COMMANDS)]
 
 
 def messages(stamp, pixels, words, image):

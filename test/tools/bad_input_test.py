@@ -55,6 +55,13 @@ def test_a_full_disk_ends_the_flights_with_one_line(tmp_path):
     assert_refused(run("fly", "--scenario", scenario, "--seeds", "1..3", "--output", tmp_path), 1, "is the disk full?")
 
 
+def test_a_log_that_cannot_be_written_is_a_failed_job(tmp_path):
+    (tmp_path / "flight_1.csv").symlink_to("/dev/full")
+    done = run("fly", "--scenario", NOMINAL, "--no-pictures", "--output", tmp_path / "out", "--log", tmp_path)
+    assert done.returncode == 1
+    assert f"{tmp_path}/flight_1.csv: cannot be written; is the disk full?" in done.stderr
+
+
 @pytest.mark.parametrize("tool", TOOLS)
 def test_unknown_option_is_wrong_usage(tool):
     assert_refused(run(tool, "--no-such-option"), 2, "no-such-option")
@@ -110,9 +117,9 @@ def test_missing_camera_file_is_named(tmp_path, picture):
 
 def test_bad_parameter_file_is_named_with_line_and_key(tmp_path, picture):
     params = tmp_path / "params.yaml"
-    params.write_text("detector:\n  no_such_key: 1\n")
+    params.write_text("window_detector:\n  detector: {no_such_key: 1}\n")
     result = run("detect_images", "--output", tmp_path / "out.csv", "--params", params, picture)
-    assert_refused(result, 2, f"{params}:2", "no_such_key")
+    assert_refused(result, 2, f"{params}:2", "window_detector/detector/no_such_key")
 
 
 def test_typo_in_scenario_is_named_with_line_and_key(tmp_path):
@@ -205,5 +212,36 @@ def test_a_reference_file_is_taken_as_params(tmp_path, picture):
     done = reference_of(tmp_path, picture, whole)
     assert done.returncode == 0 and "a window in 0 of 1 pictures" in done.stdout, done.stderr
     assert_refused(reference_of(tmp_path, picture, "window_detector: {{reference: {{picture: '{}', corners: [1, 2]}}}}"), 2, "eight numbers")
-    assert_refused(reference_of(tmp_path, picture, "reference: {{picture: '{}.none'}}"), 2, "cannot be read as a picture")
-    assert_refused(reference_of(tmp_path, picture, "navigator: {{}}  # {}"), 2, "no section 'detector' or 'reference'")
+    nowhere = "window_detector: {{reference: {{picture: '{}.none'}}}}"
+    assert_refused(reference_of(tmp_path, picture, nowhere), 2, "cannot be read as a picture")
+
+
+OVERLAY_TOOLS = {
+    "detect_images": ("--output", "OUT/found.csv", "PICTURE"), "draw_stages": ("--scenario", NOMINAL, "--output", "OUT/sheet.jpg"),
+    "fly": ("--scenario", NOMINAL, "--output", "OUT"), "make_reference": ("PICTURE", "--output", "OUT/reference.png", "--corners", "1,1,9,1,9,9,1,9"),
+    "survey_detector": ("--scenario", NOMINAL, "--frames", "1", "--output", "OUT"), "survey_filter": ("--runs", "2", "--output", "OUT"),
+    "survey_openness": ("--synthetic", "1", "--output", "OUT"), "survey_tracker": ("--scenario", NOMINAL, "--output", "OUT"),
+    "tune_detector": ("PICTURE", "--headless"), "check_overlay": ()}
+
+
+@pytest.mark.parametrize("tool", OVERLAY_TOOLS)
+@pytest.mark.parametrize("text, meant", [
+    ("navigator: {vehicle: {half_width_m: 0.45}}", "did you mean 'ingress_navigator: {navigator: ..}'?"),
+    ("detector: {min_score: 0.5}", "did you mean 'window_detector: {detector: ..}'?"),
+    ("ingress_navigater: {rate_hz: 40}", "did you mean 'ingress_navigator'?"),
+    ("ingress_navigator: {navigator: {vehicle: {half_width_m: 0.45}}}", "it is now 'vehicle: {..}'")])
+def test_an_overlay_with_keys_that_nobody_reads_is_refused_by_every_tool(tmp_path, picture, tool, text, meant):
+    file = tmp_path / "overlay.yaml"
+    file.write_text(text)
+    words = [str(word).replace("OUT", str(tmp_path / "out")).replace("PICTURE", str(picture)) for word in OVERLAY_TOOLS[tool]]
+    options = [file] if tool == "check_overlay" else ["--params", file]
+    assert_refused(run(tool, *words, *options), 2, f"{file}:1: {text.split(':')[0]}", meant)
+
+
+def test_what_the_operator_says_of_vehicle_and_opening_counts_more_than_the_scenario(tmp_path):
+    """Of a vehicle as wide as the opening nothing passes; the scenario's does."""
+    file = tmp_path / "wide.yaml"
+    file.write_text("vehicle: {half_width_m: 0.6}\n")
+    result = run("fly", "--scenario", NOMINAL, "--no-pictures", "--params", file, "--output", tmp_path / "out")
+    assert result.returncode == 0, result.stderr
+    assert "too small for the vehicle" in (tmp_path / "out" / "flights.csv").read_text()

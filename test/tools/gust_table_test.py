@@ -22,7 +22,7 @@ def test_flies_each_wind_with_and_without_the_observer(tmp_path):
     wind = yaml.safe_load((tmp_path / "observer_on_3/scenario.yaml").read_text())["wind"]
     assert wind["gusts"] == "dryden" and wind["wind_20ft_mps"] == 3
     off = yaml.safe_load((tmp_path / "observer_off_3/params.yaml").read_text())
-    assert off["navigator"]["approach"]["max_wind_mps"] == 0
+    assert off["ingress_navigator"]["navigator"]["approach"]["max_wind_mps"] == 0
     assert "observer on" in (tmp_path / "gusts.md").read_text()
     assert (tmp_path / "gusts.png").stat().st_size > 10000
 

@@ -84,6 +84,46 @@ def test_the_users_file_lies_over_the_frames_and_without_flying_nothing_commands
     assert {node for node in dump("px4", "fly:=false")["nodes"]} == {"/window_detector", "/homography_pose"}
 
 
+@pytest.mark.parametrize("name", ["ingress", "px4", "sim", "replay"])
+@pytest.mark.parametrize("text, meant", [
+    ("navigator: {vehicle: {half_width_m: 0.45}}", "did you mean 'ingress_navigator: {navigator: ..}'?"),
+    ("ingres_navigator: {rate_hz: 40}", "did you mean 'ingress_navigator'?"),
+    ("ingress_navigator: {navigator: {vehicle: {half_width_m: 0.45}}}", "it is now 'vehicle: {..}'")])
+def test_a_file_with_keys_that_nobody_reads_ends_the_launch_before_anything_starts(tmp_path, name, text, meant):
+    config = tmp_path / "drone.yaml"
+    config.write_text(text)
+    done = run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), f"config:={config}")
+    assert done.returncode == 1
+    assert f"{config}:1: {text.split(':')[0]}" in done.stderr and meant in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize("name", ["ingress", "replay", "ardupilot"])
+def test_what_is_given_as_an_argument_counts_more_than_the_file(tmp_path, name):
+    config = tmp_path / "window.yaml"
+    config.write_text("homography_pose: {pose: {opening_width_m: 2.0, opening_height_m: 1.9}}\n"
+                      "window_detector: {reference: {picture: /of/the/file.png, corners: [1, 1, 2, 1, 2, 2, 1, 2]}}\n")
+    size, reference = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/{}"
+    params = dump(name, f"config:={config}")["params"]
+    assert (params[size.format("width")], params[size.format("height")]) == (2.0, 1.9)
+    assert params[reference.format("picture")] == "/of/the/file.png"
+    params = dump(name, f"config:={config}", "window_size:=1.3,1.1", "reference:=/given.png")["params"]
+    assert (params[size.format("width")], params[size.format("height")]) == (1.3, 1.1)
+    assert (params[reference.format("picture")], params[reference.format("corners")]) == ("/given.png", [])
+
+
+@pytest.mark.parametrize("name, half_width, braking, response", [
+    ("ingress", 0.25, 1.2, 0.3), ("px4", 0.25, 1.2, 0.3), ("ardupilot", 0.25, 0.9, 0.45), ("sim", 0.2, 1.2, 0.3)])
+def test_the_vehicle_is_said_once_for_all_nodes(tmp_path, name, half_width, braking, response):
+    params = dump(name)["params"]
+    assert [key for key in params if "half_width_m" in key or "vehicle_width_m" in key] == ["/vehicle/half_width_m"]
+    said = [params[f"/vehicle/{key}"] for key in ("half_width_m", "braking_mps2", "response_sec")]
+    assert said == [half_width, braking, response]
+    config = tmp_path / "drone.yaml"
+    config.write_text("vehicle: {half_width_m: 0.45}\n")
+    params = dump(name, f"config:={config}")["params"]
+    assert params["/vehicle/half_width_m"] == 0.45 and params["/vehicle/braking_mps2"] == braking
+
+
 def test_the_camera_is_mounted_where_it_is_said_to_be():
     assert "/camera_mounting" not in dump("px4")["nodes"]
     launch = dump("px4", "camera_pose:=[0.1, 0, 0.02, 0, 0.3, 0]", "image:=/eye/image_raw")
@@ -100,24 +140,34 @@ def test_the_usb_camera_publishes_what_the_detector_takes():
     assert camera["params"]["/usb_cam/camera_frame_id"] == "camera_optical_frame"
 
 
-OUTPUTS = ("/window", "/window_pose", "/window_pose_cov", "/window_polygon", "/markers", "/debug_image", "/facade", "/state",
-           "/cmd_vel", "/ingress_navigator/cmd_vel", "/mavros/setpoint_velocity/cmd_vel", "/engaged", "/diagnostics", "/rosout")
-
-
 def test_a_debugger_goes_before_the_nodes_but_not_before_the_guard():
     prefixes = {name: node["prefix"] for name, node in dump("ingress", "launch_prefix:=gdb -ex run --args")["nodes"].items()}
     assert prefixes.pop("/setpoint_guard") is None
     assert set(prefixes.values()) == {"gdb -ex run --args"}
 
 
-def test_a_replay_moves_recorded_outputs_aside_and_commands_nobody():
+def played(*arguments):
+    """Topics that rosbag play is told to play."""
+    args = dump("replay", *arguments)["nodes"]["/play"]["args"]
+    return args.split("--topics ")[1].split(" --bags")[0].split()
+
+
+def test_a_replay_plays_what_is_taken_and_commands_nobody():
+    own = ["/camera/camera_info", "/odom", "/imu", "/tf", "/tf_static", "/reference"]
+    assert played() == ["/camera/image_raw/compressed", *own]
+    assert played("image_transport:=raw") == ["/camera/image_raw", *own]
+    assert played("odom:=/uav1/mavros/local_position/odom")[2] == "/uav1/mavros/local_position/odom"
     launch = dump("replay", "rviz:=true", "loop:=true", "rate:=0.5", "start:=3", "odom_frame:=map")
-    assert remaps(launch, "play") == {**{topic: f"/rosbag{topic}" for topic in OUTPUTS}, **{
-        f"/{topic}": f"/rosbag/{topic}" for topic in ("mavros/setpoint_raw/local", "rosout_agg")}}
-    assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel"
-    assert launch["params"]["/use_sim_time"] is True and launch["params"]["/homography_pose/odom_frame"] == "map"
+    assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel" and launch["params"]["/homography_pose/odom_frame"] == "map"
     assert {"/rviz", "/ingress_navigator"} <= set(launch["nodes"])
     assert "/ingress_navigator" not in dump("replay")["nodes"]
+
+
+def test_a_replay_leaves_the_clock_of_others_alone():
+    launch = dump("replay", "rviz:=true")
+    assert "/use_sim_time" not in launch["params"] and launch["params"]["/replay/use_sim_time"] is True
+    for node in launch["nodes"].values():
+        assert (node["remaps"]["/clock"], node["remaps"]["/use_sim_time"]) == ("/replay/clock", "/replay/use_sim_time")
 
 
 def test_a_replay_in_rviz_waits_for_it_and_stays_until_it_is_closed():

@@ -14,7 +14,7 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT, FOCAL = 320, 240, 250.0
 OPENING = (1.2, 1.0)  # m
-BLIND = "detector: {gates: {min_area: 0.5}}\n"  # no window is that large
+BLIND = "window_detector: {detector: {gates: {min_area: 0.5}}}\n"  # no window is that large
 
 
 def run(*command, **environment):

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@
 
 namespace window_ingress::evaluation {
 
-/// Everything that flies. In a yaml file each group is a section; missing ones keep their defaults.
+/// Everything that flies.
 struct FlightParams {
   detection::DetectorParams detector;
   openness::FollowerParams interior;
@@ -29,26 +30,18 @@ struct FlightParams {
   double step_rate_hz = 30.0;     ///< of the navigator [1/s]
   bool without_pictures = false;  ///< the window is seen by `ProjectedSight`, no picture is drawn
   SightParams sight;
-
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field.group("detector", self.detector);
-    field.group("interior", self.interior);
-    field.group("pose", self.pose);
-    field.group("filter", self.filter);
-    field.group("tracker", self.tracker);
-    field.group("navigator", self.navigator);
-    field("step_rate_hz", self.step_rate_hz, 10.0, 200.0);
-    field("without_pictures", self.without_pictures);
-    field.group("sight", self.sight);
-  }
+  std::set<std::string>
+      said;  ///< by the operator: "vehicle/half_width_m"; what is not is taken from the world
 };
+
+/// What a user's file says to the nodes, for a flight. \throws parameters::YamlError
+FlightParams readFlightParams(const std::string& file);
 
 /// One flight in one process, by the objects that the nodes use: the world's pictures through detector, pose
 /// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
 /// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
-/// from the world. \param timing the flight's is added to it \throws simulation::ScenarioError,
-/// std::invalid_argument (parameters), std::runtime_error (no renderer). Without
+/// from the world, unless the operator says otherwise. \param timing the flight's is added to it \throws
+/// simulation::ScenarioError, std::invalid_argument (parameters), std::runtime_error (no renderer). Without
 /// pictures, observers are not shown any.
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
                      const std::vector<FlightObserver*>& observers = {}, FlightTiming* timing = nullptr);

@@ -225,7 +225,7 @@ struct TimeoutParams {
 struct NavigatorParams {
   std::string scheme = "continuous";  ///< continuous, or stepped: the paper's small steps, as a yardstick
   InputParams input;
-  VehicleParams vehicle;
+  VehicleParams vehicle;  // not in `visit`: it has a file of its own, config/vehicle.yaml
   LimitParams limits;
   SearchParams search;
   AlignParams align;
@@ -239,7 +239,6 @@ struct NavigatorParams {
   static void visit(Self& self, Visitor&& field) {
     field.choice("scheme", self.scheme, {"continuous", "stepped"});
     field.group("input", self.input);
-    field.group("vehicle", self.vehicle);
     field.group("limits", self.limits);
     field.group("search", self.search);
     field.group("align", self.align);

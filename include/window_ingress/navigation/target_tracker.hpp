@@ -9,6 +9,7 @@
 #include "window_ingress/facade/facade_memory.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
+#include "window_ingress/navigation/vehicle_params.hpp"
 #include "window_ingress/openness/openness_judge.hpp"
 #include "window_ingress/pose/clock_check.hpp"
 #include "window_ingress/pose/frames_check.hpp"
@@ -42,6 +43,9 @@ struct TrackerParams {
     field.group("facade", self.facade);
   }
 };
+
+/// The same for this vehicle: it is what must fit, and what the opening must be open for.
+TrackerParams forVehicle(TrackerParams params, const VehicleParams& vehicle);
 
 /// What the detector says of one picture, and from where it was taken.
 struct SeenPicture {

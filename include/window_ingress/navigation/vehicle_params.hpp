@@ -1,9 +1,9 @@
-/// What the vehicle is, and what it may be told. Sections of `navigator` in config/navigator.yaml.
+/// What the vehicle is (config/vehicle.yaml), and what it may be told (`navigator/limits` in config/navigator.yaml).
 #pragma once
 
 namespace window_ingress::navigation {
 
-/// The vehicle's body, camera and manners.
+/// The vehicle's body, camera and manners. Said once, for all who need it.
 struct VehicleParams {
   double half_length_m = 0.25;       ///< of the body's box, propellers included, forward [m]
   double half_width_m = 0.25;        ///< likewise, sideways [m]

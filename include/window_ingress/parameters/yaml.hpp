@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/parameters/key_list.hpp"
 
 namespace YAML {
 class Node;
@@ -20,11 +22,12 @@ class YamlError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Visitor that fills a parameter struct from one yaml mapping. Missing keys keep their defaults; unknown keys, wrong
-/// types and values out of range are errors that name file, line and key.
+/// Visitor that fills a parameter struct from one yaml mapping. Missing keys keep their defaults; unknown
+/// keys, wrong types and values out of range are errors that name file, line and key.
 class YamlReader {
  public:
-  YamlReader(const std::string& file, const YAML::Node& mapping);
+  /// \param known all paths that may stand in the file, to say which may have been meant
+  YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known = {});
   ~YamlReader();
   YamlReader(const YamlReader&) = delete;
   YamlReader& operator=(const YamlReader&) = delete;
@@ -33,6 +36,7 @@ class YamlReader {
   void operator()(const std::string& name, int& value, double minimum, double maximum);
   void operator()(const std::string& name, bool& value);
   void operator()(const std::string& name, std::string& value);
+  void operator()(const std::string& name, std::vector<double>& value);  ///< a list of finite numbers
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
   template <typename Params>
   void group(const std::string& name, Params& params) {
@@ -43,23 +47,24 @@ class YamlReader {
   }
   /// \throws YamlError for the first key that no field has asked for.
   void refuseUnknownKeys() const;
+  /// Paths of all that has been read, by this reader and those of its groups.
+  const std::set<std::string>& said() const;
 
  private:
   struct Impl;
+  explicit YamlReader(std::unique_ptr<Impl> impl);
   std::unique_ptr<YamlReader> descend(const std::string& name);
   std::unique_ptr<Impl> impl_;
 };
 
-/// Visits the mapping `section` of a yaml file, at its top or below the name of a node ("window_detector: {detector: ..}"),
-/// or the whole file if `section` is empty; false, and nothing visited, if the file has no such section.
-/// \throws YamlError
-bool visitYamlFile(const std::string& file, const std::string& section,
-                   const std::function<void(YamlReader&)>& visit);
+/// Visits a yaml file. \return paths of what it says \throws YamlError
+std::set<std::string> visitYamlFile(const std::string& file, std::vector<std::string> known,
+                                    const std::function<void(YamlReader&)>& visit);
 
-/// Fills `params` from a section of a yaml file; see `visitYamlFile`.
+/// Fills `params` from a yaml file. \return paths of what it says: "group/field" \throws YamlError
 template <typename Params>
-bool readYamlFile(const std::string& file, const std::string& section, Params& params) {
-  return visitYamlFile(file, section, [&](YamlReader& reader) { Params::visit(params, reader); });
+std::set<std::string> readYamlFile(const std::string& file, Params& params) {
+  return visitYamlFile(file, keysOf(params), [&](YamlReader& reader) { Params::visit(params, reader); });
 }
 
 }  // namespace window_ingress::parameters

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <functional>
 #include <set>
 #include <string>
 
@@ -21,8 +22,9 @@ class YamlMapping {
   /// The value of a key, not defined if there is none; the key is known from now on.
   YAML::Node find(const std::string& name);
   [[noreturn]] void fail(const YAML::Node& at, const std::string& text) const;
-  /// \throws YamlError for the first key that nobody has asked for. \param advice is put behind
-  void refuseUnknownKeys(const std::string& advice = "") const;
+  /// \throws YamlError for the first key that nobody has asked for. \param advice what to put behind, by its
+  /// path
+  void refuseUnknownKeys(const std::function<std::string(const std::string&)>& advice) const;
 
  private:
   std::string file_;

@@ -29,6 +29,13 @@ TEST(CameraMounting, OpticalAxesInTheBody) {
   }
 }
 
+TEST(CameraMounting, RefusesDegreesAndWhatLiesBesideASmallVehicle) {
+  EXPECT_THROW(T_base_cameraOf({0.1, 0, 0, 15.0, 0, 0}), ParameterError);
+  EXPECT_THROW(T_base_cameraOf({0.1, 0, 0, 0, -4.0, 0}), ParameterError);
+  EXPECT_THROW(T_base_cameraOf({100.0, 0, 0, 0, 0, 0}), ParameterError);
+  EXPECT_NO_THROW(T_base_cameraOf({0.1, -0.2, 0.3, 3.14159265, -3.14159265, 0.0}));
+}
+
 TEST(CameraMounting, RefusesWhatIsNotSixNumbersWithTheirMeaning) {
   for (const auto& pose : {std::vector<double>{}, {0.1, 0.0, 0.0}, {0, 0, 0, 0, 0, 0, 0}}) try {
       T_base_cameraOf(pose);

@@ -78,6 +78,7 @@ TEST(ParameterFiles, YamlIsTheDefault) {
   expectSameAsFile<NavigatorNodeParams>("navigator.yaml");
   expectSameAsFile<GuardParams>("guard.yaml");
   expectSameAsFile<WorldNodeParams>("world.yaml");
+  expectSameAsFile<navigation::VehicleParams>("vehicle.yaml");
 }
 
 TEST(ParameterFiles, DefaultsAreInRange) {

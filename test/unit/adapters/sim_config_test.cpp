@@ -1,4 +1,4 @@
-// config/sim.yaml tells the navigator of the simulated vehicle and its camera: the same as the scenarios say.
+// config/sim.yaml tells the nodes of the simulated vehicle and its camera: the same as the scenarios say.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -13,8 +13,7 @@ constexpr double kRounded = 0.005;
 
 class SimConfig : public testing::Test {
  protected:
-  const YAML::Node vehicle_ = YAML::LoadFile(WINDOW_INGRESS_SOURCE_DIR
-                                             "/config/sim.yaml")["ingress_navigator"]["navigator"]["vehicle"];
+  const YAML::Node vehicle_ = YAML::LoadFile(WINDOW_INGRESS_SOURCE_DIR "/config/sim.yaml")["vehicle"];
   const Scenario scenario_ = loadScenario(WINDOW_INGRESS_SOURCE_DIR "/config/scenarios/nominal.yaml", 1);
   double said(const char* name) const { return vehicle_[name].as<double>(); }
 };

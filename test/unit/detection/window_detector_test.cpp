@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "drawn_window.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/yaml.hpp"
@@ -232,12 +233,12 @@ std::string listed(const DetectorParams& params) {
 
 TEST(DetectorParams, TheShippedFileHoldsEveryFieldAtItsDefault) {
   const std::string file = std::string(WINDOW_INGRESS_SOURCE_DIR) + "/config/detector.yaml";
-  DetectorParams params;
-  ASSERT_TRUE(parameters::readYamlFile(file, "detector", params));
-  EXPECT_EQ(listed(params), listed(DetectorParams()));
+  configuration::DetectorNodeParams params;
+  parameters::readYamlFile(file, params);
+  EXPECT_EQ(listed(params.detector), listed(DetectorParams()));
   std::ifstream stream(file);
   const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  std::istringstream names(listed(params));
+  std::istringstream names(listed(params.detector));
   for (std::string name, value; names >> name >> value;)
     EXPECT_NE(text.find(" " + name.substr(name.find('/') + 1) + ":"), std::string::npos) << name;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "navigation_samples.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
 namespace window_ingress::navigation {
@@ -413,14 +414,13 @@ struct FieldList {
 };
 
 TEST(NavigatorParamsCheck, ShippedYamlHasEveryFieldAtItsDefault) {
-  NavigatorParams defaults, poisoned;
+  configuration::NavigatorNodeParams defaults, poisoned;
   Poison poison;
-  NavigatorParams::visit(poisoned, poison);
-  ASSERT_TRUE(
-      parameters::readYamlFile(WINDOW_INGRESS_SOURCE_DIR "/config/navigator.yaml", "navigator", poisoned));
+  NavigatorParams::visit(poisoned.navigator, poison);
+  parameters::readYamlFile(WINDOW_INGRESS_SOURCE_DIR "/config/navigator.yaml", poisoned);
   FieldList expected, shipped;
-  NavigatorParams::visit(defaults, expected);
-  NavigatorParams::visit(poisoned, shipped);
+  NavigatorParams::visit(defaults.navigator, expected);
+  NavigatorParams::visit(poisoned.navigator, shipped);
   EXPECT_EQ(shipped.names, expected.names);
 }
 

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace window_ingress::parameters {
 namespace {
@@ -19,12 +21,14 @@ struct Inner {
 };
 
 struct Sample {
+  std::vector<double> corners;
   double speed_mps = 1.0;
   bool fast = false;
   std::string name = "plain";
   Inner inner;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
+    field("corners", self.corners);
     field("speed_mps", self.speed_mps, 0.0, 5.0);
     field("fast", self.fast);
     field("name", self.name);
@@ -37,12 +41,13 @@ class YamlFile : public testing::Test {
   std::string file_ = (std::filesystem::temp_directory_path() /
                        ("window_ingress_" + std::to_string(::getpid()) + "_yaml_test.yaml"))
                           .string();
+  std::set<std::string> said_;
   void TearDown() override { std::filesystem::remove(file_); }
 
-  Sample read(const std::string& text, const std::string& section = "") {
+  Sample read(const std::string& text) {
     std::ofstream(file_) << text;
     Sample sample;
-    readYamlFile(file_, section, sample);
+    said_ = readYamlFile(file_, sample);
     return sample;
   }
   std::string error(const std::string& text) {
@@ -63,17 +68,20 @@ TEST_F(YamlFile, ReadsFieldsAndKeepsDefaults) {
   EXPECT_EQ(sample.name, "plain");
 }
 
-TEST_F(YamlFile, ReadsOneSectionOfALargerFile) {
-  EXPECT_DOUBLE_EQ(read("a: {speed_mps: 2}\nb: {other: 1}\n", "a").speed_mps, 2.0);
-  EXPECT_DOUBLE_EQ(read("b: {other: 1}\n", "a").speed_mps, 1.0);
+TEST_F(YamlFile, TellsWhatTheFileSays) {
+  EXPECT_EQ(read("corners: [1, 2.5]\ninner: {count: 3}\n").corners, (std::vector<double>{1.0, 2.5}));
+  EXPECT_EQ(said_, (std::set<std::string>{"corners", "inner/count"}));
 }
 
 TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("fast: true\nspeed_mps: 9\n"), file_ + ":2: speed_mps = 9 is not within 0 .. 5");
-  EXPECT_EQ(error("fast: true\nspeed: 1\n"), file_ + ":2: speed: unknown key");
-  EXPECT_EQ(error("inner:\n  cuont: 1\n"), file_ + ":2: cuont: unknown key");
+  EXPECT_EQ(error("fast: true\nspeed: 1\n"), file_ + ":2: speed: unknown key; did you mean 'speed_mps'?");
+  EXPECT_EQ(error("inner:\n  cuont: 1\n"), file_ + ":2: inner/cuont: unknown key; did you mean 'count'?");
+  EXPECT_EQ(error("count: 1\n"), file_ + ":1: count: unknown key; did you mean 'inner: {count: ..}'?");
+  EXPECT_EQ(error("inner: 1\n"), file_ + ":1: inner: must be a mapping of keys to values");
+  EXPECT_EQ(error("corners: [1, .nan]\n"), file_ + ":1: corners: must be finite numbers");
   EXPECT_EQ(error("speed_mps: quick\n"), file_ + ":1: speed_mps: must be a number");
-  EXPECT_EQ(error("inner: {count: 1.5}\n"), file_ + ":1: count: must be a whole number");
+  EXPECT_EQ(error("inner: {count: 1.5}\n"), file_ + ":1: inner/count: must be a whole number");
   EXPECT_NE(error("speed_mps: .nan\n").find("not within"), std::string::npos);
   EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: stands here for the second time");
   EXPECT_NE(error("a: [1, 2\n").find("not valid yaml"), std::string::npos);
@@ -84,7 +92,7 @@ TEST_F(YamlFile, MissingFileAndFolderSaySo) {
   for (const std::string file : {"/nowhere/params.yaml", "/"}) {
     Sample sample;
     try {
-      readYamlFile(file, "", sample);
+      readYamlFile(file, sample);
       FAIL();
     } catch (const YamlError& e) {
       EXPECT_NE(std::string(e.what()).find(file + ": cannot be read"), std::string::npos) << e.what();

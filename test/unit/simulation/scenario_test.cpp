@@ -143,6 +143,18 @@ TEST_F(ScenarioFile, AVehicleMayBeNamedByItsProfileAlone) {
   EXPECT_EQ(profiles, (std::set<std::string>{"crisp", "default"}));
 }
 
+// It would count as a collision before anything has flown.
+TEST_F(ScenarioFile, AStartInTheRoofIsRefusedByName) {
+  const std::string house = "house: {eaves_m: 2.5}\nwindow: {sill_m: 0.8, height_m: 1.0}\n";
+  const auto start = [&](double distance_m, double height_m) {
+    return error(house + "start: {off_axis_rad: 0.9, distance_m: " + std::to_string(distance_m) +
+                 ", height_offset_m: " + std::to_string(height_m) + "}\n");
+  };
+  EXPECT_NE(start(1.0, 1.2).find("start/height_offset_m: starts in the roof"), std::string::npos);
+  EXPECT_EQ(start(1.0, 0.9), "no error") << "below it";
+  EXPECT_EQ(start(2.0, 1.2), "no error") << "before it";
+}
+
 TEST_F(ScenarioFile, AKeyMayNotStandTwice) {
   EXPECT_EQ(error("start:\n  distance_m: 4\n  distance_m: 5\n"),
             file_ + ":3: start/distance_m: stands here for the second time");

@@ -1,0 +1,73 @@
+#include "window_ingress/parameters/key_list.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace window_ingress::parameters {
+namespace {
+
+// Ends of paths that had another name in earlier versions.
+const std::pair<const char*, const char*> kMoved[] = {
+    {"navigator/vehicle", "'vehicle: {..}', beside the nodes: said once for all of them"},
+    {"tracker/fit/vehicle_width_m", "'vehicle: {half_width_m: ..}', half as much, beside the nodes"},
+    {"tracker/fit/vehicle_height_m", "'vehicle: {half_height_m: ..}', half as much, beside the nodes"},
+};
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string groupOf(const std::string& path) {
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::string nameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+// Letters to insert, remove or exchange, neighbours that have changed places counting once (optimal string
+// alignment).
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> to(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) to[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) to[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t exchanged = to[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      to[i][j] = std::min({to[i - 1][j] + 1, to[i][j - 1] + 1, exchanged});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) to[i][j] = std::min(to[i][j], to[i - 2][j - 2] + 1);
+    }
+  return to[a.size()][b.size()];
+}
+
+// As it stands in a file: "a/b/c" is "a: {b: {c: ..}}".
+std::string inYaml(const std::string& path) {
+  const auto slash = path.find('/');
+  if (slash == std::string::npos) return path + ": ..";
+  return path.substr(0, slash) + ": {" + inYaml(path.substr(slash + 1)) + "}";
+}
+
+// A name without its unit is as good as one with a letter wrong.
+std::size_t nameDistance(const std::string& name, const std::string& known) {
+  return known.compare(0, name.size() + 1, name + "_") == 0 ? 1 : distance(name, known);
+}
+
+// How far a known path is from the one that is not: first by its name, then by where it stands.
+std::pair<std::size_t, std::size_t> unlikeness(const std::string& path, const std::string& known) {
+  return {nameDistance(nameOf(path), nameOf(known)), distance(groupOf(path), groupOf(known))};
+}
+
+}  // namespace
+
+std::string didYouMean(const std::string& path, const std::vector<std::string>& known) {
+  for (const auto& [end, now] : kMoved)
+    if (endsWith(path, end)) return std::string("; it is now ") + now;
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return unlikeness(path, a) < unlikeness(path, b);
+  });
+  if (nearest == known.end() || 3 * unlikeness(path, *nearest).first > nameOf(path).size()) return "";
+  const bool is_neighbour = groupOf(path) == groupOf(*nearest);
+  return "; did you mean '" + (is_neighbour ? nameOf(*nearest) : inYaml(*nearest)) + "'?";
+}
+
+}  // namespace window_ingress::parameters

@@ -1,0 +1,93 @@
+#include "window_ingress/configuration/overlay.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "window_ingress/parameters/yaml.hpp"
+
+namespace window_ingress::configuration {
+namespace {
+
+class OverlayFile : public testing::Test {
+ protected:
+  const std::string file_ =
+      (std::filesystem::temp_directory_path() / ("overlay_test_" + std::to_string(::getpid()) + ".yaml"))
+          .string();
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  Overlay read(const std::string& text) {
+    std::ofstream(file_) << text;
+    return readOverlay(file_);
+  }
+  std::string error(const std::string& text) {
+    try {
+      read(text);
+    } catch (const parameters::YamlError& refused) {
+      return refused.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(OverlayFile, TellsTheVehicleToPoseAndNavigation) {
+  const Overlay overlay = read("vehicle: {half_width_m: 0.45, half_height_m: 0.2}\n");
+  EXPECT_DOUBLE_EQ(overlay.ingress_navigator.navigator.vehicle.half_width_m, 0.45);
+  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.fit.vehicle_width_m, 0.9);
+  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.fit.vehicle_height_m, 0.4);
+  EXPECT_EQ(overlay.said, (std::set<std::string>{"vehicle/half_width_m", "vehicle/half_height_m"}));
+}
+
+TEST_F(OverlayFile, WithoutAFileEverythingIsAtItsDefault) {
+  const Overlay overlay = readOverlay("");
+  EXPECT_TRUE(overlay.said.empty());
+  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.fit.vehicle_width_m,
+                   2.0 * navigation::VehicleParams().half_width_m);
+}
+
+// What earlier versions took as --params, and in silence as config:=.
+TEST_F(OverlayFile, RefusesSectionsWithoutTheirNode) {
+  EXPECT_EQ(error("navigator: {vehicle: {half_width_m: 0.45}}\n"),
+            file_ + ":1: navigator: unknown key; did you mean 'ingress_navigator: {navigator: ..}'?");
+  EXPECT_EQ(error("detector: {min_score: 0.5}\n"),
+            file_ + ":1: detector: unknown key; did you mean 'window_detector: {detector: ..}'?");
+  EXPECT_EQ(error("reference: {picture: a.png}\n"),
+            file_ + ":1: reference: unknown key; did you mean 'window_detector: {reference: ..}'?");
+}
+
+TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
+  EXPECT_EQ(error("ingres_navigator: {rate_hz: 40}\n"),
+            file_ + ":1: ingres_navigator: unknown key; did you mean 'ingress_navigator'?");
+  EXPECT_EQ(error("world: {}\nvehicle:\n  half_widht_m: 0.3\n"),
+            file_ + ":3: vehicle/half_widht_m: unknown key; did you mean 'half_width_m'?");
+  EXPECT_EQ(error("ingress_navigator: {navigator: {limits: {speed: 1}}}\n"),
+            file_ + ":1: ingress_navigator/navigator/limits/speed: unknown key; did you mean 'speed_mps'?");
+  EXPECT_EQ(error("unheard_of: 1\n"), file_ + ":1: unheard_of: unknown key");
+}
+
+TEST_F(OverlayFile, SaysWhereTheVehicleIsNow) {
+  EXPECT_EQ(error("ingress_navigator: {navigator: {vehicle: {half_width_m: 0.3}}}\n"),
+            file_ +
+                ":1: ingress_navigator/navigator/vehicle: unknown key; it is now 'vehicle: {..}', beside the "
+                "nodes: said once for all of them");
+  EXPECT_NE(error("homography_pose: {tracker: {fit: {vehicle_width_m: 0.6}}}\n").find("half_width_m"),
+            std::string::npos);
+}
+
+TEST_F(OverlayFile, RefusesANodeThatHoldsNoMapping) {
+  EXPECT_EQ(error("ingress_navigator: 5\n"),
+            file_ + ":1: ingress_navigator: must be a mapping of keys to values");
+}
+
+TEST_F(OverlayFile, ShippedOnesAreGood) {
+  for (const char* name : {"sim", "ardupilot"}) {
+    const std::string file = std::string(WINDOW_INGRESS_SOURCE_DIR "/config/") + name + ".yaml";
+    EXPECT_FALSE(readOverlay(file).said.empty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace window_ingress::configuration
