@@ -6,6 +6,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kStrongestGustMps = 3.0;
+constexpr double kUsualGustMps = 0.1, kUsualSec = 0.5;
 constexpr double kWorthComparingMps = 0.3;
 constexpr double kEnoughM2ps = 0.3;  // about half a second at 0.8 m/s
 constexpr double kSteadyMps = 0.15;  // a vehicle that is asked to change answers otherwise than its model
@@ -31,7 +32,8 @@ void DisturbanceObserver::restart() {
   response_.restart();
   disturbance_mps_.setZero();
   gust_mps_.setZero();
-  gusts_.setZero();
+  gusts_m2ps_.setZero();
+  watched_sec_ = 0.0;
   told_.setZero();
   told_m2ps_ = 0.0;
 }
@@ -49,6 +51,12 @@ void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps,
   told_m2ps_ = keep * told_m2ps_ + dt_sec * said.squaredNorm();
 }
 
+// Until it has been watched for a while, what is usual counts beside it.
+Eigen::Matrix3d DisturbanceObserver::gusts() const {
+  const Eigen::Matrix3d usual_m2ps = kUsualSec * kUsualGustMps * kUsualGustMps * Eigen::Matrix3d::Identity();
+  return (gusts_m2ps_ + usual_m2ps) / (watched_sec_ + kUsualSec);
+}
+
 void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,
                                  double dt_sec) {
   if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
@@ -60,7 +68,9 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
   if ((commanded_mps - response_.velocity()).norm() > kSteadyMps) return;
   gust_mps_ +=
       share(dt_sec, response_.responseSec()) * (clipped(surprise_mps, kStrongestGustMps) - gust_mps_);
-  gusts_ += share(dt_sec, approach_.gust_memory_sec) * (gust_mps_ * gust_mps_.transpose() - gusts_);
+  const double keep = 1.0 - share(dt_sec, approach_.gust_memory_sec);
+  gusts_m2ps_ = keep * gusts_m2ps_ + dt_sec * gust_mps_ * gust_mps_.transpose();
+  watched_sec_ = keep * watched_sec_ + dt_sec;
 }
 
 }  // namespace window_ingress::navigation

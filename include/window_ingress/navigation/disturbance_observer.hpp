@@ -26,7 +26,7 @@ class DisturbanceObserver {
   /// At most `max_wind_mps` long.
   const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
   /// Mean square of what remains beyond it, over `gust_memory_sec` of steady commands: gusts.
-  const Eigen::Matrix3d& gusts() const { return gusts_; }
+  Eigen::Matrix3d gusts() const;
   /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
   /// plane; 0 as long as it moved too little to tell [rad].
   double turnedRad() const;
@@ -41,7 +41,8 @@ class DisturbanceObserver {
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
   Eigen::Vector2d told_ = Eigen::Vector2d::Zero();      ///< of what was told, done: along it, to its left
   double told_m2ps_ = 0.0;                              ///< how much was told [m^2/s]
-  Eigen::Matrix3d gusts_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();
+  double watched_sec_ = 0.0;  ///< of steady commands, fading
 };
 
 }  // namespace window_ingress::navigation
