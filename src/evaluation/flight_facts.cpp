@@ -32,6 +32,17 @@ void tellOpening(const simulation::World& world, const std::set<std::string>& sa
   if (!isSaid("homography_pose/pose/opening_height_m")) pose.opening_height_m = world.opening().height_m;
 }
 
+// Of what the scenario says for lack of somebody to be asked.
+void tellPolicy(const simulation::Scenario& scenario, const std::set<std::string>& said,
+                navigation::CommitParams& commit) {
+  const auto tell = [&](const char* name, std::string& value, const std::string& policy) {
+    const bool is_said = said.count(std::string("ingress_navigator/navigator/commit/") + name) > 0;
+    if (policy != "as_set" && !is_said) value = policy;
+  };
+  tell("glass", commit.glass, scenario.glass);
+  tell("unverified_opening", commit.unverified_opening, scenario.unverified_opening);
+}
+
 }  // namespace
 
 FlightParams readFlightParams(const std::string& file) {
@@ -52,12 +63,9 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   tellVehicle(world, params.said, params.navigator.vehicle);
   params.tracker = navigation::forVehicle(params.tracker, params.navigator.vehicle);
   tellOpening(world, params.said, params.pose);
-  const std::string &glass = world.scenario().glass, &opening_policy = world.scenario().unverified_opening;
-  auto& commit = params.navigator.commit;
-  if (glass != "as_set") commit.glass = glass;
-  if (opening_policy != "as_set") commit.unverified_opening = opening_policy;
-  if (params.without_pictures)
-    commit.glass = "excluded", commit.unverified_opening = "allow";  // nothing shows it
+  tellPolicy(world.scenario(), params.said, params.navigator.commit);
+  if (params.without_pictures)  // nothing shows it
+    params.navigator.commit.glass = "excluded", params.navigator.commit.unverified_opening = "allow";
   return params;
 }
 

@@ -111,6 +111,14 @@ def test_what_is_given_as_an_argument_counts_more_than_the_file(tmp_path, name):
     assert (params[reference.format("picture")], params[reference.format("corners")]) == ("/given.png", [])
 
 
+def test_in_simulation_too_the_file_counts_more_than_the_defaults_and_the_argument_more_than_the_file(tmp_path):
+    config, glass = tmp_path / "asking.yaml", "/ingress_navigator/navigator/commit/glass"
+    config.write_text("ingress_navigator: {navigator: {commit: {glass: possible}}}\n")
+    assert dump("sim")["params"][glass] == "excluded"
+    assert dump("sim", f"config:={config}")["params"][glass] == "possible"
+    assert dump("sim", f"config:={config}", "glass:=excluded")["params"][glass] == "excluded"
+
+
 @pytest.mark.parametrize("name, half_width, braking, response", [
     ("ingress", 0.25, 1.2, 0.3), ("px4", 0.25, 1.2, 0.3), ("ardupilot", 0.25, 0.9, 0.45), ("sim", 0.2, 1.2, 0.3)])
 def test_the_vehicle_is_said_once_for_all_nodes(tmp_path, name, half_width, braking, response):
