@@ -6,7 +6,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kStrongestGustMps = 3.0;
-constexpr double kUsualGustMps = 0.1, kUsualSec = 0.5;
+constexpr double kUsualGustMps = 0.06, kUsualSec = 0.3;
 constexpr double kWorthComparingMps = 0.3;
 constexpr double kEnoughM2ps = 0.3;  // about half a second at 0.8 m/s
 constexpr double kSteadyMps = 0.15;  // a vehicle that is asked to change answers otherwise than its model

@@ -63,8 +63,8 @@ struct SearchParams {
 /// ALIGN: onto the window's normal, the camera kept on the window; and the gains that APPROACH and COMMIT
 /// share.
 struct AlignParams {
-  double lateral_gain_hz = 2.0;     ///< sideways and upward velocity per offset [1/s]
-  double lateral_speed_mps = 0.9;   ///< most sideways [m/s]
+  double lateral_gain_hz = 1.75;    ///< sideways and upward velocity per offset [1/s]
+  double lateral_speed_mps = 0.65;  ///< most sideways [m/s]
   double vertical_speed_mps = 0.5;  ///< most upward and downward [m/s]
   double yaw_gain_hz = 3.0;         ///< yaw rate per bearing; keep above the lateral gain [1/s]
   double min_distance_m = 2.0;      ///< to the window's plane while aligning; closer, it moves away [m]
@@ -103,10 +103,10 @@ struct ApproachParams {
   double leave_sec = 0.5;     ///< for this long [s]
   double patience_sec = 2.0;  ///< at the commit line without a contract: back off [s]
 
-  double wind_sec = 0.6;         ///< smoothing of the velocity that wind adds [s]
-  double max_wind_mps = 0.6;     ///< most that is taken off the command for it; 0: nothing [m/s]
-  double gust_memory_sec = 15.0; ///< over which the strength of gusts is measured [s]
-  double gust_carry_sec = 0.6;   ///< a gust carries the vehicle off by its velocity times this [s]
+  double wind_sec = 0.6;          ///< smoothing of the velocity that wind adds [s]
+  double max_wind_mps = 0.6;      ///< most that is taken off the command for it; 0: nothing [m/s]
+  double gust_memory_sec = 15.0;  ///< over which the strength of gusts is measured [s]
+  double gust_carry_sec = 0.6;    ///< a gust carries the vehicle off by its velocity times this [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

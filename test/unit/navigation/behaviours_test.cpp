@@ -235,7 +235,7 @@ TEST(BackOffBehaviour, GoesBackAlongTheAxisAndDoesNotTurnInTheReveal) {
   EXPECT_NEAR(inside.wish.velocity_odom_mps.dot(normal), -kDefaults.back_off.speed_mps, 1e-12);
   const double offset_m = Eigen::Vector3d(0.05, 0.05, 0.0).dot(left);
   EXPECT_NEAR(inside.wish.velocity_odom_mps.dot(left), -kDefaults.align.lateral_gain_hz * offset_m, 1e-12);
-  const auto outside = back_off.step(situationAt({-1.2, 0.0, 1.5}, 0.0, false, 1.2), memory);
+  const auto outside = back_off.step(situationAt({-1.2, -0.35, 1.5}, 0.0, false, 1.2), memory);
   EXPECT_LT(outside.wish.yaw_rate_radps, 0.0);
   EXPECT_NEAR(outside.wish.velocity_odom_mps.dot(normal), -NavigatorParams().back_off.speed_mps, 1e-12);
   EXPECT_LT(outside.wish.velocity_odom_mps.dot(left), -0.1) << "clear of the reveal, back onto the normal";

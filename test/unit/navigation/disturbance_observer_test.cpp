@@ -64,11 +64,12 @@ TEST(DisturbanceObserver, TellsGustsFromWind) {
     steady.update({0, 0.3, 0}, {0, 0, 0}, 0.033);
     gusty.update({0, 0.4 * std::sin(2.0 * t), 0}, {0, 0, 0}, 0.033);
   }
-  EXPECT_LT(std::sqrt(steady.gusts()(1, 1)), 0.01);
+  const double usual_mps = std::sqrt(observer().gusts()(1, 1));  // of which less and less counts
+  EXPECT_LT(std::sqrt(steady.gusts()(1, 1)), 0.3 * usual_mps);
   EXPECT_NEAR(std::sqrt(gusty.gusts()(1, 1)), 0.2, 0.08);
-  EXPECT_LT(gusty.gusts()(0, 0), 1e-6);
+  EXPECT_LT(std::sqrt(gusty.gusts()(0, 0)), 0.3 * usual_mps);
   steady.reset();
-  EXPECT_EQ(steady.gusts().norm(), 0.0);
+  EXPECT_EQ(std::sqrt(steady.gusts()(1, 1)), usual_mps);
 }
 
 TEST(DisturbanceObserver, IgnoresWhatIsNoNumber) {
