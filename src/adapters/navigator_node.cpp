@@ -7,6 +7,7 @@
 #include "adapters/guarded.hpp"
 #include "adapters/marker_sketch.hpp"
 #include "adapters/parameters.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -243,7 +244,9 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
   std::optional<Eigen::Matrix3d> R_odom_base;
   const bool known = input_.vehicle.has_value();
   if (params_.setpoint_frame == kBaseAxes)
-    R_odom_base = known ? Eigen::Matrix3d(input_.vehicle->T_odom_base.linear()) : Eigen::Matrix3d::Identity();
+    R_odom_base = known ? Eigen::Matrix3d(geometry::yawRotation(-setpoint.heading_error_rad) *
+                                          input_.vehicle->T_odom_base.linear())
+                        : Eigen::Matrix3d::Identity();
   const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
   geometry_msgs::TwistStamped message =
       toTwistMsg(directionless ? navigation::Setpoint() : setpoint, params_.frames, R_odom_base);

@@ -48,6 +48,7 @@ Decision Approach::step(const Situation& situation, MissionMemory& memory) {
                         memory.wind_odom_mps, *params_),
       uprightRotation(target), situation);
   decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
+  if (!contract.holds) memory.unmet = contract.unmet;
   decision.event = judge(contract, relative, situation, decision.reason);
   if (decision.event == Event::kCommitReached) {
     memory.committed = target;

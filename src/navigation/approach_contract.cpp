@@ -86,7 +86,13 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-std::string whyUnmet(const Contract& contract, const RelativeState& relative, const NavigatorParams& params) {
+std::string predictedMiss(const char* way, double miss_m, double clearance_m, double gust_mps) {
+  return format("predicted %s miss %.2f m in gusts of %.2f m/s, clearance %.2f m", way, miss_m, gust_mps,
+                clearance_m);
+}
+
+std::string whyUnmet(const Contract& contract, const ContractInput& input, const NavigatorParams& params) {
+  const RelativeState& relative = input.relative;
   const Eigen::Vector3d coasted = coastedOffset(relative, params);
   if (!(std::abs(coasted.y()) < contract.clearance_lateral_m)) {
     return format("lateral offset %.2f m, clearance %.2f m", coasted.y(), contract.clearance_lateral_m);
@@ -94,14 +100,12 @@ std::string whyUnmet(const Contract& contract, const RelativeState& relative, co
   if (!(std::abs(coasted.z()) < contract.clearance_vertical_m)) {
     return format("vertical offset %.2f m, clearance %.2f m", coasted.z(), contract.clearance_vertical_m);
   }
-  if (!(contract.miss_lateral_m < contract.clearance_lateral_m)) {
-    return format("predicted lateral miss %.2f m, clearance %.2f m", contract.miss_lateral_m,
-                  contract.clearance_lateral_m);
-  }
-  if (!(contract.miss_vertical_m < contract.clearance_vertical_m)) {
-    return format("predicted vertical miss %.2f m, clearance %.2f m", contract.miss_vertical_m,
-                  contract.clearance_vertical_m);
-  }
+  if (!(contract.miss_lateral_m < contract.clearance_lateral_m))
+    return predictedMiss("lateral", contract.miss_lateral_m, contract.clearance_lateral_m,
+                         input.gust_lateral_mps);
+  if (!(contract.miss_vertical_m < contract.clearance_vertical_m))
+    return predictedMiss("vertical", contract.miss_vertical_m, contract.clearance_vertical_m,
+                         input.gust_vertical_mps);
   if (std::abs(relative.heading_error_rad) > params.commit.max_heading_error_rad) {
     return format("heading %.2f rad off the normal", relative.heading_error_rad);
   }
@@ -140,7 +144,7 @@ Contract evaluateContract(const ContractInput& input, const NavigatorParams& par
   contract.openness = std::clamp((1.0 - contract.fullness) / kWallOfFunnel, 0.0, 1.0);
   contract.in_funnel =
       contract.openness > 0.0 && contract.clearance_lateral_m > 0.0 && contract.clearance_vertical_m > 0.0;
-  contract.unmet = whyUnmet(contract, relative, params);
+  contract.unmet = whyUnmet(contract, input, params);
   contract.holds = contract.unmet.empty();
   return contract;
 }

@@ -41,6 +41,7 @@ std::optional<Event> BackOff::judge(const Situation& situation, const MissionMem
                                     const RelativeState& relative, std::string& reason) {
   if (memory.back_offs > params_->back_off.max_retries) {
     reason = "given up after " + std::to_string(params_->back_off.max_retries) + " retries";
+    if (!memory.unmet.empty()) reason += ": " + memory.unmet;
     return Event::kGiveUp;
   }
   if (situation.target) {

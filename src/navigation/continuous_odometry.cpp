@@ -89,6 +89,10 @@ Eigen::Vector3d ContinuousOdometry::inOdomAxes(const Eigen::Vector3d& velocity_s
                     : velocity_smooth_mps;
 }
 
+double ContinuousOdometry::headingErrorRad() const {
+  return geometry::wrapAngle(heading_error_rad_ + geometry::yawOf(T_smooth_axes_.linear()));
+}
+
 VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
   if (!is_erring_) return odometry;
   VehicleState smooth = odometry;

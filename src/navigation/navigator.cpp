@@ -292,6 +292,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   NavigatorOutput output;
   output.setpoint = self.last_setpoint = self.output(decision, situation);
   output.setpoint.velocity_odom_mps = self.monitor.odometry().inOdomAxes(output.setpoint.velocity_odom_mps);
+  output.setpoint.heading_error_rad = self.monitor.odometry().headingErrorRad();
   self.monitor.told(output.setpoint, now_sec);
   output.state = self.state;
   output.reason = self.reason;

@@ -38,6 +38,7 @@ struct MissionMemory {
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
   int others = 0;            ///< how often one of these was flown at
   int back_offs = 0;
+  std::string unmet;              ///< why the contract was not met, of late
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
 

@@ -34,6 +34,9 @@ class ContinuousOdometry {
   Eigen::Isometry3d T_smooth_odom(double stamp_sec) const;
   /// A velocity in the axes that whoever gets the setpoints has now.
   Eigen::Vector3d inOdomAxes(const Eigen::Vector3d& velocity_smooth_mps) const;
+  /// By how much the reported heading is turned against the axes of the setpoints [rad]: to be taken off where setpoints
+  /// are turned into body axes.
+  double headingErrorRad() const;
   /// How far the frame has been shifted since the start, all in all [m].
   double shiftedM() const { return shifted_m_; }
 

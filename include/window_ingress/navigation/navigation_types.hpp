@@ -50,6 +50,8 @@ struct TargetEstimate {
 struct Setpoint {
   Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
   double yaw_rate_radps = 0.0;
+  double heading_error_rad =
+      0.0;  ///< of the reported heading, to be taken off it by whoever turns to body axes
 };
 
 }  // namespace window_ingress::navigation

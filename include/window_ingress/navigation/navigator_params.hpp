@@ -106,7 +106,7 @@ struct ApproachParams {
   double wind_sec = 0.6;          ///< smoothing of the velocity that wind adds [s]
   double max_wind_mps = 0.6;      ///< most that is taken off the command for it; 0: nothing [m/s]
   double gust_memory_sec = 15.0;  ///< over which the strength of gusts is measured [s]
-  double gust_carry_sec = 0.6;    ///< a gust carries the vehicle off by its velocity times this [s]
+  double gust_carry_sec = 0.75;   ///< a gust carries the vehicle off by its velocity times this [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -112,6 +112,7 @@ TEST(ContinuousOdometry, AHeadingThatJumpsIsCorrectedWhetherOrNotTheAxesTurnAlon
       EXPECT_LT(worst_rad, 0.03) << turn_rad << axes_turn;
       const Eigen::Vector3d forward = continuous.inOdomAxes(Eigen::Vector3d::UnitX());
       EXPECT_NEAR(std::atan2(forward.y(), forward.x()), axes_turn ? turn_rad : 0.0, 0.01) << turn_rad;
+      EXPECT_NEAR(continuous.headingErrorRad(), axes_turn ? 0.0 : turn_rad, 0.01) << turn_rad;
     }
   }
 }

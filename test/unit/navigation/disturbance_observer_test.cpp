@@ -65,7 +65,7 @@ TEST(DisturbanceObserver, TellsGustsFromWind) {
     gusty.update({0, 0.4 * std::sin(2.0 * t), 0}, {0, 0, 0}, 0.033);
   }
   const double usual_mps = std::sqrt(observer().gusts()(1, 1));  // of which less and less counts
-  EXPECT_LT(std::sqrt(steady.gusts()(1, 1)), 0.3 * usual_mps);
+  EXPECT_LT(std::sqrt(steady.gusts()(1, 1)), 0.4 * usual_mps);
   EXPECT_NEAR(std::sqrt(gusty.gusts()(1, 1)), 0.2, 0.08);
   EXPECT_LT(std::sqrt(gusty.gusts()(0, 0)), 0.3 * usual_mps);
   steady.reset();
