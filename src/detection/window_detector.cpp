@@ -16,6 +16,9 @@ constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller pict
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
+constexpr int kFewestFitted =
+    3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
+constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -61,13 +64,15 @@ struct WindowDetector::Impl {
 };
 
 double WindowDetector::Impl::leastScore(const Rival& rival) const {
-  if (reference.frameless()) return params.min_score_frameless;
+  if (rival.correlation) return params.min_correlation;
   return rival.appearance ? params.min_score_reference : params.min_score;
 }
 
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
   if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
+  if (rival.correlation && *rival.correlation < params.min_correlation)
+    return Rejection{RejectReason::kUnlike, *rival.correlation, params.min_correlation};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
   if (const double least = leastScore(rival); rival.score < least)
     return Rejection{RejectReason::kScore, rival.score, least};
@@ -81,6 +86,7 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
   start.quad = rival.quad;
   start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search.factor() + 1.0;
   if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
+  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
   return refinement.run(image, start, camera, &inliers);
 }
 
@@ -104,6 +110,10 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
         continue;
       }
+      if (rival.correlation && fitted->fitted < kFewestFitted) {
+        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        continue;
+      }
       if (const auto fault = reference.objectionTo(*fitted, image, camera)) {
         record(rival, fault->reason, fault->value, fault->limit);
         continue;
@@ -119,6 +129,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
 
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
+  if (reference.goesByRing()) rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
   const bool compared = reference.judge(image, camera, rivals);
   if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
   done(watch, Stage::kReference);
