@@ -16,6 +16,7 @@ constexpr double kSameLoopPx =
 constexpr double kVariantPart = 0.2;  ///< loops whose corners differ less, in its size, belong to one window
 constexpr int kMostVariants = 6;      ///< of one window that are looked at
 constexpr double kDoubtfulScore = 0.5;
+constexpr std::size_t kMostDoubtful = 200;
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
@@ -122,8 +123,7 @@ const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& e
 
 void CandidateSearch::doubt(Rival rival, const Rejection& rejection) {
   const bool is_dented = rejection.reason == RejectReason::kSolidity;
-  if (static_cast<int>(doubtful_.size()) >= params_.max_candidates ||
-      (!is_dented && rejection.reason != RejectReason::kLineSupport))
+  if (doubtful_.size() >= kMostDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
     return;
   rival.candidate.solidity = 1.0;
   rival.score = kDoubtfulScore;
@@ -171,12 +171,14 @@ void CandidateSearch::keepBest(DetectionTrace& trace) {
     const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const Rival& better) {
       return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
     });
-    if (twin != kept_.end())
+    if (twin != kept_.end()) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
-    else if (static_cast<int>(kept_.size()) >= params_.max_candidates || variants(rival) >= kMostVariants)
+    } else if (static_cast<int>(kept_.size()) >= params_.max_candidates || variants(rival) >= kMostVariants) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
-    else
+      if (doubtful_.size() < kMostDoubtful) doubtful_.push_back(rival);
+    } else {
       kept_.push_back(rival);
+    }
   }
 }
 

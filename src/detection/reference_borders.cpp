@@ -15,9 +15,8 @@ using geometry::Quadrilateral;
 
 constexpr double kClear = 0.006;  ///< nearer to a border colours are mixed [mean sides]
 constexpr double kStrongerExponent =
-    0.2;  ///< of a border's contrast over the strongest one's across its side
-constexpr double kFaintestFrame =
-    0.04;                           ///< difference of frame and wall below which the reference has no frame
+    0.2;                                 ///< of a border's contrast over the strongest one's across its side
+constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that of bricks and joints is 0.08
 constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
 constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there

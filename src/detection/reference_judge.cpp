@@ -103,7 +103,7 @@ void ReferenceJudge::alignAll(const cv::Mat& image, const geometry::PinholeCamer
                               std::vector<Rival>& rivals) {
   located_ = ring_.align(inChannels(image), camera, rivals);
   for (Rival& rival : located_) rival.appearance = reference_->compare(image, rival.quad, appearance_);
-  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kUnlike;
+  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
 }
 
 // Compares their frames with the reference's; false if none can be compared.

@@ -6,7 +6,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
-constexpr std::size_t kPlaces = 8;                                          ///< that are aligned
+constexpr std::size_t kPlaces = 10;                                          ///< that are aligned
 constexpr std::size_t kFinePlaces = 2;                                      ///< and of these, to the last
 constexpr int kVariants = 3;             ///< rough loops of one place from which it is aligned
 constexpr double kSamePlace = 0.2;       ///< loops whose corners differ less are of one place [sides]
@@ -27,10 +27,11 @@ void sortByScore(std::vector<Rival>& rivals) {
 }  // namespace
 
 // What is promising first.
-void RingJudge::compareAll(const std::vector<Rival>& rivals) {
+void RingJudge::compareAll(std::vector<Rival>& rivals) {
   order_.clear();
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
+    rivals[i].correlation = std::max(0.0, match.correlation);
     if (match.correlation > -1.0)
       order_.emplace_back(match.correlation + kGeometryWeight * rivals[i].score, i);
   }
@@ -61,7 +62,7 @@ bool RingJudge::isTaken(const geometry::Quadrilateral& quad) const {
 }
 
 const std::vector<Rival>& RingJudge::align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                           const std::vector<Rival>& rivals) {
+                                           std::vector<Rival>& rivals) {
   aligned_.clear();
   if (!known() || image.channels() != model_.channels()) return aligned_;
   alignment_.set(model_, image, camera);

@@ -52,7 +52,8 @@ class CandidateSearch {
   const std::vector<Rival>& runOnColours(DetectionTrace& trace);
 
   /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
-  /// sides to be taken for a window by its geometry: for a judge that knows better. At most `max_candidates`.
+  /// sides to be taken for a window by its geometry, and what others were better than: for a judge that knows
+  /// better.
   const std::vector<Rival>& doubtful() const { return doubtful_; }
 
   /// \param watch told of each stage that is done, or null; outlives this

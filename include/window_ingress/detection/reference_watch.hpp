@@ -5,6 +5,7 @@
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/ring_alignment.hpp"
 #include "window_ingress/detection/track_input.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 
@@ -37,11 +38,15 @@ class ReferenceWatch {
   double drift() const { return reference_ ? reference_->drift() : 0.0; }
 
  private:
+  std::optional<geometry::Quadrilateral> expectedAt(const TrackInput& input,
+                                                    const geometry::Quadrilateral& followed);
   bool strays(const TrackInput& input, const geometry::Quadrilateral& followed);
   void learnBorders();
 
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
+  RingModel ring_;                                  // where the reference shows no frame
+  RingAlignment alignment_;
   std::unique_ptr<ReferenceBorders> borders_;
   int frames_to_comparison_ = 0;
   bool unlike_ = false, agreed_ = false, compared_ = false;

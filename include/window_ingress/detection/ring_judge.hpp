@@ -18,15 +18,15 @@ class RingJudge {
   void forget() { model_.forget(); }
   bool known() const { return model_.known(); }
 
-  /// Best first, each place once; the score is the correlation. Valid until the next call.
-  /// \param image with as many channels as the reference picture
+  /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
+  /// correlation of every rival as it is. \param image with as many channels as the reference picture
   const std::vector<Rival>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                  const std::vector<Rival>& rivals);
+                                  std::vector<Rival>& rivals);
 
  private:
   std::optional<Rival> aligned(const Rival& rough, double finest_px);
   bool isTaken(const geometry::Quadrilateral& quad) const;
-  void compareAll(const std::vector<Rival>& rivals);
+  void compareAll(std::vector<Rival>& rivals);
 
   RingModel model_;
   RingAlignment alignment_;

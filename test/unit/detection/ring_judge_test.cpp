@@ -34,7 +34,7 @@ struct Known {
 
 TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   Known known{PatchedWall(3)};
-  const std::vector<Rival> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
+  std::vector<Rival> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
                                      rough(test::grown(known.opening, 3.0), 0.3)};
   const auto& found = known.judge.align(known.image, nullptr, rivals);
   ASSERT_FALSE(found.empty());
@@ -53,11 +53,9 @@ TEST(RingJudge, LoopsOfOnePlaceGiveOne) {
 
 TEST(RingJudge, NothingIsKnownBeforeAReference) {
   RingJudge judge;
+  std::vector<Rival> rivals = {rough(test::rectangle(9, 9, 50, 50))};
   EXPECT_FALSE(judge.known());
-  EXPECT_TRUE(judge
-                  .align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr,
-                         {rough(test::rectangle(9, 9, 50, 50))})
-                  .empty());
+  EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
 }
 
 /// What the detector makes of views of a wall, with a picture of it as reference.
