@@ -16,6 +16,7 @@ constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller pict
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
+constexpr double kOtherPlace = 0.5;       ///< overlap below which two loops are of two windows
 constexpr int kFewestFitted =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
 constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
@@ -49,6 +50,7 @@ struct WindowDetector::Impl {
   std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
   double leastScore(const Rival& rival) const;
+  double runnerUp(const Rival& target) const;
   void record(const Rival& rival, RejectReason reason, double value, double limit) {
     trace.candidates.push_back(traceOf(rival, reason, value, limit));
   }
@@ -90,6 +92,15 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
   return refinement.run(image, start, camera, &inliers);
 }
 
+// Correlation of the next best place.
+double WindowDetector::Impl::runnerUp(const Rival& target) const {
+  double best = 0.0;
+  for (const Rival& other : rivals)
+    if (other.located && geometry::intersectionOverUnion(other.quad, target.quad) < kOtherPlace)
+      best = std::max(best, other.correlation.value_or(0.0));
+  return best;
+}
+
 // The best to which there is no objection and whose borders can be fitted.
 std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& image, double stamp_sec,
                                                               const geometry::PinholeCamera* camera) {
@@ -120,6 +131,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
       }
       record(rival, RejectReason::kNone, rival.score, leastScore(rival));
       window = observationOf(trace.candidates.back(), *fitted, stamp_sec);
+      window->runner_up = runnerUp(rival);
       trace.target = static_cast<int>(trace.candidates.size()) - 1;
       trace.candidates.back().quad = fitted->corners;
     }
@@ -206,6 +218,7 @@ WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBo
   window.score = candidate.score;
   window.has_appearance = candidate.has_appearance;
   window.bhattacharyya = candidate.bhattacharyya;
+  window.correlation = candidate.correlation;
   return window;
 }
 
