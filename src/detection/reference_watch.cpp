@@ -9,7 +9,8 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kSureWorth = 0.3;                    // of the reference's borders, to say where they are
-constexpr double kWatchedPx = 100.0;                  // resolution of a ring [px a mean side]
+constexpr double kAlignedPx = 100.0;                  // resolution of a ring [px a mean side]
+constexpr int kAlignEvery = 3;                        // frames
 constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
 
 }  // namespace
@@ -39,24 +40,22 @@ void ReferenceWatch::start() {
   frames_to_comparison_ = params_.track.appearance_every;
 }
 
-// Where the reference says that the borders are, if it is sure.
-std::optional<geometry::Quadrilateral> ReferenceWatch::expectedAt(const TrackInput& input,
-                                                                  const geometry::Quadrilateral& followed) {
-  if (ring_.known()) {
-    if (input.image.channels() != ring_.channels()) return std::nullopt;
-    alignment_.set(ring_, input.image, input.camera);
-    const auto found = alignment_.align(followed, kWatchedPx);
-    if (!found || found->match.correlation < params_.min_correlation) return std::nullopt;
-    return found->quad;
-  }
-  const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
-  if (!found || found->worth < kSureWorth) return std::nullopt;
+std::optional<geometry::Quadrilateral> ReferenceWatch::align(const TrackInput& input,
+                                                             const geometry::Quadrilateral& followed) {
+  if (!ring_.known() || input.image.channels() != ring_.channels() || --frames_to_alignment_ > 0)
+    return std::nullopt;
+  frames_to_alignment_ = kAlignEvery;
+  alignment_.set(ring_, input.image, input.camera);
+  const auto found = alignment_.align(followed, kAlignedPx);
+  if (!found || found->match.correlation < params_.min_correlation) return std::nullopt;
   return found->quad;
 }
 
 bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
-  const auto expected = expectedAt(input, followed);
-  return expected && furthestCorner(*expected, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
+  if (ring_.known()) return false;
+  const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
+  if (!found || found->worth < kSureWorth) return false;
+  return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
 }
 
 bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral& followed,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
@@ -32,14 +33,17 @@ class ReferenceWatch {
   /// Right after a look that agreed: takes over part of what differs.
   void adapt(const TrackInput& input, const WindowObservation& window);
 
+  /// Where the wall round the opening says that the borders are, near those followed; nothing if it is not
+  /// sure, or if the reference goes by its frame. Looks at every third call.
+  std::optional<geometry::Quadrilateral> align(const TrackInput& input,
+                                               const geometry::Quadrilateral& followed);
+
   bool hasCompared() const { return compared_; }  ///< `look` has compared the last picture
   bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last picture, and it was alike
   bool isUnlike() const { return unlike_; }       ///< the last time that it was looked at
   double drift() const { return reference_ ? reference_->drift() : 0.0; }
 
  private:
-  std::optional<geometry::Quadrilateral> expectedAt(const TrackInput& input,
-                                                    const geometry::Quadrilateral& followed);
   bool strays(const TrackInput& input, const geometry::Quadrilateral& followed);
   void learnBorders();
 
@@ -48,7 +52,7 @@ class ReferenceWatch {
   RingModel ring_;                                  // where the reference shows no frame
   RingAlignment alignment_;
   std::unique_ptr<ReferenceBorders> borders_;
-  int frames_to_comparison_ = 0;
+  int frames_to_comparison_ = 0, frames_to_alignment_ = 0;
   bool unlike_ = false, agreed_ = false, compared_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "patched_wall.hpp"
+#include "window_ingress/detection/reference_watch.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::detection {
@@ -35,7 +36,7 @@ struct Known {
 TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   Known known{PatchedWall(3)};
   std::vector<Rival> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
-                                     rough(test::grown(known.opening, 3.0), 0.3)};
+                               rough(test::grown(known.opening, 3.0), 0.3)};
   const auto& found = known.judge.align(known.image, nullptr, rivals);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
@@ -56,6 +57,41 @@ TEST(RingJudge, NothingIsKnownBeforeAReference) {
   std::vector<Rival> rivals = {rough(test::rectangle(9, 9, 50, 50))};
   EXPECT_FALSE(judge.known());
   EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
+}
+
+TrackInput inputOf(const cv::Mat& image) {
+  TrackInput input;
+  input.image = image;
+  return input;
+}
+
+// Of three looks one compares.
+std::optional<Quadrilateral> aligned(const PatchedWall& wall, const Quadrilateral& followed,
+                                     const cv::Mat& image) {
+  Quadrilateral corners;
+  const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
+  ReferenceWatch watch{DetectorParams()};
+  watch.setReference(std::make_shared<ReferenceAppearance>(picture, corners));
+  std::optional<Quadrilateral> found;
+  for (int i = 0; i < 3 && !found; ++i) found = watch.align(inputOf(image), followed);
+  return found;
+}
+
+TEST(ReferenceWatch, TheWallSaysWhereTheBordersOfAHoleAre) {
+  const PatchedWall wall(3, 0.0, 25.0);
+  const Known known{wall};
+  Quadrilateral followed = known.opening;  // its left border on something beside it
+  followed[0].x() -= 7.0, followed[3].x() -= 7.0;
+  const auto found = aligned(wall, followed, known.image);
+  ASSERT_TRUE(found);
+  EXPECT_LT(test::worstCorner(*found, known.opening), 0.5);
+  EXPECT_FALSE(aligned(PatchedWall(4, 0.0, 25.0), followed, known.image)) << "of another wall";
+}
+
+TEST(ReferenceWatch, AFrameIsNotLedByTheWall) {
+  const PatchedWall framed(3, 0.07, 25.0);
+  const Known known{framed};
+  EXPECT_FALSE(aligned(framed, known.opening, known.image));
 }
 
 /// What the detector makes of views of a wall, with a picture of it as reference.
@@ -82,6 +118,8 @@ TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
     const auto window = detected.look(wall, yaw, &opening);
     ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
     EXPECT_LT(test::worstCorner(window->corners, opening), 0.3) << yaw;
+    EXPECT_GT(window->correlation, 0.7);
+    EXPECT_LT(window->runner_up, 0.55) << "nothing else is like it";
   }
 }
 
