@@ -3,7 +3,7 @@
 
 A picture counts as found if its detection overlaps any annotated quadrilateral by IoU >= 0.7. Rates are averaged over
 scenes, not over pictures. Precision: detections on pictures without a target, and on pictures whose every target is
-annotated. Labels that start with pose_only_ are no targets.
+annotated. Labels that start with pose_only_, or end in _small, are no targets.
 
 The pictures fall into two halves, by a hash of scene and file name: what is tuned is tuned on the half `tune`, what is
 reported is measured on the half `report`. Names that differ in their last digit only, neighbours in a video, go together.
@@ -64,6 +64,11 @@ def read(path):
         return list(csv.DictReader(file))
 
 
+def is_target(row):
+    """False for what is annotated for another purpose."""
+    return not row["label"].startswith("pose_only_") and not row["label"].endswith("_small")
+
+
 def half_of(scene, name):
     """"tune" or "report"."""
     stem = os.path.splitext(os.path.basename(name))[0]
@@ -79,7 +84,7 @@ def evaluate(detections, annotations, meta, leave_out, min_iou):
     """One record a picture: scene, tier, whether it holds a target, detected, overlap with the best target."""
     quads = collections.defaultdict(list)
     for row in annotations:
-        if row["x1"] and not row["label"].startswith("pose_only_"):
+        if row["x1"] and is_target(row):
             quads[row["file"]].append(corners(row))
     hard = {row["file"] for row in annotations if row["label"] == "negative_hard"}
     records = []

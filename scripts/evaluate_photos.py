@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 
+import evaluate_candidates
 import evaluate_detections as rules
 
 MARGIN = 0.25  # of the references `ref_with_margin`: at each side, of the target's own width or height
@@ -40,7 +41,8 @@ class Photographs:
         self.folder = options.photos
         self.meta = {row["file"]: row for row in rules.read(self.folder / "meta.csv")}
         self.annotations = rules.read(self.folder / "annotations.csv")
-        self.references = rules.read(self.folder / "refs.csv")
+        self.references = rules.read(self.folder / "refs.csv") if (self.folder / "refs.csv").exists() else []
+        self.candidates = []  # (title, records) of each run, with --candidates
 
     def run(self, name, files, leave_out=(), reference=None):
         """Records of these files, as `evaluate_detections.evaluate` makes them."""
@@ -54,7 +56,13 @@ class Photographs:
             command += ["--reference", reference, "--reference-corners", corners_in_reference(reference)]
         if self.options.overlay:
             command += ["--overlay", self.options.output / name]
+        if self.options.candidates:
+            command += ["--candidates", self.options.output / f"{name}_candidates.csv"]
         subprocess.run([*map(str, command), *(str(self.folder / "images" / file) for file in files)], check=True)
+        if self.options.candidates:
+            every = rules.read(self.options.output / f"{name}_candidates.csv")
+            self.candidates.append((name, evaluate_candidates.evaluate(every, self.annotations, self.meta, set(leave_out),
+                                                                       self.options.iou)))
         return rules.evaluate(rules.read(table), self.annotations, self.meta, set(leave_out), self.options.iou)
 
     def without_reference(self):
@@ -124,7 +132,7 @@ def sheet(photographs, records, path):
 
     annotated = {}
     for row in photographs.annotations:
-        if row["x1"] and not row["label"].startswith("pose_only_"):
+        if row["x1"] and rules.is_target(row):
             annotated.setdefault(row["file"], []).append(rules.corners(row))
     cells = []
     for r in rules.wrong(records):
@@ -159,6 +167,7 @@ def parse():
     parser.add_argument("--per-scene", action="store_true")
     parser.add_argument("--misses", action="store_true", help="list what was not found and what was found wrongly")
     parser.add_argument("--sheets", action="store_true", help="draw those pictures: OUTPUT/*_wrong.png")
+    parser.add_argument("--candidates", action="store_true", help="recall among all candidates, and why the right one lost")
     parser.add_argument("--overlay", action="store_true", help="also pictures of what happened to each candidate")
     parser.add_argument("tool_arguments", nargs="*", help="after --: further options of detect_images")
     return parser.parse_args()
@@ -181,6 +190,10 @@ def main():
     print_without_reference(plain, options.per_scene)
     print("\n## With a reference\n")
     print_with_reference(runs)
+    if options.candidates:
+        print(f"\n## Candidates\n\n{evaluate_candidates.HEADER}")
+        for title, records in photographs.candidates:
+            evaluate_candidates.print_table(records, title, options.per_scene)
     for title, records in [("without_reference", plain), *runs]:
         if options.misses:
             print(f"\n## Not found, or found wrongly: {title}\n")

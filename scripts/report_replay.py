@@ -45,6 +45,7 @@ MEANING = {  # of the reasons, as in doc/detection.md
     "appearance": "its frame does not look like the reference",
     "other_aspect": "of another aspect than the reference",
     "other_frame": "its frame is wider or narrower than the reference's",
+    "unlike": "what lies round it is not what lies round the reference's opening",
     "score": "score below the limit",
     "outscored": "a fair window, but another one is better",
     "budget": "not looked at: too many candidates in one picture",

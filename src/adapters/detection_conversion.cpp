@@ -28,10 +28,11 @@ bool isFinite(const DetectionMsg& m) {
   const auto all = [&](const auto& numbers) { return std::all_of(numbers.begin(), numbers.end(), finite); };
   return all(m.corner_x) && all(m.corner_y) && all(m.corner_covariance) && all(m.edge_sigma_px) &&
          all(m.edge_sigma_rad) && all(m.edge_a_x) && all(m.edge_a_y) && all(m.edge_b_x) && all(m.edge_b_y) &&
-         finite(m.score) && finite(m.bhattacharyya) && all(m.interior_key_corner_x) &&
-         all(m.interior_key_corner_y) && all(m.interior_key_corner_covariance) &&
-         finite(m.interior_sigma_px) && all(m.interior_key_x) && all(m.interior_key_y) && all(m.interior_x) &&
-         all(m.interior_y) && all(m.interior_normal_x) && all(m.interior_normal_y);
+         finite(m.score) && finite(m.bhattacharyya) && finite(m.correlation) && finite(m.runner_up) &&
+         all(m.interior_key_corner_x) && all(m.interior_key_corner_y) &&
+         all(m.interior_key_corner_covariance) && finite(m.interior_sigma_px) && all(m.interior_key_x) &&
+         all(m.interior_key_y) && all(m.interior_x) && all(m.interior_y) && all(m.interior_normal_x) &&
+         all(m.interior_normal_y);
 }
 
 void fillCorner(DetectionMsg& message, const detection::WindowObservation& window, int i) {
@@ -131,6 +132,8 @@ DetectionMsg toMsg(const detection::WindowObservation& window) {
   message.score = window.score;
   message.has_appearance = window.has_appearance;
   message.bhattacharyya = window.has_appearance ? window.bhattacharyya : 0.0;
+  message.correlation = window.correlation;
+  message.runner_up = window.runner_up;
   if (!window.interior.empty()) fillInterior(message, window.interior);
   return message;
 }
@@ -154,6 +157,8 @@ Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
   window.score = message.score;
   window.has_appearance = message.has_appearance != 0;
   window.bhattacharyya = message.bhattacharyya;
+  window.correlation = message.correlation;
+  window.runner_up = message.runner_up;
   window.interior = readInterior(message);
   return {window, ""};
 }

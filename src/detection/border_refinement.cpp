@@ -238,6 +238,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
   std::array<Line, 4> lines;
   RefinedBorders borders;
   borders.worst_inliers = 1.0;
+  borders.fitted = 0;
   bool good = true;
   for (int i = 0; i < 4 && good; ++i) {
     const Vector2d& from = start.quad[i];
@@ -249,6 +250,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     good = side.run(image, lens, a, b) || start.fallback_sigma_px > 0.0;
     if (good && !side.fitted()) side.runWider(image, lens, a, b);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
+    borders.fitted += side.fitted();
     lines[i] = side.fitted() ? side.line() : side.start();
     const auto [begin, end] = side.ends();
     borders.edges[i] = edgeThroughLens(lines[i], begin, end, lens);

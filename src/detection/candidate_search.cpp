@@ -15,6 +15,8 @@ constexpr double kSameLoopPx =
     1.0;  ///< corners of the same loop differ less than this on the search level [px]
 constexpr double kVariantPart = 0.2;  ///< loops whose corners differ less, in its size, belong to one window
 constexpr int kMostVariants = 6;      ///< of one window that are looked at
+constexpr double kDoubtfulScore = 0.5;
+constexpr std::size_t kMostDoubtful = 200;
 constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
@@ -38,7 +40,9 @@ CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, do
           limit,
           rival.score,
           rival.appearance.has_value(),
-          rival.appearance ? rival.appearance->distance : 0.0};
+          rival.appearance ? rival.appearance->distance : 0.0,
+          rival.correlation.value_or(0.0),
+          rival.proposal};
 }
 
 void sortByRank(std::vector<Rival>& rivals) {
@@ -88,6 +92,7 @@ void CandidateSearch::look(const cv::Mat& level) {
 const std::vector<Rival>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
   kept_.clear();
+  doubtful_.clear();
   if (colours.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(colours);
@@ -108,11 +113,21 @@ const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& e
   trace.budget_exceeded = outlines_.budget_exceeded || quads.budget_exceeded;
   trace.candidates.insert(trace.candidates.end(), outlines_.rejected.begin(), outlines_.rejected.end());
   admitted_.clear();
+  doubtful_.clear();
   admit(quads.candidates, trace);
   admit(outlines_.candidates, trace);
   keepBest(trace);
   done(watch_, Stage::kCandidates);
   return kept_;
+}
+
+void CandidateSearch::doubt(Rival rival, const Rejection& rejection) {
+  const bool is_dented = rejection.reason == RejectReason::kSolidity;
+  if (doubtful_.size() >= kMostDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
+    return;
+  rival.candidate.solidity = 1.0;
+  rival.score = kDoubtfulScore;
+  if (!is_dented || !gates_.shape(rival.candidate, level_size_)) doubtful_.push_back(rival);
 }
 
 void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace& trace) {
@@ -128,11 +143,13 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
     }
     rival.quad = inFullImage(candidate.seen, factor_);
     if (rejection) {
+      doubt(rival, *rejection);
       trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
       continue;
     }
     rival.score = windowScore(candidate, params_.score);
     rival.size = sizeRank(candidate.quad, level_size_, params_.score);
+    rival.proposal = rival.rank();
     admitted_.push_back(rival);
   }
 }
@@ -154,12 +171,14 @@ void CandidateSearch::keepBest(DetectionTrace& trace) {
     const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const Rival& better) {
       return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
     });
-    if (twin != kept_.end())
+    if (twin != kept_.end()) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
-    else if (static_cast<int>(kept_.size()) >= params_.max_candidates || variants(rival) >= kMostVariants)
+    } else if (static_cast<int>(kept_.size()) >= params_.max_candidates || variants(rival) >= kMostVariants) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
-    else
+      if (doubtful_.size() < kMostDoubtful) doubtful_.push_back(rival);
+    } else {
       kept_.push_back(rival);
+    }
   }
 }
 

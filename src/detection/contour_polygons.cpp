@@ -94,7 +94,7 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
   const double excess = quad ? geometry::signedArea(*quad) / hull_area - 1.0 : 1.0;
   if (excess > params_.hull_excess) {
     result_.rejected.push_back({boundingQuad(outline), CandidateSource::kContour, RejectReason::kCorners,
-                                static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0});
+                                static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0, 0.0, 0.0});
     return;
   }
   candidate.closure = params_.closure;

@@ -53,6 +53,8 @@ Wording wording(RejectReason reason) {
       return {"other_aspect", "misfit of the reference's aspect [sigma]", ">"};
     case RejectReason::kOtherFrame:
       return {"other_frame", "width of the frame over the reference's", "outside"};
+    case RejectReason::kUnlike:
+      return {"unlike", "correlation with the reference's surroundings", "<"};
     case RejectReason::kScore:
       return {"score", "score", "<"};
     case RejectReason::kOutscored:

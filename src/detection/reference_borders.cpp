@@ -15,10 +15,8 @@ using geometry::Quadrilateral;
 
 constexpr double kClear = 0.006;  ///< nearer to a border colours are mixed [mean sides]
 constexpr double kStrongerExponent =
-    0.2;  ///< of a border's contrast over the strongest one's across its side
-constexpr double kFaintestFrame =
-    0.04;  ///< difference of frame and wall below which the reference has no frame
-constexpr double kWithinWeight = 0.3;  ///< of the colour within, where there is no frame
+    0.2;                                 ///< of a border's contrast over the strongest one's across its side
+constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that of bricks and joints is 0.08
 constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
 constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
@@ -28,7 +26,6 @@ constexpr double kFarAway = 1.5;          ///< standard deviation of a border fr
 constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
 constexpr double kForetold = 0.8;         ///< worth of such a border
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
-constexpr double kEvenFrame = 2.2;        ///< widest over narrowest side of a frame
 constexpr double kLeastChange =
     3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
 
@@ -90,31 +87,6 @@ double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const
   return unlike(clear, side);
 }
 
-// A uniform ring just inside the borders, of even width and ended by an edge all round: a frame. What it
-// frames is the opening then, not this.
-bool ReferenceBorders::holdsFrame(const std::array<double, 4>& borders) const {
-  double least = 1.0, most = 0.0;
-  std::array<Vector3f, 4> colours;
-  for (int i = 0; i < 4; ++i) {
-    const SideProfile& profile = sides_[i];
-    double strongest = params_.contrast_full, width = 0.0;
-    for (int k = 1; k + 1 < static_cast<int>(profile.means.size()); ++k) {
-      const double depth = borders[i] - profile.at(k);
-      if (depth < kThinnestFrame || depth > params_.inward) continue;
-      const double change = (profile.means[k + 1] - profile.means[k - 1]).norm();
-      if (change > strongest) strongest = change, width = depth;
-    }
-    if (width == 0.0 || !profile.mean(borders[i] - 0.7 * width, borders[i] - 0.3 * width, colours[i]))
-      return false;
-    colours[i] = features(colours[i]);
-    least = std::min(least, width), most = std::max(most, width);
-  }
-  if (most > kEvenFrame * least) return false;
-  double spread = 0.0;
-  for (int i = 0; i < 4; ++i) spread = std::max(spread, difference(colours[i], colours[(i + 1) % 4]));
-  return spread < params_.uniform_frame;
-}
-
 void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& opening) {
   known_ = false;
   if (picture.type() != CV_8UC3 || picture.empty() || !geometry::isConvex(opening)) return;
@@ -123,12 +95,8 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
   measure(picture, opening, nullptr, aspect_, kFine);
   double frame = 0.0;
   for (int i = 0; i < 4; ++i) {
-    Vector3f within;
     if (!coloursFrom(sides_[i], 0.0, reference_colours_[i])) return;
-    if (!sides_[i].mean(-kBandWidth, -kClear, within)) return;
     reference_[i] = featuresOf(reference_colours_[i]);
-    reference_within_[i] = features(within);
-    reference_within_[i][2] -= features(reference_colours_[i][kBands - 1])[2];
     double end = 0.0;
     const double contrast = sides_[i].largestChange(kThinnestFrame, kBands * kBandWidth, &end);
     frame_widths_[i] = contrast > params_.contrast_full ? end : 0.0;
@@ -162,7 +130,7 @@ double ReferenceBorders::choose(int side, double& border) const {
   const int count = static_cast<int>(profile.means.size());
   double strongest = 1.0;
   for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(profile.change(k)));
-  const bool framed = !frameless_ && frame_widths_[side] > 0.0;
+  const bool framed = frame_widths_[side] > 0.0;
   double best = 0.0;
   Bands bands;
   for (int k = 1; k + 1 < count; ++k) {
@@ -180,7 +148,6 @@ double ReferenceBorders::choose(int side, double& border) const {
     Vector3f beside = features(bands[0]);
     beside[2] -= features(bands[kBands - 1])[2];
     const double goes_on = difference(within, beside);
-    if (frameless_) off += kWithinWeight * difference(within, reference_within_[side]);
     // Where the end of the frame tells the place, a faint border will do.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold)
                                   : std::min(1.0, here / params_.contrast_full) *
@@ -215,7 +182,6 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
     least = std::min(least, worth), mean_worth += 0.25 * worth;
   }
   located.worth = std::sqrt(least * mean_worth);
-  located.holds_frame = frameless_ && holdsFrame(borders);
   for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
   const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
   const UnitSquare map(ideal);

@@ -58,11 +58,13 @@ const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
 void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
   reference_ = std::move(reference);
   borders_.forget();
+  ring_.forget();
   shape_.forget();
   is_grey_ = reference_ && isGrey(reference_->picture());
   if (!reference_ || !reference_->openingIsKnown() ||
       !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
     return;
+  ring_.learn(inChannels(reference_->picture()), reference_->opening());
   borders_.learn(inChannels(reference_->picture()), reference_->opening());
   shape_.learn(reference_->picture(), reference_->opening());
 }
@@ -75,11 +77,12 @@ std::optional<Rival> ReferenceJudge::locate(const cv::Mat& image, const geometry
   Rival rival = rough;
   rival.quad = found->quad;
   rival.candidate.source = CandidateSource::kReference;
+  rival.proposal = 0.0;
   rival.located = true;
   rival.worth = found->worth;
   rival.geometry = rough.located ? rough.geometry : rough.score;
   rival.score = scoreWithReference(rival.geometry, rival.worth, score_);
-  rival.verdict.reject = found->holds_frame ? RejectReason::kOuterBorder : RejectReason::kNone;
+  rival.verdict.reject = RejectReason::kNone;
   return rival;
 }
 
@@ -93,6 +96,14 @@ void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCame
   sortByRank(located_);
   for (std::size_t i = 0; i < std::min(located_.size(), kPlacesFine); ++i)
     if (auto rival = locate(image, camera, located_[i], ReferenceBorders::kFine)) located_[i] = *rival;
+}
+
+// The places whose surroundings are those of the reference's opening; nothing else may be the target.
+void ReferenceJudge::alignAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                              std::vector<Rival>& rivals) {
+  located_ = ring_.align(inChannels(image), camera, rivals);
+  for (Rival& rival : located_) rival.appearance = reference_->compare(image, rival.quad, appearance_);
+  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
 }
 
 // Compares their frames with the reference's; false if none can be compared.
@@ -129,9 +140,13 @@ bool ReferenceJudge::judge(const cv::Mat& image, const geometry::PinholeCamera* 
     rivals.swap(weighed);
     return true;
   }
-  locateAll(inChannels(image), camera, rivals);
-  weigh(image, located_);
-  weighOthers(image, rivals);
+  if (goesByRing()) {
+    alignAll(image, camera, rivals);
+  } else {
+    locateAll(inChannels(image), camera, rivals);
+    weigh(image, located_);
+    weighOthers(image, rivals);
+  }
   rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
 }

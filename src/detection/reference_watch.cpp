@@ -9,6 +9,8 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kSureWorth = 0.3;                    // of the reference's borders, to say where they are
+constexpr double kAlignedPx = 100.0;                  // resolution of a ring [px a mean side]
+constexpr int kAlignEvery = 3;                        // frames
 constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
 
 }  // namespace
@@ -28,6 +30,9 @@ void ReferenceWatch::learnBorders() {
   if (!reference_) return;
   borders_ = std::make_unique<ReferenceBorders>(params_.borders);
   borders_->learn(reference_->picture(), reference_->opening());
+  ring_.forget();
+  if (borders_->frameless() && reference_->openingIsKnown())
+    ring_.learn(reference_->picture(), reference_->opening());
 }
 
 void ReferenceWatch::start() {
@@ -35,7 +40,19 @@ void ReferenceWatch::start() {
   frames_to_comparison_ = params_.track.appearance_every;
 }
 
+std::optional<geometry::Quadrilateral> ReferenceWatch::align(const TrackInput& input,
+                                                             const geometry::Quadrilateral& followed) {
+  if (!ring_.known() || input.image.channels() != ring_.channels() || --frames_to_alignment_ > 0)
+    return std::nullopt;
+  frames_to_alignment_ = kAlignEvery;
+  alignment_.set(ring_, input.image, input.camera);
+  const auto found = alignment_.align(followed, kAlignedPx);
+  if (!found || found->match.correlation < params_.min_correlation) return std::nullopt;
+  return found->quad;
+}
+
 bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
+  if (ring_.known()) return false;
   const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
   if (!found || found->worth < kSureWorth) return false;
   return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));

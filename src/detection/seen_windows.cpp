@@ -11,7 +11,7 @@ constexpr double kSameWindow = 0.15;  // overlap of two loops, of their union
 
 bool looksOtherwise(RejectReason reason) {
   return reason == RejectReason::kAppearance || reason == RejectReason::kOtherAspect ||
-         reason == RejectReason::kOtherFrame;
+         reason == RejectReason::kOtherFrame || reason == RejectReason::kUnlike;
 }
 
 bool isWindow(const CandidateTrace& candidate) {

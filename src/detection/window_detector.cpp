@@ -16,6 +16,10 @@ constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller pict
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
+constexpr double kOtherPlace = 0.5;       ///< overlap below which two loops are of two windows
+constexpr int kFewestFitted =
+    3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
+constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -46,6 +50,7 @@ struct WindowDetector::Impl {
   std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
   double leastScore(const Rival& rival) const;
+  double runnerUp(const Rival& target) const;
   void record(const Rival& rival, RejectReason reason, double value, double limit) {
     trace.candidates.push_back(traceOf(rival, reason, value, limit));
   }
@@ -61,13 +66,15 @@ struct WindowDetector::Impl {
 };
 
 double WindowDetector::Impl::leastScore(const Rival& rival) const {
-  if (reference.frameless()) return params.min_score_frameless;
+  if (rival.correlation) return params.min_correlation;
   return rival.appearance ? params.min_score_reference : params.min_score;
 }
 
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
   if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
+  if (rival.correlation && *rival.correlation < params.min_correlation)
+    return Rejection{RejectReason::kUnlike, *rival.correlation, params.min_correlation};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
   if (const double least = leastScore(rival); rival.score < least)
     return Rejection{RejectReason::kScore, rival.score, least};
@@ -81,7 +88,17 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
   start.quad = rival.quad;
   start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search.factor() + 1.0;
   if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
+  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
   return refinement.run(image, start, camera, &inliers);
+}
+
+// Correlation of the next best place.
+double WindowDetector::Impl::runnerUp(const Rival& target) const {
+  double best = 0.0;
+  for (const Rival& other : rivals)
+    if (other.located && geometry::intersectionOverUnion(other.quad, target.quad) < kOtherPlace)
+      best = std::max(best, other.correlation.value_or(0.0));
+  return best;
 }
 
 // The best to which there is no objection and whose borders can be fitted.
@@ -104,12 +121,17 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
         continue;
       }
+      if (rival.correlation && fitted->fitted < kFewestFitted) {
+        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        continue;
+      }
       if (const auto fault = reference.objectionTo(*fitted, image, camera)) {
         record(rival, fault->reason, fault->value, fault->limit);
         continue;
       }
       record(rival, RejectReason::kNone, rival.score, leastScore(rival));
       window = observationOf(trace.candidates.back(), *fitted, stamp_sec);
+      window->runner_up = runnerUp(rival);
       trace.target = static_cast<int>(trace.candidates.size()) - 1;
       trace.candidates.back().quad = fitted->corners;
     }
@@ -119,6 +141,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
 
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
+  if (reference.goesByRing()) rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
   const bool compared = reference.judge(image, camera, rivals);
   if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
   done(watch, Stage::kReference);
@@ -195,6 +218,7 @@ WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBo
   window.score = candidate.score;
   window.has_appearance = candidate.has_appearance;
   window.bhattacharyya = candidate.bhattacharyya;
+  window.correlation = candidate.correlation;
   return window;
 }
 

@@ -18,7 +18,11 @@ constexpr double kUnlikePart = 0.7;    // of the quality while the ring does not
 constexpr double kGivenWarp = 0.3;     // spread of the shape of a given prediction, of that of its place
 constexpr double kBelievableSquares = 26.0;  // of a place that is given: 99.9 % of right ones are nearer
 constexpr double kExpectedSigma = 0.01;      // of the place of a window expected [longer image sides]
-constexpr int kElsewhereFrames = 5;          // after which a track beside the place expected is given up
+constexpr double kLeastMovePx = 1.5,
+                 kLeastMove = 0.012;  // of a corner, to be led by the wall; in the window's sizes
+constexpr double kAlignedSigmaPx = 1.0,
+                 kAlignedStrayPx = 2.0;  // of borders from where the wall says they are
+constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
 
 }  // namespace
 
@@ -98,6 +102,30 @@ void WindowTracker::Impl::watch(const TrackInput& input) {
   if (reference.hasCompared() && opinion.isConfirmed()) likeness.note(window.bhattacharyya, input.stamp_sec);
 }
 
+// Textures beside a border are followed easily for it: where the wall says that the borders are elsewhere,
+// those there are followed from now on.
+void WindowTracker::Impl::realign(const TrackInput& input) {
+  if (quartet.inView() < 4) return;
+  const Quadrilateral followed = distorted(motion.quad(), pictures.lens());
+  const auto expected = reference.align(input, followed);
+  if (!expected ||
+      furthestCorner(*expected, followed) < std::max(kLeastMovePx, kLeastMove * sizeOf(followed)))
+    return;
+  BorderStart start;
+  start.quad = *expected;
+  start.fallback_sigma_px = kAlignedSigmaPx;
+  start.max_stray_px = kAlignedStrayPx;
+  const auto borders = refinement.run(input.image, start, input.camera);
+  if (!borders || borders->fitted < 3) return;
+  const Quadrilateral quad = undistorted(borders->corners, pictures.lens());
+  motion.place(quad);
+  quartet.learn(input.image, pictures.lens(), quad);
+  window.corners = borders->corners;
+  window.corner_visible.fill(true);
+  window.corner_covariance = borders->corner_covariance;
+  window.edges = borders->edges;
+}
+
 // So near that no two sides are in view: the window is where it must be, for a while.
 bool WindowTracker::Impl::surrounds(const TrackInput& input) {
   if (quartet.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec, place_given) ||
@@ -114,6 +142,7 @@ std::optional<WindowObservation> WindowTracker::Impl::updated(const TrackInput& 
   const bool followed = tracking && follow(input);
   done(detector.watch(), Stage::kTrack);
   if (followed) {
+    realign(input);
     has_own_trace = true;
     traceFollowed(window, own_trace);
     if (auto whole = complete(input)) return whole;

@@ -42,6 +42,7 @@ struct WindowTracker::Impl {
   QuadSpread spread() const;
   bool follow(const TrackInput& input);
   void watch(const TrackInput& input);
+  void realign(const TrackInput& input);
   std::optional<WindowObservation> search(const TrackInput& input);
   std::optional<WindowObservation> amongOthers(const TrackInput& input, const WindowObservation& found);
   void take(const TrackInput& input, WindowObservation& found, bool is_same);

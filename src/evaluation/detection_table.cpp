@@ -1,10 +1,16 @@
 #include "window_ingress/evaluation/detection_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
+#include <tuple>
+#include <vector>
 
 namespace window_ingress::evaluation {
 namespace {
+
+using detection::CandidateTrace;
 
 std::string number(const char* format, double value) {
   char text[48];
@@ -22,6 +28,26 @@ std::string windowValues(const std::optional<detection::WindowObservation>& wind
                                       : ",,";
   }
   return text;
+}
+
+std::string candidateValues(const CandidateTrace& candidate) {
+  std::string text = std::string(",") + toString(candidate.source) + "," + toString(candidate.reject) + "," +
+                     number("%.4g", candidate.value) + "," + number("%.4g", candidate.limit) + "," +
+                     number("%.4f", candidate.score) + ",";
+  if (candidate.has_appearance) text += number("%.4f", candidate.bhattacharyya);
+  for (const Eigen::Vector2d& corner : candidate.quad)
+    text += "," + number("%.3f", corner.x()) + "," + number("%.3f", corner.y());
+  return text;
+}
+
+// From 1; equals as they come.
+template <typename Key>
+std::vector<int> placesBy(const std::vector<CandidateTrace>& all, const Key& key) {
+  std::vector<int> order(all.size()), places(all.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(all[a]) < key(all[b]); });
+  for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<int>(i) + 1;
+  return places;
 }
 
 std::string poseValues(const std::optional<pose::WindowPoseEstimate>& pose) {
@@ -46,6 +72,25 @@ std::string detectionColumns() {
 std::string detectionValues(const DetectionRow& row) {
   return windowValues(row.window) + "," + csvField(row.reject_reason) + "," + poseValues(row.pose) + "," +
          number("%.3f", row.milliseconds);
+}
+
+std::string candidateColumns() {
+  return "rank,proposed,source,reason,value,limit,score,bhattacharyya,x1,y1,x2,y2,x3,y3,x4,y4";
+}
+
+std::string candidateRows(const std::string& first, const detection::DetectionTrace& trace) {
+  const auto& all = trace.candidates;
+  const std::vector<int> proposed =
+      placesBy(all, [](const CandidateTrace& c) { return std::make_tuple(-c.proposal, 0.0); });
+  const std::vector<int> ranks = placesBy(all, [](const CandidateTrace& c) {
+    return std::make_tuple(c.reject == detection::RejectReason::kNone ? 0.0 : 1.0, -c.score);
+  });
+  std::vector<std::string> lines(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    lines[ranks[i] - 1] = first + "," + std::to_string(ranks[i]) + "," +
+                          (all[i].proposal > 0.0 ? std::to_string(proposed[i]) : "") +
+                          candidateValues(all[i]) + "\n";
+  return std::accumulate(lines.begin(), lines.end(), std::string());
 }
 
 std::string csvField(const std::string& text) {

@@ -135,7 +135,7 @@ std::vector<std::string> usualFields() {
           "side_support/direction_rad",
           "min_score",
           "min_score_reference",
-          "min_score_frameless"};
+          "min_correlation"};
 }
 
 detection::DetectorParams tuneDetector(const std::vector<LabelledPicture>& pictures,

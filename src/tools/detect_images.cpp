@@ -42,7 +42,7 @@ class JobError : public std::runtime_error {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string output, camera, reference, corners, size, params, overlay;
+  std::string output, camera, reference, corners, size, params, overlay, candidates;
   bool track = false;
   double rate_hz = 30.0;
 };
@@ -71,6 +71,7 @@ Options parse(int argc, char** argv) {
       ("params", po::value(&o.params), tools::kParamsHelp)                                                //
       ("track", po::bool_switch(&o.track), "the pictures are a sequence: follow the window through it")   //
       ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: pictures a second")        //
+      ("candidates", po::value(&o.candidates), "csv file of every candidate and what became of it")       //
       ("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
   po::options_description all;
   all.add(named).add_options()("input", po::value(&o.inputs), "");
@@ -236,15 +237,27 @@ void writeOverlay(const std::string& file, const cv::Mat& picture, const Finder&
     throw JobError(target.string() + ": cannot be written; is the disk full?");
 }
 
+std::ofstream opened(const std::string& file, const std::string& header) {
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty()) fs::create_directories(folder);
+  std::ofstream output(file);
+  if (!output) throw UsageError(file + ": cannot be written");
+  output << "file," << header << "\n";
+  return output;
+}
+
+void finish(std::ofstream& output, const std::string& file) {
+  output.flush();
+  if (!output) throw JobError(file + ": writing failed; is the disk full?");
+}
+
 int run(const Options& options) {
   const std::vector<std::string> pictures = listPictures(options.inputs);
   const Job job = prepare(options);
   Finder finder(job, options);
-  const fs::path folder = fs::path(options.output).parent_path();
-  if (!folder.empty()) fs::create_directories(folder);
-  std::ofstream output(options.output);
-  if (!output) throw UsageError(options.output + ": cannot be written");
-  output << "file," << evaluation::detectionColumns() << finder.columns() << "\n";
+  std::ofstream output = opened(options.output, evaluation::detectionColumns() + finder.columns());
+  std::ofstream candidates;
+  if (!options.candidates.empty()) candidates = opened(options.candidates, evaluation::candidateColumns());
   int unreadable = 0, found = 0;
   auto next_report = Clock::now() + std::chrono::seconds(5);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -258,6 +271,8 @@ int run(const Options& options) {
     } else {
       row = process(picture, job, finder);
       found += row.window.has_value();
+      if (candidates.is_open())
+        candidates << evaluation::candidateRows(evaluation::csvField(pictures[i]), finder.trace());
       if (!job.overlay.empty()) writeOverlay(pictures[i], picture, finder, row, job.overlay);
     }
     output << evaluation::csvField(pictures[i]) << "," << evaluation::detectionValues(row)
@@ -266,8 +281,8 @@ int run(const Options& options) {
     next_report += std::chrono::seconds(5);
     std::cerr << "detect_images: " << i + 1 << " of " << pictures.size() << " pictures" << std::endl;
   }
-  output.flush();
-  if (!output) throw JobError(options.output + ": writing failed; is the disk full?");
+  finish(output, options.output);
+  if (candidates.is_open()) finish(candidates, options.candidates);
   std::cout << "a window in " << found << " of " << pictures.size() << " pictures; see " << options.output
             << (job.overlay.empty() ? "" : " and " + job.overlay) << std::endl;
   return unreadable ? 1 : 0;

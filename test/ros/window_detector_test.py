@@ -151,11 +151,11 @@ class WindowDetectorTest(unittest.TestCase):
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         self.windows.wait(lambda w: w.detected, "a window")
         self.assertEqual(client.update_configuration(
-            {"min_score": 7.0, "min_score_reference": 1.0, "min_score_frameless": 1.0})["min_score"], 1.0)
+            {"min_score": 7.0, "min_score_reference": 1.0, "min_correlation": 1.0})["min_score"], 1.0)
         begin = time.monotonic()
         self.windows.wait(lambda w: not w.detected, "a window that is no longer good enough", begin=begin)
         self.assertEqual(client.update_configuration(
-            {name: before[name] for name in ("min_score", "min_score_reference", "min_score_frameless")})["min_score"],
+            {name: before[name] for name in ("min_score", "min_score_reference", "min_correlation")})["min_score"],
             before["min_score"])
         self.windows.wait(lambda w: w.detected, "a window again")
 

@@ -11,6 +11,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
+import evaluate_candidates as candidates  # noqa: E402
 import evaluate_detections as rules  # noqa: E402
 import evaluate_photos as photos  # noqa: E402
 import evaluate_sequence as sequence  # noqa: E402
@@ -52,6 +53,24 @@ def test_recall_is_averaged_over_scenes(records):
     targets = [r for r in records if r["target"]]
     assert rules.rate(r["hit"] for r in targets) == pytest.approx(2 / 4)
     assert rules.macro(targets, lambda r: r["hit"]) == pytest.approx((1 / 3 + 1.0) / 2)
+
+
+def candidate(name, quad, proposed, reason, score="0"):
+    return {**row(name, quad), "proposed": proposed, "reason": reason, "score": score}
+
+
+def test_the_right_candidate_is_looked_for_where_the_search_put_it():
+    annotations = [row(name, SQUARE) for name in ("a1.jpg", "a2.jpg", "b1.jpg")]
+    annotations.append(row("a3.jpg", SQUARE, label="window_small"))
+    table = [candidate("x/a1.jpg", shifted(SQUARE, 30.0), "1", "outscored"), candidate("x/a1.jpg", SQUARE, "2", "none"),
+             candidate("x/a2.jpg", SQUARE, "12", "duplicate", "0.9"), candidate("x/a2.jpg", SQUARE, "", "score", "0.3"),
+             candidate("x/a3.jpg", SQUARE, "1", "none"), candidate("x/b1.jpg", shifted(SQUARE, 30.0), "1", "none")]
+    found = candidates.evaluate(table, annotations, META, set(), 0.7)
+    assert [(r["file"], r["place"], r["fate"]) for r in found] == [("a1.jpg", 2, "chosen"), ("a2.jpg", 12, "score"),
+                                                                  ("b1.jpg", None, "unseen")]
+    assert candidates.among(found, 1) == pytest.approx(0.0)
+    assert candidates.among(found, 10) == pytest.approx((1 / 2 + 0) / 2)
+    assert candidates.among(found, 50) == pytest.approx((1 + 0) / 2)
 
 
 def test_precision_counts_only_what_is_annotated_exhaustively(records):

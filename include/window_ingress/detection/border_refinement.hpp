@@ -34,6 +34,7 @@ struct RefinedBorders {
       corners;  ///< intersections of neighbouring borders, canonical order, pixels as they came
   std::array<Eigen::Matrix2d, 4> corner_covariance;  ///< [px^2]
   std::array<Edge, 4> edges;
+  int fitted = 4;              ///< sides; the others are where they started
   double worst_inliers = 0.0;  ///< part of the profiles on the line, of the worst side
 };
 

@@ -18,9 +18,11 @@ struct Rival {
   geometry::Quadrilateral quad;  ///< pixels of the image as it came
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
+  double proposal = 0.0;         ///< its rank in the search; 0 where its borders were located afterwards
   LoopVerdict verdict;
   std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
   bool located = false;                       ///< its borders are where the reference's are
+  std::optional<double> correlation;          ///< with the reference's surroundings, where they were aligned
   double geometry = 0.0;                      ///< then: its score by geometry alone
   double worth = 0.0;  ///< then: how far the colours about its borders are those of the reference, 0 to 1
 
@@ -49,6 +51,11 @@ class CandidateSearch {
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   const std::vector<Rival>& runOnColours(DetectionTrace& trace);
 
+  /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
+  /// sides to be taken for a window by its geometry, and what others were better than: for a judge that knows
+  /// better.
+  const std::vector<Rival>& doubtful() const { return doubtful_; }
+
   /// \param watch told of each stage that is done, or null; outlives this
   void setWatch(StageWatch* watch) { watch_ = watch; }
 
@@ -57,6 +64,7 @@ class CandidateSearch {
  private:
   void look(const cv::Mat& level);
   const std::vector<Rival>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
+  void doubt(Rival rival, const Rejection& rejection);
   void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
   int variants(const Rival& rival) const;
   void keepBest(DetectionTrace& trace);
@@ -75,7 +83,7 @@ class CandidateSearch {
   const std::vector<Segment>* segments_ = nullptr;
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
-  std::vector<Rival> admitted_, kept_;
+  std::vector<Rival> admitted_, kept_, doubtful_;
   StageWatch* watch_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;

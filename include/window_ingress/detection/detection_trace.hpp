@@ -28,6 +28,7 @@ enum class RejectReason {
   kAppearance,   ///< its frame does not look like the reference
   kOtherAspect,  ///< of another aspect than the reference
   kOtherFrame,   ///< its frame is wider or narrower than the reference's
+  kUnlike,       ///< what lies round it is not what lies round the reference's opening
   kScore,        ///< score below the limit
   kOutscored,    ///< a fair window, but another one is better
   kBudget        ///< not looked at: too many candidates in one image
@@ -55,6 +56,8 @@ struct CandidateTrace {
   double score = 0.0;
   bool has_appearance = false;
   double bhattacharyya = 0.0;
+  double correlation = 0.0;  ///< of what lies round it with what the reference shows there; 0: not compared
+  double proposal = 0.0;  ///< how much the search thinks of it before it is judged; 0: stopped at the gates
 };
 
 /// For people: "aspect 3.1 > 2.5".

@@ -39,7 +39,7 @@ struct DetectorParams {
   int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
   double min_score = 0.4;   ///< below this there is no detection
   double min_score_reference = 0.5;  ///< the same for what was compared with a reference
-  double min_score_frameless = 0.7;  ///< the same where the reference shows no frame
+  double min_correlation = 0.58;     ///< of what lies round the target with what the reference shows there
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -62,7 +62,7 @@ struct DetectorParams {
     field("max_candidates", self.max_candidates, 1, 1000);
     field("min_score", self.min_score, 0.0, 1.0);
     field("min_score_reference", self.min_score_reference, 0.0, 1.0);
-    field("min_score_frameless", self.min_score_frameless, 0.0, 1.0);
+    field("min_correlation", self.min_correlation, 0.0, 1.0);
   }
 };
 

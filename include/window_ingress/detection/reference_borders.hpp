@@ -17,7 +17,6 @@ struct ReferenceBordersParams {
   double alike = 0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
   double contrast_full = 10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
   double step_full = 0.06;      ///< difference of the colours on both sides of a border that counts fully
-  double uniform_frame = 0.08;  ///< colours of a frame's four sides differ less than this
   double brightness_weight = 0.25;  ///< of relative brightness beside chroma
 
   template <typename Self, typename Visitor>
@@ -27,7 +26,6 @@ struct ReferenceBordersParams {
     field("alike", self.alike, 0.001, 10.0);
     field("contrast_full", self.contrast_full, 0.1, 255.0);
     field("step_full", self.step_full, 0.001, 10.0);
-    field("uniform_frame", self.uniform_frame, 0.0, 10.0);
     field("brightness_weight", self.brightness_weight, 0.0, 10.0);
   }
 };
@@ -49,7 +47,7 @@ class ReferenceBorders {
   void forget() { known_ = false; }
   bool known() const { return known_; }
 
-  /// True if the reference shows no frame: then next to nothing tells the target from other rectangles.
+  /// True if the reference shows no frame: then there are no colours to go by, see `RingJudge`.
   bool frameless() const { return known_ && frameless_; }
 
   /// Samples along a side and across it.
@@ -62,7 +60,6 @@ class ReferenceBorders {
     geometry::Quadrilateral
         quad;  ///< pixels of the image as it came; each side to two pixels or so, for the fit to start from
     double worth = 0.0;  ///< geometric mean of the least alike side and all: 0 unlike the reference to 1
-    bool holds_frame = false;  ///< a frame lies within: it is the outer border of another window
   };
   /// \param rough some loop of the window, pixels of the image as it came
   /// \return nothing if there is no colour, or a side has no edge at all
@@ -81,7 +78,6 @@ class ReferenceBorders {
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;
-  bool holdsFrame(const std::array<double, 4>& borders) const;
 
   ReferenceBordersParams params_;
   bool known_ = false;
@@ -89,10 +85,7 @@ class ReferenceBorders {
   /// Of each side: red and green chromaticity, logarithm of the brightness over that of the outermost band.
   std::array<Bands, 4> reference_;
   std::array<Bands, 4> reference_colours_;  ///< BGR
-  /// Just inside the borders, brightness likewise. Counts where no frame tells an opening from the outer
-  /// border of another window's frame.
-  std::array<Eigen::Vector3f, 4> reference_within_;
-  std::array<double, 4> frame_widths_{};  ///< [mean sides of the opening]; 0: no end seen
+  std::array<double, 4> frame_widths_{};    ///< [mean sides of the opening]; 0: no end seen
   bool frameless_ = false;
   std::array<SideProfile, 4> sides_;
   float darkest_ = 0.0F;  ///< least channel in them

@@ -12,6 +12,7 @@
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/reference_borders.hpp"
 #include "window_ingress/detection/reference_shape.hpp"
+#include "window_ingress/detection/ring_judge.hpp"
 
 namespace window_ingress::detection {
 
@@ -28,7 +29,8 @@ class ReferenceJudge {
   /// True if rivals can be told apart by the colours about their borders.
   bool knowsBorders() const { return borders_.known(); }
 
-  bool frameless() const { return borders_.frameless(); }
+  /// True if the wall round the opening tells the target, whatever a candidate is by its geometry.
+  bool goesByRing() const { return borders_.frameless() && ring_.known(); }
 
   /// Weighs the rivals by the reference; adds those whose borders it located. False, and nothing changed, if
   /// there is no reference or only one of reference and picture has colours.
@@ -42,6 +44,7 @@ class ReferenceJudge {
   const cv::Mat& inChannels(const cv::Mat& picture);
   std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
                               const ReferenceBorders::Effort& effort);
+  void alignAll(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
   void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
                  const std::vector<Rival>& rivals);
   bool weigh(const cv::Mat& image, std::vector<Rival>& rivals) const;
@@ -50,6 +53,7 @@ class ReferenceJudge {
   AppearanceParams appearance_;
   WindowScoreParams score_;
   ReferenceBorders borders_;
+  RingJudge ring_;
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
   bool is_grey_ = false;  ///< the reference; then by brightness alone

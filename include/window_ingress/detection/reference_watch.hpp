@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/reference_borders.hpp"
+#include "window_ingress/detection/ring_alignment.hpp"
 #include "window_ingress/detection/track_input.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 
@@ -31,6 +33,11 @@ class ReferenceWatch {
   /// Right after a look that agreed: takes over part of what differs.
   void adapt(const TrackInput& input, const WindowObservation& window);
 
+  /// Where the wall round the opening says that the borders are, near those followed; nothing if it is not
+  /// sure, or if the reference goes by its frame. Looks at every third call.
+  std::optional<geometry::Quadrilateral> align(const TrackInput& input,
+                                               const geometry::Quadrilateral& followed);
+
   bool hasCompared() const { return compared_; }  ///< `look` has compared the last picture
   bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last picture, and it was alike
   bool isUnlike() const { return unlike_; }       ///< the last time that it was looked at
@@ -42,8 +49,10 @@ class ReferenceWatch {
 
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
+  RingModel ring_;                                  // where the reference shows no frame
+  RingAlignment alignment_;
   std::unique_ptr<ReferenceBorders> borders_;
-  int frames_to_comparison_ = 0;
+  int frames_to_comparison_ = 0, frames_to_alignment_ = 0;
   bool unlike_ = false, agreed_ = false, compared_ = false;
 };
 

@@ -40,7 +40,11 @@ struct WindowObservation {
   double score = 0.0;           ///< 0 (barely passed the gates) to 1 (certain)
   bool has_appearance = false;  ///< a reference was given and enough pixels could be compared
   double bhattacharyya = 0.0;   ///< 0 identical to 1 disjoint; only if has_appearance
-  InteriorTracks interior;      ///< what the texture within the opening did; empty unless it was followed
+  double correlation =
+      0.0;  ///< of what lies round it with what lies round the reference's opening; 0: not compared
+  double runner_up =
+      0.0;  ///< the same of the next best place, when it was searched for: near it, they look alike
+  InteriorTracks interior;  ///< what the texture within the opening did; empty unless it was followed
 
   /// All four corners are seen: `corners` may be read as a quadrilateral.
   bool whole() const {

@@ -26,6 +26,16 @@ std::string detectionColumns();
 /// line end.
 std::string detectionValues(const DetectionRow& row);
 
+/// Columns of a table of all candidates, after the picture's name:
+/// rank,proposed,source,reason,value,limit,score,bhattacharyya,x1,y1,...,x4,y4.
+/// `rank` is the place by the last word about it, the target first; `proposed` the place that the search gave
+/// it before anything was compared, empty for one stopped at the gates or located afterwards. Both count
+/// from 1.
+std::string candidateColumns();
+
+/// A line a candidate, by rank, each starting with `first` and a comma, and ended.
+std::string candidateRows(const std::string& first, const detection::DetectionTrace& trace);
+
 /// A text as one csv field: in quotes if it holds a comma, a quote or a line end.
 std::string csvField(const std::string& text);
 

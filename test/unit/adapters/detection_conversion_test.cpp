@@ -21,6 +21,7 @@ detection::WindowObservation makeWindow() {
   window.score = 0.8;
   window.has_appearance = true;
   window.bhattacharyya = 0.3;
+  window.correlation = 0.9, window.runner_up = 0.4;
   return window;
 }
 
@@ -37,6 +38,8 @@ TEST(WindowDetection, GoesThereAndBack) {
   EXPECT_EQ(back.value->stamp_sec, wanted.stamp_sec);
   EXPECT_EQ(back.value->score, wanted.score);
   EXPECT_EQ(back.value->bhattacharyya, wanted.bhattacharyya);
+  EXPECT_EQ(back.value->correlation, wanted.correlation);
+  EXPECT_EQ(back.value->runner_up, wanted.runner_up);
   for (int i = 0; i < 4; ++i) {
     EXPECT_EQ(back.value->corners[i], wanted.corners[i]);
     EXPECT_EQ(back.value->corner_covariance[i], wanted.corner_covariance[i]);

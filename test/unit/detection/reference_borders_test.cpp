@@ -44,7 +44,6 @@ void expectLocated(ReferenceBorders& borders, const Facade& facade, const Quadri
   ASSERT_TRUE(found);
   EXPECT_LT(test::worstCorner(found->quad, facade.opening), 3.5);
   EXPECT_GT(found->worth, 0.3);
-  EXPECT_FALSE(found->holds_frame);
 }
 
 TEST(ReferenceBorders, TheInnerBorderIsFoundFromTheOuterOneAndFromWithin) {
@@ -72,15 +71,11 @@ TEST(ReferenceBorders, ADifferentlyPaintedFrameIsWorthLittle) {
   EXPECT_LT(found ? found->worth : 0.0, 0.2);
 }
 
-TEST(ReferenceBorders, TheOuterBorderOfAnotherFrameIsNoBareHole) {
+TEST(ReferenceBorders, AReferenceWithoutAFrameIsKnownAsSuch) {
   Facade hole;
   hole.frame_px = 0.0;
-  ReferenceBorders borders = learned(hole);
-  expectLocated(borders, hole, test::grown(hole.opening, 3.0));
-  const Facade window;
-  const auto found = borders.locate(window.draw(), test::grown(window.opening, window.frame_px), nullptr,
-                                    ReferenceBorders::kFine);
-  EXPECT_TRUE(!found || found->holds_frame || found->worth < 0.2);
+  EXPECT_TRUE(learned(hole).frameless());
+  EXPECT_FALSE(learned(Facade()).frameless());
 }
 
 TEST(ReferenceBorders, NothingFromPicturesWithoutColourOrWithoutSense) {

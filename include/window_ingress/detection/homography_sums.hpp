@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace window_ingress::detection {
+
+/// Products of powers of x and y up to the fourth degree, those of a lower degree first; the last is 0.
+using Monomials = Eigen::Array<float, 16, 1>;
+Monomials monomialsOf(float x, float y);
+
+using Vector8f = Eigen::Matrix<float, 8, 1>;
+using Matrix8f = Eigen::Matrix<float, 8, 8>;
+
+/// Derivatives of a picture by the eight parameters of a homography near the identity,
+/// (1 + p0, p1, p2; p3, 1 + p4, p5; p6, p7, 1), summed over its points. Such a derivative is the picture's
+/// slope (a, b) times polynomials of the place, so that sums of slopes times monomials hold all that is
+/// needed: 8 a vector and 48 the normal equations, whatever the number of channels.
+struct DerivativeSum {
+  Eigen::Array<float, 8, 1> a = Eigen::Array<float, 8, 1>::Zero(), b = Eigen::Array<float, 8, 1>::Zero();
+
+  void add(const float* monomials, float slope_a, float slope_b) {
+    const Eigen::Map<const Eigen::Array<float, 8, 1>> m(monomials);
+    a += slope_a * m, b += slope_b * m;
+  }
+  Vector8f vector() const;
+};
+
+/// The sum of derivatives times their transposes.
+struct NormalSum {
+  Monomials aa = Monomials::Zero(), ab = Monomials::Zero(), bb = Monomials::Zero();
+
+  void add(const float* monomials, float slope_aa, float slope_ab, float slope_bb) {
+    const Eigen::Map<const Monomials> m(monomials);
+    aa += slope_aa * m, ab += slope_ab * m, bb += slope_bb * m;
+  }
+  Matrix8f matrix() const;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Where annotated quadrilaterals get lost: from a csv of `detect_images --candidates`, recall among the first 1, 10, 50 and
+all candidates as the search proposes them, and why the right one was not chosen.
+
+A candidate is right if it overlaps an annotated quadrilateral by IoU >= 0.7; a picture counts once, whichever of its
+quadrilaterals was found, and rates are averaged over scenes, as in evaluate_detections.py. Labels that end in _small count
+neither for nor against.
+"""
+import argparse
+import collections
+import os
+import sys
+
+import evaluate_detections as rules
+
+FIRST = (1, 10, 50)
+
+
+def is_proposed(candidate):
+    return candidate["proposed"] != ""
+
+
+def fate(right):
+    """Of several candidates on the target the one that came furthest: what stopped it; `unseen` where there is none."""
+    if not right:
+        return "unseen"
+    furthest = max(right, key=lambda c: (c["reason"] == "none", c["reason"] != "duplicate", float(c["score"]), is_proposed(c)))
+    return "chosen" if furthest["reason"] == "none" else furthest["reason"]
+
+
+def evaluate(candidates, annotations, meta, leave_out, min_iou):
+    """One record a picture with a target."""
+    quads, of_picture = collections.defaultdict(list), collections.defaultdict(list)
+    for row in annotations:
+        if row["x1"] and rules.is_target(row):
+            quads[row["file"]].append(rules.corners(row))
+    for row in candidates:
+        of_picture[os.path.basename(row["file"])].append(row)
+    records = []
+    for name in sorted(of_picture):
+        if name not in meta or name in leave_out or not quads[name]:
+            continue
+        right, seen = [], set()
+        for candidate in of_picture[name]:
+            quad = rules.corners(candidate)
+            on = [i for i, target in enumerate(quads[name]) if rules.iou(quad, target) >= min_iou]
+            if on:
+                right.append(candidate)
+                seen.update(on)
+        places = [int(c["proposed"]) for c in right if is_proposed(c)]
+        records.append({"file": name, "scene": meta[name]["scene"], "tier": meta[name]["tier"], "fate": fate(right),
+                        "place": min(places, default=None), "any": bool(right), "chosen": fate(right) == "chosen",
+                        "targets": len(quads[name]), "seen": len(seen)})
+    return records
+
+
+def among(records, first):
+    return rules.macro(records, lambda r: r["place"] is not None and r["place"] <= first)
+
+
+def percent(value):
+    return "" if value != value else f"{100.0 * value:.1f} %"
+
+
+HEADER = ("| pictures | number | chosen | among first " + " | ".join(map(str, FIRST)) + " | proposed | seen at all | of all annotated | lost to |\n"
+          "|" + "---|" * (len(FIRST) + 7))
+
+
+def table_row(title, records):
+    lost = collections.Counter(r["fate"] for r in records if not r["chosen"])
+    said = ", ".join(f"{reason} {count}" for reason, count in lost.most_common())
+    every = rules.rate([1] * sum(r["seen"] for r in records) + [0] * sum(r["targets"] - r["seen"] for r in records))
+    cells = [rules.macro(records, lambda r: r["chosen"]), *(among(records, first) for first in FIRST), among(records, 10**9),
+             rules.macro(records, lambda r: r["any"]), every]
+    return f"| {title} | {len(records)} | " + " | ".join(map(percent, cells)) + f" | {said} |"
+
+
+def print_table(records, title="", per_scene=False):
+    if title == "":
+        print(HEADER)
+    for tier in sorted({r["tier"] for r in records}):
+        some = [r for r in records if r["tier"] == tier]
+        print(table_row(f"{title or 'tier'} {tier}", some))
+        for scene in sorted({r["scene"] for r in some}) if per_scene else []:
+            print(table_row(scene, [r for r in some if r["scene"] == scene]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("candidates", help="csv of detect_images --candidates")
+    parser.add_argument("--annotations", required=True)
+    parser.add_argument("--meta", required=True)
+    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="picture the reference is from")
+    parser.add_argument("--iou", type=float, default=0.7)
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those pictures")
+    parser.add_argument("--per-scene", action="store_true")
+    options = parser.parse_args()
+    try:
+        candidates, annotations, meta = map(rules.read, (options.candidates, options.annotations, options.meta))
+    except OSError as error:
+        print(f"evaluate_candidates: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    meta = {row["file"]: row for row in meta}
+    records = rules.only(evaluate(candidates, annotations, meta, set(options.leave_out), options.iou), options.half)
+    if not records:
+        print(f"evaluate_candidates: {options.candidates}: no picture of {options.meta} with a target in it", file=sys.stderr)
+        return 1
+    print_table(records, per_scene=options.per_scene)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
