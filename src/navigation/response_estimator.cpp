@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kModelsToEachSide = 4;
 constexpr double kFastestShare = 0.5, kSlowestShare = 3.0;  // of the time assumed
+constexpr double kDeadTimeSec = 0.1, kLeastLagSec = 0.02;
 constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
 constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
 
@@ -22,7 +23,7 @@ void ResponseEstimator::reset() {
   for (int i = -kModelsToEachSide; i <= kModelsToEachSide; ++i) {
     const double furthest = i < 0 ? kFastestShare : kSlowestShare;
     const double factor = std::pow(furthest, std::abs(i) / static_cast<double>(kModelsToEachSide));
-    models_.push_back({std::max(1e-3, factor * assumed_sec_)});
+    models_.push_back({factor * assumed_sec_});
   }
   best_ = kModelsToEachSide;
   response_sec_ = assumed_sec_;
@@ -35,19 +36,30 @@ void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen:
   if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
   if (!is_started_) {
     for (Model& model : models_) model.velocity_mps = measured_mps - model.offset_mps;
+    commands_.clear();
     usual_command_mps_ = commanded_mps;
     is_started_ = true;
   }
+  const Eigen::Vector3d asked_mps = delayed(commanded_mps, dt_sec);
   const Eigen::Vector3d change_mps = commanded_mps - usual_command_mps_;
   usual_command_mps_ += share(dt_sec, kChangeSec) * change_mps;
   excitation_ += dt_sec * change_mps.squaredNorm();
   for (Model& model : models_) {
-    model.velocity_mps += share(dt_sec, model.lag_sec) * (commanded_mps - model.velocity_mps);
+    model.velocity_mps += share(dt_sec, std::max(kLeastLagSec, model.response_sec - kDeadTimeSec)) *
+                          (asked_mps - model.velocity_mps);
     const Eigen::Vector3d remains_mps = measured_mps - model.velocity_mps - model.offset_mps;
     model.offset_mps += share(dt_sec, kOffsetSec) * remains_mps;
     model.error += share(dt_sec, kErrorSec) * (remains_mps.squaredNorm() - model.error);
   }
   choose();
+}
+
+// The setpoint that the vehicle has begun to answer by now.
+Eigen::Vector3d ResponseEstimator::delayed(const Eigen::Vector3d& commanded_mps, double dt_sec) {
+  now_sec_ += dt_sec;
+  commands_.push_back({now_sec_, commanded_mps});
+  while (commands_.size() > 1 && commands_[1].sec <= now_sec_ - kDeadTimeSec) commands_.pop_front();
+  return commands_.front().velocity_mps;
 }
 
 void ResponseEstimator::choose() {
@@ -56,7 +68,7 @@ void ResponseEstimator::choose() {
   const auto least = std::min_element(models_.begin(), models_.end(), better);
   if (least->error < kClearlyBetter * models_[best_].error)
     best_ = static_cast<std::size_t>(least - models_.begin());
-  response_sec_ = models_[best_].lag_sec;
+  response_sec_ = models_[best_].response_sec;
 }
 
 }  // namespace window_ingress::navigation

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <vector>
 
 namespace window_ingress::navigation {
 
-/// How fast the vehicle's velocity follows its setpoints, measured in flight: of first-order models with
+/// How fast the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
 /// different time constants, all fed with the setpoints that were sent, the one whose velocity is most like
 /// the measured one. A steady difference (wind, a biased velocity) counts for nothing: each model learns its
 /// own and is judged by what remains. A vehicle whose acceleration is limited looks like a slow one, and that
@@ -31,7 +32,7 @@ class ResponseEstimator {
 
  private:
   struct Model {
-    double lag_sec;
+    double response_sec;  ///< dead time and time constant
     Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
     Eigen::Vector3d offset_mps =
         Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from it
@@ -39,11 +40,18 @@ class ResponseEstimator {
   };
   static constexpr double kEnoughExcitation = 0.3;  ///< [m^2/s]
 
+  Eigen::Vector3d delayed(const Eigen::Vector3d& commanded_mps, double dt_sec);
   void choose();
 
   double assumed_sec_, response_sec_;
   std::vector<Model> models_;
   std::size_t best_;
+  struct Command {
+    double sec;
+    Eigen::Vector3d velocity_mps;
+  };
+  std::deque<Command> commands_;  ///< of the dead time
+  double now_sec_ = 0.0;
   Eigen::Vector3d usual_command_mps_ = Eigen::Vector3d::Zero();
   double excitation_ = 0.0;  ///< how much the setpoints have changed so far [m^2/s]
   bool is_started_ = false;

@@ -58,7 +58,7 @@ class FlightTable : public testing::Test {
 TEST(FlightRow, HasTheColumnsOfTheHeader) {
   EXPECT_EQ(csvHeader(),
             "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
-            "predicted_miss_m,reason");
+            "predicted_miss_m,reason,nearest_m");
   auto flight = flightWith(7);
   flight.min_clearance_m = 0.25;
   flight.predicted_miss_m = 0.1;
