@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "window_ingress/evaluation/flight_draws.hpp"
+
 namespace window_ingress::evaluation {
 namespace {
 
@@ -63,14 +65,14 @@ TEST(FlightRow, HasTheColumnsOfTheHeader) {
   flight.min_clearance_m = 0.25;
   flight.predicted_miss_m = 0.1;
   flight.reason = "crossed";
-  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed");
+  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed,0.0000");
 }
 
 TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
   FlightResult lost;
   lost.outcome = Outcome::kAborted;
   lost.reason = "lost, \"really\"\nlost";
-  EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\"");
+  EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\",0.0000");
 }
 
 TEST_F(FlightTable, ReadsBackWhatItWrote) {
@@ -106,6 +108,28 @@ TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_NE(error({good}).find("'soon' is no number"), std::string::npos);
   std::ofstream(good + "/flights.csv") << "seed\n1\n";
   EXPECT_NE(error({good}).find("flights.csv:1: is not 'seed,outcome"), std::string::npos);
+}
+
+TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
+  fs::create_directories(root_);
+  const std::string file = (root_ / "draws.csv").string();
+  const auto errorOf = [&](const std::string& text) -> std::string {
+    std::ofstream(file) << text;
+    try {
+      readDraws(file);
+    } catch (const TableError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(errorOf("seed,wind/x_mps\n3,0.25\n9,1\n"), "");
+  const FlightDraws draws = readDraws(file);
+  ASSERT_EQ(draws.size(), 2u);
+  EXPECT_EQ(draws.at(3).at("wind/x_mps"), 0.25);
+  EXPECT_NE(errorOf("wind/x_mps\n0.5\n").find("must begin with 'seed'"), std::string::npos);
+  EXPECT_NE(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n").find(":3: seed 3 stands there twice"),
+            std::string::npos);
+  EXPECT_NE(errorOf("seed,wind/x_mps\n3\n").find(":2: "), std::string::npos);
 }
 
 }  // namespace

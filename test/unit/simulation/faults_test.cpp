@@ -151,6 +151,23 @@ TEST(Faults, OdometryAndTransformAreSpoiltEachForItself) {
   EXPECT_EQ(jumped, 20);
 }
 
+TEST(Faults, ASlideMovesThePositionAloneAndItStaysThere) {
+  FaultParams slide = fault("odom", "slide");
+  slide.slide_mps = 0.5;
+  slide.direction_rad = M_PI_2;
+  const Recording healthy = record({}), slid = record({slide});
+  ASSERT_EQ(slid.odometry.size(), healthy.odometry.size());
+  for (std::size_t i = 0; i < slid.odometry.size(); ++i) {
+    const Eigen::Vector3d moved =
+        slid.odometry[i].T_odom_base.translation() - healthy.odometry[i].T_odom_base.translation();
+    EXPECT_NEAR(moved.x(), 0.0, 1e-12);
+    EXPECT_EQ(slid.odometry[i].velocity_odom_mps, healthy.odometry[i].velocity_odom_mps);
+    EXPECT_EQ(slid.transforms[i].T_odom_base.matrix(), slid.odometry[i].T_odom_base.matrix());
+    if (i + 1 == slid.odometry.size()) EXPECT_NEAR(moved.y(), 0.5 * (kEndSec - kAtSec), 1e-9);
+  }
+  EXPECT_NE(whyNoSuchFault(fault("imu", "slide")), "");
+}
+
 TEST(Faults, GarbageIsNotFinite) {
   const Recording faulty = record({fault("odom", "garbage"), fault("imu", "garbage"), fault("tf", "garbage"),
                                    fault("camera_info", "garbage")});

@@ -98,6 +98,16 @@ TEST_F(Flight, ACleanPassWithAStopBehindIsPassed) {
   EXPECT_NEAR(referee_.maxSpeed(), 1.0, 1e-9);
 }
 
+TEST_F(Flight, TheNearestGapIsThatToTheFrameAndNeverMoreThanTheTrueOne) {
+  flyTo({-1.0, 0, 0});
+  const double before_m = referee_.nearest();
+  EXPECT_GT(before_m, 0.3);
+  flyTo({1.5, 0.1, 0});
+  ASSERT_TRUE(referee_.minClearance());
+  EXPECT_LE(referee_.nearest(), *referee_.minClearance() + 1e-9);
+  EXPECT_GT(referee_.nearest(), 0.1);
+}
+
 TEST_F(Flight, StandingWithTheTailInTheOpeningIsNoPass) {
   flyTo({-1.5, 0, 0});
   flyTo({0.3, 0, 0});

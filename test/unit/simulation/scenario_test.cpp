@@ -72,6 +72,41 @@ TEST_F(ScenarioFile, DrawsRangesFromTheSeedEachKeyForItself) {
   EXPECT_EQ(values.size(), 300u);
 }
 
+TEST_F(ScenarioFile, AValueMayBeAskedForByItsPlaceInTheRange) {
+  std::ofstream(file_)
+      << "start: {distance_m: [3, 5], off_axis_rad: [-0.5, 0.5]}\nhouse: {texture_seed: [1, 10]}\n"
+         "faults:\n  one_of:\n    - []\n    - [{unit: odom, kind: slide, slide_mps: [0, 2]}]\n";
+  const Scenario drawn = loadScenario(file_, 7);
+  for (const double quantile : {0.0, 0.25, 1.0}) {
+    const Scenario asked = loadScenario(file_, 7,
+                                        {{"start/distance_m", quantile},
+                                         {"house/texture_seed", quantile},
+                                         {"faults", 1.0},
+                                         {"faults[0]/slide_mps", quantile}});
+    EXPECT_DOUBLE_EQ(asked.start.distance_m, 3.0 + 2.0 * quantile);
+    EXPECT_EQ(asked.house.texture_seed, quantile == 0.0 ? 1 : quantile == 1.0 ? 10 : 3);
+    ASSERT_EQ(asked.faults.size(), 1u);
+    EXPECT_DOUBLE_EQ(asked.faults[0].slide_mps, 2.0 * quantile);
+    EXPECT_EQ(asked.start.off_axis_rad, drawn.start.off_axis_rad) << "what is not asked for is drawn as ever";
+  }
+  try {
+    loadScenario(file_, 7, {{"start/distance", 0.5}});
+    ADD_FAILURE() << "a key that there is not";
+  } catch (const ScenarioError& e) {
+    EXPECT_NE(std::string(e.what()).find("start/distance: has no range to draw from"), std::string::npos);
+  }
+}
+
+TEST(Scenario, TheVehicleMayBeToldOfAnotherMounting) {
+  CameraParams camera;
+  EXPECT_EQ(camera.toldT_base_camera().matrix(), camera.T_base_camera().matrix());
+  camera.told_yaw_error_rad = 0.02;
+  camera.told_pitch_error_rad = -0.01;
+  const Eigen::AngleAxisd turn(camera.T_base_camera().linear() *
+                               camera.toldT_base_camera().linear().transpose());
+  EXPECT_NEAR(turn.angle(), std::hypot(0.02, 0.01), 1e-4);
+}
+
 TEST_F(ScenarioFile, DrawsWholeNumbersWithBothEnds) {
   std::set<int> values;
   for (std::uint32_t seed = 0; seed < 60; ++seed)

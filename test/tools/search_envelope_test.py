@@ -1,0 +1,72 @@
+"""scripts/search_envelope: it repeats, goes on, finds what is there to be found, shrinks it and keeps it."""
+import csv
+import pathlib
+import subprocess
+
+import pytest
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CALM = "glass: excluded\nunverified_opening: allow\nstart: {distance_m: [3.0, 3.5], off_axis_rad: [-0.1, 0.1]}\n"
+# Behind the brake nothing helps: the vehicle obeys random velocities.
+DEADLY = CALM + "time_limit_sec: 30\nfaults: [{unit: cmd_vel, kind: garbage, at_sec: [2.0, 4.0], duration_sec: 20.0}]\n"
+
+
+def search(folder, *arguments):
+    command = [ROOT / "scripts/search_envelope", "--output", folder, "--jobs", "2", *arguments]
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
+
+
+def envelope_in(folder, text):
+    file = folder / "envelope.yaml"
+    file.write_text(text)
+    return file
+
+
+def rows_of(folder):
+    with (folder / "search.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_search_repeats_and_one_that_is_broken_off_goes_on(tmp_path):
+    envelope = envelope_in(tmp_path, CALM)
+    assert search(tmp_path / "whole", "--envelope", envelope, "--flights", "12").returncode == 0
+    assert search(tmp_path / "again", "--envelope", envelope, "--flights", "12").returncode == 0
+    assert (tmp_path / "whole/search.csv").read_bytes() == (tmp_path / "again/search.csv").read_bytes()
+    refused = search(tmp_path / "again", "--envelope", envelope, "--flights", "15")
+    assert refused.returncode == 2 and "--resume" in refused.stderr
+    done = search(tmp_path / "again", "--envelope", envelope, "--flights", "15", "--resume")
+    assert done.returncode == 0, done.stderr
+    rows = rows_of(tmp_path / "again")
+    assert [int(row["seed"]) for row in rows] == list(range(10000001, 10000016))
+    assert {row["outcome"] for row in rows} == {"PASSED"}
+    assert all(0.0 <= float(row["start/distance_m"]) <= 1.0 for row in rows)
+
+
+def test_a_contact_is_found_shrunk_and_kept_as_a_scenario_that_repeats(tmp_path):
+    done = search(tmp_path / "out", "--envelope", envelope_in(tmp_path, DEADLY), "--flights", "3")
+    finds = sorted((tmp_path / "out/finds").glob("*.yaml"))
+    assert done.returncode == 1 and finds, done.stderr
+    for find in finds:
+        scenario = yaml.safe_load(find.read_text())
+        assert isinstance(scenario["start"]["distance_m"], float)
+        outcome = find.read_text().split(":", 1)[0].removeprefix("# ")
+        again = subprocess.run([str(ROOT / "scripts/run"), "fly", "--scenario", str(find), "--seeds", find.stem, "--no-pictures",
+                                "--output", str(tmp_path / "fly")], capture_output=True, text=True, timeout=120, check=False)
+        assert again.returncode == 0, again.stderr
+        assert (tmp_path / "fly/flights.csv").read_text().splitlines()[1].split(",")[1] == outcome
+
+
+@pytest.mark.parametrize("arguments, said", [
+    (["--envelope", "missing.yaml"], "missing.yaml: no such file"),
+    (["--shard", "3/2"], "--shard"),
+    (["--flights", "0"], "--flights"),
+])
+def test_wrong_usage_is_refused(tmp_path, arguments, said):
+    done = search(tmp_path / "out", *arguments)
+    assert done.returncode == 2 and said in done.stderr
+
+
+def test_a_scenario_without_ranges_is_no_envelope(tmp_path):
+    done = search(tmp_path / "out", "--envelope", envelope_in(tmp_path, "time_limit_sec: 30\n"))
+    assert done.returncode == 2 and "has no ranges to search" in done.stderr
