@@ -31,8 +31,7 @@ void ReferenceWatch::learnBorders() {
   borders_ = std::make_unique<ReferenceBorders>(params_.borders);
   borders_->learn(reference_->picture(), reference_->opening());
   ring_.forget();
-  if (borders_->frameless() && reference_->openingIsKnown())
-    ring_.learn(reference_->picture(), reference_->opening());
+  if (reference_->openingIsKnown()) ring_.learn(reference_->picture(), reference_->opening());
 }
 
 void ReferenceWatch::start() {
@@ -48,11 +47,16 @@ std::optional<geometry::Quadrilateral> ReferenceWatch::align(const TrackInput& i
   alignment_.set(ring_, input.image, input.camera);
   const auto found = alignment_.align(followed, kAlignedPx);
   if (!found || found->match.correlation < params_.min_correlation) return std::nullopt;
-  return found->quad;
+  if (borders_->frameless()) return found->quad;
+  const auto located = borders_->locate(input.image, found->quad, input.camera, ReferenceBorders::kFine);
+  if (!located || located->worth < kSureWorth) return std::nullopt;
+  if (furthestCorner(located->quad, followed) <= std::max(kLeastStrayPx, kStray * sizeOf(followed)))
+    return std::nullopt;
+  return located->quad;
 }
 
 bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
-  if (ring_.known()) return false;
+  if (borders_->frameless()) return false;
   const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
   if (!found || found->worth < kSureWorth) return false;
   return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));

@@ -34,7 +34,7 @@ class ReferenceWatch {
   void adapt(const TrackInput& input, const WindowObservation& window);
 
   /// Where the wall round the opening says that the borders are, near those followed; nothing if it is not
-  /// sure, or if the reference goes by its frame. Looks at every third call.
+  /// sure, or if a frame is found in place. Looks at every third call.
   std::optional<geometry::Quadrilateral> align(const TrackInput& input,
                                                const geometry::Quadrilateral& followed);
 
