@@ -101,10 +101,10 @@ TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_NE(error({good, good}).find("seed 1 was flown twice"), std::string::npos);
   EXPECT_NE(error({"/nowhere"}).find("/nowhere/tracks.csv: cannot be read"), std::string::npos);
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED\n";
-  EXPECT_NE(error({good}).find("flights.csv:2: has not 11 fields"), std::string::npos);
-  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x\n";
+  EXPECT_NE(error({good}).find("flights.csv:2: has not 12 fields"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0\n";
   EXPECT_NE(error({good}).find("flights.csv:2: 'LANDED' is no outcome"), std::string::npos);
-  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x\n";
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0\n";
   EXPECT_NE(error({good}).find("'soon' is no number"), std::string::npos);
   std::ofstream(good + "/flights.csv") << "seed\n1\n";
   EXPECT_NE(error({good}).find("flights.csv:1: is not 'seed,outcome"), std::string::npos);
