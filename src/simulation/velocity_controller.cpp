@@ -51,7 +51,11 @@ Eigen::Vector3d VelocityController::step(const Eigen::Vector3d& setpoint_mps,
       (error + params_.position_hold_per_sec * lag_m_) / params_.velocity_time_constant_sec;
   const Eigen::Vector3d limited = shortened(wish, params_.max_acceleration_mps2);
   if (wish.isApprox(limited)) learnTrim(error, step_sec);
-  return limited + trim_mps2_;
+  Eigen::Vector3d asked = limited + trim_mps2_;
+  // A trim that was learnt beside a pull the other way must not keep it from braking.
+  const Eigen::Vector3d level(wish.x() + trim_mps2_.x(), wish.y() + trim_mps2_.y(), 0.0);
+  asked.head<2>() = shortened(level, params_.max_acceleration_mps2).head<2>();
+  return asked;
 }
 
 }  // namespace window_ingress::simulation
