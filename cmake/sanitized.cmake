@@ -18,7 +18,7 @@ function(add_sanitized_library name)
 endfunction()
 
 set(core_files "")
-foreach(stage geometry parameters detection openness pose facade navigation)
+foreach(stage geometry parameters detection openness pose facade navigation configuration)
   list(APPEND core_files ${source_root}/${stage}/*.cpp)
 endforeach()
 add_sanitized_library(fuzz_core FILES ${core_files}
