@@ -1,7 +1,6 @@
 #include "window_ingress/navigation/continuous_odometry.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "window_ingress/geometry/frames.hpp"
