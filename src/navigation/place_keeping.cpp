@@ -11,6 +11,13 @@ Eigen::Vector3d levelDirection(const Eigen::Vector3d& way) {
   return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
 }
 
+/// No faster than this, neither level nor upward and downward: a way that is mostly one takes nothing from the other.
+Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_mps) {
+  const double level_mps = velocity.head<2>().norm();
+  const double share = level_mps > limit_mps ? limit_mps / level_mps : 1.0;
+  return {share * velocity.x(), share * velocity.y(), std::clamp(velocity.z(), -limit_mps, limit_mps)};
+}
+
 /// Direction in which the window lies, where that is known and the vehicle in front of it.
 std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionMemory& memory) {
   if (memory.trusted) {
@@ -50,19 +57,19 @@ Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionMemory
   if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d way = *memory.place_odom_m - vehicle.T_odom_base.translation() -
                               vehicle.velocity_odom_mps * params.vehicle.response_sec;
-  const double speed_mps = params.align.lateral_gain_hz * way.norm();
-  return speed_mps > params.hold.speed_mps ? Eigen::Vector3d(params.hold.speed_mps * way.normalized())
-                                           : Eigen::Vector3d(params.align.lateral_gain_hz * way);
+  return levelAndVertical(params.align.lateral_gain_hz * way, params.hold.speed_mps);
 }
 
 Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const VehicleState& vehicle,
                             const MissionMemory& memory, const HoldParams& params) {
   if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
-  const Eigen::Vector3d way = *memory.place_odom_m - position_m;
-  if (way.norm() < kThereM) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d direction = way.normalized();
-  Eigen::Vector3d velocity = std::clamp(velocity_odom_mps.dot(direction), 0.0, params.speed_mps) * direction;
+  Eigen::Vector3d way = *memory.place_odom_m - position_m;
+  Eigen::Vector3d velocity(0.0, 0.0, velocity_odom_mps.z() * way.z() > 0.0 ? velocity_odom_mps.z() : 0.0);
+  way.z() = 0.0;
+  if (way.norm() >= kThereM)
+    velocity += std::max(0.0, velocity_odom_mps.dot(way.normalized())) * way.normalized();
+  velocity = levelAndVertical(velocity, params.speed_mps);
   if (const auto forward = towardsWindow(position_m, memory))
     velocity -= std::max(0.0, velocity.dot(*forward)) * *forward;
   for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m}) {

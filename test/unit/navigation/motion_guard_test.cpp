@@ -90,6 +90,12 @@ TEST_F(MotionGuard, APlaceIsGoneBackToSlowlyAndNotTowardsAWindow) {
   EXPECT_EQ(permitted(State::kAborted), kNothing);
 }
 
+TEST_F(MotionGuard, APlaceFarBelowIsGoneBackToSidewaysAllTheSame) {
+  memory_.place_odom_m = situation_.vehicle->T_odom_base.translation() + Eigen::Vector3d(0.0, 0.5, -1.2);
+  EXPECT_TRUE(permitted(State::kSearch).isApprox(Eigen::Vector3d(0.0, kWish.y(), kWish.z())));
+  EXPECT_TRUE(permitted(State::kHold).isApprox(Eigen::Vector3d(0.0, kWish.y(), 0.0)));
+}
+
 TEST_F(MotionGuard, TheFenceLeavesRoomToStop) {
   memory_.committed = situation_.target;
   memory_.home_odom_m = situation_.vehicle->T_odom_base.translation();

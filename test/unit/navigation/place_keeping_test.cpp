@@ -72,6 +72,9 @@ TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
     EXPECT_LE(velocity.x() * away, 0.0);
     EXPECT_GE(velocity.y() * away, 0.0);
   }
+  const auto climbed = velocityToPlace(test::vehicleAt({0.2, 0, 4}, 0.0), memory, params);
+  EXPECT_NEAR(climbed.x(), -0.2 * params.align.lateral_gain_hz, 1e-12) << "height takes nothing from it";
+  EXPECT_NEAR(climbed.z(), -params.hold.speed_mps, 1e-12);
 }
 
 TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
