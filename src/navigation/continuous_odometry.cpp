@@ -128,7 +128,7 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   pieces_mps_.push_back(uprightOf(smooth).transpose() * unexplained_m / piece_sec);
   if (pieces_mps_.size() > kPieces) pieces_mps_.pop_front();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
-  if (pieces_mps_.size() < kPieces / 2) return;
+  if (pieces_mps_.size() < kPieces) return;
   bias_base_mps_ = middle(pieces_mps_);
   if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
 }
