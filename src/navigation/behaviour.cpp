@@ -2,11 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "window_ingress/navigation/opening_policy.hpp"
 #include "window_ingress/navigation/window_choice.hpp"
 
 namespace window_ingress::navigation {
+namespace {
+
+/// Beyond it nobody knows which of the two to fly by when the window is out of sight.
+constexpr double kMaxDisagreementMps = 0.35;
+
+std::string whyNoOdometryToCommitBy(double disagreement_mps) {
+  char text[100];
+  std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
+                disagreement_mps);
+  return disagreement_mps > kMaxDisagreementMps ? text : "";
+}
+
+}  // namespace
 
 void MissionMemory::leaveWindow() {
   trusted.reset();
@@ -88,7 +102,8 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   Contract contract = evaluateContract(input, params);
   const std::string why_not = whyNotEntered(target, memory, params.commit);
   contract.opening_unverified = !why_not.empty();
-  if (contract.holds) contract.unmet = why_not;
+  if (contract.holds) contract.unmet = whyNoOdometryToCommitBy(memory.odometry_disagreement_mps);
+  if (contract.unmet.empty()) contract.unmet = why_not;
   contract.holds = contract.unmet.empty();
   return contract;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "window_ingress/geometry/frames.hpp"
 
@@ -12,7 +13,8 @@ constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTur
 constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.04;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kMaxBiasMps = 0.4;
-constexpr std::size_t kPieces = 16;  // a slide of two seconds is a minority of them
+constexpr std::size_t kPieces = 16;  // a slide of three seconds is a minority of them
+constexpr std::size_t kLatePieces = 4;
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
@@ -60,7 +62,8 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
   const Eigen::Vector3d before_mps = smooth_->velocity_odom_mps;
   VehicleState smooth = inSmooth(odometry);
   way_m_ += dt_sec * 0.5 * (before_mps + smooth.velocity_odom_mps);
-  if (has_turned) turn_ = Turn{turned_rad, odometry.T_odom_base.translation(), way_m_};
+  if (has_turned)  // one that came back before the vehicle had moved has turned no axes
+    turn_ = Turn{turned_rad + (turn_ ? turn_->turn_rad : 0.0), odometry.T_odom_base.translation(), way_m_};
   odometry_ = odometry;
   judgeTurn(odometry);
   learnBias(smooth);
@@ -104,12 +107,12 @@ VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
 
 void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
   if (!turn_) return;
-  const Eigen::Vector3d way_m = way_m_ - turn_->way_m;
+  const Eigen::Vector2d way_m = (way_m_ - turn_->way_m).head<2>();  // upward nothing turns
   if (2.0 * way_m.norm() * std::sin(0.5 * std::abs(turn_->turn_rad)) < kTellingM) return;
   const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
   const Eigen::Vector3d moved_m = T_smooth_axes_.linear() * (position_m - turn_->from_odom_m);
   const Eigen::Matrix3d turn_back = geometry::yawRotation(-turn_->turn_rad);
-  if ((turn_back * moved_m - way_m).norm() < (moved_m - way_m).norm()) {
+  if (((turn_back * moved_m).head<2>() - way_m).norm() < (moved_m.head<2>() - way_m).norm()) {
     const Eigen::Vector3d smooth_m = T_smooth_axes_ * position_m;
     T_smooth_axes_.linear() = turn_back * T_smooth_axes_.linear();
     T_smooth_axes_.translation() = smooth_m - T_smooth_axes_.linear() * position_m;
@@ -133,6 +136,13 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
 }
 
+double ContinuousOdometry::disagreementMps() const {
+  if (pieces_mps_.size() < kLatePieces) return 0.0;
+  const Eigen::Vector3d sum_mps =
+      std::accumulate(pieces_mps_.end() - kLatePieces, pieces_mps_.end(), Eigen::Vector3d(0, 0, 0));
+  return sum_mps.norm() / kLatePieces;
+}
+
 void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
   const Eigen::Vector3d position_m = smooth.T_odom_base.translation();
   second_.push_back(
@@ -146,7 +156,6 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
   T_smooth_axes_.translation() -= unexplained_m;
   smooth.T_odom_base.translation() -= unexplained_m;
   shift_m_ -= unexplained_m;
-  shifted_m_ += unexplained_m.norm();
   second_.clear();
   second_.push_back({smooth.stamp_sec, smooth.T_odom_base.translation(), way_m_});
 }

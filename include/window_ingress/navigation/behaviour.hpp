@@ -28,8 +28,9 @@ struct MissionMemory {
   std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
-  std::optional<Eigen::Vector3d> home_odom_m;               ///< where the mission began
-  std::optional<double> keeping_since_sec;                  ///< a place is wanted
+  double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
+  std::optional<Eigen::Vector3d> home_odom_m;   ///< where the mission began
+  std::optional<double> keeping_since_sec;      ///< a place is wanted
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
   std::vector<Eigen::Vector3d> left_odom_m;     ///< windows left for good: closed, or tried in vain

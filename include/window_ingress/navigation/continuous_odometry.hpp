@@ -34,11 +34,12 @@ class ContinuousOdometry {
   Eigen::Isometry3d T_smooth_odom(double stamp_sec) const;
   /// A velocity in the axes that whoever gets the setpoints has now.
   Eigen::Vector3d inOdomAxes(const Eigen::Vector3d& velocity_smooth_mps) const;
-  /// By how much the reported heading is turned against the axes of the setpoints [rad]: to be taken off where setpoints
-  /// are turned into body axes.
+  /// By how much the reported heading is turned against the axes of the setpoints [rad]: to be taken off
+  /// where setpoints are turned into body axes.
   double headingErrorRad() const;
-  /// How far the frame has been shifted since the start, all in all [m].
-  double shiftedM() const { return shifted_m_; }
+  /// What position and velocity differ by, over the latest two seconds [m/s]: a bias of the velocity, an
+  /// error of the position, or axes that are not those of the other.
+  double disagreementMps() const;
 
  private:
   struct Sample {
@@ -72,8 +73,7 @@ class ContinuousOdometry {
   bool is_erring_ = false;  ///< the two frames differ
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  ///< of the frame, so far
-  double shifted_m_ = 0.0;
-  std::optional<Sample> piece_;             ///< where the present piece of the way began
+  std::optional<Sample> piece_;                        ///< where the present piece of the way began
   std::deque<Eigen::Vector3d> pieces_mps_;  ///< unexplained velocity of the latest pieces, body axes
   Eigen::Vector3d bias_base_mps_ = Eigen::Vector3d::Zero();
 };

@@ -96,6 +96,16 @@ TEST_F(MotionGuard, APlaceFarBelowIsGoneBackToSidewaysAllTheSame) {
   EXPECT_TRUE(permitted(State::kHold).isApprox(Eigen::Vector3d(0.0, kWish.y(), 0.0)));
 }
 
+TEST_F(MotionGuard, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
+  situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
+  for (const double disagreement_mps : {0.0, 0.3, 0.4, 2.0}) {
+    memory_.odometry_disagreement_mps = disagreement_mps;
+    const Contract contract = contractWith(*situation_.target, *situation_.vehicle, memory_, params_);
+    EXPECT_EQ(contract.holds, disagreement_mps < 0.35) << disagreement_mps;
+    EXPECT_EQ(contract.unmet.find("odometry") != std::string::npos, !contract.holds) << contract.unmet;
+  }
+}
+
 TEST_F(MotionGuard, TheFenceLeavesRoomToStop) {
   memory_.committed = situation_.target;
   memory_.home_odom_m = situation_.vehicle->T_odom_base.translation();
