@@ -1,6 +1,7 @@
 """scripts/search_envelope: it repeats, goes on, finds what is there to be found, shrinks it and keeps it."""
 import csv
 import pathlib
+import re
 import subprocess
 
 import pytest
@@ -55,6 +56,14 @@ def test_a_contact_is_found_shrunk_and_kept_as_a_scenario_that_repeats(tmp_path)
                                 "--output", str(tmp_path / "fly")], capture_output=True, text=True, timeout=120, check=False)
         assert again.returncode == 0, again.stderr
         assert (tmp_path / "fly/flights.csv").read_text().splitlines()[1].split(",")[1] == outcome
+
+
+@pytest.mark.parametrize("find", sorted((ROOT / "test/envelope").glob("*.yaml")), ids=lambda find: find.stem)
+def test_what_was_found_once_touches_nothing_any_more(tmp_path, find):
+    seed = re.search(r"--seeds (\d+)", find.read_text()).group(1)
+    subprocess.run([str(ROOT / "scripts/run"), "fly", "--scenario", str(find), "--seeds", seed, "--no-pictures",
+                    "--output", str(tmp_path)], capture_output=True, timeout=120, check=True)
+    assert (tmp_path / "flights.csv").read_text().splitlines()[1].split(",")[1] in ("PASSED", "ABORTED")
 
 
 @pytest.mark.parametrize("arguments, said", [
