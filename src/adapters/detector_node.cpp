@@ -110,6 +110,7 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
   if (attitude_) seen.R_world_camera = attitude_->R_world_camera(seen.stamp_sec, header.frame_id);
   seen.expected = expectedAt(header);
   last_window_ = detector_.update(seen);
+  searched_sec_ = steadyNowSec();
   looked_ = header.stamp;
   if (last_window_) interior_.follow(image, *last_window_);
   last_picture_ = picture;
@@ -211,6 +212,9 @@ bool DetectorNode::reset(Trigger::Request&, Trigger::Response& response) {
 
 Health DetectorNode::detectionHealth() const {
   if (last_picture_.image.empty()) return {Health::kOk, "no image so far"};
+  const double silent_sec = steadyNowSec() - searched_sec_;
+  if (silent_sec > kSilenceSec)
+    return {Health::kWarn, "no picture for " + std::to_string(static_cast<int>(silent_sec)) + " s"};
   return {Health::kOk, last_window_ ? "window in view" : "no window: " + detector_.trace().detail};
 }
 

@@ -71,6 +71,7 @@ class DetectorNode : public Node {
   cv::Mat canvas_;
   GuardedImage last_picture_;
   std::optional<detection::WindowObservation> last_window_;
+  double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
   bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference
   PictureTimes times_;

@@ -45,6 +45,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
       pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
       engagement_(params_.engagement),
+      guard_(nh, diagnostics_, params_.guard),
       navigator_(params_.navigator),
       last_gate_(lastGate(params_.navigator.limits)) {
   setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
@@ -147,6 +148,7 @@ void NavigatorNode::step() {
   }
   if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany) navigator_.abort();
   publish(last_, now);
+  if (last_.enabled) guard_.brakeIfNobodyDoes(now, params_.frames.odom);
 }
 
 navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
@@ -163,6 +165,7 @@ void NavigatorNode::forgetSilentInputs() {
   if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
   if (pose_health_.silentSec() > params_.max_pose_silence_sec) input_.target.reset();
   input_.engaged = engagement_.holds(steadyNowSec());
+  input_.passed_on = guard_.passesOn();
 }
 
 void NavigatorNode::restartIfClockJumpedBack(double now_sec) {

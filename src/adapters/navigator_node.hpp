@@ -18,6 +18,7 @@
 #include "adapters/msg_conversion.hpp"
 #include "adapters/run_node.hpp"
 #include "adapters/setpoint_gate.hpp"
+#include "adapters/setpoint_watch.hpp"
 #include "adapters/stamps.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/navigation/navigator.hpp"
@@ -66,6 +67,7 @@ class NavigatorNode : public Node {
   TopicHealth odom_health_, pose_health_;
   StampGate odom_gate_, pose_gate_;
   Engagement engagement_;
+  SetpointWatch guard_;
   ClockWatch clock_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;

@@ -12,17 +12,20 @@ void Hold::enter(State from) {
 Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
   held_sec_ += situation.dt_sec;
   const bool needs_image = from_ != State::kCommit;  // which flies on without
-  const bool is_good = situation.vehicle && (situation.image_fault.empty() || !needs_image);
+  const bool is_good = situation.vehicle && situation.setpoint_fault.empty() &&
+                       (situation.image_fault.empty() || !needs_image);
   good_sec_ = is_good ? good_sec_ + situation.dt_sec : 0.0;
   Decision decision;
   decision.keeps_place = true;
-  decision.reason = !situation.vehicle ? situation.vehicle_fault
-                    : !is_good         ? situation.image_fault
-                                       : situation.target_fault;
+  decision.reason = !situation.vehicle                  ? situation.vehicle_fault
+                    : !situation.setpoint_fault.empty() ? situation.setpoint_fault
+                    : !is_good                          ? situation.image_fault
+                                                        : situation.target_fault;
   if (decision.reason.empty()) decision.reason = "inputs are back";
   if (is_good && good_sec_ >= params_->hold.dwell_sec)
     decision.event = wayOn(situation, memory, decision.reason);
-  if (!decision.event && !situation.target && mayRetreat(situation, memory))
+  if (!decision.event && situation.setpoint_fault.empty() && !situation.target &&
+      mayRetreat(situation, memory))
     decision.event = Event::kWindowLost;
   if (!decision.event && held_sec_ > params_->hold.timeout_sec) {
     decision.event = Event::kGiveUp;

@@ -111,6 +111,7 @@ Situation InputMonitor::judge(const NavigatorInput& input, double now_sec) {
   judgeVehicle(input, situation);
   judgeTarget(input, situation);
   judgeImage(input, situation);
+  if (!input.passed_on) situation.setpoint_fault = "nobody passes the setpoints on: the guard is silent";
   return situation;
 }
 

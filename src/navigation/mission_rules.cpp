@@ -42,6 +42,7 @@ double timeoutOf(State state, const TimeoutParams& timeouts) {
 
 std::string missingInput(State state, const Situation& situation) {
   if (!situation.vehicle) return situation.vehicle_fault;
+  if (!situation.setpoint_fault.empty()) return situation.setpoint_fault;
   if (state == State::kSearch) return situation.image_fault;
   const bool needs_target = state == State::kAlign || state == State::kApproach;
   return needs_target && !situation.target ? situation.target_fault : "";
@@ -75,6 +76,7 @@ std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
   if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
   if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
   if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
+  if (!situation.setpoint_fault.empty()) faults.push_back(situation.setpoint_fault);
   if (!engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
   if (!situation.vehicle) return faults;
   if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {

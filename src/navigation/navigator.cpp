@@ -240,7 +240,9 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec) {
   self.limiter.stop();
   self.clock.startMission(now_sec);
   self.change(*next(self.state, Event::kStart), "started");
-  return {true, "started; " + whatIsAssumed(self.params.commit)};
+  const std::string forbidden = input.target ? input.target->approach_forbidden : "";
+  return {true, "started; " + whatIsAssumed(self.params.commit) +
+                    (forbidden.empty() ? "" : "; the approach is forbidden so far: " + forbidden)};
 }
 
 Reply Navigator::abort() {

@@ -185,7 +185,8 @@ class SpokenCausesTest(unittest.TestCase):
     # --- pictures
 
     def test_pictures_that_stop(self):
-        self.while_silent("image_raw", ("window_detector: image", "no more image on /image_raw"))
+        self.while_silent("image_raw", ("window_detector: image", "no more image on /image_raw"),
+                          ("window_detector: detection", "no picture for"))
 
     def test_pictures_of_days_ago(self):
         self.while_sent("image_raw", support.changed(self.camera, header__stamp=ago(50 * DAY_S)),

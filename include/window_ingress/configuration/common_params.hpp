@@ -19,7 +19,7 @@ struct FrameNames {
 /// How old and how far ahead of the clock a message may be.
 struct StampLimits {
   double max_age_sec = 0.5;     ///< older messages are refused [s]
-  double max_future_sec = 0.1;  ///< messages further ahead of the clock are refused [s]
+  double max_future_sec = 0.2;  ///< messages further ahead of the clock are refused [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("max_age_sec", self.max_age_sec, 0.01, 60.0);

@@ -18,6 +18,16 @@ struct EngagementParams {
   }
 };
 
+struct SetpointWatchParams {
+  bool required = false;          ///< a mission may only start once the guard has passed something on
+  double max_silence_sec = 0.25;  ///< once it has, it must go on [s]
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("required", self.required);
+    field("max_silence_sec", self.max_silence_sec, 0.1, 5.0);
+  }
+};
+
 struct NavigatorNodeParams {
   double rate_hz = 30.0;  ///< of the setpoints [Hz]
   double max_silence_sec =
@@ -31,6 +41,7 @@ struct NavigatorNodeParams {
   FrameNames frames;
   StampLimits stamps;
   EngagementParams engagement;
+  SetpointWatchParams guard;
   navigation::NavigatorParams navigator;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -43,6 +54,7 @@ struct NavigatorNodeParams {
     FrameNames::visit(self.frames, field);
     field.group("stamps", self.stamps);
     field.group("engagement", self.engagement);
+    field.group("guard", self.guard);
     field.group("navigator", self.navigator);
   }
 };

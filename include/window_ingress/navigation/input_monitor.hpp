@@ -20,6 +20,8 @@ struct NavigatorInput {
   std::optional<double> image_stamp_sec;
   /// Armed and in a mode that follows setpoints; true where that is not known.
   bool engaged = true;
+  /// What the navigator says reaches the autopilot; true where that is not known.
+  bool passed_on = true;
 };
 
 /// The input of one step, judged, in a frame odom without jumps (`ContinuousOdometry`). What is set can be
@@ -34,6 +36,7 @@ struct Situation {
   std::optional<TargetEstimate> target;
   std::string target_fault;
   bool target_is_new = false;     ///< from another image than the target of the step before
+  std::string setpoint_fault;     ///< why setpoints do not reach the autopilot; empty: they do
   std::string image_fault;        ///< empty: images come, or nobody says
   double image_period_sec = 0.0;  ///< between the images searched, of late; 0: not known yet
 };

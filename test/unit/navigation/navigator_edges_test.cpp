@@ -70,6 +70,31 @@ TEST(NavigatorEdges, EveryLiveStateIsAbortedByTheOperator) {
   EXPECT_EQ(idle.output.state, State::kAborted);
 }
 
+TEST(NavigatorEdges, WithoutAGuardThatPassesSetpointsOnEveryMovingStateHoldsUntilItIsBack) {
+  for (const State state : kLive) {
+    Mission mission;
+    mission.leadInto(state);
+    ASSERT_EQ(mission.output.state, state);
+    for (int i = 0; i < 30; ++i) {
+      auto input = test::inputAt(mission.at, mission.now + kStep, i % 2 == 0);
+      input.passed_on = false;
+      mission.step(input);
+      ASSERT_EQ(mission.output.state, State::kHold) << toString(state);
+      EXPECT_LT(mission.output.setpoint.velocity_odom_mps.x(), 1e-9) << "towards the window";
+      EXPECT_NE(mission.output.reason.find("guard"), std::string::npos) << mission.output.reason;
+    }
+    mission.stay(60);
+    EXPECT_TRUE(isMoving(mission.output.state) || mission.output.state == State::kPassed)
+        << mission.output.reason;
+  }
+  Navigator navigator(test::withoutGlass());
+  auto input = test::inputAt(kFar, 10.0);
+  input.passed_on = false;
+  const Reply reply = navigator.start(input, 10.0);
+  EXPECT_FALSE(reply.success);
+  EXPECT_NE(reply.message.find("guard"), std::string::npos) << reply.message;
+}
+
 TEST(NavigatorEdges, EveryLiveStateYieldsToThePilotAndFliesNothingWhenHeGivesItBack) {
   for (const State state : kLive) {
     Mission mission;

@@ -79,6 +79,16 @@ TEST_F(NavigatorSteps, StartListsEveryUnmetCondition) {
   EXPECT_EQ(steps(navigator, kFar, 1).state, State::kIdle);
 }
 
+TEST_F(NavigatorSteps, StartSaysThatTheApproachIsForbiddenAlready) {
+  Navigator navigator(params_);
+  NavigatorInput forbidden = inputAt(kFar, now_);
+  forbidden.target->approach_forbidden = "fit NO_GO: too narrow";
+  const Reply reply = navigator.start(forbidden, now_);
+  EXPECT_TRUE(reply.success);
+  EXPECT_NE(reply.message.find("the approach is forbidden so far: fit NO_GO: too narrow"), std::string::npos)
+      << reply.message;
+}
+
 TEST_F(NavigatorSteps, StartTwiceAbortTwiceResetTwice) {
   Navigator navigator(params_);
   start(navigator, kFar);

@@ -1,0 +1,60 @@
+#include "adapters/setpoint_watch.hpp"
+
+#include <ros/message_event.h>
+#include <ros/this_node.h>
+
+#include <cmath>
+
+#include "adapters/guarded.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+using Setpoint = geometry_msgs::TwistStamped;
+constexpr const char* kTopic = "passed_on";
+
+}  // namespace
+
+SetpointWatch::SetpointWatch(ros::NodeHandle& nh, Diagnostics& diagnostics,
+                             const configuration::SetpointWatchParams& params)
+    : nh_(nh), params_(params) {
+  const boost::function<void(const ros::MessageEvent<Setpoint const>&)> heard =
+      [this, &diagnostics](const auto& event) {
+        guarded(diagnostics, kTopic, [&] { hear(event.getPublisherName()); });
+      };
+  subscriber_ =
+      nh_.subscribe<Setpoint>(kTopic, 1, heard, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  diagnostics.add(kTopic, [this] { return health(); });
+}
+
+void SetpointWatch::hear(const std::string& publisher) {
+  if (publisher == ros::this_node::getName()) return;
+  heard_sec_ = steadyNowSec();
+  if (brake_) brake_.shutdown();
+  brake_ = ros::Publisher();
+}
+
+bool SetpointWatch::passesOn() const {
+  if (std::isinf(heard_sec_)) return !params_.required;
+  return steadyNowSec() - heard_sec_ <= params_.max_silence_sec;
+}
+
+void SetpointWatch::brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
+  if (passesOn()) return;
+  if (!brake_) brake_ = nh_.advertise<Setpoint>(kTopic, 1);
+  Setpoint zero;
+  zero.header.stamp = now;
+  zero.header.frame_id = frame;
+  brake_.publish(zero);
+}
+
+Health SetpointWatch::health() const {
+  const std::string topic = subscriber_.getTopic();
+  if (passesOn() && std::isinf(heard_sec_))
+    return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};
+  if (passesOn()) return {};
+  return {Health::kError,
+          "nothing on " + topic + " from setpoint_guard: no mission flies, zeros are sent past it"};
+}
+
+}  // namespace window_ingress::adapters
