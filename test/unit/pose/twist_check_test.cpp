@@ -16,18 +16,22 @@ using Meaning =
     std::function<Eigen::Vector3d(const Eigen::Matrix3d& R, const Eigen::Vector3d& velocity_odom)>;
 
 /// Flies a square at some heading; what is reported as twist is taken for the body's.
-FramesVerdict fly(double heading_rad, unsigned seed, const Meaning& twist, double noise_mps = 0.03) {
+FramesVerdict fly(double heading_rad, unsigned seed, const Meaning& twist, double noise_mps = 0.03,
+                  double side_sec = 1.5, const Eigen::Vector3d& bias_base_mps = {0, 0, 0},
+                  double slide_mps = 0.0) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 1.0);
   TwistCheck check{FramesParams()};
   Eigen::Vector3d position(3, -2, 1);
-  for (int i = 0; i < 150; ++i) {
+  const int side = static_cast<int>(50 * side_sec);
+  for (int i = 0; i < 2 * side; ++i) {
     const Eigen::Vector3d velocity =
-        i < 75 ? Eigen::Vector3d(0.6, 0.1, 0.05) : Eigen::Vector3d(-0.1, 0.5, -0.05);
+        i < side ? Eigen::Vector3d(0.6, 0.1, 0.05) : Eigen::Vector3d(-0.1, 0.5, -0.05);
     position += velocity / 50.0;
+    if (i < 150) position.x() += slide_mps / 50.0;
     const Eigen::Matrix3d R = geometry::yawRotation(heading_rad);
     const Eigen::Vector3d jitter(noise(random), noise(random), noise(random));
-    const Eigen::Vector3d reported = twist(R, velocity + noise_mps * jitter);
+    const Eigen::Vector3d reported = twist(R, velocity + noise_mps * jitter) + bias_base_mps;
     check.add(i / 50.0, geometry::makePose(R, position + 0.005 * jitter), R * reported);
   }
   return check.verdict();
@@ -64,9 +68,38 @@ TEST(TwistCheck, NamesExchangedAndMirroredAxes) {
     return Eigen::Vector3d(body.x(), -body.y(), -body.z());
   });
   EXPECT_NE(ned.what.find("forward-right-down"), std::string::npos) << ned.what;
-  const auto none =
-      fly(0.7, 1, [](const Eigen::Matrix3d&, const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
+  const auto none = fly(
+      0.7, 1, [](const Eigen::Matrix3d&, const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); }, 0.0,
+      5.0);
   EXPECT_NE(none.what.find("does not fit"), std::string::npos) << none.what;
+}
+
+TEST(TwistCheck, ABiasFixedInTheBodyIsNoFault) {
+  for (int i = 0; i < 100; ++i) {
+    const double heading = -3.1 + 0.062 * i;
+    const Eigen::Vector3d bias = geometry::yawRotation(0.1 * i) * Eigen::Vector3d(0.29, 0.0, 0.0);
+    EXPECT_NE(fly(heading, i, kBody, 0.03, 8.0, bias).state, FramesVerdict::kWrong) << heading;
+    const auto world = fly(heading, i, kWorld, 0.03, 8.0, bias);
+    if (std::abs(heading) > 0.6) {
+      EXPECT_EQ(world.state, FramesVerdict::kWrong) << heading;
+    }
+  }
+}
+
+TEST(TwistCheck, HoveringWithABiasIsNoFault) {
+  TwistCheck check{FramesParams()};
+  for (int i = 0; i < 50 * 60; ++i) {
+    const Eigen::Matrix3d R = geometry::yawRotation(0.01 * i);  // while it searches
+    check.add(i / 50.0, geometry::makePose(R, {0, 0, 1}), R * Eigen::Vector3d(0.2, 0.15, 0.0));
+    ASSERT_NE(check.verdict().state, FramesVerdict::kWrong) << i / 50.0 << ": " << check.verdict().what;
+  }
+}
+
+TEST(TwistCheck, ASlideOfThePositionIsNoFault) {
+  for (const double slide_mps : {-2.0, -0.5, 0.3, 1.0, 2.0})
+    for (int i = 0; i < 20; ++i)
+      EXPECT_NE(fly(0.3 * i, i, kBody, 0.03, 8.0, {0, 0, 0}, slide_mps).state, FramesVerdict::kWrong)
+          << slide_mps;
 }
 
 TEST(TwistCheck, SaysNothingWithoutAWayAndIgnoresWhatIsNotFinite) {
@@ -95,7 +128,7 @@ TEST(TwistCheck, AWayOfDriftAloneIsNoFault) {
 
 TEST(TwistCheck, APositionThatStandsStillWhileTheVehicleFliesIsAFault) {
   TwistCheck check{FramesParams()};
-  for (int i = 0; i < 300; ++i)
+  for (int i = 0; i < 500; ++i)
     check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), {0, 0, 1}), {0.5, 0.1, 0.0});
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
 }
