@@ -14,6 +14,7 @@ namespace {
 constexpr double kTickSec = 0.005;
 constexpr double kMostDebtSec = 0.05;    // what the machine cannot keep up with is given up, not caught up
 constexpr double kMostSilenceSec = 5.0;  // of an external vehicle: then it is another flight
+constexpr double kMostLateSec = 0.5;     // a stamp that goes back further begins another flight
 constexpr double kVehicleSilenceSec = 0.5;
 constexpr double kStepSec = simulation::World::kStepSec;
 
@@ -64,6 +65,7 @@ void WorldNode::subscribe(ros::NodeHandle& nh) {
     vehicle_health_->watch(vehicle_subscriber_);
     return;
   }
+  publishers_.advertiseVehicle(nh);
   command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
   command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
       nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
@@ -71,9 +73,11 @@ void WorldNode::subscribe(ros::NodeHandle& nh) {
 }
 
 void WorldNode::restart() {
-  if (world_) epoch_sec_ += world_->timeSec();  // stamps never go back
+  simulation::Scenario scenario = load(params_);
+  if (T_odom_start_) scenario.startAt(*T_odom_start_);
+  if (world_ && !isExternal()) epoch_sec_ += world_->timeSec();  // stamps never go back
   world_.reset();
-  world_ = std::make_unique<simulation::World>(load(params_), static_cast<std::uint32_t>(params_.seed));
+  world_ = std::make_unique<simulation::World>(scenario, static_cast<std::uint32_t>(params_.seed));
   R_odom_base_ = world_->truth().T_odom_base.linear();
   answer_.reset();
   followed_sec_ = -1.0;
@@ -224,24 +228,29 @@ void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
   vehicle_health_->arrived();
   const auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return vehicle_health_->refused(vehicle.reason);
-  if (vehicle.value->stamp_sec == followed_sec_)
-    return vehicle_health_->refused("two messages with one stamp");
+  const double back_sec = followed_sec_ - vehicle.value->stamp_sec;
+  if (running_ && back_sec >= 0.0 && back_sec <= kMostLateSec)
+    return vehicle_health_->refused("stamp is " + std::to_string(back_sec) +
+                                    " s before the latest: late samples are left out");
   const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
   if (!turning.allFinite()) return vehicle_health_->refused("angular velocity is not finite");
   vehicle_health_->accepted();
   follow(*vehicle.value, turning);
 }
 
+void WorldNode::begin(const navigation::VehicleState& vehicle) {
+  if (params_.start_at == "vehicle" && !T_odom_start_) T_odom_start_ = vehicle.T_odom_base;
+  epoch_sec_ = vehicle.stamp_sec;
+  restart();
+  running_ = true;
+}
+
 // Time is that of the stamps; where none come it stands still, and no picture shows what nobody said.
 void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
   const double passed_sec = vehicle.stamp_sec - followed_sec_;
-  const bool goes_on = running_ && followed_sec_ > 0.0 && passed_sec > 0.0 && passed_sec <= kMostSilenceSec;
-  if (!goes_on) {
-    if (running_) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
-    if (running_) restart();
-    epoch_sec_ = vehicle.stamp_sec;
-    running_ = true;
-  }
+  const bool leaps = running_ && (passed_sec <= 0.0 || passed_sec > kMostSilenceSec);
+  if (leaps) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
+  if (leaps || !running_) begin(vehicle);
   followed_sec_ = vehicle.stamp_sec;
   const double until_sec = vehicle.stamp_sec - epoch_sec_;
   world_->follow({vehicle.T_odom_base, vehicle.velocity_odom_mps, turning_radps}, until_sec);
@@ -253,6 +262,8 @@ void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vec
 
 bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
   if (params_.next_seed_at_reset && params_.seed < std::numeric_limits<int>::max()) ++params_.seed;
+  T_odom_start_.reset();
+  if (isExternal()) running_ = false;  // until the vehicle is heard of again
   restart();
   response.success = true;
   response.message =

@@ -52,6 +52,7 @@ class WorldNode : public Node {
   void receiveCommand(const geometry_msgs::TwistStampedConstPtr& message);
   void receiveState(const window_ingress::IngressStateConstPtr& message);
   void receiveVehicle(const nav_msgs::OdometryConstPtr& message);
+  void begin(const navigation::VehicleState& vehicle);
   void follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& angular_velocity_radps);
   bool reset(Trigger::Request& request, Trigger::Response& response);
   bool inject(Inject::Request& request, Inject::Response& response);
@@ -70,6 +71,7 @@ class WorldNode : public Node {
   std::optional<TopicHealth> command_health_, vehicle_health_;
   std::unique_ptr<simulation::World> world_;
   Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // as the odometry last said
+  std::optional<Eigen::Isometry3d> T_odom_start_;              // if the start lies where the vehicle was
   std::optional<simulation::VelocityCommand> answer_;          // in lockstep: obeyed when time goes on
   double epoch_sec_;                                           // stamp of the world's time zero
   double clock_due_sec_ = 0.0;

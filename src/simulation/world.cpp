@@ -90,6 +90,13 @@ struct World::Impl {
   bool external() const { return scenario.vehicle.profile == "external"; }
   const VehicleTruth& truth() const { return external() ? followed.truth() : quadrotor.truth(); }
   VehicleTruth besideHouse() const { return sway.besideHouse(truth(), time_sec); }
+
+  // The referee believes no velocity that a vehicle reports of itself.
+  VehicleTruth judged() const {
+    VehicleTruth judged = truth();
+    if (external()) judged.velocity_odom_mps = followed.flownVelocity();
+    return sway.besideHouse(judged, time_sec);
+  }
   const FaultParams* acting(const char* unit) const { return faults.acting(unit, time_sec); }
 
   void move() {
@@ -108,7 +115,7 @@ struct World::Impl {
       imu.update(time_sec, truth(), quadrotor.specificForceBase(), odometry.drift());
     }
     if (shutter.due(time_sec)) expose();
-    referee.update(time_sec, besideHouse());
+    referee.update(time_sec, judged());
     if (referee.touched() && !external() && !quadrotor.crashed()) quadrotor.crash(restHeight());
   }
 

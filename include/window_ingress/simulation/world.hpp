@@ -53,6 +53,7 @@ class World {
   void command(const VelocityCommand& command);
 
   /// For `vehicle: external`: the vehicle is there at that time; until then, `advance` moves it evenly.
+  /// How fast it is, the referee sees by its places; the twist only blurs pictures.
   /// \param stamp_sec after the time of the call before; the first one also says where it has been so far
   void follow(const VehicleTruth& truth, double stamp_sec);
 
