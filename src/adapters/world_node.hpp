@@ -49,6 +49,8 @@ class WorldNode : public Node {
   bool pictureIsDue();
   void stepOnce();
   void deliverPictures();
+  void deliverNewestPictures();
+  void deliver(const simulation::CameraFrame& frame);
   void receiveCommand(const geometry_msgs::TwistStampedConstPtr& message);
   void receiveState(const window_ingress::IngressStateConstPtr& message);
   void receiveVehicle(const nav_msgs::OdometryConstPtr& message);
@@ -65,6 +67,7 @@ class WorldNode : public Node {
   ros::Time now() const { return stampOf(world_->timeSec()); }
   bool isExternal() const { return world_->scenario().vehicle.profile == "external"; }
   Health speedHealth() const;
+  Health externalHealth() const;
 
   WorldNodeParams params_;
   Diagnostics diagnostics_;
@@ -77,6 +80,7 @@ class WorldNode : public Node {
   double clock_due_sec_ = 0.0;
   double created_sec_, ticked_sec_, debt_sec_ = 0.0, lost_sec_ = 0.0;
   double began_sec_ = 0.0, followed_sec_ = -1.0;
+  long pictures_due_ = 0, pictures_lost_ = 0;  // beside an external vehicle
   bool running_ = false;
 
   camera_info_manager::CameraInfoManager camera_info_;

@@ -220,16 +220,23 @@ double World::timeSec() const { return impl_->time_sec; }
 const VehicleTruth& World::truth() const { return impl_->truth(); }
 
 std::optional<CameraFrame> World::takeFrame() {
-  const auto exposure = impl_->images.take(impl_->time_sec, impl_->acting("image"));
-  if (!exposure) return std::nullopt;
+  const auto exposure = takeExposure();
+  return exposure ? std::optional<CameraFrame>(draw(*exposure)) : std::nullopt;
+}
+
+std::optional<Exposure> World::takeExposure() {
+  return impl_->images.take(impl_->time_sec, impl_->acting("image"));
+}
+
+CameraFrame World::draw(const Exposure& exposure) {
   CameraFrame frame;
-  frame.stamp_sec = exposure->stamp_sec;
-  frame.truth = exposure->truth;
-  frame.T_camera_window = impl_->cameraInWindow(*exposure).inverse();
+  frame.stamp_sec = exposure.stamp_sec;
+  frame.truth = exposure.truth;
+  frame.T_camera_window = impl_->cameraInWindow(exposure).inverse();
   if (!impl_->camera) return frame;
-  const auto motion = CameraMotion::of(exposure->shown, impl_->T_odom_window, impl_->T_base_camera);
-  frame.image = impl_->camera->expose(motion, exposure->index, exposure->stamp_sec);
-  spoil(frame.image, *exposure, impl_->seed);
+  const auto motion = CameraMotion::of(exposure.shown, impl_->T_odom_window, impl_->T_base_camera);
+  frame.image = impl_->camera->expose(motion, exposure.index, exposure.stamp_sec);
+  spoil(frame.image, exposure, impl_->seed);
   return frame;
 }
 

@@ -35,7 +35,7 @@ State = genpy.dynamic.generate_dynamic("mavros_msgs/State", STATE)["mavros_msgs/
 
 STEP_S = 0.02
 REAL_TIME_FACTOR = 0.5         # for machines that draw slowly
-MOST_AHEAD_S = 0.1             # of the world, which may be slower still
+MOST_AHEAD_S = 0.12            # of the world, which may be slower still
 LAG_S, MOST_MPS2 = 0.3, 1.5    # of its answer to setpoints
 TWIST_BIAS_MPS, TWIST_NOISE_MPS = (0.03, -0.02), 0.03   # fixed in the body
 LATE_S = 0.03                  # each tenth odometry is stamped so much too early
@@ -56,7 +56,7 @@ class Autopilot:
             ("/clock", Clock), ("/mavros/local_position/odom", Odometry), ("/mavros/imu/data", Imu), ("/mavros/state", State))
             if simulates_time or kind is not Clock}
         rospy.Subscriber("/mavros/setpoint_velocity/cmd_vel", TwistStamped, self._obey)
-        rospy.Subscriber("/ground_truth/odom", Odometry, self._look)
+        rospy.Subscriber("/ground_truth/window_in_camera", PoseStamped, self._look)  # one with each picture
         threading.Thread(target=self._run, daemon=True).start()
 
     def _obey(self, message):

@@ -70,7 +70,7 @@ class Flight:
         Flight._next_s += 100.0
         self._distort = distort
         Flight._publisher = Flight._publisher or rospy.Publisher(TOPIC, Odometry, queue_size=20)
-        self._truths = support.Listener("ground_truth/odom", Odometry)
+        self._truths = support.Listener("ground_truth/window_in_camera", PoseStamped)  # one with each picture
         self._seen = self.began
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)

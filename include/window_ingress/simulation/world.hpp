@@ -60,6 +60,9 @@ class World {
   double timeSec() const;
   const VehicleTruth& truth() const;
   std::optional<CameraFrame> takeFrame();
+  /// The same in two steps, for whoever cannot draw every picture in time.
+  std::optional<Exposure> takeExposure();
+  CameraFrame draw(const Exposure& exposure);
   std::optional<OdometrySample> takeOdometry();
   std::optional<ImuSample> takeImu();
   /// What camera_info says: one sample a picture, however the picture fares. May be spoilt, see `validate`.
