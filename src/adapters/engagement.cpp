@@ -14,6 +14,8 @@ bool Engagement::holds(double now_sec) const {
 }
 
 Health Engagement::health(const std::string& topic, double now_sec) const {
+  if (!heard_ && params_.required && now_sec - started_sec_ <= kGraceSec)
+    return {Health::kOk, "waiting for " + topic};
   if (!heard_ && params_.required)
     return {Health::kError, "nothing on " + topic + " yet, and engagement/required: no mission can start"};
   if (!heard_) return {Health::kOk, "nothing on " + topic + ": taken to follow setpoints"};

@@ -14,7 +14,11 @@ using configuration::EngagementParams;
 /// of the steady clock.
 class Engagement {
  public:
-  explicit Engagement(const EngagementParams& params) : params_(params) {}
+  /// Nodes that say it may start a little later, and speak once a second [s].
+  static constexpr double kGraceSec = 3.0;
+
+  explicit Engagement(const EngagementParams& params, double started_sec = steadyNowSec())
+      : params_(params), started_sec_(started_sec) {}
 
   void hear(bool engaged, double now_sec);
   bool holds(double now_sec) const;
@@ -25,6 +29,7 @@ class Engagement {
   bool isSilent(double now_sec) const { return !(now_sec - heard_sec_ <= params_.max_silence_sec); }
 
   EngagementParams params_;
+  double started_sec_;
   bool heard_ = false, engaged_ = false;
   double heard_sec_ = 0.0;
 };

@@ -12,8 +12,7 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kTickSec = 0.005;
-constexpr double kMostDebtSec = 0.05;    // what the machine cannot keep up with is given up, not caught up
-constexpr double kMostSilenceSec = 5.0;  // of an external vehicle: then it is another flight
+constexpr double kMostDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
 constexpr double kVehicleSilenceSec = 0.5;
 constexpr double kStepSec = simulation::World::kStepSec;
 
@@ -64,6 +63,7 @@ void WorldNode::subscribe(ros::NodeHandle& nh) {
     vehicle_health_->watch(vehicle_subscriber_);
     return;
   }
+  publishers_.advertiseVehicle(nh);
   command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
   command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
       nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
@@ -71,13 +71,16 @@ void WorldNode::subscribe(ros::NodeHandle& nh) {
 }
 
 void WorldNode::restart() {
-  if (world_) epoch_sec_ += world_->timeSec();  // stamps never go back
+  simulation::Scenario scenario = load(params_);
+  if (T_odom_start_) scenario.startAt(*T_odom_start_);
+  if (world_ && !isExternal()) epoch_sec_ += world_->timeSec();  // stamps never go back
   world_.reset();
-  world_ = std::make_unique<simulation::World>(load(params_), static_cast<std::uint32_t>(params_.seed));
+  world_ = std::make_unique<simulation::World>(scenario, static_cast<std::uint32_t>(params_.seed));
   R_odom_base_ = world_->truth().T_odom_base.linear();
   answer_.reset();
   followed_sec_ = -1.0;
   clock_due_sec_ = debt_sec_ = 0.0;
+  pictures_due_ = pictures_lost_ = 0;
   began_sec_ = steadyNowSec();
   pictures_.emplace(world_->scenario().camera.rate_hz);
   truth_due_.emplace(world_->scenario().odometry.rate_hz);
@@ -92,7 +95,7 @@ void WorldNode::restart() {
 // --- time --------------------------------------------------------------------------------------------------
 
 void WorldNode::tick() {
-  if (isExternal()) return;
+  if (isExternal()) return deliverNewestPictures();
   if (lockstep_) return tickLockstep();
   const double now_sec = steadyNowSec();
   debt_sec_ += running_ ? (now_sec - ticked_sec_) * params_.real_time_factor : 0.0;
@@ -164,13 +167,15 @@ ros::Time WorldNode::stampOf(double world_sec) const { return toStamp(epoch_sec_
 
 void WorldNode::deliverPictures() {
   while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
-  while (const auto frame = world_->takeFrame()) {
-    const ros::Time stamp = stampOf(frame->stamp_sec);
-    const bool sent = publishers_.frame(*frame, stamp);
-    if (!sent || !lockstep_) continue;
-    lockstep_->sent().image = stamp;
-    lockstep_->sent().has_image = true;
-  }
+  while (const auto frame = world_->takeFrame()) deliver(*frame);
+}
+
+void WorldNode::deliver(const simulation::CameraFrame& frame) {
+  const ros::Time stamp = stampOf(frame.stamp_sec);
+  const bool sent = publishers_.frame(frame, stamp);
+  if (!sent || !lockstep_) return;
+  lockstep_->sent().image = stamp;
+  lockstep_->sent().has_image = true;
 }
 
 // What set_camera_info has set, spoilt as the world's own calibration is.
@@ -220,39 +225,10 @@ void WorldNode::receiveState(const window_ingress::IngressStateConstPtr& message
   tickLockstep();
 }
 
-void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
-  vehicle_health_->arrived();
-  const auto vehicle = fromMsg(*message, params_.frames);
-  if (!vehicle) return vehicle_health_->refused(vehicle.reason);
-  if (vehicle.value->stamp_sec == followed_sec_)
-    return vehicle_health_->refused("two messages with one stamp");
-  const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
-  if (!turning.allFinite()) return vehicle_health_->refused("angular velocity is not finite");
-  vehicle_health_->accepted();
-  follow(*vehicle.value, turning);
-}
-
-// Time is that of the stamps; where none come it stands still, and no picture shows what nobody said.
-void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
-  const double passed_sec = vehicle.stamp_sec - followed_sec_;
-  const bool goes_on = running_ && followed_sec_ > 0.0 && passed_sec > 0.0 && passed_sec <= kMostSilenceSec;
-  if (!goes_on) {
-    if (running_) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
-    if (running_) restart();
-    epoch_sec_ = vehicle.stamp_sec;
-    running_ = true;
-  }
-  followed_sec_ = vehicle.stamp_sec;
-  const double until_sec = vehicle.stamp_sec - epoch_sec_;
-  world_->follow({vehicle.T_odom_base, vehicle.velocity_odom_mps, turning_radps}, until_sec);
-  while (world_->timeSec() + kStepSec <= until_sec + 1e-9) {
-    stepOnce();
-    deliverPictures();
-  }
-}
-
 bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
   if (params_.next_seed_at_reset && params_.seed < std::numeric_limits<int>::max()) ++params_.seed;
+  T_odom_start_.reset();
+  if (isExternal()) running_ = false;  // until the vehicle is heard of again
   restart();
   response.success = true;
   response.message =
@@ -280,8 +256,7 @@ bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
 }
 
 Health WorldNode::speedHealth() const {
-  if (isExternal())
-    return {Health::kOk, running_ ? "time is that of vehicle_odom" : "no vehicle_odom so far"};
+  if (isExternal()) return externalHealth();
   if (!ros::Time::isSimTime())
     return {Health::kError, "use_sim_time is not set: nodes will take the stamps for old"};
   if (!running_) return {Health::kWarn, "waiting for subscribers of image_raw and odom"};

@@ -49,9 +49,12 @@ class WorldNode : public Node {
   bool pictureIsDue();
   void stepOnce();
   void deliverPictures();
+  void deliverNewestPictures();
+  void deliver(const simulation::CameraFrame& frame);
   void receiveCommand(const geometry_msgs::TwistStampedConstPtr& message);
   void receiveState(const window_ingress::IngressStateConstPtr& message);
   void receiveVehicle(const nav_msgs::OdometryConstPtr& message);
+  void begin(const navigation::VehicleState& vehicle);
   void follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& angular_velocity_radps);
   bool reset(Trigger::Request& request, Trigger::Response& response);
   bool inject(Inject::Request& request, Inject::Response& response);
@@ -64,17 +67,20 @@ class WorldNode : public Node {
   ros::Time now() const { return stampOf(world_->timeSec()); }
   bool isExternal() const { return world_->scenario().vehicle.profile == "external"; }
   Health speedHealth() const;
+  Health externalHealth() const;
 
   WorldNodeParams params_;
   Diagnostics diagnostics_;
   std::optional<TopicHealth> command_health_, vehicle_health_;
   std::unique_ptr<simulation::World> world_;
   Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // as the odometry last said
+  std::optional<Eigen::Isometry3d> T_odom_start_;              // if the start lies where the vehicle was
   std::optional<simulation::VelocityCommand> answer_;          // in lockstep: obeyed when time goes on
   double epoch_sec_;                                           // stamp of the world's time zero
   double clock_due_sec_ = 0.0;
   double created_sec_, ticked_sec_, debt_sec_ = 0.0, lost_sec_ = 0.0;
   double began_sec_ = 0.0, followed_sec_ = -1.0;
+  long pictures_due_ = 0, pictures_lost_ = 0;  // beside an external vehicle
   bool running_ = false;
 
   camera_info_manager::CameraInfoManager camera_info_;

@@ -18,17 +18,21 @@ constexpr int kSampleQueue = 10, kCompleteQueue = 1000;
 
 WorldPublishers::WorldPublishers(ros::NodeHandle& nh, const FrameNames& frames,
                                  const std::string& camera_frame, bool complete)
-    : frames_(frames), camera_frame_(camera_frame) {
-  const int newest = complete ? kCompleteQueue : 1, samples = complete ? kCompleteQueue : kSampleQueue;
-  clock_ = nh.advertise<rosgraph_msgs::Clock>("/clock", newest);
+    : frames_(frames), camera_frame_(camera_frame), complete_(complete) {
+  const int newest = complete ? kCompleteQueue : 1;
   image_ = nh.advertise<sensor_msgs::Image>("image_raw", newest);
   info_ = nh.advertise<sensor_msgs::CameraInfo>("camera_info", newest);
-  odom_ = nh.advertise<nav_msgs::Odometry>("odom", samples);
-  imu_ = nh.advertise<sensor_msgs::Imu>("imu", samples);
   truth_odom_ = nh.advertise<nav_msgs::Odometry>("ground_truth/odom", newest);
   truth_window_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window", 1, true);
   truth_in_camera_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window_in_camera", newest);
   reference_ = nh.advertise<window_ingress::ReferencePicture>("reference", 1, true);
+}
+
+void WorldPublishers::advertiseVehicle(ros::NodeHandle& nh) {
+  const int newest = complete_ ? kCompleteQueue : 1, samples = complete_ ? kCompleteQueue : kSampleQueue;
+  clock_ = nh.advertise<rosgraph_msgs::Clock>("/clock", newest);
+  odom_ = nh.advertise<nav_msgs::Odometry>("odom", samples);
+  imu_ = nh.advertise<sensor_msgs::Imu>("imu", samples);
 }
 
 void WorldPublishers::clock(const ros::Time& now) {

@@ -17,6 +17,8 @@ class WorldPublishers {
   /// \param complete nothing may be lost where a subscriber is slow
   WorldPublishers(ros::NodeHandle& nh, const FrameNames& frames, const std::string& camera_frame,
                   bool complete);
+  /// What the vehicle says, and time; not for one that is simulated elsewhere, which says it itself.
+  void advertiseVehicle(ros::NodeHandle& nh);
 
   void clock(const ros::Time& now);
   /// The picture, if somebody listens, and the truth that belongs to it. \return whether it was sent
@@ -37,6 +39,7 @@ class WorldPublishers {
   void truthOfWindow(const simulation::World& world, const ros::Time& stamp);
   FrameNames frames_;
   std::string camera_frame_;
+  bool complete_;
   bool twist_in_odom_ = false;  // as some simulators say it, against REP 147
   tf2_ros::TransformBroadcaster tf_;
   tf2_ros::StaticTransformBroadcaster static_tf_;

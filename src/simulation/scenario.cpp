@@ -136,7 +136,14 @@ Eigen::Isometry3d Scenario::startPoseInWindow() const {
 
 Eigen::Isometry3d Scenario::startPoseInOdom() const {
   const double height_m = windowCentreHeight() + startPoseInWindow().translation().z();
-  return geometry::makePose(geometry::yawRotation(start.odom_yaw_rad), {0, 0, height_m});
+  return geometry::makePose(geometry::yawRotation(start.odom_yaw_rad),
+                            {start.odom_x_m, start.odom_y_m, height_m});
+}
+
+void Scenario::startAt(const Eigen::Isometry3d& T_odom_base) {
+  start.odom_x_m = T_odom_base.translation().x();
+  start.odom_y_m = T_odom_base.translation().y();
+  start.odom_yaw_rad = geometry::yawOf(T_odom_base.linear());
 }
 
 Eigen::Isometry3d Scenario::T_odom_window() const {

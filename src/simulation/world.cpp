@@ -90,6 +90,13 @@ struct World::Impl {
   bool external() const { return scenario.vehicle.profile == "external"; }
   const VehicleTruth& truth() const { return external() ? followed.truth() : quadrotor.truth(); }
   VehicleTruth besideHouse() const { return sway.besideHouse(truth(), time_sec); }
+
+  // The referee believes no velocity that a vehicle reports of itself.
+  VehicleTruth judged() const {
+    VehicleTruth judged = truth();
+    if (external()) judged.velocity_odom_mps = followed.flownVelocity();
+    return sway.besideHouse(judged, time_sec);
+  }
   const FaultParams* acting(const char* unit) const { return faults.acting(unit, time_sec); }
 
   void move() {
@@ -108,7 +115,7 @@ struct World::Impl {
       imu.update(time_sec, truth(), quadrotor.specificForceBase(), odometry.drift());
     }
     if (shutter.due(time_sec)) expose();
-    referee.update(time_sec, besideHouse());
+    referee.update(time_sec, judged());
     if (referee.touched() && !external() && !quadrotor.crashed()) quadrotor.crash(restHeight());
   }
 
@@ -213,16 +220,23 @@ double World::timeSec() const { return impl_->time_sec; }
 const VehicleTruth& World::truth() const { return impl_->truth(); }
 
 std::optional<CameraFrame> World::takeFrame() {
-  const auto exposure = impl_->images.take(impl_->time_sec, impl_->acting("image"));
-  if (!exposure) return std::nullopt;
+  const auto exposure = takeExposure();
+  return exposure ? std::optional<CameraFrame>(draw(*exposure)) : std::nullopt;
+}
+
+std::optional<Exposure> World::takeExposure() {
+  return impl_->images.take(impl_->time_sec, impl_->acting("image"));
+}
+
+CameraFrame World::draw(const Exposure& exposure) {
   CameraFrame frame;
-  frame.stamp_sec = exposure->stamp_sec;
-  frame.truth = exposure->truth;
-  frame.T_camera_window = impl_->cameraInWindow(*exposure).inverse();
+  frame.stamp_sec = exposure.stamp_sec;
+  frame.truth = exposure.truth;
+  frame.T_camera_window = impl_->cameraInWindow(exposure).inverse();
   if (!impl_->camera) return frame;
-  const auto motion = CameraMotion::of(exposure->shown, impl_->T_odom_window, impl_->T_base_camera);
-  frame.image = impl_->camera->expose(motion, exposure->index, exposure->stamp_sec);
-  spoil(frame.image, *exposure, impl_->seed);
+  const auto motion = CameraMotion::of(exposure.shown, impl_->T_odom_window, impl_->T_base_camera);
+  frame.image = impl_->camera->expose(motion, exposure.index, exposure.stamp_sec);
+  spoil(frame.image, exposure, impl_->seed);
   return frame;
 }
 

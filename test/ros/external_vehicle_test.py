@@ -3,6 +3,7 @@
 import itertools
 import math
 import sys
+import random
 import threading
 import time
 import unittest
@@ -12,7 +13,9 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Image
+from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict
 
 import support
@@ -22,6 +25,7 @@ SPEED_MPS = 1.0
 WINDOW_X_M, CENTRE_Z_M, STOP_X_M = 5.0, 1.5, 6.8   # of config/scenarios/external.yaml
 CAMERA_AHEAD_M, CAMERA_UP_M = 0.10, 0.02
 OFFSET_Y_M = 0.07
+TOPIC = "/mavros/local_position/odom"
 
 
 def pose_at(t):
@@ -34,12 +38,25 @@ def odometry_at(began, count):
     """What the other simulator says in its step number `count`."""
     message = Odometry(child_frame_id="base_link")
     message.header.stamp = began + rospy.Duration(count / RATE_HZ)
-    message.header.frame_id = "odom"
+    message.header.frame_id = "map"
     p = message.pose.pose.position
     p.x, p.y, p.z = pose_at(count / RATE_HZ)
     message.pose.pose.orientation.w = 1.0
     message.twist.twist.linear.x = SPEED_MPS if p.x < STOP_X_M else 0.0
     return message
+
+
+def with_poor_twist(message, _):
+    """As a real estimator says it: a bias fixed in the body, and noise."""
+    linear = message.twist.twist.linear
+    linear.x += 0.2 + random.gauss(0.0, 0.05)
+    linear.y += 0.15 + random.gauss(0.0, 0.05)
+
+
+def with_late_samples(message, count):
+    """Each tenth sample is stamped 55 ms before its time, behind the two before it, each 40th 150 ms ahead."""
+    if count > 10 and count % 10 == 0:
+        message.header.stamp += rospy.Duration(0.15) if count % 40 == 0 else rospy.Duration(-0.055)
 
 
 class Flight:
@@ -48,11 +65,12 @@ class Flight:
     _next_s = 1000.0   # flights follow each other
     _publisher = None
 
-    def __init__(self):
+    def __init__(self, distort=lambda message, count: None):
         self.began = rospy.Time.from_sec(Flight._next_s)
         Flight._next_s += 100.0
-        Flight._publisher = Flight._publisher or rospy.Publisher("vehicle_odom", Odometry, queue_size=20)
-        self._truths = support.Listener("ground_truth/odom", Odometry)
+        self._distort = distort
+        Flight._publisher = Flight._publisher or rospy.Publisher(TOPIC, Odometry, queue_size=20)
+        self._truths = support.Listener("ground_truth/window_in_camera", PoseStamped)  # one with each picture
         self._seen = self.began
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -64,6 +82,7 @@ class Flight:
             if self._over.wait(0.25 / RATE_HZ):
                 return
             message = odometry_at(self.began, count)
+            self._distort(message, count)
             Flight._publisher.publish(message)
             while not self._over.is_set() and count > 10 and message.header.stamp - self._truth() > rospy.Duration(0.1):
                 self._over.wait(0.001)
@@ -84,7 +103,7 @@ class ExternalVehicleTest(unittest.TestCase):
         support.Diagnostics().wait("world: vehicle_odom", "no vehicle_odom on", "0 publishers")
 
     def test_2_the_flight_through_the_window_is_seen_and_passed(self):
-        images = support.Listener("image_raw", Image)
+        images = support.Listener("/camera/image_raw", Image)
         in_camera = support.Listener("ground_truth/window_in_camera", PoseStamped)
         verdicts = support.Listener("referee", FlightVerdict)
         flight = Flight()
@@ -123,9 +142,46 @@ class ExternalVehicleTest(unittest.TestCase):
             checked += 1
         self.assertGreater(checked, 4)
 
-    def test_3_when_it_falls_silent_pictures_stop_and_it_is_said(self):
+    def judged(self, distort):
+        """The verdict on the flight so told, its time since the start [s], and what was said meanwhile."""
+        verdicts, log = support.Listener("referee", FlightVerdict), support.Listener("/rosout", Log)
+        begin = time.monotonic()
+        flight = Flight(distort)
+        try:
+            verdict = verdicts.wait(lambda v: v.outcome != FlightVerdict.RUNNING and v.header.stamp >= flight.began, "a verdict", 60.0)
+        finally:
+            flight.stop()
+        return verdict, (verdict.header.stamp - flight.began).to_sec(), [m.msg for m in log.since(begin)]
+
+    def test_3_it_stands_where_its_places_stand_whatever_its_twist_says(self):
+        verdict, after_s, _ = self.judged(with_poor_twist)
+        self.assertEqual(verdict.outcome_name, "PASSED", verdict.reason)
+        self.assertLess(after_s, STOP_X_M / SPEED_MPS + 2.5)
+        self.assertAlmostEqual(verdict.max_speed, SPEED_MPS, delta=0.05)
+
+    def test_3_late_samples_are_left_out_and_the_flight_goes_on(self):
+        verdict, _, said = self.judged(with_late_samples)
+        self.assertEqual(verdict.outcome_name, "PASSED", verdict.reason)
+        anew = [text for text in said if "anew" in text]
+        self.assertEqual(len(anew), 1, anew)  # the flight itself, which begins 100 s after the one before
+        self.assertTrue(any("late samples are left out" in text for text in said), said)
+
+    def test_3_a_reset_begins_another_flight_without_a_leap_of_time(self):
+        verdicts, log = support.Listener("referee", FlightVerdict), support.Listener("/rosout", Log)
         flight = Flight()
-        images = support.Listener("image_raw", Image)
+        verdicts.wait(lambda v: v.header.stamp >= flight.began + rospy.Duration(2.0), "two seconds of flight", 60.0)
+        begin = time.monotonic()
+        self.assertTrue(rospy.ServiceProxy("/world/reset", Trigger)().success)
+        try:
+            later = verdicts.wait(lambda v: v.header.stamp > flight.began + rospy.Duration(3.0), "the flight after the reset", 60.0)
+        finally:
+            flight.stop()
+        self.assertEqual(later.header.stamp.secs // 100, flight.began.secs // 100, "time is still the vehicle's")
+        self.assertEqual([m.msg for m in log.since(begin) if "stamps moved" in m.msg], [])
+
+    def test_4_when_it_falls_silent_pictures_stop_and_it_is_said(self):
+        flight = Flight()
+        images = support.Listener("/camera/image_raw", Image)
         images.wait(what="a picture")
         flight.stop()
         support.Diagnostics().wait("world: vehicle_odom", "no more vehicle_odom")
@@ -133,7 +189,7 @@ class ExternalVehicleTest(unittest.TestCase):
         support.wait_for(lambda: time.monotonic() - begin > 0.5, "half a second")
         self.assertEqual(len(images.since(begin)), 0)
 
-    def test_4_what_is_no_pose_is_refused_by_name(self):
+    def test_5_what_is_no_pose_is_refused_by_name(self):
         def bend(message):
             message.pose.pose.orientation.w = 2.0
 
@@ -141,18 +197,18 @@ class ExternalVehicleTest(unittest.TestCase):
             message.pose.pose.position.x = math.nan
 
         def rename(message):
-            message.header.frame_id = "map"
+            message.header.frame_id = "odom"
 
         diagnostics = support.Diagnostics()
-        images = support.Listener("image_raw", Image)
-        for distort, word in ((bend, "quaternion"), (spoil, "finite"), (rename, "'map'")):
+        images = support.Listener("/camera/image_raw", Image)
+        for distort, word in ((bend, "quaternion"), (spoil, "finite"), (rename, "'odom'")):
             count = itertools.count()
 
             def make(_):
                 message = odometry_at(rospy.Time(9000), next(count))
                 distort(message)
                 return message
-            stream = support.Stream("vehicle_odom", Odometry, make, RATE_HZ)
+            stream = support.Stream(TOPIC, Odometry, make, RATE_HZ)
             diagnostics.wait("world: vehicle_odom", "refused", word)
             stream.stop()
         self.assertEqual([i.header.stamp for i in images.since(0.0) if i.header.stamp > rospy.Time(8999)], [])

@@ -56,6 +56,22 @@ def test_each_remedy_is_reached(doctor):
         assert doctor.remedy(f"so {words} it is") == mend, number
 
 
+@pytest.mark.parametrize("simulated, clocks, heard, said", [
+    (True, ["/world"], 3, "OK     time is that of /clock, from /world"),
+    (True, ["/world"], 0, "ERROR  use_sim_time is set, but nothing comes on /clock from /world"),
+    (True, [], 0, "ERROR  use_sim_time is set, but nobody publishes /clock"),
+    (False, ["/world"], 0, "OK     time is that of this computer"),
+    (False, ["/world"], 3, "WARN   time is that of this computer; use_sim_time is not set, nobody heeds /clock from /world"),
+    (False, [], 0, "OK     time is that of this computer")])
+def test_time_is_that_of_a_clock_which_runs_and_is_heeded(doctor, monkeypatch, capsys, simulated, clocks, heard, said):
+    monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default: simulated if name == "/use_sim_time" else default)
+    system = object.__new__(doctor.System)
+    system.graph = types.SimpleNamespace(publishers={"/clock": clocks} if clocks else {})
+    system.clock = types.SimpleNamespace(times=[0.0] * heard)
+    doctor.check_clock(system, doctor.Report())
+    assert capsys.readouterr().out.startswith(said)
+
+
 @pytest.mark.parametrize("words", [["--seconds", "abc"], ["--seconds", "-1"], ["--seconds", "nan"], ["--nope"]])
 def test_wrong_usage(words):
     done = subprocess.run([str(ROOT / "scripts/run"), "doctor", *words], capture_output=True, text=True, timeout=60, check=False,

@@ -7,8 +7,11 @@
 namespace window_ingress::configuration {
 
 struct WorldNodeParams {
-  std::string scenario;             ///< file; empty: a calm day, five metres in front of the window
-  int seed = 1;                     ///< of everything that the scenario marks random
+  std::string scenario;               ///< file; empty: a calm day, five metres in front of the window
+  int seed = 1;                       ///< of everything that the scenario marks random
+  std::string start_at = "scenario";  ///< where the start lies in the odometry frame: as the scenario says,
+                                      ///< or, for a vehicle simulated elsewhere, where that is when it is
+                                      ///< first heard of and at each ~reset: the house is put before it
   bool next_seed_at_reset = false;  ///< each ~reset takes the next seed: another flight of the same scenario
   double real_time_factor = 1.0;    ///< simulated over real time, if the machine can keep up
   double start_time_sec = 100.0;    ///< simulated time at the start: a stamp of zero means unstamped [s]
@@ -29,6 +32,7 @@ struct WorldNodeParams {
   static void visit(Self& self, Visitor&& field) {
     field("scenario", self.scenario);
     field("seed", self.seed, 0, 2147483647);
+    field.choice("start_at", self.start_at, {"scenario", "vehicle"});
     field("next_seed_at_reset", self.next_seed_at_reset);
     field("real_time_factor", self.real_time_factor, 0.01, 100.0);
     field("start_time_sec", self.start_time_sec, 1.0, 1e9);

@@ -33,6 +33,8 @@ struct StartParams {
                               ///< it, as seen by somebody who looks at the window [rad]
   double heading_rad = 0.0;   ///< heading beside the direction to the window, positive: turned left [rad]
   double height_offset_m = 0.0;  ///< above the opening's centre [m]; not used on the ground
+  double odom_x_m = 0.0;         ///< place of the start in the odometry frame [m]
+  double odom_y_m = 0.0;         ///< likewise [m]
   double odom_yaw_rad = 0.0;     ///< heading of the vehicle in the odometry frame [rad]
   bool hovering = true;          ///< starts hovering; false: stands on the ground
   template <typename Self, typename Visitor>
@@ -41,6 +43,8 @@ struct StartParams {
     field("off_axis_rad", self.off_axis_rad, -1.4, 1.4);
     field("heading_rad", self.heading_rad, -3.15, 3.15);
     field("height_offset_m", self.height_offset_m, -3.0, 10.0);
+    field("odom_x_m", self.odom_x_m, -1e5, 1e5);
+    field("odom_y_m", self.odom_y_m, -1e5, 1e5);
     field("odom_yaw_rad", self.odom_yaw_rad, -3.15, 3.15);
     field("hovering", self.hovering);
   }
@@ -92,9 +96,10 @@ struct Scenario {
     return window.sill_m + 0.5 * window.height_m;
   }                                             ///< above the ground [m]
   Eigen::Isometry3d startPoseInWindow() const;  ///< T_window_base
-  /// T_odom_base; the origin of odom lies on the ground below the start.
-  Eigen::Isometry3d startPoseInOdom() const;
-  Eigen::Isometry3d T_odom_window() const;  ///< of a house at its resting place
+  Eigen::Isometry3d startPoseInOdom() const;    ///< T_odom_base; z = 0 is the ground
+  Eigen::Isometry3d T_odom_window() const;      ///< of a house at its resting place
+  /// The start lies where the vehicle is, whatever its height, and the house accordingly.
+  void startAt(const Eigen::Isometry3d& T_odom_base);
 };
 
 /// What is wrong with the scenario, one text a fault: values out of range, things that do not fit together.

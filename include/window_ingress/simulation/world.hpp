@@ -53,12 +53,16 @@ class World {
   void command(const VelocityCommand& command);
 
   /// For `vehicle: external`: the vehicle is there at that time; until then, `advance` moves it evenly.
+  /// How fast it is, the referee sees by its places; the twist only blurs pictures.
   /// \param stamp_sec after the time of the call before; the first one also says where it has been so far
   void follow(const VehicleTruth& truth, double stamp_sec);
 
   double timeSec() const;
   const VehicleTruth& truth() const;
   std::optional<CameraFrame> takeFrame();
+  /// The same in two steps, for whoever cannot draw every picture in time.
+  std::optional<Exposure> takeExposure();
+  CameraFrame draw(const Exposure& exposure);
   std::optional<OdometrySample> takeOdometry();
   std::optional<ImuSample> takeImu();
   /// What camera_info says: one sample a picture, however the picture fares. May be spoilt, see `validate`.

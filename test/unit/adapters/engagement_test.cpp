@@ -19,6 +19,17 @@ TEST(Engagement, IsTakenForGrantedWhereNobodySaysUnlessRequired) {
   EXPECT_NE(health.text.find("/engaged"), std::string::npos);
 }
 
+TEST(Engagement, AStartIsNoFaultUntilTheOthersHaveHadTheTimeToStart) {
+  EngagementParams params;
+  params.required = true;
+  const Engagement engagement(params, 100.0);
+  const Health early = engagement.health("/engaged", 102.9);
+  EXPECT_EQ(early.level, Health::kOk);
+  EXPECT_EQ(early.text, "waiting for /engaged");
+  EXPECT_FALSE(engagement.holds(102.9));
+  EXPECT_EQ(engagement.health("/engaged", 103.1).level, Health::kError);
+}
+
 TEST(Engagement, OnceHeardOnlyARecentYesIsAYes) {
   Engagement engagement{EngagementParams()};
   engagement.hear(true, 10.0);

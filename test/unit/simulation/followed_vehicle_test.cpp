@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/simulation/world.hpp"
@@ -43,6 +44,25 @@ TEST(FollowedVehicle, RefusesWhatIsNoPoseAndTimesThatDoNotIncrease) {
   EXPECT_DOUBLE_EQ(vehicle.truth().T_odom_base.translation().x(), 0.0);
 }
 
+TEST(FollowedVehicle, HowFastItFliesItsPlacesTellAndNotItsTwist) {
+  FollowedVehicle vehicle(Eigen::Isometry3d::Identity());
+  const auto told = [](double x_m) {
+    VehicleTruth truth = at(x_m);
+    truth.velocity_odom_mps = {0.2, 0.15, 0.0};
+    return truth;
+  };
+  std::vector<double> flown_mps;
+  for (int i = 0; i <= 60; ++i) {
+    vehicle.follow(told(std::min(2.0, 0.05 * i)), 0.05 * i);
+    vehicle.moveTo(0.05 * i);
+    flown_mps.push_back(vehicle.flownVelocity().x());
+  }
+  EXPECT_NEAR(flown_mps[40], 1.0, 1e-9);
+  EXPECT_NEAR(flown_mps[50], 0.5, 1e-9) << "half of the past second it stood";
+  EXPECT_NEAR(vehicle.flownVelocity().norm(), 0.0, 1e-9);
+  EXPECT_DOUBLE_EQ(vehicle.truth().velocity_odom_mps.x(), 0.2) << "the twist as told";
+}
+
 Scenario externalScenario() {
   Scenario scenario;
   scenario.vehicle.profile = "external";
@@ -60,7 +80,7 @@ TEST(ExternalVehicle, IsSeenAndJudgedWhereItIsSaidToBe) {
     const double x_m = std::min(stop_m, -5.0 + speed_mps * 0.02 * i);
     VehicleTruth truth;
     truth.T_odom_base = T_odom_window * geometry::makePose(Eigen::Matrix3d::Identity(), {x_m, 0.05, 0.0});
-    if (x_m < stop_m) truth.velocity_odom_mps = T_odom_window.linear() * Eigen::Vector3d(speed_mps, 0, 0);
+    truth.velocity_odom_mps = T_odom_window.linear() * Eigen::Vector3d(0.3, 0.2, 0);  // a poor estimate
     world.follow(truth, 0.02 * i);
     while (world.timeSec() + 0.5 * World::kStepSec < 0.02 * i) {
       world.advance();
@@ -77,6 +97,7 @@ TEST(ExternalVehicle, IsSeenAndJudgedWhereItIsSaidToBe) {
   const Verdict verdict = world.referee().judge(Claim::kNone);
   EXPECT_EQ(verdict.outcome, Outcome::kPassed) << verdict.reason;
   EXPECT_NEAR(world.referee().crossing()->offset_y_m, 0.05, 1e-6);
+  EXPECT_NEAR(world.referee().maxSpeed(), speed_mps, 0.01);
 }
 
 TEST(ExternalVehicle, ThatFliesIntoTheWallCollides) {

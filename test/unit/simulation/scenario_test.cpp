@@ -248,6 +248,15 @@ TEST(Scenario, StartPoseHasTheDistanceBearingAndHeadingAsked) {
   EXPECT_LT((scenario.startPoseInWindow().inverse() * Eigen::Vector3d::Zero()).y(), 0.0)
       << "turned left, the window is to the right";
   EXPECT_NEAR(geometry::yawOf(scenario.startPoseInOdom().linear()), 2.0, 1e-12);
+  scenario.startAt(geometry::makePose(geometry::yawRotation(-1.3), {20.0, -7.0, 9.0}));
+  const Eigen::Isometry3d start = scenario.startPoseInOdom();
+  EXPECT_NEAR(geometry::yawOf(start.linear()), -1.3, 1e-12);
+  EXPECT_NEAR((start.translation() - Eigen::Vector3d(20.0, -7.0, scenario.windowCentreHeight() + 0.3)).norm(),
+              0.0, 1e-12)
+      << "its height is that above the window's centre";
+  EXPECT_NEAR(
+      (scenario.T_odom_window() * scenario.startPoseInWindow().translation() - start.translation()).norm(),
+      0.0, 1e-9);
   EXPECT_NEAR(scenario.T_odom_window().translation().z(), scenario.windowCentreHeight(), 1e-12);
 }
 
