@@ -98,14 +98,6 @@ void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCame
     if (auto rival = locate(image, camera, located_[i], ReferenceBorders::kFine)) located_[i] = *rival;
 }
 
-// The places whose surroundings are those of the reference's opening; nothing else may be the target.
-void ReferenceJudge::alignAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                              std::vector<Rival>& rivals) {
-  located_ = ring_.align(inChannels(image), camera, rivals);
-  for (Rival& rival : located_) rival.appearance = reference_->compare(image, rival.quad, appearance_);
-  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
-}
-
 // Compares their frames with the reference's; false if none can be compared.
 bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<Rival>& rivals) const {
   bool any = false;
@@ -131,22 +123,30 @@ void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<Rival>& rival
   }
 }
 
-bool ReferenceJudge::judge(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                           std::vector<Rival>& rivals) {
-  if (!reference_ || isGrey(image) != is_grey_) return false;
+bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ && isGrey(image) == is_grey_; }
+
+bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                 std::vector<Rival>& rivals) {
+  if (!compares(image)) return false;
   if (!borders_.known()) {
     std::vector<Rival> weighed = rivals;
     if (!weigh(image, weighed)) return false;
     rivals.swap(weighed);
     return true;
   }
-  if (goesByRing()) {
-    alignAll(image, camera, rivals);
-  } else {
-    locateAll(inChannels(image), camera, rivals);
-    weigh(image, located_);
-    weighOthers(image, rivals);
-  }
+  locateAll(inChannels(image), camera, rivals);
+  weigh(image, located_);
+  weighOthers(image, rivals);
+  rivals.insert(rivals.end(), located_.begin(), located_.end());
+  return true;
+}
+
+bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                       std::vector<Rival>& rivals) {
+  if (!compares(image) || !ring_.known()) return false;
+  located_ = ring_.align(inChannels(image), camera, rivals);
+  for (Rival& rival : located_) rival.appearance = reference_->compare(image, rival.quad, appearance_);
+  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
   rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
 }

@@ -25,8 +25,11 @@ constexpr float kNoise = 0.01F;      ///< of a logarithm of a colour
 constexpr float kOutlier = 2.0F;     ///< scale of the robust weights, in standard deviations
 constexpr float kLeastGain = 0.15F;  ///< a segment that shows less of the reference tells nothing
 constexpr float kMostGain = 2.0F;
-constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;  ///< least depth, relative to the centre's
-constexpr float kFirstScale = 0.2F;                 ///< of the residuals, before they are known
+constexpr double kGainSpread =
+    0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
+constexpr double kLeastContrast = 0.8, kMostContrast = 1.25;  ///< of the ring: another exposure or tone curve
+constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;            ///< least depth, relative to the centre's
+constexpr float kFirstScale = 0.2F;                           ///< of the residuals, before they are known
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
 constexpr double kLeastCorrelation = 0.05;   ///< at a level, to go on
@@ -144,6 +147,7 @@ int RingAlignment::readPixels(const cv::Mat& picture) {
           static_cast<float>(below[c]) + u * static_cast<float>(below[c + kChannels] - below[c]);
       values_[c * count + i] = logOf(upper + v * (lower - upper));
     }
+    if (kChannels == 3) stressColour(values_[i], values_[count + i], values_[2 * count + i]);
   }
   return seen;
 }
@@ -166,13 +170,35 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   const double seen = read(scale, centred(ideal));
   if (seen < kLeastSeen) return {-1.0, seen};
   likeness_ = {};
-  for (int s = 0; s < scale.ring->segmentCount(); ++s) measure(*scale.ring, s);
-  return {likeness_.correlation(), seen};
+  shares_.clear();
+  for (int s = 0; s < scale.ring->segmentCount(); ++s) {
+    const double before = likeness_.alike;
+    const Segment segment = measure(*scale.ring, s);
+    const double alike = likeness_.alike - before;
+    if (alike > 0.0 && segment.gain > 0.0F)
+      shares_.push_back({alike, segment.gain, kGainSpread * kGainSpread + segment.noise / segment.xx});
+  }
+  return {likeness_.correlation(), seen, faithful()};
+}
+
+// A frame in another paint correlates with the reference's; its contrast with the wall is another.
+double RingAlignment::faithful() {
+  if (shares_.empty()) return 0.0;
+  const auto middle = shares_.begin() + static_cast<std::ptrdiff_t>(shares_.size() / 2);
+  std::nth_element(shares_.begin(), middle, shares_.end(),
+                   [](const Share& a, const Share& b) { return a.gain < b.gain; });
+  const double contrast = std::clamp(middle->gain, kLeastContrast, kMostContrast);
+  double sum = 0.0;
+  for (const Share& share : shares_) {
+    const double off = std::log(share.gain / contrast);
+    sum += share.alike * std::exp(-0.5 * off * off / share.variance);
+  }
+  return sum / likeness_.most;
 }
 
 // What one segment shows of the reference, channel by channel and in all.
 RingAlignment::Segment RingAlignment::measure(const RingLevel& ring, int s) {
-  Segment segment{ring.segments[s], ring.segments[s + 1], {}, 0.0F, 0.0F};
+  Segment segment{ring.segments[s], ring.segments[s + 1], {}, 0.0F, 0.0F, 0.0F};
   float yy = 0.0F, xy = 0.0F, samples = 0.0F;
   for (int c = 0; c < channels_; ++c) {
     const std::size_t at = static_cast<std::size_t>(c) * ring.size();
@@ -181,7 +207,8 @@ RingAlignment::Segment RingAlignment::measure(const RingLevel& ring, int s) {
     segment.xx += m.varX(), yy += m.varY(), xy += m.cov(), samples += m.n;
   }
   likeness_.add(samples, segment.xx, yy, xy);
-  segment.xx += kNoise * kNoise * samples;
+  segment.noise = kNoise * kNoise * samples;
+  segment.xx += segment.noise;
   segment.gain = segment.xx > 0.0F ? std::min(kMostGain, xy / segment.xx) : 0.0F;
   return segment;
 }

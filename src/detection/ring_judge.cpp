@@ -6,10 +6,11 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
-constexpr std::size_t kPlaces = 10;                                          ///< that are aligned
+constexpr std::size_t kPlaces = 10;                                         ///< that are aligned
 constexpr std::size_t kFinePlaces = 2;                                      ///< and of these, to the last
-constexpr int kVariants = 3;             ///< rough loops of one place from which it is aligned
-constexpr double kSamePlace = 0.2;       ///< loops whose corners differ less are of one place [sides]
+constexpr int kVariants = 2;                   ///< rough loops of one place from which it is aligned
+constexpr double kSamePlace = 0.2;             ///< loops whose corners differ less are of one place [sides]
+constexpr double kSure = 0.85, kBehind = 0.3;  ///< a place found, and what promises so much less is left out
 constexpr double kGeometryWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
 
 bool isAbout(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
@@ -56,9 +57,14 @@ std::optional<Rival> RingJudge::aligned(const Rival& rough, double finest_px) {
   return rival;
 }
 
-bool RingJudge::isTaken(const geometry::Quadrilateral& quad) const {
-  return std::any_of(aligned_.begin(), aligned_.end(),
-                     [&](const Rival& other) { return isAbout(quad, other.quad); });
+// Of all that come to lie about one place the best.
+void RingJudge::keep(const Rival& rival) {
+  const auto same = std::find_if(aligned_.begin(), aligned_.end(),
+                                 [&](const Rival& other) { return isAbout(rival.quad, other.quad); });
+  if (same == aligned_.end())
+    aligned_.push_back(rival);
+  else if (rival.score > same->score)
+    *same = rival;
 }
 
 const std::vector<Rival>& RingJudge::align(const cv::Mat& image, const geometry::PinholeCamera* camera,
@@ -68,20 +74,26 @@ const std::vector<Rival>& RingJudge::align(const cv::Mat& image, const geometry:
   alignment_.set(model_, image, camera);
   compareAll(rivals);
   std::vector<std::size_t> places;
+  struct {
+    double score = 0.0, promise = 0.0;
+  } best;
   for (const auto& [promise, i] : order_) {
-    if (places.size() >= kPlaces) break;
+    if (places.size() >= kPlaces || (best.score > kSure && promise < best.promise - kBehind)) break;
     const auto variants = std::count_if(places.begin(), places.end(), [&, at = i](std::size_t place) {
       return isAbout(rivals[at].quad, rivals[place].quad);
     });
-    if (variants >= kVariants || isTaken(rivals[i].quad)) continue;
+    if (variants >= kVariants) continue;
     places.push_back(i);
-    auto rival = aligned(rivals[i], kAlignedPx);
-    if (rival && !isTaken(rival->quad)) aligned_.push_back(*rival);
+    const auto rival = aligned(rivals[i], kAlignedPx);
+    if (!rival) continue;
+    if (rival->score > best.score) best = {rival->score, promise};
+    keep(*rival);
   }
   sortByScore(aligned_);
   for (std::size_t i = 0; i < std::min(aligned_.size(), kFinePlaces); ++i)
     if (const auto rival = aligned(aligned_[i], kFinestPx)) aligned_[i] = *rival;
   sortByScore(aligned_);
+  for (Rival& rival : aligned_) rival.faithful = alignment_.compare(rival.quad, kFinestPx).faithful;
   return aligned_;
 }
 

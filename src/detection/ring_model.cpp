@@ -20,6 +20,7 @@ constexpr double kBlur = 0.5;                        ///< of a level [samples]
 constexpr int kMostSamples = 2400;                   ///< of a level
 constexpr double kSteepPart = 0.67;  ///< of them those with the largest slopes; the others are spread evenly
 constexpr float kDark = 4.0F;        ///< added to colours: the least light that counts [grey levels]
+constexpr float kColour = 1.5F;      ///< differences between channels, beside brightness
 constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: small numbers are summed more exactly [grey levels]
 
 /// One sample of the picture, before they are sorted by segments.
@@ -74,6 +75,7 @@ class Reader {
     for (int c = 0; c < channels; ++c)
       value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + channels]) +
                        v * ((1.0F - u) * bottom[c] + u * bottom[c + channels]));
+    if (channels == 3) stressColour(value[0], value[1], value[2]);
     return true;
   }
 
@@ -172,6 +174,11 @@ float logOf(float value) {
   }();
   const int whole = std::clamp(static_cast<int>(value), 0, 255);
   return table[whole] + (value - static_cast<float>(whole)) * (table[whole + 1] - table[whole]);
+}
+
+void stressColour(float& blue, float& green, float& red) {
+  const float brightness = (blue + green + red) / 3.0F;
+  for (float* channel : {&blue, &green, &red}) *channel = brightness + kColour * (*channel - brightness);
 }
 
 void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening) {

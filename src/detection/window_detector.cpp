@@ -19,6 +19,7 @@ constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
 constexpr double kOtherPlace = 0.5;       ///< overlap below which two loops are of two windows
 constexpr int kFewestFitted =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
+constexpr double kFaithful = 0.75;       ///< see RingMatch: then its colours may be others
 constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
 
 void check(const DetectorParams& params) {
@@ -44,8 +45,13 @@ struct WindowDetector::Impl {
 
   std::optional<WindowObservation> judge(const cv::Mat& image, double stamp_sec,
                                          const geometry::PinholeCamera* camera);
+  std::optional<WindowObservation> judgeFrames(const cv::Mat& image, double stamp_sec,
+                                               const geometry::PinholeCamera* camera);
+  std::optional<WindowObservation> judgeSurroundings(const cv::Mat& image, double stamp_sec,
+                                                     const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
+  static bool isUnlikeInColour(const Rival& rival);
   std::optional<Rejection> objection(const Rival& rival) const;
   std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
@@ -70,8 +76,15 @@ double WindowDetector::Impl::leastScore(const Rival& rival) const {
   return rival.appearance ? params.min_score_reference : params.min_score;
 }
 
+// Light of another colour changes the colours, and leaves the contrasts of a ring.
+bool WindowDetector::Impl::isUnlikeInColour(const Rival& rival) {
+  if (!rival.appearance) return false;
+  if (rival.correlation) return rival.appearance->odds < 1.0 && rival.faithful < kFaithful;
+  return rival.appearance->distance > rival.appearance->limit;
+}
+
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
-  if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
+  if (isUnlikeInColour(rival))
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
   if (rival.correlation && *rival.correlation < params.min_correlation)
     return Rejection{RejectReason::kUnlike, *rival.correlation, params.min_correlation};
@@ -139,13 +152,30 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
   return window;
 }
 
-std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
-                                                             const geometry::PinholeCamera* camera) {
-  if (reference.goesByRing()) rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
-  const bool compared = reference.judge(image, camera, rivals);
+std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat& image, double stamp_sec,
+                                                                   const geometry::PinholeCamera* camera) {
+  rivals = search.kept();
+  const bool compared = reference.judgeFrames(image, camera, rivals);
   if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
   done(watch, Stage::kReference);
-  auto window = choose(image, stamp_sec, camera);
+  return choose(image, stamp_sec, camera);
+}
+
+std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
+    const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
+  rivals = search.kept();
+  rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
+  if (!reference.judgeSurroundings(image, camera, rivals)) return std::nullopt;
+  done(watch, Stage::kReference);
+  return choose(image, stamp_sec, camera);
+}
+
+// By the frame, where there is one; what that does not find, by all that lies round the opening.
+std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
+                                                             const geometry::PinholeCamera* camera) {
+  std::optional<WindowObservation> window;
+  if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
+  if (!window) window = judgeSurroundings(image, stamp_sec, camera);
   done(watch, Stage::kBorders);
   return window;
 }
@@ -189,15 +219,10 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     impl_->trace.detail = fault;
     return std::nullopt;
   }
-  impl_->rivals = impl_->search.run(image, camera, impl_->trace);
+  impl_->search.run(image, camera, impl_->trace);
   auto window = impl_->judge(image, stamp_sec, camera);
-  if (!window && impl_->reference.knowsBorders() && impl_->trace.budget_exceeded) {
-    impl_->trace.clear();
-    impl_->rivals = impl_->search.runAgain(impl_->trace);
-    window = impl_->judge(image, stamp_sec, camera);
-  }
   if (!window) {
-    impl_->rivals = impl_->search.runOnColours(impl_->trace);
+    impl_->search.runOnColours(impl_->trace);
     window = impl_->judge(image, stamp_sec, camera);
   }
   explain(impl_->trace);

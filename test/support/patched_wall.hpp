@@ -32,8 +32,7 @@ class PatchedWall {
       fill(image, camera, T_camera_window, p.left, p.top, p.right, p.bottom, p.colour);
     const double w = 0.6, h = 0.5;
     if (frame_m_ > 0.0)
-      fill(image, camera, T_camera_window, -w - frame_m_, -h - frame_m_, w + frame_m_, h + frame_m_,
-           cv::Scalar(30, 110, 210));
+      fill(image, camera, T_camera_window, -w - frame_m_, -h - frame_m_, w + frame_m_, h + frame_m_, paint);
     const geometry::Quadrilateral quad = cornersOf(camera, T_camera_window, -w, -h, w, h);
     if (is_open) fillQuad(image, quad, within);
     if (opening) *opening = quad;
@@ -41,7 +40,8 @@ class PatchedWall {
     return image;
   }
 
-  bool is_open = true;  ///< false: the wall goes on where the opening was
+  cv::Scalar paint = cv::Scalar(30, 110, 210);  ///< of the frame
+  bool is_open = true;                          ///< false: the wall goes on where the opening was
 
   static geometry::PinholeCamera lensless() {
     return geometry::PinholeCamera::fromFieldOfView(640, 480, 1.05);

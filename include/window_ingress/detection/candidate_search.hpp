@@ -23,6 +23,7 @@ struct Rival {
   std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
   bool located = false;                       ///< its borders are where the reference's are
   std::optional<double> correlation;          ///< with the reference's surroundings, where they were aligned
+  double faithful = 0.0;                      ///< see RingMatch
   double geometry = 0.0;                      ///< then: its score by geometry alone
   double worth = 0.0;  ///< then: how far the colours about its borders are those of the reference, 0 to 1
 
@@ -43,13 +44,12 @@ class CandidateSearch {
   const std::vector<Rival>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                 DetectionTrace& trace);
 
-  /// The last image once more, with more segments and more of their combinations: for when none of the
-  /// candidates was the target.
-  const std::vector<Rival>& runAgain(DetectionTrace& trace);
-
   /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   const std::vector<Rival>& runOnColours(DetectionTrace& trace);
+
+  /// What the last call returned.
+  const std::vector<Rival>& kept() const { return kept_; }
 
   /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
   /// sides to be taken for a window by its geometry, and what others were better than: for a judge that knows

@@ -29,12 +29,20 @@ class ReferenceJudge {
   /// True if rivals can be told apart by the colours about their borders.
   bool knowsBorders() const { return borders_.known(); }
 
-  /// True if the wall round the opening tells the target, whatever a candidate is by its geometry.
-  bool goesByRing() const { return borders_.frameless() && ring_.known(); }
+  /// True if the reference shows no frame.
+  bool frameless() const { return borders_.frameless(); }
 
-  /// Weighs the rivals by the reference; adds those whose borders it located. False, and nothing changed, if
-  /// there is no reference or only one of reference and picture has colours.
-  bool judge(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
+  /// False if there is no reference or only one of reference and picture has colours.
+  bool compares(const cv::Mat& image) const;
+
+  /// Weighs the rivals by their frames; adds those whose borders it located. False, and nothing changed, if
+  /// they cannot be compared.
+  bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
+
+  /// Adds the places that have round them what lies round the reference's opening; no other rival may be the
+  /// target then. False, and nothing changed, if they cannot be compared.
+  bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                         std::vector<Rival>& rivals);
 
   /// Why fitted borders cannot be the reference's, if they cannot.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
@@ -44,7 +52,6 @@ class ReferenceJudge {
   const cv::Mat& inChannels(const cv::Mat& picture);
   std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
                               const ReferenceBorders::Effort& effort);
-  void alignAll(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
   void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
                  const std::vector<Rival>& rivals);
   bool weigh(const cv::Mat& image, std::vector<Rival>& rivals) const;

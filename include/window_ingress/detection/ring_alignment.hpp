@@ -21,6 +21,7 @@ struct RingMatch {
   double correlation =
       -1.0;           ///< of logarithms of colours, each segment with a gain and offset of its own; at most 1
   double seen = 0.0;  ///< part of the ring that lies in the picture
+  double faithful = 0.0;  ///< correlation of which only counts what has the contrast of the reference, too
 };
 
 /// Where the ring fits best.
@@ -63,6 +64,12 @@ class RingAlignment {
     int begin, end;
     std::array<Moments, 3> moments;  ///< of the channels
     float xx, gain;                  ///< variance of the ring times its samples, noise added; of all channels
+    float noise;                     ///< part of `xx`
+  };
+
+  /// What a segment adds to the likeness, and with which contrast, beside the reference's.
+  struct Share {
+    double alike, gain, variance;  ///< variance: of the logarithm of the gain
   };
 
   /// Mean of the segments' correlations, each weighed by what it can tell: that grows with its samples, and
@@ -85,6 +92,7 @@ class RingAlignment {
   void place(const Scale& scale, const Eigen::Matrix3d& map);
   template <int kChannels>
   int readPixels(const cv::Mat& picture);
+  double faithful();
   Segment measure(const RingLevel& ring, int s);
   void accumulate(const RingLevel& ring, const Segment& segment, NormalSum& normal, DerivativeSum& right,
                   Matrix8f& explained);
@@ -100,6 +108,7 @@ class RingAlignment {
   std::vector<float> values_;       ///< of the picture, as those of the ring's level
   std::vector<float> weights_;      ///< 0 where the ring lies beside the picture
   std::vector<float> residuals_, scratch_;
+  std::vector<Share> shares_;
   Likeness likeness_;
   float scale_ = 0.1F;  ///< of the residuals
 };

@@ -25,7 +25,7 @@ class RingJudge {
 
  private:
   std::optional<Rival> aligned(const Rival& rough, double finest_px);
-  bool isTaken(const geometry::Quadrilateral& quad) const;
+  void keep(const Rival& rival);
   void compareAll(std::vector<Rival>& rivals);
 
   RingModel model_;

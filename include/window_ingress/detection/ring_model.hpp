@@ -11,6 +11,9 @@ namespace window_ingress::detection {
 /// Logarithm of a colour: what the light multiplies is added to it.
 float logOf(float value);
 
+/// Of three logarithms: what lies between the channels, which shadows and relief leave alone, counts more.
+void stressColour(float& blue, float& green, float& red);
+
 /// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
 /// Points lie in the order of their segments.
 struct RingLevel {

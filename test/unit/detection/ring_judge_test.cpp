@@ -108,12 +108,36 @@ struct Detected {
   }
   std::optional<WindowObservation> look(const PatchedWall& wall, double yaw_rad, Quadrilateral* opening) {
     cv::Mat image = wall.draw(seenFrom(3.0, yaw_rad), opening, cv::Scalar(30, 40, 35));
+    if (evening) shine(image, *opening);
     test::addNoise(image, 2.0, 3);
     const geometry::PinholeCamera camera = PatchedWall::lensless();
     return detector.detect(image, 0.0, &camera);
   }
+  // Light of another colour, and a shadow over the right half of the window.
+  static void shine(cv::Mat& image, const Quadrilateral& opening) {
+    cv::multiply(image, cv::Scalar(0.6, 0.8, 1.1), image);
+    const int from = static_cast<int>(geometry::centroid(opening).x());
+    cv::Mat dark = image.colRange(from, image.cols);
+    dark *= 0.5;
+  }
   WindowDetector detector;
+  bool evening = false;
 };
+
+TEST(WindowDetector, AFrameInOtherLightIsKnownByItsContrasts) {
+  PatchedWall wall(3, 0.07, 15.0);
+  Detected detected(wall);
+  detected.evening = true;
+  for (double yaw : {-0.5, 0.0, 0.5}) {
+    Quadrilateral opening;
+    const auto window = detected.look(wall, yaw, &opening);
+    ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
+    EXPECT_LT(test::worstCorner(window->corners, opening), 0.5) << yaw;
+    wall.paint = cv::Scalar(60, 140, 60);
+    EXPECT_FALSE(detected.look(wall, yaw, &opening)) << yaw << ": painted green";
+    wall.paint = PatchedWall(3).paint;
+  }
+}
 
 TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
   const PatchedWall wall(3, 0.0, 25.0);
