@@ -33,6 +33,7 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       publishers_(nh, params_.frames, params_.camera_frame, params_.lockstep),
       referee_(nh, params_.verdict_file) {
   const simulation::Scenario scenario = load(params_);
+  if (scenario.vehicle.profile != "external") publishers_.advertiseVehicle(nh);
   if (params_.lockstep) {
     refuseInLockstep(scenario);
     lockstep_.emplace(nh, params_.camera_frame, params_.lockstep_timeout_sec);
@@ -63,7 +64,6 @@ void WorldNode::subscribe(ros::NodeHandle& nh) {
     vehicle_health_->watch(vehicle_subscriber_);
     return;
   }
-  publishers_.advertiseVehicle(nh);
   command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
   command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
       nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });

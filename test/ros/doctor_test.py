@@ -47,8 +47,8 @@ class DoctorTest(unittest.TestCase):
     def test_0_a_healthy_simulation_has_nothing_to_mend(self):
         code, said = self.healthy
         self.assertEqual(code, 0, said)
-        for word in ("OK     /window_detector is running", "/camera/image_raw: ", "calibrated, fx", "looks forward",
-                     "from setpoint_guard to /world", "opening 1.20 x 1.00 m, vehicle 0.40 x 0.14 m", "nothing is wrong"):
+        for word in ("OK     /window_detector is running", "OK     time is that of /clock, from /world", "/camera/image_raw: ",
+                     "calibrated, fx", "looks forward", "from setpoint_guard to /world", "opening 1.20 x 1.00 m, vehicle 0.40 x 0.14 m", "nothing is wrong"):
             self.assertIn(word, said)
 
     def test_no_master(self):

@@ -36,6 +36,7 @@ State = genpy.dynamic.generate_dynamic("mavros_msgs/State", STATE)["mavros_msgs/
 STEP_S = 0.02
 REAL_TIME_FACTOR = 0.5         # for machines that draw slowly
 MOST_AHEAD_S = 0.12            # of the world, which may be slower still
+PATIENCE_S = 0.5               # with a world that draws nothing
 LAG_S, MOST_MPS2 = 0.3, 1.5    # of its answer to setpoints
 TWIST_BIAS_MPS, TWIST_NOISE_MPS = (0.03, -0.02), 0.03   # fixed in the body
 LATE_S = 0.03                  # each tenth odometry is stamped so much too early
@@ -71,7 +72,10 @@ class Autopilot:
         while not rospy.is_shutdown():
             count += 1
             now = began + count * STEP_S
-            while time.monotonic() < begin + count * STEP_S / factor or (self._simulates_time and 0.0 < self._seen < now - MOST_AHEAD_S):
+            while time.monotonic() < begin + count * STEP_S / factor:
+                time.sleep(0.002)
+            end = time.monotonic() + PATIENCE_S
+            while self._simulates_time and 0.0 < self._seen < now - MOST_AHEAD_S and time.monotonic() < end:
                 time.sleep(0.002)
             self._move()
             self._speak(rospy.Time.from_sec(now), count)
@@ -128,7 +132,8 @@ class ExternalFlightTest(unittest.TestCase):
 
     def window_ahead(self):
         """The window as the scenario has it, five metres ahead of where the vehicle is."""
-        x, y, yaw = self.autopilot.x + 5.0 * math.cos(self.autopilot.yaw), self.autopilot.y + 5.0 * math.sin(self.autopilot.yaw), self.autopilot.yaw
+        yaw = self.autopilot.yaw
+        x, y = self.autopilot.x + 5.0 * math.cos(yaw), self.autopilot.y + 5.0 * math.sin(yaw)
 
         def is_it(message):
             p, q = message.pose.position, message.pose.orientation

@@ -25,6 +25,7 @@ SPEED_MPS = 1.0
 WINDOW_X_M, CENTRE_Z_M, STOP_X_M = 5.0, 1.5, 6.8   # of config/scenarios/external.yaml
 CAMERA_AHEAD_M, CAMERA_UP_M = 0.10, 0.02
 OFFSET_Y_M = 0.07
+PATIENCE_S = 0.5   # with a world that draws nothing: a reset forgets pictures
 TOPIC = "/mavros/local_position/odom"
 
 
@@ -84,7 +85,8 @@ class Flight:
             message = odometry_at(self.began, count)
             self._distort(message, count)
             Flight._publisher.publish(message)
-            while not self._over.is_set() and count > 10 and message.header.stamp - self._truth() > rospy.Duration(0.1):
+            end = time.monotonic() + PATIENCE_S
+            while count > 10 and message.header.stamp - self._truth() > rospy.Duration(0.1) and time.monotonic() < end:
                 self._over.wait(0.001)
 
     def _truth(self):
@@ -178,6 +180,19 @@ class ExternalVehicleTest(unittest.TestCase):
             flight.stop()
         self.assertEqual(later.header.stamp.secs // 100, flight.began.secs // 100, "time is still the vehicle's")
         self.assertEqual([m.msg for m in log.since(begin) if "stamps moved" in m.msg], [])
+
+    def test_3_of_pictures_that_fall_due_at_once_only_the_newest_are_drawn(self):
+        images = support.Listener("/camera/image_raw", Image)
+        flight = Flight()
+        images.wait(lambda i: i.header.stamp > flight.began + rospy.Duration(1.0), "a second of flight")
+        flight.stop()
+        begin, leap = time.monotonic(), int(4.0 * RATE_HZ)
+        last = odometry_at(flight.began, leap)
+        Flight._publisher.publish(last)
+        images.wait(lambda i: last.header.stamp - i.header.stamp < rospy.Duration(0.05), "the newest picture", begin=begin)
+        support.wait_for(lambda: time.monotonic() - begin > 1.0, "a second for others")
+        of_the_gap = [i for i in images.since(begin) if i.header.stamp > flight.began + rospy.Duration(1.6)]
+        self.assertEqual(len(of_the_gap), 2)
 
     def test_4_when_it_falls_silent_pictures_stop_and_it_is_said(self):
         flight = Flight()
