@@ -1,5 +1,5 @@
 /// Parameter structs and dynamic_reconfigure, by the same `visit` as everything else. The names of nested
-/// fields are joined with '_': `edges/low` is `edges_low`.
+/// fields are joined with '_': `edges/floor` is `edges_floor`.
 #pragma once
 
 #include <dynamic_reconfigure/Config.h>

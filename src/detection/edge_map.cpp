@@ -126,9 +126,6 @@ void EdgeDetector::measureStrength() {
 }
 
 void EdgeDetector::chooseThresholds() {
-  map_.low = params_.low;
-  map_.high = std::max(params_.low, params_.high);
-  if (!params_.automatic) return;
   std::array<int, 2048> histogram{};
   int count = 0;
   for (int y = 0; y < strength_.rows; y += kEveryRow) {

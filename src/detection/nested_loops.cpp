@@ -11,6 +11,8 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr int kRingSamples = 24;
+constexpr double kContinued =
+    22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
 
 cv::Vec3d colourAt(const cv::Mat& image, const Vector2d& p) {
   const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
@@ -52,17 +54,27 @@ double sideColour(const cv::Mat& image, const Quadrilateral& outer, const Quadri
   return std::sqrt(squares / kRingSamples);
 }
 
+cv::Vec3d ringColour(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
+  cv::Vec3d mean, side;
+  for (int i = 0; i < 4; ++i) {
+    sideColour(image, outer, inner, i, side);
+    mean += 0.25 * side;
+  }
+  return mean;
+}
+
 }  // namespace
 
-Ring measureRing(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
-  Ring ring;
+double ringSpread(const cv::Mat& image, const Quadrilateral& outer, const Quadrilateral& inner) {
+  double spread = 0.0;
+  cv::Vec3d mean;
   std::array<cv::Vec3d, 4> sides;
   for (int i = 0; i < 4; ++i) {
-    ring.spread = std::max(ring.spread, sideColour(image, outer, inner, i, sides[i]));
-    ring.mean += 0.25 * sides[i];
+    spread = std::max(spread, sideColour(image, outer, inner, i, sides[i]));
+    mean += 0.25 * sides[i];
   }
-  for (const cv::Vec3d& side : sides) ring.spread = std::max(ring.spread, cv::norm(side - ring.mean));
-  return ring;
+  for (const cv::Vec3d& side : sides) spread = std::max(spread, cv::norm(side - mean));
+  return spread;
 }
 
 bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px,
@@ -97,11 +109,11 @@ std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vecto
       const int inner = order[b];
       if (verdicts[inner].reject != RejectReason::kNone) continue;
       if (!isWithin(quads[front], quads[inner], tolerance_px)) continue;
-      if (isConcentric(quads[front], quads[inner], tolerance_px, params_)) {
-        const Ring ring = measureRing(image, quads[front], quads[inner]);
-        const bool same = front == outer || cv::norm(ring.mean - paint) < params_.continued;
-        if (ring.spread < params_.uniform && same) {
-          if (front == outer) paint = ring.mean;
+      if (isConcentric(quads[front], quads[inner], tolerance_px, params_) &&
+          ringSpread(image, quads[front], quads[inner]) < params_.uniform) {
+        const cv::Vec3d colour = ringColour(image, quads[front], quads[inner]);
+        if (front == outer) paint = colour;
+        if (cv::norm(colour - paint) < kContinued) {
           verdicts[front] = {RejectReason::kOuterBorder, inner, false};
           front = inner;
           verdicts[front].framed = true;

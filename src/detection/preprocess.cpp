@@ -4,6 +4,12 @@
 #include <opencv2/imgproc.hpp>
 
 namespace window_ingress::detection {
+namespace {
+
+constexpr double kClipLimit = 2.0;  ///< of the equalisation [mean bin counts]
+constexpr int kTiles = 6;           ///< of the equalisation, each way
+
+}  // namespace
 
 SearchLevel Preprocess::run(const cv::Mat& image) {
   SearchLevel level;
@@ -37,7 +43,7 @@ const cv::Mat& Preprocess::coloursAlone() {
 }
 
 void Preprocess::equalise(cv::Mat& image) {
-  const auto clahe = cv::createCLAHE(params_.clip_limit, cv::Size(params_.tiles, params_.tiles));
+  const auto clahe = cv::createCLAHE(kClipLimit, cv::Size(kTiles, kTiles));
   if (image.channels() == 1) {
     clahe->apply(image, image);
     return;

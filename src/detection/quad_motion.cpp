@@ -72,19 +72,6 @@ void QuadMotion::predict(const Eigen::Matrix3d& turn, double elapsed_sec, const 
       predicted_, {factor * spread.place_px, factor * spread.reshape_px, factor * spread.warp_px});
 }
 
-bool QuadMotion::foretell(const geometry::Quadrilateral& quad, const QuadSpread& sigma, double max_squares) {
-  const Matrix8d other = covarianceOf(quad, sigma) + Matrix8d::Identity() * kLeastSigmaPx * kLeastSigmaPx;
-  const Matrix8d total = covariance_ + other;
-  const Matrix8d inverse = total.inverse(), gain = covariance_ * inverse;
-  const Vector8d off = asVector(quad) - corners_;
-  if (!(off.dot(inverse * off) <= max_squares)) return false;
-  corners_ += gain * off;
-  const Matrix8d left = covariance_ - gain * covariance_;
-  covariance_ = 0.5 * (left + left.transpose());
-  predicted_ = this->quad();
-  return true;
-}
-
 QuadMotion::Row QuadMotion::offsetRow(int side, const Line& line) const {
   const Vector2d from = corner(side), span = corner(side + 1) - from;
   const double t = (line.point - from).dot(span) / std::max(1.0, span.squaredNorm());

@@ -15,6 +15,7 @@ constexpr double kSameWindow = 0.22;   ///< loops whose corners differ less, in 
 constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
+constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
@@ -64,8 +65,8 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   if (!reference_ || !reference_->openingIsKnown() ||
       !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
     return;
-  ring_.learn(inChannels(reference_->picture()), reference_->opening());
   borders_.learn(inChannels(reference_->picture()), reference_->opening());
+  ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames);
   shape_.learn(reference_->picture(), reference_->opening());
 }
 

@@ -147,7 +147,7 @@ int RingAlignment::readPixels(const cv::Mat& picture) {
           static_cast<float>(below[c]) + u * static_cast<float>(below[c + kChannels] - below[c]);
       values_[c * count + i] = logOf(upper + v * (lower - upper));
     }
-    if (kChannels == 3) stressColour(values_[i], values_[count + i], values_[2 * count + i]);
+    if (kChannels == 3) model_->weighColour(values_[i], values_[count + i], values_[2 * count + i]);
   }
   return seen;
 }

@@ -20,7 +20,6 @@ constexpr double kBlur = 0.5;                        ///< of a level [samples]
 constexpr int kMostSamples = 2400;                   ///< of a level
 constexpr double kSteepPart = 0.67;  ///< of them those with the largest slopes; the others are spread evenly
 constexpr float kDark = 4.0F;        ///< added to colours: the least light that counts [grey levels]
-constexpr float kColour = 1.5F;      ///< differences between channels, beside brightness
 constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: small numbers are summed more exactly [grey levels]
 
 /// One sample of the picture, before they are sorted by segments.
@@ -60,8 +59,8 @@ int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side)
 /// The picture, smoothed for one level, read between its pixels.
 class Reader {
  public:
-  Reader(const cv::Mat& picture, const UnitSquare& map, int level)
-      : picture_(picture), map_(map), level_(level) {}
+  Reader(const cv::Mat& picture, const UnitSquare& map, int level, const RingModel& model)
+      : picture_(picture), map_(map), level_(level), model_(model) {}
 
   bool read(const Vector2d& p, std::array<float, 3>& value) const {
     const Vector2d at = PicturePyramid::onLevel(map_.toImage(p + Vector2d(0.5, 0.5)), level_);
@@ -75,7 +74,7 @@ class Reader {
     for (int c = 0; c < channels; ++c)
       value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + channels]) +
                        v * ((1.0F - u) * bottom[c] + u * bottom[c + channels]));
-    if (channels == 3) stressColour(value[0], value[1], value[2]);
+    if (channels == 3) model_.weighColour(value[0], value[1], value[2]);
     return true;
   }
 
@@ -83,6 +82,7 @@ class Reader {
   const cv::Mat& picture_;
   const UnitSquare& map_;
   int level_;
+  const RingModel& model_;
 };
 
 bool sampleAt(const Reader& reader, const Vector2d& p, const Vector2d& half_step, int channels,
@@ -176,16 +176,17 @@ float logOf(float value) {
   return table[whole] + (value - static_cast<float>(whole)) * (table[whole + 1] - table[whole]);
 }
 
-void stressColour(float& blue, float& green, float& red) {
+void RingModel::weighColour(float& blue, float& green, float& red) const {
   const float brightness = (blue + green + red) / 3.0F;
-  for (float* channel : {&blue, &green, &red}) *channel = brightness + kColour * (*channel - brightness);
+  for (float* channel : {&blue, &green, &red}) *channel = brightness + colour_ * (*channel - brightness);
 }
 
-void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening) {
+void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening, double colour) {
   forget();
   if (picture.empty() || (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)) return;
   if (!geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
   channels_ = picture.channels();
+  colour_ = static_cast<float>(colour);
   const double aspect = geometry::aspectRatio(opening);
   const Shape shape{2.0 * aspect / (1.0 + aspect), 2.0 / (1.0 + aspect)};
   const double side_px = std::sqrt(std::abs(geometry::signedArea(opening)) / (shape.width * shape.height));
@@ -204,7 +205,7 @@ void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening) {
     const double blur = kBlur * std::sqrt(std::max(0.0, ratio * ratio - (from > 0 ? 0.5 : 0.0)));
     if (ratio > 1.1 && blur > 0.1)
       cv::GaussianBlur(smooth, smooth, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
-    levels_.push_back(sampled(Reader(smooth, map, from), shape, channels_, wanted));
+    levels_.push_back(sampled(Reader(smooth, map, from, *this), shape, channels_, wanted));
   }
   levels_.erase(
       std::remove_if(levels_.begin(), levels_.end(), [](const RingLevel& l) { return l.size() < 40; }),

@@ -30,9 +30,8 @@ void TargetIdentity::expect(double stamp_sec) {
   last_sec_ = stamp_sec;
 }
 
-bool TargetIdentity::remembers(double stamp_sec, bool place_given) const {
-  const double limit_sec = place_given ? params_.reacquire_given_sec : params_.reacquire_sec;
-  return known_ && stamp_sec - last_sec_ <= limit_sec;
+bool TargetIdentity::remembers(double stamp_sec) const {
+  return known_ && stamp_sec - last_sec_ <= params_.reacquire_sec;
 }
 
 bool TargetIdentity::isSame(const geometry::Quadrilateral& seen,

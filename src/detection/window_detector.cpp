@@ -51,7 +51,7 @@ struct WindowDetector::Impl {
                                                      const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
-  static bool isUnlikeInColour(const Rival& rival);
+  bool isUnlikeInColour(const Rival& rival) const;
   std::optional<Rejection> objection(const Rival& rival) const;
   std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
@@ -77,10 +77,11 @@ double WindowDetector::Impl::leastScore(const Rival& rival) const {
 }
 
 // Light of another colour changes the colours, and leaves the contrasts of a ring.
-bool WindowDetector::Impl::isUnlikeInColour(const Rival& rival) {
+bool WindowDetector::Impl::isUnlikeInColour(const Rival& rival) const {
   if (!rival.appearance) return false;
-  if (rival.correlation) return rival.appearance->odds < 1.0 && rival.faithful < kFaithful;
-  return rival.appearance->distance > rival.appearance->limit;
+  const bool is_unlike = rival.appearance->distance > rival.appearance->limit;
+  if (!rival.correlation) return is_unlike;
+  return rival.faithful < kFaithful && (is_unlike || !reference.frameless());
 }
 
 std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {

@@ -6,17 +6,16 @@
 namespace window_ingress::detection {
 
 double windowScore(const Candidate& candidate, const WindowScoreParams& params) {
-  double least = 1.0, sum = 0.0, contrast = 0.0, overshoot = 0.0;
+  double least = 1.0, sum = 0.0, overshoot = 0.0;
   for (const SideSupport& side : candidate.sides) {
     least = std::min(least, side.fraction);
     sum += 0.25 * side.fraction;
-    contrast += 0.25 * std::min(1.0, side.contrast / params.contrast_full);
     overshoot += 0.25 * side.overshoot;
   }
   const double support =
       std::max(0.0, (0.5 * (least + sum) - params.support_low) / (1.0 - params.support_low));
   return std::min(1.0, support) * std::pow(candidate.closure, params.closure_weight) *
-         std::pow(1.0 - overshoot, params.overshoot_weight) * std::pow(contrast, params.contrast_weight);
+         std::pow(1.0 - overshoot, params.overshoot_weight);
 }
 
 double scoreWithReference(double geometry, double worth, const WindowScoreParams& params) {

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "window_ingress/parameters/fields.hpp"
 #include "window_tracker_impl.hpp"
@@ -13,11 +12,9 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kQualityRate = 0.25;  // part of the certainty that a frame replaces
-constexpr double kUnlikePart = 0.7;    // of the quality while the ring does not look like the reference
-constexpr double kGivenWarp = 0.3;     // spread of the shape of a given prediction, of that of its place
-constexpr double kBelievableSquares = 26.0;  // of a place that is given: 99.9 % of right ones are nearer
-constexpr double kExpectedSigma = 0.01;      // of the place of a window expected [longer image sides]
+constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
+constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
+constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
 constexpr double kLeastMovePx = 1.5,
                  kLeastMove = 0.012;  // of a corner, to be led by the wall; in the window's sizes
 constexpr double kAlignedSigmaPx = 1.0,
@@ -32,7 +29,7 @@ void WindowTracker::Impl::begin(const TrackInput& input) {
   place_is_expected =
       input.expected && geometry::isFinite(*input.expected) && geometry::isConvex(*input.expected);
   if (place_is_expected) heedExpected(input);
-  if (has_motion) predict(input);
+  if (has_motion) predict();
 }
 
 // What is followed there stays; what is followed elsewhere does not.
@@ -65,16 +62,9 @@ QuadSpread WindowTracker::Impl::spread() const {
   return {place_px, params.track.reshape * side * elapsed_sec, params.track.warp * side * elapsed_sec};
 }
 
-void WindowTracker::Impl::predict(const TrackInput& input) {
+void WindowTracker::Impl::predict() {
   motion.predict(knowsTurn() ? *pictures.turn() : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
                  pictures.elapsedSec(), spread());
-  place_given =
-      input.predicted && geometry::isFinite(*input.predicted) && geometry::isConvex(*input.predicted);
-  if (!place_given) return;
-  const double sigma_px = params.track.given_sigma * pictures.longerSide();
-  const double most = tracking ? kBelievableSquares : std::numeric_limits<double>::infinity();
-  place_given = motion.foretell(undistorted(*input.predicted, pictures.lens()),
-                                {sigma_px, sigma_px, kGivenWarp * sigma_px}, most);
 }
 
 bool WindowTracker::Impl::follow(const TrackInput& input) {
@@ -128,7 +118,7 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
 
 // So near that no two sides are in view: the window is where it must be, for a while.
 bool WindowTracker::Impl::surrounds(const TrackInput& input) {
-  if (quartet.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec, place_given) ||
+  if (quartet.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec) ||
       !geometry::contains(motion.quad(), {0.5 * pictures.size().width, 0.5 * pictures.size().height}))
     return false;
   refuse(RejectReason::kBorder,

@@ -37,7 +37,7 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> lookForWindow(const TrackInput& input);
   std::optional<WindowObservation> updated(const TrackInput& input);
   void survey(const TrackInput& input, const std::optional<WindowObservation>& target);
-  void predict(const TrackInput& input);
+  void predict();
   bool knowsTurn() const;
   QuadSpread spread() const;
   bool follow(const TrackInput& input);
@@ -79,7 +79,7 @@ struct WindowTracker::Impl {
   double searched_sec = 0.0;
   int frames_to_completion = 0, frames_elsewhere = 0;
   bool was_searched = false, place_is_expected = false;
-  bool tracking = false, has_motion = false, place_given = false, has_own_trace = false;
+  bool tracking = false, has_motion = false, has_own_trace = false;
 };
 
 }  // namespace window_ingress::detection

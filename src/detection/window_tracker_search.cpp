@@ -65,7 +65,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   has_own_trace = false;
   auto found = lookForWindow(input);
   if (!found) return std::nullopt;
-  const bool remembers = has_motion && identity.remembers(input.stamp_sec, place_given);
+  const bool remembers = has_motion && identity.remembers(input.stamp_sec);
   bool is_same = remembers && identity.isSame(undistorted(found->corners, pictures.lens()), motion.quad());
   if (remembers && !is_same) {
     if (auto other = amongOthers(input, *found)) found = other, is_same = true;

@@ -6,24 +6,17 @@
 namespace window_ingress::detection {
 
 struct EdgeMapParams {
-  bool automatic = true;  ///< thresholds from the image's own gradients; else the two fixed ones
-  double high_quantile =
-      0.85;  ///< automatic: this part of all pixels has a smaller gradient than the upper threshold
-  double low_ratio = 0.5;  ///< automatic: lower threshold over upper one
-  double floor = 6.0;      ///< automatic: the upper threshold is never below this [grey levels a pixel]
-  double ceiling = 30.0;   ///< automatic: nor above this [grey levels a pixel]
-  double low = 8.0;        ///< fixed lower threshold [grey levels a pixel]
-  double high = 20.0;      ///< fixed upper threshold [grey levels a pixel]
+  double high_quantile = 0.85;  ///< this part of all pixels has a smaller gradient than the upper threshold
+  double low_ratio = 0.5;       ///< lower threshold over upper one
+  double floor = 6.0;           ///< the upper threshold is never below this [grey levels a pixel]
+  double ceiling = 30.0;        ///< nor above this [grey levels a pixel]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("automatic", self.automatic);
     field("high_quantile", self.high_quantile, 0.0, 1.0);
     field("low_ratio", self.low_ratio, 0.0, 1.0);
     field("floor", self.floor, 0.1, 255.0);
     field("ceiling", self.ceiling, 0.1, 255.0);
-    field("low", self.low, 0.1, 255.0);
-    field("high", self.high, 0.1, 255.0);
   }
 };
 

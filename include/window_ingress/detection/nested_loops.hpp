@@ -8,10 +8,9 @@
 namespace window_ingress::detection {
 
 struct NestedLoopsParams {
-  double max_ring = 0.25;   ///< width of a frame, in mean sides of its outer border
-  double ring_ratio = 3.0;  ///< widest over narrowest side of a frame
-  double uniform = 22.0;    ///< colours of a frame's four sides differ less than this [grey levels]
-  double continued = 22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
+  double max_ring = 0.25;        ///< width of a frame, in mean sides of its outer border
+  double ring_ratio = 3.0;       ///< widest over narrowest side of a frame
+  double uniform = 22.0;         ///< colours of a frame's four sides differ less than this [grey levels]
   double container_score = 1.0;  ///< a loop round panes wins if its score is at least this part of theirs
   double max_panes = 40.0;       ///< area of a window over the area of its smallest pane
 
@@ -20,21 +19,15 @@ struct NestedLoopsParams {
     field("max_ring", self.max_ring, 0.0, 0.5);
     field("ring_ratio", self.ring_ratio, 1.0, 100.0);
     field("uniform", self.uniform, 0.0, 442.0);
-    field("continued", self.continued, 0.0, 442.0);
     field("container_score", self.container_score, 0.0, 10.0);
     field("max_panes", self.max_panes, 1.0, 1000.0);
   }
 };
 
-/// Colour of the ring between two loops: BGR, or grey three times.
-struct Ring {
-  cv::Vec3d mean;
-  double spread =
-      0.0;  ///< of the four sides about the mean or of one side along itself, the larger [grey levels]
-};
-
-Ring measureRing(const cv::Mat& image, const geometry::Quadrilateral& outer,
-                 const geometry::Quadrilateral& inner);
+/// Spread of the colours of the ring between two loops: of its four sides about their mean or of one side
+/// along itself, the larger [grey levels].
+double ringSpread(const cv::Mat& image, const geometry::Quadrilateral& outer,
+                  const geometry::Quadrilateral& inner);
 
 /// True if `inner` lies within `outer` with a border of about the same width all round.
 /// \param tolerance_px uncertainty of that width [px]
@@ -50,9 +43,8 @@ struct LoopVerdict {
 
 /// Chooses among loops that lie in each other. Of loops round the same centre the front inner border of the
 /// opening wins: from the outermost loop inwards as long as the ring passed over is uniform, as the four
-/// sides of a frame are (same plane, same paint) and those of a reveal are not, and has the colour of the
-/// first ring. Without a uniform ring there is no frame: the outermost loop is the opening's front. A loop
-/// that holds panes wins over each of them.
+/// sides of a frame are (same plane, same paint) and those of a reveal are not. Without a uniform ring there
+/// is no frame: the outermost loop is the opening's front. A loop that holds panes wins over each of them.
 class NestedLoops {
  public:
   explicit NestedLoops(const NestedLoopsParams& params) : params_(params) {}

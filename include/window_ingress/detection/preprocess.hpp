@@ -10,8 +10,6 @@ struct PreprocessParams {
       480;  ///< the search runs on the first pyramid level whose longer side is no longer [px]
   double blur_sigma_px = 0.4;  ///< Gaussian against noise, on the search level; 0: none [px]
   bool equalise = false;       ///< contrast-limited histogram equalisation of the search level
-  double clip_limit = 2.0;     ///< of the equalisation, in mean bin counts
-  int tiles = 6;               ///< of the equalisation, each way
   double colour_gain = 2.0;    ///< of differences between channels, in the picture of colours alone
 
   template <typename Self, typename Visitor>
@@ -19,8 +17,6 @@ struct PreprocessParams {
     field("search_side_px", self.search_side_px, 64, 4096);
     field("blur_sigma_px", self.blur_sigma_px, 0.0, 10.0);
     field("equalise", self.equalise);
-    field("clip_limit", self.clip_limit, 0.1, 100.0);
-    field("tiles", self.tiles, 1, 64);
     field("colour_gain", self.colour_gain, 0.1, 10.0);
   }
 };

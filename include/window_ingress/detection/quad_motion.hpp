@@ -25,7 +25,7 @@ struct QuadSpread {
 ///   distance of the pair, keystone of the pair. Aspect, and with it the unseen border, only by assuming that
 ///   the aspect changed as foreseen (its spread is small: `warp_px`).
 /// - two parallel ones: place across them, size by their distance, roll, one keystone. Not the place along
-///   them: that rests on attitude, velocity and the prediction that is given, and its spread grows.
+///   them: that rests on attitude and velocity, and its spread grows.
 /// - two that meet: place in both coordinates and roll; size only as foreseen by its velocity.
 class QuadMotion {
  public:
@@ -37,11 +37,6 @@ class QuadMotion {
 
   /// To the next picture: through the homography of the turn in between, then at constant velocity.
   void predict(const Eigen::Matrix3d& turn, double elapsed_sec, const QuadSpread& spread);
-
-  /// The corners as something else foretells them.
-  /// \param max_squares of the difference in standard deviations, eight degrees of freedom
-  /// \return false, and nothing changed, if they are further from where they are believed to be
-  bool foretell(const geometry::Quadrilateral& quad, const QuadSpread& sigma, double max_squares);
 
   /// The border of a side as seen. \return squared distance from the prediction in standard deviations, of
   /// two degrees of freedom
@@ -58,7 +53,6 @@ class QuadMotion {
   const geometry::Quadrilateral& predicted() const { return predicted_; }
   /// Standard deviation across a side, of its end that is known worse [px].
   double sigmaAcross(int side) const;
-  bool hasVelocity() const { return has_velocity_; }
 
  private:
   struct Row {

@@ -11,9 +11,9 @@ namespace window_ingress::detection {
 /// compared, the best are moved to where the ring fits best.
 class RingJudge {
  public:
-  /// \param picture of the target, CV_8UC1 or CV_8UC3 \param opening canonical order
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening) {
-    model_.learn(picture, opening);
+  /// See RingModel.
+  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0) {
+    model_.learn(picture, opening, colour);
   }
   void forget() { model_.forget(); }
   bool known() const { return model_.known(); }

@@ -11,9 +11,6 @@ namespace window_ingress::detection {
 /// Logarithm of a colour: what the light multiplies is added to it.
 float logOf(float value);
 
-/// Of three logarithms: what lies between the channels, which shadows and relief leave alone, counts more.
-void stressColour(float& blue, float& green, float& red);
-
 /// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
 /// Points lie in the order of their segments.
 struct RingLevel {
@@ -35,11 +32,15 @@ class RingModel {
  public:
   static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]
 
-  /// \param picture CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  /// \param picture CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels \param colour weight of
+  /// the differences between channels, beside brightness
+  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0);
   void forget() { levels_.clear(); }
   bool known() const { return !levels_.empty(); }
   int channels() const { return channels_; }
+
+  /// Gives the differences of three logarithms their weight.
+  void weighColour(float& blue, float& green, float& red) const;
 
   /// The level nearest to this resolution, coarse to fine by steps of the square root of two.
   const RingLevel& level(double side_px) const;
@@ -48,6 +49,7 @@ class RingModel {
  private:
   std::vector<RingLevel> levels_;
   int channels_ = 0;
+  float colour_ = 1.0F;
 };
 
 }  // namespace window_ingress::detection

@@ -26,8 +26,7 @@ class TargetIdentity {
   /// Another window is to be found from here on.
   void change() { ++id_, forget(); }
   /// The place of the old window is still known well enough to say which one it is.
-  /// \param place_given something else than the image says where it is
-  bool remembers(double stamp_sec, bool place_given) const;
+  bool remembers(double stamp_sec) const;
   /// Whether a window seen at `seen` is the one that must be at `expected`: its centre within the gate, its
   /// size like it.
   bool isSame(const geometry::Quadrilateral& seen, const geometry::Quadrilateral& expected) const;

@@ -14,14 +14,12 @@ struct TrackParams {
   double max_shape_change =
       0.06;            ///< of aspect, skew and keystone between frames beyond the prediction [sides]
   double turn = 0.12;  ///< unforeseen motion of the window's place without attitude [longer image sides/s]
-  double turn_known = 0.06;    ///< the same with attitude at both exposures [longer image sides/s]
-  double reshape = 0.25;       ///< unforeseen change of its size and roll [window sides/s]
-  double warp = 0.08;          ///< unforeseen change of aspect, skew and keystone [window sides/s]
-  double given_sigma = 0.01;   ///< of a prediction that is given [longer image sides]
-  double max_gap_sec = 0.5;    ///< pictures further apart start anew [s]
-  double reacquire_sec = 0.6;  ///< a lost window found again in its place within this time is the same [s]
-  double reacquire_given_sec = 3.0;  ///< the same where its place was given [s]
-  double reacquire_gate = 0.35;      ///< furthest from its place to be the same [window sides]
+  double turn_known = 0.06;      ///< the same with attitude at both exposures [longer image sides/s]
+  double reshape = 0.25;         ///< unforeseen change of its size and roll [window sides/s]
+  double warp = 0.08;            ///< unforeseen change of aspect, skew and keystone [window sides/s]
+  double max_gap_sec = 0.5;      ///< pictures further apart start anew [s]
+  double reacquire_sec = 0.6;    ///< a lost window found again in its place within this time is the same [s]
+  double reacquire_gate = 0.35;  ///< furthest from its place to be the same [window sides]
   int settled = 5;            ///< frames after which a lost window is waited for before another one is taken
   int appearance_every = 15;  ///< frames between comparisons with the reference
   double adaptation = 0.1;    ///< part of a difference in appearance that such a comparison takes over
@@ -48,10 +46,8 @@ struct TrackParams {
     field("turn_known", self.turn_known, 0.001, 10.0);
     field("reshape", self.reshape, 0.001, 10.0);
     field("warp", self.warp, 0.001, 10.0);
-    field("given_sigma", self.given_sigma, 0.0005, 1.0);
     field("max_gap_sec", self.max_gap_sec, 0.01, 60.0);
     field("reacquire_sec", self.reacquire_sec, 0.0, 60.0);
-    field("reacquire_given_sec", self.reacquire_given_sec, 0.0, 60.0);
     field("reacquire_gate", self.reacquire_gate, 0.01, 0.5);
     field("settled", self.settled, 1, 1000);
     field("appearance_every", self.appearance_every, 1, 100000);

@@ -6,7 +6,7 @@
 
 namespace window_ingress::parameters {
 
-/// Visitor that lists the path of every field and group: "window_detector/detector/edges/low".
+/// Visitor that lists the path of every field and group: "window_detector/detector/edges/floor".
 class KeyLister {
  public:
   template <typename... Rest>

@@ -190,12 +190,12 @@ TEST(Reconfigure, EveryStageHasAGroupWithItsParameters) {
 TEST(Reconfigure, StructGoesThereAndBack) {
   detection::DetectorParams params;
   params.min_score = 0.123;
-  params.edges.automatic = !params.edges.automatic;
-  params.preprocess.tiles = 9;
+  params.preprocess.equalise = !params.preprocess.equalise;
+  params.max_candidates = 9;
   const auto back = fromConfigMsg(toConfigMsg(params), detection::DetectorParams());
   EXPECT_EQ(back.min_score, 0.123);
-  EXPECT_EQ(back.edges.automatic, params.edges.automatic);
-  EXPECT_EQ(back.preprocess.tiles, 9);
+  EXPECT_EQ(back.preprocess.equalise, params.preprocess.equalise);
+  EXPECT_EQ(back.max_candidates, 9);
 }
 
 }  // namespace

@@ -204,27 +204,14 @@ TEST(QuadMotion, ATurnOfTheCameraNeedsNoVelocity) {
     EXPECT_LT((motion.quad()[i] - *camera.project(R * camera.ray(quad[i]))).norm(), 1e-6);
 }
 
-TEST(QuadMotion, AGivenPlaceCountsByItsSpread) {
-  const Quadrilateral here = test::rectangle(100, 80, 200, 160), there = test::rectangle(120, 80, 220, 160);
-  QuadMotion sure, unsure;
-  sure.start(here, 0.1);
-  unsure.start(here, 100.0);
-  for (QuadMotion* motion : {&sure, &unsure}) motion->foretell(there, {4.0, 4.0, 1.0}, 1e9);
-  EXPECT_LT(test::worstCorner(sure.quad(), here), 0.5);
-  EXPECT_LT(test::worstCorner(unsure.quad(), there), 0.5);
-  EXPECT_FALSE(sure.foretell(test::rectangle(200, 80, 300, 160), {4.0, 4.0, 1.0}, 50.0));
-  EXPECT_LT(test::worstCorner(sure.quad(), here), 0.5);
-}
-
 TEST(TargetIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
   const TrackParams params;
   TargetIdentity identity(params);
-  EXPECT_FALSE(identity.remembers(0.0, true));
+  EXPECT_FALSE(identity.remembers(0.0));
   identity.found(false, 1.0);
   EXPECT_EQ(identity.id(), 1u);
-  EXPECT_TRUE(identity.remembers(1.0 + 0.9 * params.reacquire_sec, false));
-  EXPECT_FALSE(identity.remembers(1.0 + 1.1 * params.reacquire_sec, false));
-  EXPECT_TRUE(identity.remembers(1.0 + 1.1 * params.reacquire_sec, true));
+  EXPECT_TRUE(identity.remembers(1.0 + 0.9 * params.reacquire_sec));
+  EXPECT_FALSE(identity.remembers(1.0 + 1.1 * params.reacquire_sec));
   const Quadrilateral here = test::rectangle(100, 80, 200, 180);
   EXPECT_TRUE(identity.isSame(test::rectangle(120, 80, 220, 180), here));
   EXPECT_FALSE(identity.isSame(test::rectangle(160, 80, 260, 180), here)) << "beside";

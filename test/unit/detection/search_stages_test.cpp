@@ -65,18 +65,6 @@ TEST(EdgeDetector, SeesBordersThatDifferInColourOnly) {
   EXPECT_GT(cv::countNonZero(detector.run(image).edges), 400);
 }
 
-TEST(EdgeDetector, FixedThresholdsAreUsedAsGiven) {
-  EdgeMapParams params;
-  params.automatic = false;
-  params.low = 5.0;
-  params.high = 9.0;
-  EdgeDetector detector(params);
-  const EdgeMap& map = detector.run(cv::Mat(20, 20, CV_8UC1, cv::Scalar(7)));
-  EXPECT_EQ(map.low, 5.0);
-  EXPECT_EQ(map.high, 9.0);
-  EXPECT_EQ(cv::countNonZero(map.edges), 0);
-}
-
 TEST(Closing, ClosesGapsUpToTwiceItsRadius) {
   ClosingParams params;
   params.radius = 0.01;
