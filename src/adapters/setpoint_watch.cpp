@@ -17,7 +17,7 @@ constexpr const char* kTopic = "passed_on";
 
 SetpointWatch::SetpointWatch(ros::NodeHandle& nh, Diagnostics& diagnostics,
                              const configuration::SetpointWatchParams& params)
-    : nh_(nh), params_(params) {
+    : nh_(nh), params_(params), started_sec_(steadyNowSec()) {
   const boost::function<void(const ros::MessageEvent<Setpoint const>&)> heard =
       [this, &diagnostics](const auto& event) {
         guarded(diagnostics, kTopic, [&] { hear(event.getPublisherName()); });
@@ -53,6 +53,8 @@ Health SetpointWatch::health() const {
   if (passesOn() && std::isinf(heard_sec_))
     return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};
   if (passesOn()) return {};
+  if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= Engagement::kGraceSec)
+    return {Health::kOk, "waiting for " + topic};
   return {Health::kError,
           "nothing on " + topic + " from setpoint_guard: no mission flies, zeros are sent past it"};
 }

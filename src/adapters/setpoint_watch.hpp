@@ -7,6 +7,7 @@
 #include <string>
 
 #include "adapters/diagnostics.hpp"
+#include "adapters/engagement.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 
 namespace window_ingress::adapters {
@@ -31,6 +32,7 @@ class SetpointWatch {
 
   ros::NodeHandle nh_;
   configuration::SetpointWatchParams params_;
+  double started_sec_;
   double heard_sec_ = -std::numeric_limits<double>::infinity();
   ros::Subscriber subscriber_;
   ros::Publisher brake_;  ///< only while it is needed: otherwise the autopilot hears the guard alone
