@@ -99,6 +99,10 @@ const std::vector<Rival>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   return combine(SegmentQuads::kThorough, trace);
 }
 
+const std::vector<Rival>& CandidateSearch::runAgain(DetectionTrace& trace) {
+  return combine(SegmentQuads::kThorough, trace);
+}
+
 // Quadrilaterals from segments and contours, through the gates.
 const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& effort,
                                                    DetectionTrace& trace) {

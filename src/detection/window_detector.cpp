@@ -222,6 +222,11 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   }
   impl_->search.run(image, camera, impl_->trace);
   auto window = impl_->judge(image, stamp_sec, camera);
+  if (!window && impl_->reference.frameless() && impl_->trace.budget_exceeded) {
+    impl_->trace.clear();
+    impl_->search.runAgain(impl_->trace);
+    window = impl_->judge(image, stamp_sec, camera);
+  }
   if (!window) {
     impl_->search.runOnColours(impl_->trace);
     window = impl_->judge(image, stamp_sec, camera);

@@ -44,6 +44,10 @@ class CandidateSearch {
   const std::vector<Rival>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                 DetectionTrace& trace);
 
+  /// The last image once more, with more segments and more of their combinations: for when none of the
+  /// candidates was the target.
+  const std::vector<Rival>& runAgain(DetectionTrace& trace);
+
   /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   const std::vector<Rival>& runOnColours(DetectionTrace& trace);
