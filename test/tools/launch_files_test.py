@@ -50,7 +50,9 @@ def test_setpoints_go_from_the_navigator_over_the_guard_to_the_autopilot(name):
     between = remaps(launch, "ingress_navigator")["cmd_vel"]
     assert between not in (autopilot, "/cmd_vel")
     assert remaps(launch, "setpoint_guard") == {"cmd_vel_in": between, "cmd_vel": autopilot}
-    past = [node for node, what in launch["nodes"].items() if autopilot in what["remaps"].values()]
+    assert remaps(launch, "ingress_navigator")["passed_on"] == autopilot
+    past = [node for node, what in launch["nodes"].items()
+            if any(to == autopilot and name != "passed_on" for name, to in what["remaps"].items())]
     assert past == ["/setpoint_guard"]
 
 
