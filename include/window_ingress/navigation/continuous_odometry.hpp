@@ -54,7 +54,9 @@ class ContinuousOdometry {
   /// Have the axes turned with the heading?
   struct Turn {
     double turn_rad;
-    Eigen::Vector3d from_odom_m, way_m;
+    Sample piece;          ///< where the present piece of the way began, in the axes that odometry reports
+    double told_m2 = 0.0;  ///< squares of what lies between the two answers, piece by piece
+    double misfit_m2 = 0.0, misfit_turned_m2 = 0.0;
   };
 
   VehicleState inSmooth(const VehicleState& odometry) const;

@@ -141,6 +141,29 @@ TEST(ContinuousOdometry, AHeadingThatJumpsAndComesBackBeforeTheVehicleHasMovedTu
   }
 }
 
+TEST(ContinuousOdometry, AHeadingThatJumpsWhileTheVehicleHoversInADriftIsMappedRightly) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    for (const bool axes_turn : {false, true}) {
+      Curve curve;
+      ContinuousOdometry continuous;
+      curve.random.seed(seed);
+      for (int i = 0; i < 900; ++i) {
+        curve.speed = i < 600 ? 0.05 * std::sin(2.0 * i * kStep) : 0.8;  // to and fro, then on
+        curve.aside = i < 600 ? 0.05 * std::cos(2.0 * i * kStep) : 0.1;
+        curve.bias_base.x() = 0.012;
+        if (i == 60) curve.heading_turn = 0.5;
+        if (i == 60 && axes_turn) {
+          curve.axes_turn = 0.5;
+          curve.shift += curve.position - geometry::yawRotation(0.5) * curve.position;
+        }
+        continuous.add(curve.step());
+      }
+      const Eigen::Vector3d forward = continuous.inOdomAxes(Eigen::Vector3d::UnitX());
+      EXPECT_NEAR(std::atan2(forward.y(), forward.x()), axes_turn ? 0.5 : 0.0, 0.02) << seed;
+    }
+  }
+}
+
 TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   Curve curve;
   ContinuousOdometry continuous;
