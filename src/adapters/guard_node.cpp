@@ -22,6 +22,7 @@ GuardNode::GuardNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   diagnostics_.add("cmd_vel_in", [this] { return inputHealth(); });
   diagnostics_.add("cmd_vel", [this] { return outputHealth(); });
   publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1, params_.lockstep);
+  passed_on_ = nh.advertise<geometry_msgs::TwistStamped>("passed_on", 1);
   subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
       nh, "cmd_vel_in", 1, diagnostics_, [this](const auto& message) { receive(message); });
   if (params_.lockstep) return;
@@ -46,6 +47,7 @@ void GuardNode::publish(const geometry_msgs::Twist& twist, const ros::Time& stam
   message.header.frame_id = frame_id_;
   message.twist = twist;
   publisher_.publish(message);
+  passed_on_.publish(message);
 }
 
 Health GuardNode::inputHealth() const {

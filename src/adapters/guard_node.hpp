@@ -11,6 +11,8 @@ namespace window_ingress::adapters {
 
 /// The last gate before the autopilot, in a process of its own: it outlives the navigator.
 ///
+/// What it sends goes out on `passed_on`, too: the navigator watches that.
+///
 /// Sends at `rate_hz` on the steady clock, from its start until it is stopped, what `SetpointGate` lets
 /// through. In lockstep, which is refused outside simulated time, time stands still where no input comes, and
 /// so does the guard.
@@ -31,7 +33,7 @@ class GuardNode : public Node {
   SetpointGate gate_;
   std::string frame_id_;
   ros::Subscriber subscriber_;
-  ros::Publisher publisher_;
+  ros::Publisher publisher_, passed_on_;
   ros::SteadyTimer timer_;
 };
 

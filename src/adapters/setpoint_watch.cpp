@@ -1,8 +1,5 @@
 #include "adapters/setpoint_watch.hpp"
 
-#include <ros/message_event.h>
-#include <ros/this_node.h>
-
 #include <cmath>
 
 #include "adapters/guarded.hpp"
@@ -18,17 +15,11 @@ constexpr const char* kTopic = "passed_on";
 SetpointWatch::SetpointWatch(ros::NodeHandle& nh, Diagnostics& diagnostics,
                              const configuration::SetpointWatchParams& params)
     : nh_(nh), params_(params), started_sec_(steadyNowSec()) {
-  const boost::function<void(const ros::MessageEvent<Setpoint const>&)> heard =
-      [this, &diagnostics](const auto& event) {
-        guarded(diagnostics, kTopic, [&] { hear(event.getPublisherName()); });
-      };
-  subscriber_ =
-      nh_.subscribe<Setpoint>(kTopic, 1, heard, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  subscriber_ = subscribeGuarded<Setpoint>(nh_, kTopic, 1, diagnostics, [this](const auto&) { hear(); });
   diagnostics.add(kTopic, [this] { return health(); });
 }
 
-void SetpointWatch::hear(const std::string& publisher) {
-  if (publisher == ros::this_node::getName()) return;
+void SetpointWatch::hear() {
   heard_sec_ = steadyNowSec();
   if (brake_) brake_.shutdown();
   brake_ = ros::Publisher();
@@ -41,7 +32,7 @@ bool SetpointWatch::passesOn() const {
 
 void SetpointWatch::brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
   if (passesOn()) return;
-  if (!brake_) brake_ = nh_.advertise<Setpoint>(kTopic, 1);
+  if (!brake_) brake_ = nh_.advertise<Setpoint>("brake", 1);
   Setpoint zero;
   zero.header.stamp = now;
   zero.header.frame_id = frame;

@@ -27,7 +27,7 @@ class SetpointWatch {
   void brakeIfNobodyDoes(const ros::Time& now, const std::string& frame);
 
  private:
-  void hear(const std::string& publisher);
+  void hear();
   Health health() const;
 
   ros::NodeHandle nh_;

@@ -1,6 +1,7 @@
 #include "window_ingress/navigation/place_keeping.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace window_ingress::navigation {
 namespace {
@@ -11,7 +12,8 @@ Eigen::Vector3d levelDirection(const Eigen::Vector3d& way) {
   return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
 }
 
-/// No faster than this, neither level nor upward and downward: a way that is mostly one takes nothing from the other.
+/// No faster than this, neither level nor upward and downward: a way that is mostly one takes nothing from
+/// the other.
 Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_mps) {
   const double level_mps = velocity.head<2>().norm();
   const double share = level_mps > limit_mps ? limit_mps / level_mps : 1.0;
@@ -65,7 +67,8 @@ Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const Vehi
   if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
   Eigen::Vector3d way = *memory.place_odom_m - position_m;
-  Eigen::Vector3d velocity(0.0, 0.0, velocity_odom_mps.z() * way.z() > 0.0 ? velocity_odom_mps.z() : 0.0);
+  const bool leads_back = std::abs(way.z()) >= kThereM && velocity_odom_mps.z() * way.z() > 0.0;
+  Eigen::Vector3d velocity(0.0, 0.0, leads_back ? velocity_odom_mps.z() : 0.0);
   way.z() = 0.0;
   if (way.norm() >= kThereM)
     velocity += std::max(0.0, velocity_odom_mps.dot(way.normalized())) * way.normalized();

@@ -43,9 +43,9 @@ class GuardHangsTest(unittest.TestCase):
         guard = support.pid_of(GUARD)
         os.kill(guard, signal.SIGSTOP)
         try:
-            states.wait(lambda s: s.state_name == "HOLD" and "guard" in s.reason, "HOLD without the guard", FLIGHT_WITHIN_S)
-            states.wait(lambda s: speed(s.velocity) < STANDS_MPS, "a vehicle at rest", FLIGHT_WITHIN_S)
-            support.Diagnostics().wait("ingress_navigator: passed_on", "nothing on /cmd_vel from setpoint_guard")
+            states.wait(lambda s: s.state_name == "HOLD" and "guard" in s.reason and speed(s.velocity) < STANDS_MPS,
+                        "a vehicle at rest in HOLD", FLIGHT_WITHIN_S)
+            support.Diagnostics().wait("ingress_navigator: passed_on", "nothing on /setpoint_guard/passed_on")
             self.assertEqual(states.since(0.0)[-1].state_name, "HOLD")
             past = [s for s in setpoints.since(0.0) if source(s) == NAVIGATOR]
             self.assertGreater(len(past), 10)

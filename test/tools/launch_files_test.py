@@ -49,11 +49,10 @@ def test_setpoints_go_from_the_navigator_over_the_guard_to_the_autopilot(name):
     autopilot = "/mavros/setpoint_velocity/cmd_vel" if name in ("mavros", "px4", "ardupilot") else "/cmd_vel"
     between = remaps(launch, "ingress_navigator")["cmd_vel"]
     assert between not in (autopilot, "/cmd_vel")
-    assert remaps(launch, "setpoint_guard") == {"cmd_vel_in": between, "cmd_vel": autopilot}
-    assert remaps(launch, "ingress_navigator")["passed_on"] == autopilot
-    past = [node for node, what in launch["nodes"].items()
-            if any(to == autopilot and name != "passed_on" for name, to in what["remaps"].items())]
-    assert past == ["/setpoint_guard"]
+    heard = remaps(launch, "ingress_navigator")["passed_on"]
+    assert remaps(launch, "setpoint_guard") == {"cmd_vel_in": between, "cmd_vel": autopilot, "passed_on": heard}
+    past = {(node, name) for node, what in launch["nodes"].items() for name, to in what["remaps"].items() if to == autopilot}
+    assert past == {("/setpoint_guard", "cmd_vel"), ("/ingress_navigator", "brake")}
 
 
 @pytest.mark.parametrize("name, mode", [("px4", "OFFBOARD"), ("ardupilot", "GUIDED")])
