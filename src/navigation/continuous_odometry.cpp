@@ -12,7 +12,6 @@ namespace {
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.04;  // between the two ways flown, to tell whether the axes have turned
-constexpr double kTurnPieceSec = 0.1;
 constexpr double kPieceSec = 0.5, kMaxBiasMps = 0.4;
 constexpr std::size_t kPieces = 16;  // a slide of three seconds is a minority of them
 constexpr std::size_t kLatePieces = 4;
@@ -107,20 +106,24 @@ VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
   return smooth;
 }
 
-// In short pieces: over a long one velocity and position drift apart by themselves.
+// In pieces of a second: over a long one velocity and position drift apart by themselves.
 void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
-  if (!turn_ || odometry.stamp_sec - turn_->piece.stamp_sec < kTurnPieceSec) return;
+  if (!turn_) return;
   const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
   const Eigen::Vector2d way_m = (way_m_ - turn_->piece.way_m).head<2>();  // upward nothing turns
   const Eigen::Vector2d moved_m =
       (T_smooth_axes_.linear() * (position_m - turn_->piece.position_m)).head<2>();
   const Eigen::Rotation2Dd turn_back(-turn_->turn_rad);
-  turn_->told_m2 += way_m.squaredNorm() * std::pow(2.0 * std::sin(0.5 * turn_->turn_rad), 2);
-  turn_->misfit_m2 += (moved_m - way_m).squaredNorm();
-  turn_->misfit_turned_m2 += (turn_back * moved_m - way_m).squaredNorm();
-  turn_->piece = {odometry.stamp_sec, position_m, way_m_};
-  if (turn_->told_m2 < kTellingM * kTellingM) return;
-  if (turn_->misfit_turned_m2 < turn_->misfit_m2) {
+  Turn now = *turn_;
+  now.told_m2 += way_m.squaredNorm() * std::pow(2.0 * std::sin(0.5 * turn_->turn_rad), 2);
+  now.misfit_m2 += (moved_m - way_m).squaredNorm();
+  now.misfit_turned_m2 += (turn_back * moved_m - way_m).squaredNorm();
+  now.piece = {odometry.stamp_sec, position_m, way_m_};
+  if (now.told_m2 < kTellingM * kTellingM) {
+    if (odometry.stamp_sec - turn_->piece.stamp_sec >= kSecond) turn_ = now;
+    return;
+  }
+  if (now.misfit_turned_m2 < now.misfit_m2) {
     const Eigen::Vector3d smooth_m = T_smooth_axes_ * position_m;
     T_smooth_axes_.linear() = geometry::yawRotation(-turn_->turn_rad) * T_smooth_axes_.linear();
     T_smooth_axes_.translation() = smooth_m - T_smooth_axes_.linear() * position_m;
