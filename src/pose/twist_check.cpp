@@ -112,11 +112,11 @@ Eigen::Vector3d TwistCheck::biasMps(int meaning) const {
 
 TwistCheck::Sums TwistCheck::sums() const {
   Sums sums;
-  sums.bias_mps = biasMps(0).norm();
   Way bias_mps;
   for (int k = 0; k < kMeanings; ++k) {
     bias_mps[k] = biasMps(k);
     const double norm = bias_mps[k].norm();
+    if (k == 0) sums.bias_mps = norm;
     if (norm > kMostBiasMps) bias_mps[k] *= kMostBiasMps / norm;
   }
   for (const Piece& piece : pieces_) {
