@@ -6,6 +6,7 @@
 
 #include "window_ingress/evaluation/track_survey.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/median.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -17,12 +18,7 @@ bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCame
   return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double medianOrZero(std::vector<double> values) { return values.empty() ? 0.0 : geometry::median(values); }
 
 }  // namespace
 
@@ -75,8 +71,8 @@ std::string TruthSummary::text() const {
       "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
       images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, exchanged, partly, imagined,
       corners.rms().x(), corners.rms().y(), corners.mean().x(), corners.mean().y(), corners.outward(),
-      corners.median(), corners.worst(), corners.frames(), median(yaw_errors_rad) * kDegreesPerRad,
-      median(distance_errors_m), yaw_errors_rad.size());
+      corners.median(), corners.worst(), corners.frames(), medianOrZero(yaw_errors_rad) * kDegreesPerRad,
+      medianOrZero(distance_errors_m), yaw_errors_rad.size());
   return line;
 }
 

@@ -6,6 +6,7 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr double kNearAxisM = 0.3;
+constexpr double kWellInFunnel = 0.15;  // of its openness
 }
 
 double HeightProbe::climb(double height_m) {
@@ -72,7 +73,7 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
   const double height_m = situation.vehicle->T_odom_base.translation().z();
   if (situation.now_sec - ambiguous_since_sec_ < params_->align.settle_sec) {
     const double limit_mps = params_->align.vertical_speed_mps;
-    decision.wish.velocity_odom_mps.z() = climbFor(-relative.vertical(), limit_mps, *params_);
+    decision.wish.velocity_odom_mps.z() = velocityTowards(-relative.vertical(), limit_mps, *params_);
     decision.reason = "sign of the window's yaw not certain: looking";
     return decision;
   }
@@ -87,6 +88,12 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
   return decision;
 }
 
+bool Align::isNearAxis(const RelativeState& relative, const Contract& contract, bool is_forbidden) const {
+  if (is_forbidden && std::abs(relative.lateral()) < kNearAxisM) return true;
+  if (!pacer_.isStepped()) return contract.openness >= kWellInFunnel;
+  return std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
+}
+
 Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
@@ -98,17 +105,16 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
     decision.reason = "the opening is too small for the vehicle";
     return decision;
   }
-  const double retreat_mps = -climbFor(params_->align.min_distance_m - relative.distance(),
-                                       params_->align.lateral_speed_mps, *params_);
-  decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(relative, target, std::min(0.0, retreat_mps), memory.wind_odom_mps, *params_),
-      uprightRotation(target), situation);
+  const bool is_forbidden = !target.approach_forbidden.empty();
+  const bool near_axis = isNearAxis(relative, contract, is_forbidden);
+  const double retreat_mps = -velocityTowards(params_->align.min_distance_m - relative.distance(),
+                                              params_->align.lateral_speed_mps, *params_);
+  const double forward_mps = near_axis && !is_forbidden ? 0.0 : std::min(0.0, retreat_mps);
+  decision.wish.velocity_odom_mps =
+      pacer_.pace(velocityAlongAxis(relative, target, forward_mps, memory.wind_odom_mps, *params_),
+                  uprightRotation(target), situation);
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
   decision.reason = "moving onto the window's normal";
-  const bool is_forbidden = !target.approach_forbidden.empty();
-  const bool is_on_axis = std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
-  const bool near_axis = (pacer_.isStepped() ? is_on_axis : contract.openness >= 0.15) ||
-                         (is_forbidden && std::abs(relative.lateral()) < kNearAxisM);
   if (!near_axis) {
     in_funnel_since_sec_.reset();
   } else if (!in_funnel_since_sec_) {

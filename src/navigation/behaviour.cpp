@@ -122,8 +122,14 @@ double headingErrorTowards(const RelativeState& relative, const NavigatorParams&
                                                              : relative.bearing_rad;
 }
 
-double climbFor(double error_m, double limit_mps, const NavigatorParams& params) {
-  return std::clamp(params.align.lateral_gain_hz * error_m, -limit_mps, limit_mps);
+double velocityTowards(double error_m, double limit_mps, const NavigatorParams& params) {
+  const double gain_hz = params.align.lateral_gain_hz, braking_mps2 = params.vehicle.braking_mps2;
+  const double linear_m = braking_mps2 / (gain_hz * gain_hz);
+  const double way_m = std::abs(error_m);
+  const double speed_mps = way_m <= linear_m
+                               ? gain_hz * way_m
+                               : std::sqrt(2.0 * braking_mps2 * (way_m - 0.5 * linear_m));
+  return std::copysign(std::min(speed_mps, limit_mps), error_m);
 }
 
 Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
@@ -132,8 +138,8 @@ Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEst
   const Eigen::Vector3d coasted =
       relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
   const auto& align = params.align;
-  Eigen::Vector3d velocity_window(0.0, climbFor(-coasted.y(), align.lateral_speed_mps, params),
-                                  climbFor(-coasted.z(), align.vertical_speed_mps, params));
+  Eigen::Vector3d velocity_window(0.0, velocityTowards(-coasted.y(), align.lateral_speed_mps, params),
+                                  velocityTowards(-coasted.z(), align.vertical_speed_mps, params));
   const Eigen::Matrix3d R_odom_window = uprightRotation(target);
   const Eigen::Vector3d carried_window =
       R_odom_window.transpose() * (target.motion.velocity_odom_mps - wind_odom_mps);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/median.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -19,18 +20,6 @@ constexpr std::size_t kLatePieces = 4;
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
 Eigen::Matrix3d uprightOf(const VehicleState& vehicle) { return geometry::yawRotation(yawOf(vehicle)); }
-
-Eigen::Vector3d middle(const std::deque<Eigen::Vector3d>& values) {
-  Eigen::Vector3d middle;
-  std::vector<double> sorted(values.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(values.begin(), values.end(), sorted.begin(),
-                   [axis](const auto& value) { return value[axis]; });
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    middle[axis] = sorted[sorted.size() / 2];
-  }
-  return middle;
-}
 
 }  // namespace
 
@@ -143,7 +132,8 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   if (pieces_mps_.size() > kPieces) pieces_mps_.pop_front();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
   if (pieces_mps_.size() < kPieces) return;
-  bias_base_mps_ = middle(pieces_mps_);
+  std::vector<Eigen::Vector3d> pieces_mps(pieces_mps_.begin(), pieces_mps_.end());
+  bias_base_mps_ = geometry::componentwiseMedian(pieces_mps);
   if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
 }
 

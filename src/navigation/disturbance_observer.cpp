@@ -9,7 +9,8 @@ constexpr double kStrongestGustMps = 3.0;
 constexpr double kUsualGustMps = 0.06, kUsualSec = 0.3;
 constexpr double kWorthComparingMps = 0.3;
 constexpr double kEnoughM2ps = 0.3;  // about half a second at 0.8 m/s
-constexpr double kSteadyMps = 0.15;  // a vehicle that is asked to change answers otherwise than its model
+constexpr double kLeastShareGone = 0.6;
+constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
 
 /// Share of a first-order step that is made in this time.
 double share(double dt_sec, double time_constant_sec) {
@@ -19,6 +20,11 @@ double share(double dt_sec, double time_constant_sec) {
 Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
   const double norm = velocity_mps.norm();
   return norm > limit_mps ? Eigen::Vector3d(velocity_mps * (limit_mps / norm)) : velocity_mps;
+}
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& velocity_mps, double by_mps) {
+  const double norm = velocity_mps.norm();
+  return norm > by_mps ? Eigen::Vector3d(velocity_mps * (1.0 - by_mps / norm)) : Eigen::Vector3d(0, 0, 0);
 }
 
 }  // namespace
@@ -38,8 +44,10 @@ void DisturbanceObserver::restart() {
   told_m2ps_ = 0.0;
 }
 
+// A vehicle that only stands against the wind goes in no direction.
 double DisturbanceObserver::turnedRad() const {
-  return told_m2ps_ > kEnoughM2ps ? std::atan2(told_.y(), told_.x()) : 0.0;
+  const bool goes = told_.norm() > kLeastShareGone * told_m2ps_;
+  return goes && told_m2ps_ > kEnoughM2ps ? std::atan2(told_.y(), told_.x()) : 0.0;
 }
 
 // Both in the plane: what was said as the real axis, what was done beside it.
@@ -65,9 +73,10 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
   const Eigen::Vector3d surprise_mps = measured_mps - response_.velocity() - disturbance_mps_;
   disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
   disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);
-  if ((commanded_mps - response_.velocity()).norm() > kSteadyMps) return;
-  gust_mps_ +=
-      share(dt_sec, response_.responseSec()) * (clipped(surprise_mps, kStrongestGustMps) - gust_mps_);
+  const double to_come_mps = (commanded_mps - response_.velocity()).norm();
+  const Eigen::Vector3d gust_mps =
+      shortened(clipped(surprise_mps, kStrongestGustMps), kModelError * to_come_mps);
+  gust_mps_ += share(dt_sec, response_.responseSec()) * (gust_mps - gust_mps_);
   const double keep = 1.0 - share(dt_sec, approach_.gust_memory_sec);
   gusts_m2ps_ = keep * gusts_m2ps_ + dt_sec * gust_mps_ * gust_mps_.transpose();
   watched_sec_ = keep * watched_sec_ + dt_sec;

@@ -158,7 +158,6 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
     return;
   }
   situation.vehicle = smooth_;
-  situation.odometry_disagreement_mps = odometry_.disagreementMps();
   const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
   situation.vehicle->T_odom_base.translation() += sample.velocity_odom_mps * ahead_sec;
 }

@@ -85,7 +85,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
     params.vehicle.response_sec = observer.response().responseSec();
-    memory.odometry_disagreement_mps = situation.odometry_disagreement_mps;
+    memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
     home.follow(*situation.vehicle, memory);
   }
   noteSide(situation, params, memory);

@@ -67,10 +67,10 @@ std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMe
 }
 
 double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params) {
-  constexpr double kSideSec = 2.0, kPartOfClearance = 0.7;
+  constexpr double kPeriodSec = 5.0, kPartOfClearance = 0.7;
   const double aside_m =
       std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, contract.clearance_lateral_m));
-  return std::fmod(waiting_sec, 2.0 * kSideSec) < kSideSec ? aside_m : -aside_m;
+  return aside_m * std::sin(2.0 * M_PI * waiting_sec / kPeriodSec);
 }
 
 }  // namespace window_ingress::navigation

@@ -32,7 +32,7 @@ Decision Search::step(const Situation& situation, MissionMemory& memory) {
   }
   decision.keeps_place = true;
   decision.wish.velocity_odom_mps.z() =
-      climbFor(*height_m_ - height_m, params_->search.climb_speed_mps, *params_);
+      velocityTowards(*height_m_ - height_m, params_->search.climb_speed_mps, *params_);
   if (turns_ >= params_->search.turns || memory.others > kMostOthers) {
     decision.event = Event::kGiveUp;
     decision.reason = "window not found in " + std::to_string(turns_) + " turns";

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window_ingress/geometry/median.hpp"
+
 namespace window_ingress::openness {
 namespace {
 
 constexpr int kMostIds = 1000;
 constexpr double kMostTooDeep = 0.3;  // of the points
 constexpr int kLeastToMove = 8;       // points, of which a part that moves tells something
-
-template <typename Value>
-Value medianOf(std::vector<Value>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // How a depth moves with its part: D = d part / (1 - part).
 double depthOf(double part, double distance_m) { return distance_m * part / std::max(1e-3, 1.0 - part); }
@@ -75,10 +70,10 @@ StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
   const int all = says.points + says.unsteady;
   says.is_moving = all >= kLeastToMove && says.unsteady > params.max_unsteady * all;
   if (says.points < params.min_points) return says;
-  says.depth_m = medianOf(depths);
-  says.depth_sigma_m = medianOf(sigmas);
+  says.depth_m = geometry::median(depths);
+  says.depth_sigma_m = geometry::median(sigmas);
   says.is_too_deep = says.too_deep > kMostTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
-  if (!says.is_moving) says.log_odds = std::clamp(medianOf(odds), -params.max_log_odds, params.max_log_odds);
+  if (!says.is_moving) says.log_odds = std::clamp(geometry::median(odds), -params.max_log_odds, params.max_log_odds);
   if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
   return says;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/median.hpp"
 
 namespace window_ingress::pose {
 namespace {
@@ -43,17 +44,6 @@ std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3
 }
 
 double square(double value) { return value * value; }
-
-Eigen::Vector3d middle(std::vector<Eigen::Vector3d>& values) {
-  Eigen::Vector3d middle;
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  for (int axis = 0; axis < 3; ++axis) {
-    std::nth_element(values.begin(), half, values.end(),
-                     [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
-    middle[axis] = (*half)[axis];
-  }
-  return middle;
-}
 
 double normalised(double length_m, double variance) {
   return std::min(square(length_m) / variance, kMostSquares);
@@ -107,7 +97,7 @@ Eigen::Vector3d TwistCheck::biasMps(int meaning) const {
   if (pieces_.size() < kLeastPieces) return Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> errors_mps;
   for (const Piece& piece : pieces_) errors_mps.push_back(piece.error_base_m[meaning] / piece.sec);
-  return middle(errors_mps);
+  return geometry::componentwiseMedian(errors_mps);
 }
 
 TwistCheck::Sums TwistCheck::sums() const {

@@ -82,8 +82,10 @@ double yawRateFor(double error_rad, const NavigatorParams& params);
 /// normal, for a turned body is a wider one.
 double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params);
 
-/// Upward velocity that takes the height error (goal less present) away.
-double climbFor(double error_m, double limit_mps, const NavigatorParams& params);
+/// Velocity along one axis that takes the error (goal less present) away: in proportion to it as long as the
+/// vehicle can slow down as fast as that asks for, and beyond, what it can stop from (a square-root
+/// controller, as autopilots have it).
+double velocityTowards(double error_m, double limit_mps, const NavigatorParams& params);
 
 /// Velocity in odom axes: forward as given, sideways and upward onto the window's axis and against the wind,
 /// within the speed limit. What is sideways has priority: forward gets what is left.

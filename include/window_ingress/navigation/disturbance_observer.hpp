@@ -25,10 +25,11 @@ class DisturbanceObserver {
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
   /// At most `max_wind_mps` long.
   const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
-  /// Mean square of what remains beyond it, over `gust_memory_sec` of steady commands: gusts.
+  /// Mean square of what remains beyond it and beyond what the model may err by, over `gust_memory_sec`:
+  /// gusts. Whatever the vehicle is told meanwhile counts, for it is told most while gusts carry it off.
   Eigen::Matrix3d gusts() const;
   /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
-  /// plane; 0 as long as it moved too little to tell [rad].
+  /// plane; 0 as long as it was told, or moved, too little to tell [rad].
   double turnedRad() const;
   const ResponseEstimator& response() const { return response_; }
 
@@ -42,7 +43,7 @@ class DisturbanceObserver {
   Eigen::Vector2d told_ = Eigen::Vector2d::Zero();      ///< of what was told, done: along it, to its left
   double told_m2ps_ = 0.0;                              ///< how much was told [m^2/s]
   Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();
-  double watched_sec_ = 0.0;  ///< of steady commands, fading
+  double watched_sec_ = 0.0;  ///< fading
 };
 
 }  // namespace window_ingress::navigation

@@ -31,7 +31,6 @@ struct Situation {
   double dt_sec = 0.0;                  ///< since the step before, 0 to 0.2 s
   std::optional<VehicleState> vehicle;  ///< predicted to now
   std::string vehicle_fault;
-  double odometry_disagreement_mps = 0.0;  ///< between its position and its velocity, of late
   bool vehicle_jumped = false;             ///< what was known in the old odometry frame is void
   std::optional<TargetEstimate> target;
   std::string target_fault;

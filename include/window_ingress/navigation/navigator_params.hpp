@@ -36,7 +36,7 @@ struct InputParams {
 
 /// SEARCH: turning on the spot, climbing to a height from which to look.
 struct SearchParams {
-  double yaw_rate_radps = 0.5;       ///< at most; slower where blur or few pictures ask for it [rad/s]
+  double yaw_rate_radps = 0.7;       ///< at most; slower where blur or few pictures ask for it [rad/s]
   double max_blur_px = 2.0;          ///< that turning may bring into a picture [px]
   double max_turn_per_image = 0.25;  ///< of the field of view, from picture to picture
   double height_m = 1.0;             ///< climb to this height of odom first; never down [m]
@@ -64,7 +64,7 @@ struct SearchParams {
 /// share.
 struct AlignParams {
   double lateral_gain_hz = 1.75;    ///< sideways and upward velocity per offset [1/s]
-  double lateral_speed_mps = 0.65;  ///< most sideways [m/s]
+  double lateral_speed_mps = 0.75;  ///< most sideways [m/s]
   double vertical_speed_mps = 0.5;  ///< most upward and downward [m/s]
   double yaw_gain_hz = 3.0;         ///< yaw rate per bearing; keep above the lateral gain [1/s]
   double min_distance_m = 2.0;      ///< to the window's plane while aligning; closer, it moves away [m]
@@ -96,7 +96,7 @@ struct AlignParams {
 /// APPROACH: forward as far as the funnel allows.
 struct ApproachParams {
   double speed_mps = 1.0;     ///< forward [m/s]
-  double funnel_slope = 1.0;  ///< the funnel widens by this much a metre from the commit line on [m/m]
+  double funnel_slope = 1.2;  ///< the funnel widens by this much a metre from the commit line on [m/m]
   double sigma_factor = 3.0;  ///< standard deviations that must lie within the funnel and the clearance
   double margin_m = 0.05;     ///< kept between body and border beyond all errors [m]
   double leave_factor = 1.3;  ///< out of the funnel by this factor: align again

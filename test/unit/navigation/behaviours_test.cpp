@@ -124,6 +124,36 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   EXPECT_TRUE(gave_up);
 }
 
+TEST(AlignBehaviour, MakesRoomOnlyToMoveSideways) {
+  for (const double lateral_m : {0.0, 1.0}) {
+    Align align{kDefaults};
+    MissionMemory memory;
+    align.enter(0.0);
+    const double forward_mps =
+        align.step(situationAt({-1.5, lateral_m, 1.5}, 0.0, true), memory).wish.velocity_odom_mps.x();
+    EXPECT_EQ(forward_mps < -0.1, lateral_m > 0.0) << forward_mps;
+  }
+}
+
+TEST(VelocityTowards, AsksForNoHarderBrakingThanTheVehicleHas) {
+  NavigatorParams params;
+  for (const double braking_mps2 : {0.5, 1.2, 3.0}) {
+    params.vehicle.braking_mps2 = braking_mps2;
+    constexpr double kStep = 0.001;
+    double error_m = 4.0, last_mps = velocityTowards(error_m, 10.0, params);
+    EXPECT_EQ(velocityTowards(-error_m, 10.0, params), -last_mps);
+    EXPECT_EQ(velocityTowards(error_m, 0.4, params), 0.4);
+    for (double t = 0.0; t < 20.0; t += kStep) {
+      error_m -= kStep * last_mps;
+      const double speed_mps = velocityTowards(error_m, 10.0, params);
+      EXPECT_LE(last_mps - speed_mps, kStep * braking_mps2 * 1.01);
+      last_mps = speed_mps;
+    }
+    EXPECT_NEAR(error_m, 0.0, 1e-3);
+    EXPECT_GE(error_m, 0.0) << "never beyond";
+  }
+}
+
 TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   Approach approach{kDefaults};
   approach.enter();

@@ -99,5 +99,34 @@ TEST(DisturbanceObserver, TellsAVehicleThatGoesBesideWhatItIsToldFromOneInWind) 
   EXPECT_EQ(DisturbanceObserver(params.vehicle, params.approach).turnedRad(), 0.0);
 }
 
+TEST(DisturbanceObserver, AVehicleThatStandsAgainstTheWindGoesBesideNothing) {
+  const NavigatorParams params;
+  for (const double blown_aside_mps : {-0.1, 0.1}) {
+    DisturbanceObserver observer(params.vehicle, params.approach);
+    for (int i = 0; i < 300; ++i) observer.update({-0.05, blown_aside_mps, 0.0}, {0.5, 0.0, 0.0}, 0.03);
+    EXPECT_EQ(observer.turnedRad(), 0.0);
+  }
+}
+
+TEST(DisturbanceObserver, FeelsGustsWhileItIsToldToSteerAgainstThem) {
+  constexpr double kStep = 0.03, kGustMps = 0.3;
+  const NavigatorParams params;
+  const auto lateralGustOf = [&](double gust_mps) {
+    DisturbanceObserver observer(params.vehicle, params.approach);
+    double velocity_mps = 0.0, offset_m = 0.0;
+    for (double t = 0.0; t < 6.0; t += kStep) {
+      const double told_mps = 0.5 * std::sin(2.0 * t) - 1.75 * offset_m;  // never steady
+      const double wind_mps = gust_mps * std::sin(4.0 * t);
+      velocity_mps += kStep / params.vehicle.response_sec * (told_mps - velocity_mps);
+      offset_m += kStep * wind_mps;
+      observer.update({0.8, velocity_mps + wind_mps, 0.0}, {0.8, told_mps, 0.0}, kStep);
+    }
+    return std::sqrt(observer.gusts()(1, 1));
+  };
+  EXPECT_LT(lateralGustOf(0.0), 0.06);
+  EXPECT_GT(lateralGustOf(kGustMps), 0.25 * kGustMps);
+  EXPECT_GT(lateralGustOf(2.0 * kGustMps), 1.5 * lateralGustOf(kGustMps));
+}
+
 }  // namespace
 }  // namespace window_ingress::navigation
