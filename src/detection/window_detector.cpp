@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "detection/candidates/candidate_search.hpp"
+#include "detection/candidates/nested_quads.hpp"
+#include "detection/reference/reference_judge.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/candidate_search.hpp"
-#include "window_ingress/detection/loop_judge.hpp"
-#include "window_ingress/detection/reference_judge.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::detection {

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "detection/candidates/candidate_search.hpp"
 #include "window_ingress/detection/debug_image.hpp"
-#include "window_ingress/detection/lettering.hpp"
+#include "window_ingress/detection/text_overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::evaluation {

@@ -1,9 +1,9 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "detection/candidates/candidate_search.hpp"
 #include "subjects.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/candidate_search.hpp"
 
 namespace window_ingress::bench {
 namespace {

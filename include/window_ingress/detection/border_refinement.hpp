@@ -4,29 +4,11 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
-
-struct BorderRefinementParams {
-  int samples = 80;              ///< profiles across each side, at most one a pixel
-  double skip = 0.06;            ///< left out at both ends of a side, in its lengths
-  double final_radius_px = 2.0;  ///< reach of the second pass, at a longer side of 640; grows with it [px]
-  double outlier_px = 0.6;       ///< scale of the robust fit, at a longer side of 640; grows with it [px]
-  double min_inliers = 0.4;      ///< part of a side's profiles that must lie on its line
-  double sigma_floor_px = 0.03;  ///< no edge is claimed to be known better than this [px]
-
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("samples", self.samples, 4, 2000);
-    field("skip", self.skip, 0.0, 0.4);
-    field("final_radius_px", self.final_radius_px, 1.0, 20.0);
-    field("outlier_px", self.outlier_px, 0.05, 10.0);
-    field("min_inliers", self.min_inliers, 0.0, 1.0);
-    field("sigma_floor_px", self.sigma_floor_px, 1e-4, 10.0);
-  }
-};
 
 /// The four borders as measured in the full image.
 struct RefinedBorders {

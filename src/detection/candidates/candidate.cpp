@@ -1,0 +1,29 @@
+#include "detection/candidates/candidate.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace window_ingress::detection {
+
+CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, double limit) {
+  return {rival.quad,
+          rival.candidate.source,
+          reason,
+          value,
+          limit,
+          rival.score,
+          rival.appearance.has_value(),
+          rival.appearance ? rival.appearance->distance : 0.0,
+          rival.correlation.value_or(0.0),
+          rival.proposal};
+}
+
+void sortByRank(std::vector<Rival>& rivals) {
+  // Equals by their place, so that the order does not depend on the order before.
+  const auto key = [](const Rival& r) {
+    return std::make_tuple(-r.rank(), r.quad[0].x(), r.quad[0].y(), r.quad[2].x(), r.quad[2].y());
+  };
+  std::sort(rivals.begin(), rivals.end(), [&key](const Rival& a, const Rival& b) { return key(a) < key(b); });
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "detection/candidates/candidate.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+
+namespace window_ingress::detection {
+
+/// Spread of the colours of the ring between two loops: of its four sides about their mean or of one side
+/// along itself, the larger [grey levels].
+double ringSpread(const cv::Mat& image, const geometry::Quadrilateral& outer,
+                  const geometry::Quadrilateral& inner);
+
+/// True if `inner` lies within `outer` with a border of about the same width all round.
+/// \param tolerance_px uncertainty of that width [px]
+bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrilateral& inner,
+                  double tolerance_px, const NestedLoopsParams& params);
+
+/// Chooses among loops that lie in each other. Of loops round the same centre the front inner border of the
+/// opening wins: from the outermost loop inwards as long as the ring passed over is uniform, as the four
+/// sides of a frame are (same plane, same paint) and those of a reveal are not. Without a uniform ring there
+/// is no frame: the outermost loop is the opening's front. A loop that holds panes wins over each of them.
+class NestedLoops {
+ public:
+  explicit NestedLoops(const NestedLoopsParams& params) : params_(params) {}
+
+  /// \param quads in pixels of `image`; scores in the same order
+  /// \param tolerance_px uncertainty of a loop's position [px]
+  std::vector<LoopVerdict> run(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& quads,
+                               const std::vector<double>& scores, double tolerance_px) const;
+
+ private:
+  NestedLoopsParams params_;
+};
+
+/// Which of the rivals is the opening, by their geometry alone: of the variants of a loop the best, of loops
+/// round each other the front inner border.
+class LoopJudge {
+ public:
+  explicit LoopJudge(const NestedLoopsParams& params) : params_(params), nested_(params) {}
+
+  /// Sets the verdicts. \param factor pixels of the image a pixel of the search level
+  void judge(const cv::Mat& image, int factor, std::vector<Rival>& rivals) const;
+
+ private:
+  bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b,
+                 double tolerance_px) const;
+  std::vector<Rival*> bestOfVariants(std::vector<Rival>& rivals, double tolerance_px) const;
+
+  NestedLoopsParams params_;
+  NestedLoops nested_;
+};
+
+}  // namespace window_ingress::detection
