@@ -40,8 +40,7 @@ std::string imageFault(const cv::Mat& image) {
 }  // namespace
 
 struct WindowDetector::Impl {
-  explicit Impl(const DetectorParams& p)
-      : params(p), search(p), reference(p), loops(p.nested), refinement(p.refinement) {}
+  explicit Impl(const DetectorParams& p) : params(p), search(p), reference(p) {}
 
   std::optional<WindowObservation> judge(const cv::Mat& image, double stamp_sec,
                                          const geometry::PinholeCamera* camera);
@@ -132,11 +131,11 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
       double inliers = 0.0;
       const auto fitted = refine(rival, image, camera, inliers);
       if (!fitted) {
-        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
       if (rival.correlation && fitted->fitted < kFewestFitted) {
-        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
       if (const auto fault = reference.objectionTo(*fitted, image, camera)) {

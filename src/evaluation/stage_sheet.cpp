@@ -143,7 +143,7 @@ void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const d
 void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet) {
   detection::Preprocess preprocess(params.preprocess);
   detection::EdgeDetector edges(params.edges);
-  detection::EdgeRuns runs(params.runs);
+  detection::EdgeRuns runs;
   detection::LineSupport lines(params.lines);
   detection::LevelLens lens;  // no calibration: the picture is taken as free of distortion
   detection::Closing closing(params.closing);

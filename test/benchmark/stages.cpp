@@ -26,13 +26,13 @@ struct Stages {
   Preprocess preprocess{params.preprocess};
   EdgeDetector edges{params.edges};
   LevelLens lens;
-  EdgeRuns runs{params.runs};
+  EdgeRuns runs;
   LineSupport lines{params.lines};
   Closing closing{params.closing};
   ContourPolygons contours{params.contours};
   SegmentQuads quads{params.segment_quads};
   CandidateSearch search{params};
-  BorderRefinement borders{params.refinement};
+  BorderRefinement borders;
   SearchLevel level;
   EdgeMap map;
   std::vector<Segment> segments;

@@ -4,7 +4,6 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -20,18 +19,10 @@ struct RefinedBorders {
   double worst_inliers = 0.0;  ///< part of the profiles on the line, of the worst side
 };
 
-/// Which of several edges near a side's start is its border.
-enum class EdgeChoice {
-  kNearest,      ///< the strongest, those near the start counting more
-  kFirstInward,  ///< coming from outside, the first: where the paint of a frame ends towards its opening
-  kFirstOutward  ///< coming from inside, the first: where the paint of a frame ends towards the wall
-};
-
 /// Where a fit starts and what it may take.
 struct BorderStart {
   geometry::Quadrilateral quad;  ///< canonical order, pixels of the image
   double radius_px = 2.5;        ///< how far a border may lie from its start [px]
-  EdgeChoice choice = EdgeChoice::kNearest;
   /// Standard deviation of the start: a side whose border cannot be fitted stays where it started; 0: no
   /// result then.
   double fallback_sigma_px = 0.0;
@@ -44,7 +35,9 @@ struct BorderStart {
 /// image. Each side is sampled once, in narrow profiles. One object a thread: it keeps its memory.
 class BorderRefinement {
  public:
-  explicit BorderRefinement(const BorderRefinementParams& params);
+  static constexpr double kMinInliers = 0.4;  ///< part of a side's profiles that must lie on its line
+
+  BorderRefinement();
   ~BorderRefinement();
   BorderRefinement(BorderRefinement&&) noexcept;
   BorderRefinement& operator=(BorderRefinement&&) noexcept;
@@ -58,7 +51,6 @@ class BorderRefinement {
   struct Workspace;
 
  private:
-  BorderRefinementParams params_;
   std::unique_ptr<Workspace> memory_;
 };
 

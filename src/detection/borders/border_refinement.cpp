@@ -15,18 +15,18 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3f;
 
+constexpr int kSamples = 80;    ///< profiles across each side, at most one a pixel
+constexpr double kSkip = 0.06;  ///< left out at both ends of a side, in its lengths
 constexpr double kNominalSide =
     640.0;  ///< longer side of a picture up to which pixel parameters hold as they are
 constexpr double kFaintestChange =
     3.0;                             ///< of the mean colour over two pixels that may be an edge [grey levels]
-constexpr double kNarrowPx = 0.8;    ///< prior of an edge beside stronger ones
 constexpr double kWidePx = 1e3;      ///< no prior
 constexpr double kShortestPx = 4.0;  ///< a side that can be fitted [px]
 constexpr double kBesidePx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
 constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
 constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
 constexpr double kMostInliers = 0.7;
-constexpr double kFaintPart = 0.05;  ///< or this part of the largest one near it
 
 }  // namespace
 
@@ -44,8 +44,8 @@ namespace {
 /// One side while it is being fitted: profiles once, then everything from them.
 class Side {
  public:
-  Side(BorderRefinement::Workspace& memory, const BorderRefinementParams& params, const BorderStart& start)
-      : memory_(memory), params_(params), start_(start) {}
+  Side(BorderRefinement::Workspace& memory, const BorderFitLimits& limits, const BorderStart& start)
+      : memory_(memory), limits_(limits), start_(start) {}
 
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
     return run(image, lens, a, b, start_.radius_px);
@@ -81,23 +81,16 @@ class Side {
  private:
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b,
            double radius_px) {
-    const bool nearest = start_.choice == EdgeChoice::kNearest;
-    const int choice = static_cast<int>(std::ceil(radius_px));
-    const int reach =
-        choice + static_cast<int>(std::ceil((nearest ? 1.0 : 2.0) * params_.final_radius_px)) + 2;
-    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * params_.skip)), 4, params_.samples);
-    memory_.profiles.sample(image, lens, {a, b, count_, params_.skip, reach});
-    chooseEdge(choice);
+    const int radius = static_cast<int>(std::ceil(radius_px));
+    const int reach = radius + static_cast<int>(std::ceil(limits_.radius_px)) + 2;
+    count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * kSkip)), 4, kSamples);
+    memory_.profiles.sample(image, lens, {a, b, count_, kSkip, reach});
+    chooseEdge(radius);
     memory_.fit.project(memory_.profiles, colour_);
-    const double reach_px = nearest ? radius_px : params_.final_radius_px;
-    const double chosen_px = border_.line.offset;
-    if (!fit({reach_px, nearest ? 0.6 * reach_px : kNarrowPx, std::max(params_.outlier_px, 0.35 * reach_px)}))
-      return false;
-    if (!fit({params_.final_radius_px, nearest ? kWidePx : kNarrowPx, params_.outlier_px}) ||
-        strays(nearest ? 0.0 : chosen_px) > reach_px)
-      return false;
-    if (nearest) toFront();
-    stray_px_ = strays(0.0);
+    if (!fit({radius_px, 0.6 * radius_px, std::max(limits_.outlier_px, 0.35 * radius_px)})) return false;
+    if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > radius_px) return false;
+    toFront();
+    stray_px_ = stray();
     fitted_ = stray_px_ <= start_.max_stray_px;
     return fitted_;
   }
@@ -119,10 +112,10 @@ class Side {
                         border_);
   }
 
-  // How far an end of the fitted line is from the start, moved by `offset`.
-  double strays(double offset) const {
+  // How far an end of the fitted line is from the start.
+  double stray() const {
     const double half = 0.5 * memory_.profiles.length();
-    return std::max(std::abs(border_.line.at(-half) - offset), std::abs(border_.line.at(half) - offset));
+    return std::max(std::abs(border_.line.at(-half)), std::abs(border_.line.at(half)));
   }
 
   // Where the side as a whole changes, and the direction in colour space in which it does.
@@ -143,11 +136,8 @@ class Side {
       memory_.changes.push_back(change);
       memory_.sizes.push_back(change.norm());
     }
-    const int at = start_.choice == EdgeChoice::kNearest
-                       ? strongest(memory_.sizes, radius)
-                       : first(memory_.sizes, start_.choice == EdgeChoice::kFirstInward);
+    const int at = strongest(memory_.sizes, radius);
     if (memory_.sizes[at] > 0.0f) colour_ = memory_.changes[at] / memory_.sizes[at];
-    if (start_.choice != EdgeChoice::kNearest) border_.line.offset = at - radius;
   }
 
   static int strongest(const std::vector<float>& changes, double radius_px) {
@@ -161,30 +151,16 @@ class Side {
     return at;
   }
 
-  // The first change that stands out, from the last element on if `inward`, else from the first on.
-  static int first(const std::vector<float>& changes, bool inward) {
-    const int count = static_cast<int>(changes.size());
-    const double largest = *std::max_element(changes.begin(), changes.end());
-    const double limit = std::max(kFaintestChange, kFaintPart * largest);
-    for (int n = 0; n < count; ++n) {
-      const int k = inward ? count - 1 - n : n, next = inward ? k - 1 : k + 1;
-      const bool falls = next < 0 || next >= count || changes[next] <= changes[k];
-      if (changes[k] > limit && falls) return k;
-    }
-    return count / 2;
-  }
-
   bool fit(const BorderFitLimits& limits) {
     BorderFitLimits all = limits;
-    all.sigma_floor_px = params_.sigma_floor_px;
     inliers_ = 0.0;
     if (!memory_.fit.run(all, border_)) return false;
     inliers_ = static_cast<double>(border_.inliers) / count_;
-    return inliers_ >= params_.min_inliers;
+    return inliers_ >= BorderRefinement::kMinInliers;
   }
 
   BorderRefinement::Workspace& memory_;
-  const BorderRefinementParams& params_;
+  const BorderFitLimits& limits_;  // of the last pass, for this image's size
   const BorderStart& start_;
   int count_ = 0;
   FittedBorder border_;
@@ -220,8 +196,7 @@ bool finish(const std::array<Line, 4>& lines, const geometry::PinholeCamera* len
 
 }  // namespace
 
-BorderRefinement::BorderRefinement(const BorderRefinementParams& params)
-    : params_(params), memory_(std::make_unique<Workspace>()) {}
+BorderRefinement::BorderRefinement() : memory_(std::make_unique<Workspace>()) {}
 BorderRefinement::~BorderRefinement() = default;
 BorderRefinement::BorderRefinement(BorderRefinement&&) noexcept = default;
 BorderRefinement& BorderRefinement::operator=(BorderRefinement&&) noexcept = default;
@@ -229,10 +204,10 @@ BorderRefinement& BorderRefinement::operator=(BorderRefinement&&) noexcept = def
 std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const BorderStart& start,
                                                     const geometry::PinholeCamera* camera,
                                                     double* worst_inliers) const {
-  BorderRefinementParams params = params_;
+  BorderFitLimits limits;
   const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
-  params.final_radius_px *= scale;
-  params.outlier_px *= scale;
+  limits.radius_px *= scale;
+  limits.outlier_px *= scale;
   const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
   std::array<Line, 4> lines;
   RefinedBorders borders;
@@ -245,7 +220,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     const Vector2d a = lens ? lens->undistort(from) : from, b = lens ? lens->undistort(to) : to;
     good = (b - a).norm() > kShortestPx;
     if (!good) break;
-    Side side(*memory_, params, start);
+    Side side(*memory_, limits, start);
     good = side.run(image, lens, a, b) || start.fallback_sigma_px > 0.0;
     if (good && !side.fitted()) side.runWider(image, lens, a, b);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());

@@ -15,7 +15,6 @@ struct SideSupport {
   double fraction = 0.0;   ///< part of the side that runs along edge pixels of its direction
   double contrast = 0.0;   ///< mean gradient under it [grey levels a pixel]
   double overshoot = 0.0;  ///< part of the stretches beyond its two ends where the edge goes on, as in a grid
-  double polarity = 0.0;   ///< +1 brighter inside all along, -1 darker inside all along
 };
 
 /// A quadrilateral that may be the window, in pixels of the search level, canonical order.

@@ -6,6 +6,18 @@
 namespace window_ingress::detection {
 namespace {
 
+constexpr double kSupportLow = 0.4;       ///< support of a side that counts nothing
+constexpr double kOvershootWeight = 1.0;  ///< exponent of the part that sides end at their corners
+constexpr double kAreaFull =
+    0.06;  ///< area from which size makes no difference to the rank, in areas of the image
+constexpr double kAreaWeight = 0.45;    ///< exponent of the area's part in the rank
+constexpr double kClosureWeight = 0.5;  ///< exponent of the closure's part
+constexpr double kGeometryWeight =
+    0.25;  ///< exponent of all of the above where there is a reference to compare with
+constexpr double kWorthWeight = 0.7;  ///< exponent of the worth of its borders, beside the reference's
+constexpr double kBorderPart =
+    0.003;  ///< a corner this close to the image's border is cut, in longer sides of the image
+constexpr double kMeanSideSupport = 0.7;  ///< least support of the four sides together
 constexpr double kRightAngle = 1.5707963267948966;
 
 double worstAngle(const geometry::Quadrilateral& quad) {
@@ -37,7 +49,7 @@ std::optional<Rejection> CandidateGates::shape(const Candidate& candidate, const
   const double angle = worstAngle(candidate.quad);
   if (angle > params_.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params_.max_angle_rad};
   const double margin = distanceToBorder(candidate.seen, image);
-  const double limit = params_.border * std::max(image.width, image.height);
+  const double limit = kBorderPart * std::max(image.width, image.height);
   if (margin < limit) return Rejection{RejectReason::kBorder, margin, limit};
   return std::nullopt;
 }
@@ -51,33 +63,31 @@ std::optional<Rejection> CandidateGates::support(const Candidate& candidate) con
   }
   if (least < params_.min_side_support)
     return Rejection{RejectReason::kLineSupport, least, params_.min_side_support};
-  if (sum / 4.0 < params_.mean_side_support)
-    return Rejection{RejectReason::kLineSupport, sum / 4.0, params_.mean_side_support};
+  if (sum / 4.0 < kMeanSideSupport) return Rejection{RejectReason::kLineSupport, sum / 4.0, kMeanSideSupport};
   if (contrast < params_.min_contrast)
     return Rejection{RejectReason::kContrast, contrast, params_.min_contrast};
   return std::nullopt;
 }
 
-double windowScore(const Candidate& candidate, const WindowScoreParams& params) {
+double windowScore(const Candidate& candidate) {
   double least = 1.0, sum = 0.0, overshoot = 0.0;
   for (const SideSupport& side : candidate.sides) {
     least = std::min(least, side.fraction);
     sum += 0.25 * side.fraction;
     overshoot += 0.25 * side.overshoot;
   }
-  const double support =
-      std::max(0.0, (0.5 * (least + sum) - params.support_low) / (1.0 - params.support_low));
-  return std::min(1.0, support) * std::pow(candidate.closure, params.closure_weight) *
-         std::pow(1.0 - overshoot, params.overshoot_weight);
+  const double support = std::max(0.0, (0.5 * (least + sum) - kSupportLow) / (1.0 - kSupportLow));
+  return std::min(1.0, support) * std::pow(candidate.closure, kClosureWeight) *
+         std::pow(1.0 - overshoot, kOvershootWeight);
 }
 
-double scoreWithReference(double geometry, double worth, const WindowScoreParams& params) {
-  return std::pow(geometry, params.geometry_weight) * std::pow(worth, params.worth_weight);
+double scoreWithReference(double geometry, double worth) {
+  return std::pow(geometry, kGeometryWeight) * std::pow(worth, kWorthWeight);
 }
 
-double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params) {
+double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image) {
   const double area = std::abs(geometry::signedArea(quad)) / std::max(1, image.area());
-  return std::pow(std::min(1.0, area / params.area_full), params.area_weight);
+  return std::pow(std::min(1.0, area / kAreaFull), kAreaWeight);
 }
 
 }  // namespace window_ingress::detection

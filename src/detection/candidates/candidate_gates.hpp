@@ -33,13 +33,13 @@ class CandidateGates {
 /// How much a candidate is like a window, by geometry alone: 0 (barely a quadrilateral) to 1. Product of the
 /// support of its sides, the weakest counting most, and how well they end at their corners. It does not
 /// depend on its size.
-double windowScore(const Candidate& candidate, const WindowScoreParams& params);
+double windowScore(const Candidate& candidate);
 
 /// The same where the borders of the reference were looked for: what they look like counts most.
 /// \param worth of its borders, see ReferenceBorders
-double scoreWithReference(double geometry, double worth, const WindowScoreParams& params);
+double scoreWithReference(double geometry, double worth);
 
 /// Factor by which a larger candidate is preferred to a smaller one, up to 1.
-double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image, const WindowScoreParams& params);
+double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image);
 
 }  // namespace window_ingress::detection

@@ -36,7 +36,6 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
     : params_(params),
       preprocess_(params.preprocess),
       edges_(params.edges),
-      runs_(params.runs),
       lines_(params.lines),
       closing_(params.closing),
       contours_(params.contours),
@@ -117,7 +116,7 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
     for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
     auto rejection = gates_.shape(candidate, level_size_);
     if (!rejection) {
-      candidate.sides = measureSides(*map_, lens_, candidate.quad, params_.side_support);
+      candidate.sides = measureSides(*map_, lens_, candidate.quad);
       rejection = gates_.support(candidate);
     }
     rival.quad = inFullImage(candidate.seen, factor_);
@@ -126,8 +125,8 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
       trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
       continue;
     }
-    rival.score = windowScore(candidate, params_.score);
-    rival.size = sizeRank(candidate.quad, level_size_, params_.score);
+    rival.score = windowScore(candidate);
+    rival.size = sizeRank(candidate.quad, level_size_);
     rival.proposal = rival.rank();
     admitted_.push_back(rival);
   }

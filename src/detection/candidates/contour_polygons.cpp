@@ -10,6 +10,10 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kHullExcess = 0.12;  ///< the four lines round a hull may add this part of its area
+constexpr double kClosure = 0.7;    ///< of an outline: closed, but its corners are no better than the outline
+constexpr int kMaxContours = 3000;  ///< looked at in one image
+
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Where the side before `a` and the side after `b` meet if side a-b is taken away, and the area that adds.
@@ -103,12 +107,12 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
   if (polygon_.size() == 4) quad = geometry::canonical(toQuad(polygon_));
   if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_, lines_);
   const double excess = quad ? geometry::signedArea(*quad) / hull_area - 1.0 : 1.0;
-  if (excess > params_.hull_excess) {
+  if (excess > kHullExcess) {
     result_.rejected.push_back({boundingQuad(outline), CandidateSource::kContour, RejectReason::kCorners,
                                 static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0, 0.0, 0.0});
     return;
   }
-  candidate.closure = params_.closure;
+  candidate.closure = kClosure;
   candidate.quad = candidate.seen = grown(*quad, grow_px);
   result_.candidates.push_back(candidate);
 }
@@ -118,8 +122,8 @@ const ContourPolygons::Result& ContourPolygons::run(const cv::Mat& closed, doubl
   result_.rejected.clear();
   cv::findContours(closed, outlines_, tree_, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
   result_.contours = static_cast<int>(outlines_.size());
-  result_.budget_exceeded = result_.contours > params_.max_contours;
-  const int count = std::min(result_.contours, params_.max_contours);
+  result_.budget_exceeded = result_.contours > kMaxContours;
+  const int count = std::min(result_.contours, kMaxContours);
   const double min_perimeter_px = params_.min_perimeter * std::max(closed.cols, closed.rows);
   for (int i = 0; i < count; ++i) {
     const bool is_hole = tree_[i][3] >= 0;

@@ -9,6 +9,12 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kMaxTurn_rad =
+    0.7;  ///< a pixel follows another if their gradients differ less than this [rad]
+constexpr double kStraightPx =
+    0.9;                       ///< a run leaves its chord by less than this, at a level side of 320 [px]
+constexpr double kBow = 0.02;  ///< a run leaves its chord by this part of it besides: lenses bend
+constexpr int kMinPixels = 4;  ///< of a run; shorter ones are dropped
 constexpr double kNominalSide = 320.0;
 constexpr short kSteps[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
@@ -37,8 +43,7 @@ Vector2d LineMoments::along() const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-EdgeRuns::EdgeRuns(const EdgeRunsParams& params)
-    : params_(params), min_square_cosine_(static_cast<float>(std::pow(std::cos(params.turn_rad), 2))) {}
+EdgeRuns::EdgeRuns() : min_square_cosine_(static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2))) {}
 
 // The free neighbour that goes on in the direction of the edge, the straightest first.
 bool EdgeRuns::next(const EdgeMap& map, int sense, Pixel& at) {
@@ -67,7 +72,7 @@ void EdgeRuns::follow(const EdgeMap& map, Pixel at, int sense, std::vector<Pixel
 
 // A run from a part of the chain.
 void EdgeRuns::emit(std::size_t first, std::size_t last) {
-  if (last - first + 1 < static_cast<std::size_t>(params_.min_pixels)) return;
+  if (last - first + 1 < static_cast<std::size_t>(kMinPixels)) return;
   EdgeRun run;
   Vector2d gradient = Vector2d::Zero();
   for (std::size_t i = first; i <= last; ++i) {
@@ -111,7 +116,7 @@ void EdgeRuns::cut(const LevelLens& lens) {
       const double off = std::abs(chord.x() * d.y() - chord.y() * d.x());
       if (off > furthest) furthest = off, at = i;
     }
-    if (furthest > (straight_px_ + params_.bow * length) * length) {
+    if (furthest > (straight_px_ + kBow * length) * length) {
       parts_.emplace_back(at, last);
       parts_.emplace_back(first, at);
     } else {
@@ -124,7 +129,7 @@ const std::vector<EdgeRun>& EdgeRuns::run(const EdgeMap& map, const LevelLens& l
   runs_.clear();
   pixels_.clear();
   map.edges.copyTo(free_);
-  straight_px_ = params_.straight_px * std::max(1.0, std::max(free_.cols, free_.rows) / kNominalSide);
+  straight_px_ = kStraightPx * std::max(1.0, std::max(free_.cols, free_.rows) / kNominalSide);
   for (int y = 1; y + 1 < free_.rows; ++y) {
     uchar* row = free_.ptr(y);
     for (int x = 1; x + 1 < free_.cols; ++x) {
@@ -138,7 +143,7 @@ const std::vector<EdgeRun>& EdgeRuns::run(const EdgeMap& map, const LevelLens& l
       follow(map, start, 1, forward_);
       backward_.insert(backward_.end(), forward_.begin(), forward_.end());
       forward_.swap(backward_);
-      if (forward_.size() >= static_cast<std::size_t>(params_.min_pixels)) cut(lens);
+      if (forward_.size() >= static_cast<std::size_t>(kMinPixels)) cut(lens);
     }
   }
   return runs_;

@@ -35,7 +35,7 @@ struct EdgeRun {
 /// is looked at once. The runs are what the Hough transform votes with.
 class EdgeRuns {
  public:
-  explicit EdgeRuns(const EdgeRunsParams& params);
+  EdgeRuns();
 
   /// In the order of the image, from top to bottom. Valid until the next call.
   const std::vector<EdgeRun>& run(const EdgeMap& map, const LevelLens& lens);
@@ -56,7 +56,6 @@ class EdgeRuns {
   void cut(const LevelLens& lens);
   void emit(std::size_t first, std::size_t last);
 
-  EdgeRunsParams params_;
   float min_square_cosine_;
   cv::Mat free_;  ///< CV_8UC1, edge pixels that belong to no chain yet
   std::vector<Pixel> forward_, backward_;

@@ -8,6 +8,12 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kOffLine =
+    0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
+constexpr double kBow = 0.02;  ///< runs lie further off a line by this part of its pixels: lenses bend
+constexpr double kJoinGap =
+    0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
+constexpr int kMaxSegments = 300;  ///< the strongest are kept
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
 constexpr double kLeastSeed = 0.6;    ///< part of the shortest segment that one run of it must cover
@@ -50,7 +56,7 @@ void LineSupport::prepare(const cv::Size& level) {
   const double side = std::max(level.width, level.height);
   min_length_px_ = std::max(5.0, params_.min_length * side);
   max_gap_px_ = params_.max_gap * side;
-  off_line_px_ = std::max(0.9, params_.off_line * side);
+  off_line_px_ = std::max(0.9, kOffLine * side);
   centre_ = 0.5 * Vector2d(level.width, level.height);
   rhos_ = static_cast<int>(2.6 * centre_.norm() / kRhoStepPx) + 2;
   if (normals_.empty())
@@ -113,7 +119,7 @@ void LineSupport::collect(const std::vector<EdgeRun>& runs, int seed) {
         asked_[i] = seed;
         const Vector2d apart = middles_[i] - mean;
         const double ahead = along.dot(apart), off = std::abs(across.dot(apart));
-        if (i == seed || off > 2.0 * off_line_px_ + (kSpread + params_.bow) * std::abs(ahead)) continue;
+        if (i == seed || off > 2.0 * off_line_px_ + (kSpread + kBow) * std::abs(ahead)) continue;
         const double half = 0.5 * runs[i].moments.n;
         members_.push_back({ahead - half, ahead + half, i});
       }
@@ -133,7 +139,7 @@ void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments&
     if (way * (far - end) <= 0.0) continue;
     if (way * (near - end) > max_gap_px_) break;
     const EdgeRun& other = runs[m.run];
-    const double off_px = off_line_px_ + params_.bow * moments.n;
+    const double off_px = off_line_px_ + kBow * moments.n;
     if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px)
       continue;
     moments.add(other.moments);
@@ -190,10 +196,10 @@ const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, c
     return (p.b - p.a).squaredNorm() * p.contrast > (q.b - q.a).squaredNorm() * q.contrast;
   };
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
-  if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
-  joinCollinear(segments_, params_.join_gap, off_line_px_, params_.bow);
+  if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
+  joinCollinear(segments_, kJoinGap, off_line_px_, kBow);
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
-  if (static_cast<int>(segments_.size()) > params_.max_segments) segments_.resize(params_.max_segments);
+  if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
   return segments_;
 }
 

@@ -10,6 +10,12 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
+constexpr double kMaxRing = 0.25;   ///< width of a frame, in mean sides of its outer border
+constexpr double kRingRatio = 3.0;  ///< widest over narrowest side of a frame
+constexpr double kUniform = 22.0;   ///< colours of a frame's four sides differ less than this [grey levels]
+constexpr double kContainerScore =
+    1.0;                            ///< a loop round panes wins if its score is at least this part of theirs
+constexpr double kMaxPanes = 40.0;  ///< area of a window over the area of its smallest pane
 constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
 constexpr double kVariantOverlap =
     0.6;  ///< loops that overlap more, and are not round each other, are one window
@@ -80,8 +86,7 @@ double ringSpread(const cv::Mat& image, const Quadrilateral& outer, const Quadri
   return spread;
 }
 
-bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px,
-                  const NestedLoopsParams& params) {
+bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
   if (!isWithin(outer, inner, 0.0)) return false;
   double least = 1e9, most = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -89,8 +94,8 @@ bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double
     least = std::min(least, width);
     most = std::max(most, width);
   }
-  return most <= params.max_ring * meanSide(outer) + tolerance_px && most > tolerance_px &&
-         most + tolerance_px <= params.ring_ratio * (least + tolerance_px);
+  return most <= kMaxRing * meanSide(outer) + tolerance_px && most > tolerance_px &&
+         most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 
 std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
@@ -112,8 +117,8 @@ std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vecto
       const int inner = order[b];
       if (verdicts[inner].reject != RejectReason::kNone) continue;
       if (!isWithin(quads[front], quads[inner], tolerance_px)) continue;
-      if (isConcentric(quads[front], quads[inner], tolerance_px, params_) &&
-          ringSpread(image, quads[front], quads[inner]) < params_.uniform) {
+      if (isConcentric(quads[front], quads[inner], tolerance_px) &&
+          ringSpread(image, quads[front], quads[inner]) < kUniform) {
         const cv::Vec3d colour = ringColour(image, quads[front], quads[inner]);
         if (front == outer) paint = colour;
         if (cv::norm(colour - paint) < kContinued) {
@@ -123,8 +128,7 @@ std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vecto
           continue;
         }
       }
-      if (areas[front] <= params_.max_panes * areas[inner] &&
-          scores[front] >= params_.container_score * scores[inner])
+      if (areas[front] <= kMaxPanes * areas[inner] && scores[front] >= kContainerScore * scores[inner])
         verdicts[inner] = {RejectReason::kPane, front, false};
     }
   }
@@ -136,8 +140,8 @@ bool LoopJudge::isVariant(const geometry::Quadrilateral& a, const geometry::Quad
                           double tolerance_px) const {
   const double size = std::max(std::abs(geometry::signedArea(a)), std::abs(geometry::signedArea(b)));
   if ((geometry::centroid(a) - geometry::centroid(b)).squaredNorm() > size) return false;
-  return geometry::intersectionOverUnion(a, b) > kVariantOverlap &&
-         !isConcentric(a, b, tolerance_px, params_) && !isConcentric(b, a, tolerance_px, params_);
+  return geometry::intersectionOverUnion(a, b) > kVariantOverlap && !isConcentric(a, b, tolerance_px) &&
+         !isConcentric(b, a, tolerance_px);
 }
 
 std::vector<Rival*> LoopJudge::bestOfVariants(std::vector<Rival>& rivals, double tolerance_px) const {

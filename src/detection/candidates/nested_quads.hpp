@@ -16,7 +16,7 @@ double ringSpread(const cv::Mat& image, const geometry::Quadrilateral& outer,
 /// True if `inner` lies within `outer` with a border of about the same width all round.
 /// \param tolerance_px uncertainty of that width [px]
 bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrilateral& inner,
-                  double tolerance_px, const NestedLoopsParams& params);
+                  double tolerance_px);
 
 /// Chooses among loops that lie in each other. Of loops round the same centre the front inner border of the
 /// opening wins: from the outermost loop inwards as long as the ring passed over is uniform, as the four
@@ -24,23 +24,16 @@ bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrila
 /// is no frame: the outermost loop is the opening's front. A loop that holds panes wins over each of them.
 class NestedLoops {
  public:
-  explicit NestedLoops(const NestedLoopsParams& params) : params_(params) {}
-
   /// \param quads in pixels of `image`; scores in the same order
   /// \param tolerance_px uncertainty of a loop's position [px]
   std::vector<LoopVerdict> run(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& quads,
                                const std::vector<double>& scores, double tolerance_px) const;
-
- private:
-  NestedLoopsParams params_;
 };
 
 /// Which of the rivals is the opening, by their geometry alone: of the variants of a loop the best, of loops
 /// round each other the front inner border.
 class LoopJudge {
  public:
-  explicit LoopJudge(const NestedLoopsParams& params) : params_(params), nested_(params) {}
-
   /// Sets the verdicts. \param factor pixels of the image a pixel of the search level
   void judge(const cv::Mat& image, int factor, std::vector<Rival>& rivals) const;
 
@@ -49,7 +42,6 @@ class LoopJudge {
                  double tolerance_px) const;
   std::vector<Rival*> bestOfVariants(std::vector<Rival>& rivals, double tolerance_px) const;
 
-  NestedLoopsParams params_;
   NestedLoops nested_;
 };
 

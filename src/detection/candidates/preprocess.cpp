@@ -6,8 +6,9 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kClipLimit = 2.0;  ///< of the equalisation [mean bin counts]
-constexpr int kTiles = 6;           ///< of the equalisation, each way
+constexpr double kColourGain = 2.0;  ///< of differences between channels, in the picture of colours alone
+constexpr double kClipLimit = 2.0;   ///< of the equalisation [mean bin counts]
+constexpr int kTiles = 6;            ///< of the equalisation, each way
 
 }  // namespace
 
@@ -34,7 +35,7 @@ SearchLevel Preprocess::run(const cv::Mat& image) {
 const cv::Mat& Preprocess::coloursAlone() {
   colours_.release();
   if (smooth_.channels() != 3) return colours_;
-  const float half = static_cast<float>(0.5 * params_.colour_gain), middle = 128.0F;
+  const float half = static_cast<float>(0.5 * kColourGain), middle = 128.0F;
   const cv::Matx34f differences(0.0F, -half, half, middle,                 //
                                 half, -0.5F * half, -0.5F * half, middle,  //
                                 -half, 0.0F, half, middle);

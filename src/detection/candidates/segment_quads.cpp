@@ -9,6 +9,10 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kMeanCoverage = 0.65;  ///< least mean coverage of the four sides
+constexpr double kMinAngle_rad = 0.6;   ///< between neighbouring sides [rad]
+constexpr double kOddSide =
+    0.95;  ///< factor for each side that is brighter inside where most are darker, or so
 constexpr double kSlackPx = 3.0;
 constexpr double kRoundedPx = 1.5;       ///< edges end this far before a corner
 constexpr std::size_t kVariants = 4;     ///< of each loop that is kept so many are compared
@@ -151,7 +155,7 @@ void SegmentQuads::consider(const std::vector<Segment>& segments, const Base& ba
   const double covered[4] = {coverage(ij.t_own, il.t_own), coverage(ij.t_other, jk.t_own),
                              coverage(jk.t_other, lk.t_other), coverage(lk.t_own, il.t_other)};
   const double mean = 0.25 * (covered[0] + covered[1] + covered[2] + covered[3]);
-  if (mean < params_.mean_coverage || *std::min_element(covered, covered + 4) < params_.min_coverage) return;
+  if (mean < kMeanCoverage || *std::min_element(covered, covered + 4) < params_.min_coverage) return;
   const auto quad = geometry::canonical({ij.point, jk.point, lk.point, il.point});
   if (!quad) return;
   const double area = geometry::signedArea(*quad), size_px = std::sqrt(area);
@@ -161,7 +165,7 @@ void SegmentQuads::consider(const std::vector<Segment>& segments, const Base& ba
                                                &segments[il.other]};
   const int bright = brighterInside(sides, 0.25 * (ij.point + jk.point + lk.point + il.point));
   const int odd = std::min(bright, 4 - bright);
-  const double even = odd == 0 ? 1.0 : odd == 1 ? params_.odd_side : params_.odd_side * params_.odd_side;
+  const double even = odd == 0 ? 1.0 : odd == 1 ? kOddSide : kOddSide * kOddSide;
   found_.push_back({mean * closed * even * std::sqrt(size_px), closed * even, *quad});
 }
 
@@ -204,7 +208,7 @@ const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segmen
   combinations_ = 0;
   min_area_px_ = min_area_px;
   tolerance_ = -std::log(effort.min_closure);
-  min_sine_ = std::sin(params_.min_angle_rad);
+  min_sine_ = std::sin(kMinAngle_rad);
   connect(segments);
   for (int i = 0; i < count_; ++i)
     for (int side : {kLeft, kRight}) combineFrom(segments, i, side);

@@ -19,6 +19,10 @@ class SegmentQuads {
     bool budget_exceeded = false;
   };
 
+  static constexpr double kClosurePx =
+      1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
+  static constexpr double kClosureSide = 0.02;  ///< added to that, in mean sides of the quadrilateral
+
   explicit SegmentQuads(const SegmentQuadsParams& params) : params_(params) {}
 
   /// Where the search stops: the strongest segments are combined to what is closed so far at least, the best
@@ -75,9 +79,7 @@ class SegmentQuads {
   void consider(const std::vector<Segment>& segments, const Base& base, const Junction& jk,
                 const Junction& lk, double gap_px);
   double mostGap(double size_px) const { return tolerance_ * closurePx(size_px); }
-  double closurePx(double size_px) const {
-    return 8.0 * (params_.closure_px + params_.closure_side * size_px);
-  }
+  double closurePx(double size_px) const { return 8.0 * (kClosurePx + kClosureSide * size_px); }
   const Junction& between(int i, int j) const { return junctions_[i][places_[i * count_ + j]]; }
   std::uint64_t* corners(int i, int way, int side) { return &corners_[((i * 2 + way) * 2 + side) * words_]; }
   void keepBest();

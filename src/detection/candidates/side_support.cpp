@@ -8,6 +8,10 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kTolerancePx = 2.0;  ///< distance of an edge pixel from the side, on the search level [px]
+constexpr double kDirection_rad = 0.35;  ///< angle between its gradient and the side's normal [rad]
+constexpr double kBeyond = 0.2;    ///< stretch beyond each corner that is looked at, in lengths of the side
+constexpr double kSkip = 0.06;     ///< left out at both ends: corners are rounded, in lengths of the side
 constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
 
 /// The edges, and the lens that bends them.
@@ -69,45 +73,41 @@ double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way
   return sum / samples;
 }
 
-SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b,
-                        const SideSupportParams& params) {
+SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b) {
   SideSupport support;
   const Vector2d along = b - a;
   const double length = along.norm();
   if (length < 1.0) return support;
-  const double cosine = std::cos(params.direction_rad), square_cosine = cosine * cosine;
+  const double cosine = std::cos(kDirection_rad), square_cosine = cosine * cosine;
   const Probe probe = {Vector2d(along.y(), -along.x()) / length, square_cosine,
-                       static_cast<int>(std::lround(params.tolerance_px))};
-  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * params.skip)), 4, 16);
-  int hits = 0, darker_outside = 0;
+                       static_cast<int>(std::lround(kTolerancePx))};
+  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * kSkip)), 4, 16);
+  int hits = 0;
   double strength = 0.0, worth = 0.0;
   for (int i = 0; i < samples; ++i) {
-    const double t = params.skip + (1.0 - 2.0 * params.skip) * (i + 0.5) / samples;
+    const double t = kSkip + (1.0 - 2.0 * kSkip) * (i + 0.5) / samples;
     const Hit hit = hitNear(level, a + t * along, probe);
     if (hit.worth <= 0.0) continue;
     ++hits;
     worth += hit.worth;
     strength += std::abs(hit.strength);
-    darker_outside += hit.strength < 0.0;
   }
   support.fraction = worth / samples;
   support.contrast = hits ? strength / hits : 0.0;
-  const double stretch_px = std::max(4.0, params.beyond * length);
+  const double stretch_px = std::max(4.0, kBeyond * length);
   support.overshoot =
       0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine, support.contrast) +
              overshoot(level, b, along / length, stretch_px, square_cosine, support.contrast));
-  support.polarity = hits ? 2.0 * darker_outside / hits - 1.0 : 0.0;
   return support;
 }
 
 }  // namespace
 
 std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens,
-                                        const geometry::Quadrilateral& quad,
-                                        const SideSupportParams& params) {
+                                        const geometry::Quadrilateral& quad) {
   const Level level = {map, lens};
   std::array<SideSupport, 4> sides;
-  for (int i = 0; i < 4; ++i) sides[i] = measureSide(level, quad[i], quad[(i + 1) % 4], params);
+  for (int i = 0; i < 4; ++i) sides[i] = measureSide(level, quad[i], quad[(i + 1) % 4]);
   return sides;
 }
 

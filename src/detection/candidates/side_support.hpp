@@ -11,6 +11,6 @@ namespace window_ingress::detection {
 
 /// How well the sides of a quadrilateral of the undistorted level run along straight edges.
 std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens,
-                                        const geometry::Quadrilateral& quad, const SideSupportParams& params);
+                                        const geometry::Quadrilateral& quad);
 
 }  // namespace window_ingress::detection

@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
+constexpr int kMinPixels = 40;            ///< fewer pixels in a band are not compared
 constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
 constexpr double kElsewherePart = 0.1;    ///< of the other places that are nearer than `elsewhere_`
 constexpr double kLimitPart = 0.6;  ///< of that distance: the limit, somewhat nearer to it than to the target
@@ -23,12 +24,12 @@ constexpr double kEvenDistance = 0.8;     ///< in limits: where target and other
 constexpr double kHalvingDistance = 0.2;  ///< in limits: further off by this, half the odds
 
 bool same(const AppearanceParams& a, const AppearanceParams& b) {
-  return a.near_width == b.near_width && a.far_width == b.far_width && a.min_pixels == b.min_pixels;
+  return a.near_width == b.near_width && a.far_width == b.far_width;
 }
 
 std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening,
                                      const AppearanceParams& params) {
-  return ringColours(image, opening, {params.near_width, params.far_width}, params.min_pixels);
+  return ringColours(image, opening, {params.near_width, params.far_width}, kMinPixels);
 }
 
 Quadrilateral inset(const cv::Size& size, double width) {

@@ -13,7 +13,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
-constexpr double kClear = 0.006;  ///< nearer to a border colours are mixed [mean sides]
+constexpr double kInward = 0.14;   ///< borders are looked for so far inside a rough loop, in mean sides of it
+constexpr double kOutward = 0.40;  ///< borders are looked for so far outside a rough loop
+constexpr double kAlike =
+    0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
+constexpr double kContrastFull =
+    10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
+constexpr double kStepFull = 0.06;  ///< difference of the colours on both sides of a border that counts fully
+constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness beside chroma
+constexpr double kClear = 0.006;            ///< nearer to a border colours are mixed [mean sides]
 constexpr double kStrongerExponent =
     0.2;                                 ///< of a border's contrast over the strongest one's across its side
 constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that of bricks and joints is 0.08
@@ -39,7 +47,7 @@ Vector3f features(const Vector3f& bgr) {
 // The profiles of all four sides.
 void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
                                const geometry::PinholeCamera* lens, double aspect, const Effort& effort) {
-  const ProfileReach reach{params_.inward, params_.outward, aspect, effort.along, effort.across};
+  const ProfileReach reach{kInward, kOutward, aspect, effort.along, effort.across};
   measureSides(image, ideal, lens, reach, sides_);
 }
 
@@ -99,7 +107,7 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
     reference_[i] = featuresOf(reference_colours_[i]);
     double end = 0.0;
     const double contrast = sides_[i].largestChange(kThinnestFrame, kBands * kBandWidth, &end);
-    frame_widths_[i] = contrast > params_.contrast_full ? end : 0.0;
+    frame_widths_[i] = contrast > kContrastFull ? end : 0.0;
     frame += 0.25 * difference(reference_[i][1], reference_[i][kBands - 1]);
   }
   frameless_ = frame < kFaintestFrame;
@@ -107,8 +115,7 @@ void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& openin
 }
 
 double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const {
-  return std::hypot(a[0] - b[0], a[1] - b[1]) +
-         params_.brightness_weight * std::min(1.0F, std::abs(a[2] - b[2]));
+  return std::hypot(a[0] - b[0], a[1] - b[1]) + kBrightnessWeight * std::min(1.0F, std::abs(a[2] - b[2]));
 }
 
 // How far the frame ends as far outside as in the reference: 1 it does; where the reference shows no end,
@@ -150,11 +157,10 @@ double ReferenceBorders::choose(int side, double& border) const {
     const double goes_on = difference(within, beside);
     // Where the end of the frame tells the place, a faint border will do.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold)
-                                  : std::min(1.0, here / params_.contrast_full) *
-                                        std::min(1.0, goes_on / params_.step_full) *
+                                  : std::min(1.0, here / kContrastFull) * std::min(1.0, goes_on / kStepFull) *
                                         std::pow(here / strongest, kStrongerExponent);
-    const double away = at / params_.inward / kFarAway;
-    const double worth = std::exp(-off / params_.alike - 0.5 * away * away) * visible;
+    const double away = at / kInward / kFarAway;
+    const double worth = std::exp(-off / kAlike - 0.5 * away * away) * visible;
     if (worth > best) best = worth, border = at;
   }
   return best;

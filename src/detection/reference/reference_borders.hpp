@@ -22,8 +22,6 @@ class ReferenceBorders {
   static constexpr int kBands = 7;            ///< outwards from the border
   static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
 
-  explicit ReferenceBorders(const ReferenceBordersParams& params) : params_(params) {}
-
   /// \param opening inner border in the picture, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
   void forget() { known_ = false; }
@@ -61,7 +59,6 @@ class ReferenceBorders {
   double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;
 
-  ReferenceBordersParams params_;
   bool known_ = false;
   double aspect_ = 1.0;  ///< of the opening: width over height
   /// Of each side: red and green chromaticity, logarithm of the brightness over that of the outermost band.

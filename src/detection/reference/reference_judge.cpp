@@ -47,7 +47,7 @@ void choosePlaces(const std::vector<Rival>& rivals, std::vector<std::size_t>& pl
 }  // namespace
 
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
-    : appearance_(params.appearance), score_(params.score), borders_(params.borders), shape_(params.shape) {}
+    : appearance_(params.appearance), shape_(params.shape) {}
 
 // A grey picture as one of three equal channels.
 const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
@@ -82,7 +82,7 @@ std::optional<Rival> ReferenceJudge::locate(const cv::Mat& image, const geometry
   rival.located = true;
   rival.worth = found->worth;
   rival.geometry = rough.located ? rough.geometry : rough.score;
-  rival.score = scoreWithReference(rival.geometry, rival.worth, score_);
+  rival.score = scoreWithReference(rival.geometry, rival.worth);
   rival.verdict.reject = RejectReason::kNone;
   return rival;
 }

@@ -58,7 +58,6 @@ class ReferenceJudge {
   void weighOthers(const cv::Mat& image, std::vector<Rival>& rivals) const;
 
   AppearanceParams appearance_;
-  WindowScoreParams score_;
   ReferenceBorders borders_;
   RingJudge ring_;
   ReferenceShape shape_;

@@ -19,6 +19,11 @@ using Eigen::Vector3f;
 using geometry::PinholeCamera;
 using geometry::Quadrilateral;
 
+constexpr double kCornerSigmaPx = 0.3;  ///< least standard deviation of a corner, each way [px]
+constexpr double kAspectSigma =
+    0.03;  ///< of the logarithm of the aspect: how well the reference shows it, at best
+constexpr double kFrameSigmaPx = 0.03;  ///< standard deviation of the width of a frame [px]
+
 using Parameters = Eigen::Matrix<double, 7, 1>;  ///< turn, place, logarithm of the aspect over the expected
 using Residuals = Eigen::Matrix<double, 9, 1>;
 
@@ -215,11 +220,11 @@ void ReferenceShape::learn(const cv::Mat& picture, const Quadrilateral& opening)
 std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
     const Quadrilateral& corners, const std::array<Eigen::Matrix2d, 4>& covariance,
     const PinholeCamera* camera) const {
-  if (!params_.compare || !aspect_ || !camera) return std::nullopt;
+  if (!aspect_ || !camera) return std::nullopt;
   RectangleMisfit misfit;
   misfit.aspect = aspect_->value;
-  misfit.log_aspect_sigma = std::max(params_.aspect_sigma, aspect_->sigma / aspect_->value);
-  misfit.least_px = params_.corner_px;
+  misfit.log_aspect_sigma = std::max(kAspectSigma, aspect_->sigma / aspect_->value);
+  misfit.least_px = kCornerSigmaPx;
   const auto seen =
       misfit.of(undistorted(corners, camera->hasDistortion() ? camera : nullptr), covariance, *camera);
   if (!seen || *seen <= params_.sigmas) return std::nullopt;
@@ -242,14 +247,12 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
     if (width > 0.0) ratios_.push_back(width / frame_[i]), widths += frame_[i];
   }
   if (ratios_.size() < kFewestSides) return std::nullopt;
-  return middleOf(ratios_,
-                  params_.frame_px * static_cast<double>(ratios_.size()) / (widths * meanSide(ideal)));
+  return middleOf(ratios_, kFrameSigmaPx * static_cast<double>(ratios_.size()) / (widths * meanSide(ideal)));
 }
 
 std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat& image,
                                                                   const Quadrilateral& corners,
                                                                   const PinholeCamera* camera) {
-  if (!params_.compare) return std::nullopt;
   const auto seen = frameRatio(image, corners, camera);
   if (!seen) return std::nullopt;
   const double spread = params_.frame_slack + params_.sigmas * seen->sigma;

@@ -13,6 +13,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3f;
 
+constexpr int kProfiles = 18;           ///< across each side to find the border again
+constexpr int kFineProfiles = 40;       ///< across each side to fit its line
+constexpr double kMinSimilarity = 0.5;  ///< correlation of a side's profile with the remembered one, 0 to 1
+constexpr double kMinInliers = 0.4;     ///< part of a side's profiles that must lie on its line
+constexpr double kMinStretch =
+    0.06;  ///< shortest part of a side in the picture that is a border [longer image sides]
 constexpr int kSteps = 64;
 
 bool isInside(const Vector2d& p, const cv::Size& image, double margin) {
@@ -155,36 +161,35 @@ FollowedBorder BorderFollower::follow(const cv::Mat& image, const geometry::Pinh
   FollowedBorder border;
   const auto stretch = stretchInView(predicted, image.size(), kViewMarginPx, lens);
   if (!stretch) return border;
-  const double wanted = std::min(track_.min_stretch * longerSide(image), kMostOfASide * predicted.length());
+  const double wanted = std::min(kMinStretch * longerSide(image), kMostOfASide * predicted.length());
   border.in_view = stretch->length() >= wanted && memory_.known();
   if (!border.in_view) return border;
   const double most = std::max(kLeastReachPx, track_.reach * longerSide(image));
   const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kLeastReachPx, most)));
-  const int count = std::clamp(static_cast<int>(stretch->length()), kLeastProfiles, track_.profiles);
+  const int count = std::clamp(static_cast<int>(stretch->length()), kLeastProfiles, kProfiles);
   coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px);
   border.similarity = match ? match->similarity : 0.0;
-  border.fitted =
-      match && match->similarity >= track_.min_similarity && fit(image, lens, match->line, border);
+  border.fitted = match && match->similarity >= kMinSimilarity && fit(image, lens, match->line, border);
   return border;
 }
 
 bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
                          FollowedBorder& border) {
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
-               radius_px = scale * refinement_.final_radius_px;
+               radius_px = scale * BorderFitLimits().radius_px;
   const int count =
-      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kLeastProfiles, track_.fine_profiles);
+      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kLeastProfiles, kFineProfiles);
   fine_.sample(image, lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
                 static_cast<int>(std::ceil(radius_px)) + 5});
   if (!soft_) soft_ = isColourSoft(fine_);
   fit_.project(fine_, *soft_ ? resolvedPart(memory_.colour()).normalized() : memory_.colour());
   FittedBorder fitted;
-  BorderFitLimits limits{radius_px, kPriorPx * scale, std::max(kRoughPx, refinement_.outlier_px) * scale,
-                         refinement_.sigma_floor_px};
+  BorderFitLimits limits{radius_px, kPriorPx * scale,
+                         std::max(kRoughPx, BorderFitLimits().outlier_px) * scale};
   if (!fit_.run(limits, fitted)) return false;
-  limits.outlier_px = refinement_.outlier_px * scale;
+  limits.outlier_px = BorderFitLimits().outlier_px * scale;
   if (!fit_.run(limits, fitted)) return false;
   if (edge_.apart > 0.0 || ++frames_ % kLookEvery == 0)
     edge_ = fit_.toFront({-kFrontReachPx, kFrontReachPx, front_.outside(), &edge_}, fitted);
@@ -193,7 +198,7 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   border.a = fine_.point(fitted.from, fitted.line.at(fitted.from));
   border.b = fine_.point(fitted.to, fitted.line.at(fitted.to));
   seen_ = {coarse.offset + fitted.line.offset, coarse.slope + fitted.line.slope};
-  return border.inliers >= track_.min_inliers;
+  return border.inliers >= kMinInliers;
 }
 
 void BorderFollower::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px) {
@@ -209,7 +214,7 @@ void BorderFollower::learn(const cv::Mat& image, const geometry::PinholeCamera* 
                            double size_px) {
   half_px_ =
       std::clamp(static_cast<int>(std::lround(track_.reach * longerSide(image))), 4, BorderMemory::kMostHalf);
-  coarse_.sample(image, lens, {border.from, border.to, track_.profiles, kSkip, half_px_ + 3, true});
+  coarse_.sample(image, lens, {border.from, border.to, kProfiles, kSkip, half_px_ + 3, true});
   edge_ = DoubleEdge();
   frames_ = -1;
   soft_.reset();

@@ -68,8 +68,7 @@ struct FollowedBorder {
 /// moved over a few profiles. Fine: the steepest change in many short ones.
 class BorderFollower {
  public:
-  BorderFollower(const TrackParams& track, const BorderRefinementParams& refinement)
-      : track_(track), refinement_(refinement) {}
+  explicit BorderFollower(const TrackParams& track) : track_(track) {}
 
   /// \param predicted the whole side, undistorted \param size_px of the window: mean side
   /// \param sigma_px of the prediction across the side
@@ -89,7 +88,6 @@ class BorderFollower {
            FollowedBorder& border);
 
   TrackParams track_;
-  BorderRefinementParams refinement_;
   BorderMemory memory_;
   FrontBorder front_;
   EdgeProfiles coarse_, fine_;

@@ -12,6 +12,8 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
+constexpr double kMaxShapeChange =
+    0.06;  ///< of aspect, skew and keystone between frames beyond the prediction [sides]
 constexpr int kLeastSides = 2;
 constexpr double kLeastSlackPx = 2.0;  // of the shape, whatever the window's size
 constexpr double kGoodInliers = 0.8;   // part of profiles on a line that is as good as all
@@ -63,10 +65,9 @@ std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::Pinho
 
 }  // namespace
 
-BorderQuartet::BorderQuartet(const TrackParams& track, const BorderRefinementParams& refinement)
-    : track_(track),
-      followers_{BorderFollower(track, refinement), BorderFollower(track, refinement),
-                 BorderFollower(track, refinement), BorderFollower(track, refinement)} {}
+BorderQuartet::BorderQuartet(const TrackParams& track)
+    : followers_{BorderFollower(track), BorderFollower(track), BorderFollower(track), BorderFollower(track)} {
+}
 
 void BorderQuartet::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
                           const Quadrilateral& quad) {
@@ -103,7 +104,7 @@ bool BorderQuartet::keepsShape(const QuadMotion& motion) const {
   const Quadrilateral now = motion.quad();
   if (!geometry::isFinite(now) || !geometry::isConvex(now) || !(geometry::signedArea(now) > 0.0))
     return false;
-  const double slack_px = std::max(kLeastSlackPx, track_.max_shape_change * sizeOf(now));
+  const double slack_px = std::max(kLeastSlackPx, kMaxShapeChange * sizeOf(now));
   return warpBetween(motion.predicted(), now) <= slack_px;
 }
 

@@ -13,7 +13,7 @@ namespace window_ingress::detection {
 /// The four borders of the tracked window, followed together.
 class BorderQuartet {
  public:
-  BorderQuartet(const TrackParams& track, const BorderRefinementParams& refinement);
+  explicit BorderQuartet(const TrackParams& track);
 
   /// Takes the borders of a window that was just found as what is to be followed.
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
@@ -37,7 +37,6 @@ class BorderQuartet {
   bool keepsShape(const QuadMotion& motion) const;
   void placeCorners(QuadMotion& motion) const;
 
-  TrackParams track_;
   std::array<BorderFollower, 4> followers_;
   std::array<FollowedBorder, 4> borders_;
   int in_view_ = 0, fitted_ = 0;

@@ -8,9 +8,10 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kSureWorth = 0.3;                    // of the reference's borders, to say where they are
-constexpr double kAlignedPx = 100.0;                  // resolution of a ring [px a mean side]
-constexpr int kAlignEvery = 3;                        // frames
+constexpr double kAdaptation = 0.1;   ///< part of a difference in appearance that a comparison takes over
+constexpr double kSureWorth = 0.3;    // of the reference's borders, to say where they are
+constexpr double kAlignedPx = 100.0;  // resolution of a ring [px a mean side]
+constexpr int kAlignEvery = 3;        // frames
 constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
 
 }  // namespace
@@ -28,7 +29,7 @@ void ReferenceWatch::setReference(std::shared_ptr<ReferenceAppearance> reference
 void ReferenceWatch::learnBorders() {
   borders_.reset();
   if (!reference_) return;
-  borders_ = std::make_unique<ReferenceBorders>(params_.borders);
+  borders_ = std::make_unique<ReferenceBorders>();
   borders_->learn(reference_->picture(), reference_->opening());
   ring_.forget();
   if (reference_->openingIsKnown()) ring_.learn(reference_->picture(), reference_->opening());
@@ -79,7 +80,7 @@ bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral
 }
 
 void ReferenceWatch::adapt(const TrackInput& input, const WindowObservation& window) {
-  reference_->adapt(input.image, window.corners, params_.track.adaptation, params_.appearance);
+  reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
 }
 
 }  // namespace window_ingress::detection

@@ -44,7 +44,7 @@ void TargetIdentity::found(bool is_same, double stamp_sec) {
 
 void TargetIdentity::expect(double stamp_sec) {
   known_ = true;
-  followed_ = std::max(followed_, params_.settled);
+  followed_ = std::max(followed_, kSettled);
   last_sec_ = stamp_sec;
 }
 
@@ -62,7 +62,7 @@ bool TargetIdentity::isSame(const geometry::Quadrilateral& seen,
 void KnownLikeness::note(double distance, double stamp_sec) {
   if (!std::isfinite(distance) || !std::isfinite(stamp_sec)) return;
   if (!allows(distance, stamp_sec)) return;
-  const bool is_gap = std::abs(stamp_sec - last_sec_) > params_.likeness_sec;
+  const bool is_gap = std::abs(stamp_sec - last_sec_) > kValidSec;
   if (is_gap) forget();
   smoothed_ += (notes_ == 0 ? 1.0 : kWeight) * (distance - smoothed_);
   last_sec_ = stamp_sec;
@@ -70,8 +70,8 @@ void KnownLikeness::note(double distance, double stamp_sec) {
 }
 
 bool KnownLikeness::allows(double distance, double stamp_sec) const {
-  const bool is_known = best_ < kUnknown && std::abs(stamp_sec - last_sec_) <= params_.likeness_sec;
-  return !is_known || distance <= best_ + params_.likeness_margin;
+  const bool is_known = best_ < kUnknown && std::abs(stamp_sec - last_sec_) <= kValidSec;
+  return !is_known || distance <= best_ + kMargin;
 }
 
 void SecondOpinion::start() {
@@ -91,7 +91,7 @@ bool SecondOpinion::isDue() {
     if (pauses || !doubtful_) return false;
     asked_ = 0;
   }
-  if (++frames_ < params_.question_every) return false;
+  if (++frames_ < kEveryFrames) return false;
   frames_ = 0;
   ++asked_;
   return true;

@@ -13,6 +13,9 @@ namespace window_ingress::detection {
 /// neighbour gets a number of its own.
 class TargetIdentity {
  public:
+  static constexpr int kSettled =
+      5;  ///< frames after which a lost window is waited for before another one is taken
+
   /// \param last number that was given before
   explicit TargetIdentity(const TrackParams& params, std::uint32_t last = 0) : params_(params), id_(last) {}
 
@@ -32,7 +35,7 @@ class TargetIdentity {
   /// size like it.
   bool isSame(const geometry::Quadrilateral& seen, const geometry::Quadrilateral& expected) const;
   /// It was followed for so long that another window is not taken in its place while it is remembered.
-  bool settled() const { return followed_ >= params_.settled; }
+  bool settled() const { return followed_ >= kSettled; }
   void forget() { known_ = false, followed_ = 0; }
 
  private:
@@ -48,13 +51,15 @@ class TargetIdentity {
 /// the same light, one that is clearly less like it is another window.
 class KnownLikeness {
  public:
-  explicit KnownLikeness(const TrackParams& params) : params_(params) {}
+  static constexpr double kMargin =
+      0.2;  ///< a window less like the reference than the target was by this is another one
+  static constexpr double kValidSec = 10.0;  ///< a comparison says what is allowed for so long [s]
 
-  void forget() { *this = KnownLikeness(params_); }
+  void forget() { *this = KnownLikeness(); }
   /// Bhattacharyya distance of a confirmed track, at a comparison.
   void note(double distance, double stamp_sec);
   /// Whether a window at this distance may be the target. Anything may where nothing is known, or once the
-  /// target has been out of sight for `TrackParams::likeness_sec`: the light may be another.
+  /// target has been out of sight for `kValidSec`: the light may be another.
   bool allows(double distance, double stamp_sec) const;
 
   double best() const { return best_; }  ///< of the target so far, smoothed; 2 where nothing is known
@@ -62,7 +67,6 @@ class KnownLikeness {
  private:
   static constexpr double kUnknown = 2.0;
 
-  TrackParams params_;
   double best_ = kUnknown, smoothed_ = 0.0, last_sec_ = 0.0;
   int notes_ = 0;
 };
@@ -76,6 +80,8 @@ class KnownLikeness {
 /// another window never takes its place.
 class SecondOpinion {
  public:
+  static constexpr int kEveryFrames = 2;  ///< frames between searches that are asked
+
   explicit SecondOpinion(const TrackParams& params) : params_(params) {}
 
   void start();    ///< a new window is followed

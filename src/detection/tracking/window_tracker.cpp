@@ -12,6 +12,11 @@ namespace {
 
 using geometry::Quadrilateral;
 
+constexpr double kReshape = 0.25;        ///< unforeseen change of its size and roll [window sides/s]
+constexpr double kWarp = 0.08;           ///< unforeseen change of aspect, skew and keystone [window sides/s]
+constexpr double kAdaptCertainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
+constexpr double kKnownTurn =
+    0.5;  ///< part of the unforeseen motion that is left where the attitude is known
 constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
 constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
 constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
@@ -56,10 +61,10 @@ bool WindowTracker::Impl::knowsTurn() const {
 QuadSpread WindowTracker::Impl::spread() const {
   const double side = sizeOf(motion.quad()), elapsed_sec = pictures.elapsedSec();
   const double unforeseen_px = pictures.longerSide() * elapsed_sec;
-  const double place_px = knowsTurn()
-                              ? std::hypot(params.track.turn_known * unforeseen_px, pictures.turnSigmaPx())
-                              : params.track.turn * unforeseen_px;
-  return {place_px, params.track.reshape * side * elapsed_sec, params.track.warp * side * elapsed_sec};
+  const double place_px =
+      knowsTurn() ? std::hypot(kKnownTurn * params.track.turn * unforeseen_px, pictures.turnSigmaPx())
+                  : params.track.turn * unforeseen_px;
+  return {place_px, kReshape * side * elapsed_sec, kWarp * side * elapsed_sec};
 }
 
 void WindowTracker::Impl::predict() {
@@ -71,7 +76,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   const bool found = quartet.follow(input.image, pictures.lens(), motion);
   const double quality = found ? quartet.quality() * (reference.isUnlike() ? kUnlikePart : 1.0) : 0.0;
   certainty += kQualityRate * (quality - certainty);
-  if (!found || certainty < params.track.min_certainty) return false;
+  if (!found || certainty < kMinCertainty) return false;
   motion.settle(pictures.elapsedSec());
   quartet.keep(input.image, pictures.lens(), motion.quad());
   quartet.describe(input.image, pictures.lens(), motion, window);
@@ -86,8 +91,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
 void WindowTracker::Impl::watch(const TrackInput& input) {
   if (quartet.inView() < 4) return;
   if (!reference.look(input, distorted(motion.quad(), pictures.lens()), window)) opinion.doubt();
-  if (reference.hasAgreed() && opinion.isConfirmed() && certainty > params.track.adapt_certainty &&
-      quartet.fitted() == 4)
+  if (reference.hasAgreed() && opinion.isConfirmed() && certainty > kAdaptCertainty && quartet.fitted() == 4)
     reference.adapt(input, window);
   if (reference.hasCompared() && opinion.isConfirmed()) likeness.note(window.bhattacharyya, input.stamp_sec);
 }
@@ -150,14 +154,14 @@ WindowTracker::~WindowTracker() = default;
 void WindowTracker::setParams(const DetectorParams& params) {
   impl_->detector.setParams(params);
   impl_->params = params;
-  impl_->refinement = BorderRefinement(params.refinement);
-  impl_->quartet = BorderQuartet(params.track, params.refinement);
+  impl_->refinement = BorderRefinement();
+  impl_->quartet = BorderQuartet(params.track);
   const TargetIdentity before = impl_->identity;
   impl_->identity = TargetIdentity(params.track, before.id());
   impl_->opinion = SecondOpinion(params.track);
   impl_->reference.setParams(params);
   impl_->pictures = PictureSequence(params.track.max_gap_sec);
-  impl_->likeness = KnownLikeness(params.track);
+  impl_->likeness = KnownLikeness();
   impl_->forget();
 }
 

@@ -17,17 +17,17 @@
 
 namespace window_ingress::detection {
 
+constexpr double kMinCertainty = 0.4;  ///< below this the track is given up and the window searched, 0 to 1
+
 struct WindowTracker::Impl {
   explicit Impl(const DetectorParams& p)
       : params(p),
         detector(p),
-        refinement(p.refinement),
         pictures(p.track.max_gap_sec),
         reference(p),
         motion(),
-        quartet(p.track, p.refinement),
+        quartet(p.track),
         identity(p.track),
-        likeness(p.track),
         opinion(p.track) {}
 
   void begin(const TrackInput& input);

@@ -40,7 +40,7 @@ void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found
   found.target_id = identity.id();
   motion.start(quad, kFoundSigmaPx);
   quartet.learn(input.image, pictures.lens(), quad);
-  certainty = std::max(found.score, 2.0 * params.track.min_certainty);
+  certainty = std::max(found.score, 2.0 * kMinCertainty);
   window = found;
   tracking = has_motion = true;
 }

@@ -17,7 +17,7 @@ geometry::Quadrilateral jittered(const geometry::Quadrilateral& quad, std::mt199
 }
 
 TEST(BorderRefinement, CornersOfAntialiasedWindowsToATenthOfAPixel) {
-  const BorderRefinement refinement{BorderRefinementParams()};
+  const BorderRefinement refinement;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   double squares = 0.0, bias = 0.0;
@@ -42,7 +42,7 @@ TEST(BorderRefinement, CornersOfAntialiasedWindowsToATenthOfAPixel) {
 }
 
 TEST(BorderRefinement, TellsItsOwnErrorWithinAFactor) {
-  const BorderRefinement refinement{BorderRefinementParams()};
+  const BorderRefinement refinement;
   std::mt19937 random(5);
   for (double noise : {2.0, 8.0, 16.0}) {
     double mahalanobis = 0.0;
@@ -79,7 +79,7 @@ TEST(BorderRefinement, BordersAreStraightInTheUndistortedImage) {
     }
   geometry::Quadrilateral truth;
   for (int i = 0; i < 4; ++i) truth[i] = camera.distort(ideal[i]);
-  const BorderRefinement refinement{BorderRefinementParams()};
+  const BorderRefinement refinement;
   const auto with = refinement.run(image, {truth, 3.0}, &camera);
   ASSERT_TRUE(with);
   EXPECT_LT(test::worstCorner(with->corners, truth), 0.1);
@@ -91,22 +91,9 @@ TEST(BorderRefinement, ColoursOfEqualBrightnessDo) {
   cv::Mat image(200, 260, CV_8UC3, cv::Scalar(180, 100, 60));
   const auto quad = test::turned(test::rectangle(60, 50, 180, 140), 0.1, 0.0);
   test::fillQuad(image, quad, cv::Scalar(60, 118, 90));
-  const auto borders =
-      BorderRefinement(BorderRefinementParams()).run(image, {test::grown(quad, 1.0), 3.0}, nullptr);
+  const auto borders = BorderRefinement().run(image, {test::grown(quad, 1.0), 3.0}, nullptr);
   ASSERT_TRUE(borders);
   EXPECT_LT(test::worstCorner(borders->corners, quad), 0.1);
-}
-
-TEST(BorderRefinement, FirstInwardStopsAtTheFrameAndNotAtTheStrongerEdgeBehind) {
-  cv::Mat image(240, 320, CV_8UC1, cv::Scalar(90));
-  const auto opening = test::rectangle(80.3, 60.4, 240.2, 180.3);
-  test::fillQuad(image, test::grown(opening, 14.0), cv::Scalar(200));
-  test::fillQuad(image, opening, cv::Scalar(180));
-  test::fillQuad(image, test::grown(opening, -4.0), cv::Scalar(20));
-  const BorderRefinement refinement{BorderRefinementParams()};
-  const auto first = refinement.run(image, {opening, 5.0, EdgeChoice::kFirstInward}, nullptr);
-  ASSERT_TRUE(first);
-  EXPECT_LT(test::worstCorner(first->corners, opening), 0.2);
 }
 
 TEST(BorderRefinement, ASideThatCannotBeFittedStaysWhereItStartedIfAsked) {
@@ -114,18 +101,18 @@ TEST(BorderRefinement, ASideThatCannotBeFittedStaysWhereItStartedIfAsked) {
   const auto opening = test::rectangle(80, 60, 240, 180);
   test::fillQuad(image, opening, cv::Scalar(60));
   image.rowRange(165, 240).setTo(60);
-  const BorderRefinement refinement{BorderRefinementParams()};
+  const BorderRefinement refinement;
   double inliers = 1.0;
   EXPECT_FALSE(refinement.run(image, {opening, 3.0}, nullptr, &inliers));
   EXPECT_LT(inliers, 0.45);
-  const auto borders = refinement.run(image, {opening, 3.0, EdgeChoice::kNearest, 0.7}, nullptr);
+  const auto borders = refinement.run(image, {opening, 3.0, 0.7}, nullptr);
   ASSERT_TRUE(borders);
   EXPECT_DOUBLE_EQ(borders->edges[geometry::kBottom].sigma_px, 0.7);
   EXPECT_LT(borders->edges[geometry::kTop].sigma_px, 0.1);
 }
 
 TEST(BorderRefinement, NothingFromPlainImagesTinyOrOutsideQuads) {
-  const BorderRefinement refinement{BorderRefinementParams()};
+  const BorderRefinement refinement;
   const cv::Mat plain(100, 100, CV_8UC3, cv::Scalar::all(80));
   EXPECT_FALSE(refinement.run(plain, {test::rectangle(20, 20, 80, 80), 3.0}, nullptr));
   EXPECT_FALSE(refinement.run(plain, {test::rectangle(20, 20, 21, 21), 3.0}, nullptr));

@@ -76,7 +76,7 @@ TEST(ColourSharpness, BrightnessKeepsItsPartAndColourLosesSome) {
 }
 
 TEST(ColourSharpness, TheFrontOfARevealIsWhereBrightnessChanges) {
-  const BorderRefinement refinement{BorderRefinementParams()};
+  const BorderRefinement refinement;
   for (const double start_px : {-0.5, 0.0, 0.5}) {
     BorderStart start{kOpening, 2.5};
     for (auto& corner : start.quad) corner += Eigen::Vector2d::Constant(start_px);

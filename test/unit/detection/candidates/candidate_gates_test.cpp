@@ -63,7 +63,7 @@ TEST(CandidateGates, SupportGatesNameThemselvesAndTheirMargin) {
   EXPECT_DOUBLE_EQ(gates.support(c)->value, 0.2);
   for (SideSupport& side : c.sides) side.fraction = 0.55;
   EXPECT_EQ(gates.support(c)->reason, RejectReason::kLineSupport);
-  EXPECT_DOUBLE_EQ(gates.support(c)->limit, CandidateGatesParams().mean_side_support);
+  EXPECT_DOUBLE_EQ(gates.support(c)->limit, 0.7);
   c = good();
   c.sides[1].contrast = 0.5;
   EXPECT_EQ(gates.support(c)->reason, RejectReason::kContrast);
@@ -96,22 +96,20 @@ TEST(CandidateGates, TheSameForMirroredAndScaledCandidates) {
 }
 
 TEST(WindowScore, LiesBetweenNoneAndOneAndFallsWithSupport) {
-  const WindowScoreParams params;
   Candidate c = good();
-  EXPECT_NEAR(windowScore(c, params), 1.0, 1e-9);
+  EXPECT_NEAR(windowScore(c), 1.0, 1e-9);
   double before = 1.0;
   for (double fraction : {0.9, 0.7, 0.5, 0.2, 0.0}) {
     c.sides[3].fraction = fraction;
-    EXPECT_LT(windowScore(c, params), before);
-    EXPECT_GE(windowScore(c, params), 0.0);
-    before = windowScore(c, params);
+    EXPECT_LT(windowScore(c), before);
+    EXPECT_GE(windowScore(c), 0.0);
+    before = windowScore(c);
   }
 }
 
 TEST(WindowScore, SizeRanksButIsNoConfidence) {
-  const WindowScoreParams params;
-  EXPECT_LT(sizeRank(test::rectangle(0, 0, 10, 10), kImage, params), sizeRank(good().quad, kImage, params));
-  EXPECT_EQ(sizeRank(test::rectangle(0, 0, 319, 239), kImage, params), 1.0);
+  EXPECT_LT(sizeRank(test::rectangle(0, 0, 10, 10), kImage), sizeRank(good().quad, kImage));
+  EXPECT_EQ(sizeRank(test::rectangle(0, 0, 319, 239), kImage), 1.0);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
+#include "detection/candidates/edge_chains.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "detection/candidates/edge_chains.hpp"
 #include "drawn_window.hpp"
 
 namespace window_ingress::detection {
@@ -17,7 +18,7 @@ const std::vector<EdgeRun>& runsOf(EdgeRuns& runs, const cv::Mat& image) {
 TEST(EdgeRuns, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(40));
   image(cv::Rect(40, 30, 80, 60)).setTo(200);
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   int sides = 0;
   for (const EdgeRun& run : runsOf(runs, image)) {
     if (run.length() < 40.0) continue;
@@ -33,7 +34,7 @@ TEST(EdgeRuns, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {
 TEST(EdgeRuns, EveryEdgePixelBelongsToOneRunAtMost) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(128));
   test::addNoise(image, 30.0, 2);
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   cv::Mat seen = cv::Mat::zeros(image.size(), CV_8UC1);
   for (const EdgeRun& run : runsOf(runs, image)) {
     ASSERT_EQ(run.count, static_cast<int>(run.moments.n));
@@ -47,14 +48,14 @@ TEST(EdgeRuns, EveryEdgePixelBelongsToOneRunAtMost) {
 TEST(EdgeRuns, ACircleIsCutIntoShortRuns) {
   cv::Mat image(200, 200, CV_8UC1, cv::Scalar(40));
   cv::circle(image, {100, 100}, 60, cv::Scalar(200), cv::FILLED);
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   const auto& found = runsOf(runs, image);
   EXPECT_GT(found.size(), 6u);
   for (const EdgeRun& run : found) EXPECT_LT(run.length(), 60.0);
 }
 
 TEST(EdgeRuns, EmptyAndTinyPicturesHaveNone) {
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   for (const cv::Size& size : {cv::Size(1, 1), cv::Size(3, 2), cv::Size(64, 64)})
     EXPECT_TRUE(runsOf(runs, cv::Mat(size, CV_8UC1, cv::Scalar(9))).empty());
 }

@@ -1,9 +1,10 @@
+#include "detection/candidates/hough_segments.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "detection/candidates/hough_segments.hpp"
 #include "detection/candidates/segment_quads.hpp"
 #include "detection/candidates/side_support.hpp"
 #include "drawn_window.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 /// Edges to segments, as the search does it.
 std::vector<Segment> segmentsOf(const EdgeMap& map) {
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   LineSupport lines{LineSupportParams()};
   return lines.run(runs.run(map, LevelLens()), map.edges.size());
 }
@@ -75,7 +76,7 @@ TEST(LineSupport, OnlyWhatLiesOnSegmentsIsKept) {
   cv::Mat image = window(test::rectangle(90, 60, 200, 170), 0.0);
   cv::circle(image, {270, 40}, 4, cv::Scalar(0), 1);
   const EdgeMap& map = edges.run(image);
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   LineSupport lines{LineSupportParams()};
   lines.run(runs.run(map, LevelLens()), map.edges.size());
   cv::Mat kept;
@@ -95,7 +96,7 @@ TEST(LineSupport, ABorderBentByALensIsStraightAfterIt) {
     for (int x = 0; x < 320; ++x)
       if (lens.undistort(x, y).x() > 285.0) image.at<uchar>(y, x) = 50;
   EdgeDetector edges{EdgeMapParams()};
-  EdgeRuns runs{EdgeRunsParams()};
+  EdgeRuns runs;
   LineSupport lines{LineSupportParams()};
   const auto& segments = lines.run(runs.run(edges.run(image), lens), image.size());
   ASSERT_FALSE(segments.empty());
@@ -131,13 +132,11 @@ TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
   EdgeDetector edges{EdgeMapParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
   const EdgeMap& map = edges.run(window(opening));
-  for (const SideSupport& side : measureSides(map, LevelLens(), opening, SideSupportParams())) {
+  for (const SideSupport& side : measureSides(map, LevelLens(), opening)) {
     EXPECT_GT(side.fraction, 0.9);
     EXPECT_LT(side.overshoot, 0.1);
-    EXPECT_LT(side.polarity, -0.9) << "the hole is darker than the wall";
   }
-  for (const SideSupport& side :
-       measureSides(map, LevelLens(), test::rectangle(110, 80, 210, 160), SideSupportParams()))
+  for (const SideSupport& side : measureSides(map, LevelLens(), test::rectangle(110, 80, 210, 160)))
     EXPECT_LT(side.fraction, 0.1);
 }
 
@@ -148,21 +147,17 @@ TEST(SideSupport, ACellOfAGridOvershoots) {
     cv::line(image, {60, 30 + 40 * i}, {220, 30 + 40 * i}, cv::Scalar(20), 2);
   }
   EdgeDetector edges{EdgeMapParams()};
-  const auto cell =
-      measureSides(edges.run(image), LevelLens(), test::rectangle(102, 72, 138, 108), SideSupportParams());
-  const auto grid =
-      measureSides(edges.run(image), LevelLens(), test::rectangle(58, 28, 222, 192), SideSupportParams());
+  const auto cell = measureSides(edges.run(image), LevelLens(), test::rectangle(102, 72, 138, 108));
+  const auto grid = measureSides(edges.run(image), LevelLens(), test::rectangle(58, 28, 222, 192));
   for (int i = 0; i < 4; ++i) EXPECT_GT(cell[i].overshoot, grid[i].overshoot + 0.2);
 }
 
 TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(100, 70, 220, 170)));
-  for (const SideSupport& side :
-       measureSides(map, LevelLens(), test::rectangle(-500, -400, 900, 800), SideSupportParams()))
+  for (const SideSupport& side : measureSides(map, LevelLens(), test::rectangle(-500, -400, 900, 800)))
     EXPECT_EQ(side.fraction, 0.0);
-  for (const SideSupport& side :
-       measureSides(map, LevelLens(), test::rectangle(5, 5, 5, 5), SideSupportParams()))
+  for (const SideSupport& side : measureSides(map, LevelLens(), test::rectangle(5, 5, 5, 5)))
     EXPECT_EQ(side.fraction, 0.0);
 }
 

@@ -1,8 +1,9 @@
+#include "detection/candidates/nested_quads.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "detection/candidates/nested_quads.hpp"
 #include "drawn_window.hpp"
 
 namespace window_ingress::detection {
@@ -17,7 +18,7 @@ cv::Mat framed() {
 }
 
 std::vector<LoopVerdict> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
-  return NestedLoops(NestedLoopsParams()).run(image, loops, std::vector<double>(loops.size(), 1.0), 1.0);
+  return NestedLoops().run(image, loops, std::vector<double>(loops.size(), 1.0), 1.0);
 }
 
 TEST(NestedLoops, TheInnerBorderOfAFrameWins) {
@@ -67,13 +68,11 @@ TEST(NestedLoops, LoopsApartDoNotMatterToEachOther) {
 }
 
 TEST(NestedLoops, ConcentricMeansABorderAllRound) {
-  const NestedLoopsParams params;
-  EXPECT_TRUE(isConcentric(test::grown(kOpening, 8), kOpening, 0.6, params));
-  EXPECT_FALSE(isConcentric(kOpening, test::grown(kOpening, 8), 0.6, params));
-  EXPECT_FALSE(isConcentric(kOpening, kOpening, 0.6, params));
-  EXPECT_FALSE(isConcentric(test::rectangle(80, 80, 220, 170), kOpening, 0.6, params)) << "one side only";
-  EXPECT_FALSE(isConcentric(test::rectangle(10, 10, 310, 230), kOpening, 0.6, params))
-      << "too wide for a frame";
+  EXPECT_TRUE(isConcentric(test::grown(kOpening, 8), kOpening, 0.6));
+  EXPECT_FALSE(isConcentric(kOpening, test::grown(kOpening, 8), 0.6));
+  EXPECT_FALSE(isConcentric(kOpening, kOpening, 0.6));
+  EXPECT_FALSE(isConcentric(test::rectangle(80, 80, 220, 170), kOpening, 0.6)) << "one side only";
+  EXPECT_FALSE(isConcentric(test::rectangle(10, 10, 310, 230), kOpening, 0.6)) << "too wide for a frame";
 }
 
 }  // namespace

@@ -109,12 +109,10 @@ TEST(ContourPolygons, FourLinesRoundARoundedRectangle) {
 }
 
 TEST(ContourPolygons, SaysSoWhenThereAreTooMany) {
-  ContourPolygonsParams params;
-  params.max_contours = 10;
-  cv::Mat dots(100, 100, CV_8UC1, cv::Scalar(0));
-  for (int i = 0; i < 20; ++i) dots.at<uchar>(5 * (i / 5) + 3, 8 * (i % 5) + 3) = 255;
-  const auto result = ContourPolygons(params).run(dots, 0.0);
-  EXPECT_EQ(result.contours, 20);
+  cv::Mat dots(240, 320, CV_8UC1, cv::Scalar(0));
+  for (int i = 0; i < 4800; ++i) dots.at<uchar>(4 * (i / 80) + 1, 4 * (i % 80) + 1) = 255;
+  const auto result = ContourPolygons(ContourPolygonsParams()).run(dots, 0.0);
+  EXPECT_EQ(result.contours, 4800);
   EXPECT_TRUE(result.budget_exceeded);
 }
 

@@ -32,7 +32,6 @@ struct Sides {
 
 // Each end stops short of its corner by some pixels, or runs beyond it.
 Sides looseSides(const geometry::Quadrilateral& quad, std::mt19937& random) {
-  const SegmentQuadsParams params;
   std::uniform_real_distribution<double> short_px(-25.0, 15.0);
   std::bernoulli_distribution turned(0.5);
   Sides sides;
@@ -45,7 +44,7 @@ Sides looseSides(const geometry::Quadrilateral& quad, std::mt19937& random) {
     sides.segments.push_back(turned(random) ? segment(end, start) : segment(start, end));
   }
   const double size_px = std::sqrt(geometry::signedArea(quad));
-  sides.closure = std::exp(-gap_px / 8.0 / (params.closure_px + params.closure_side * size_px));
+  sides.closure = std::exp(-gap_px / 8.0 / (SegmentQuads::kClosurePx + SegmentQuads::kClosureSide * size_px));
   return sides;
 }
 

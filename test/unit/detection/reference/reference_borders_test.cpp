@@ -34,7 +34,7 @@ struct Facade {
 };
 
 ReferenceBorders learned(const Facade& facade) {
-  ReferenceBorders borders{ReferenceBordersParams()};
+  ReferenceBorders borders;
   borders.learn(facade.draw(), facade.opening);
   return borders;
 }
@@ -80,7 +80,7 @@ TEST(ReferenceBorders, AReferenceWithoutAFrameIsKnownAsSuch) {
 
 TEST(ReferenceBorders, NothingFromPicturesWithoutColourOrWithoutSense) {
   const Facade facade;
-  ReferenceBorders borders{ReferenceBordersParams()};
+  ReferenceBorders borders;
   cv::Mat grey;
   cv::cvtColor(facade.draw(), grey, cv::COLOR_BGR2GRAY);
   borders.learn(grey, facade.opening);

@@ -8,13 +8,13 @@ namespace window_ingress::detection {
 namespace {
 
 KnownLikeness known(double distance) {
-  KnownLikeness likeness{TrackParams()};
+  KnownLikeness likeness;
   for (int i = 0; i < 5; ++i) likeness.note(distance, 1.0 + 0.5 * i);
   return likeness;
 }
 
 TEST(KnownLikeness, AllowsAnythingBeforeItKnows) {
-  KnownLikeness likeness{TrackParams()};
+  KnownLikeness likeness;
   EXPECT_TRUE(likeness.allows(0.9, 1.0));
   likeness.note(0.05, 1.0);
   likeness.note(0.05, 1.5);
@@ -22,12 +22,11 @@ TEST(KnownLikeness, AllowsAnythingBeforeItKnows) {
 }
 
 TEST(KnownLikeness, AllowsTheLikeAndTheBetterNotTheWorse) {
-  const TrackParams params;
   const auto likeness = known(0.3);
   EXPECT_NEAR(likeness.best(), 0.3, 1e-9);
   EXPECT_TRUE(likeness.allows(0.05, 4.0));
-  EXPECT_TRUE(likeness.allows(0.3 + 0.9 * params.likeness_margin, 4.0));
-  EXPECT_FALSE(likeness.allows(0.3 + 1.1 * params.likeness_margin, 4.0));
+  EXPECT_TRUE(likeness.allows(0.3 + 0.9 * KnownLikeness::kMargin, 4.0));
+  EXPECT_FALSE(likeness.allows(0.3 + 1.1 * KnownLikeness::kMargin, 4.0));
 }
 
 TEST(KnownLikeness, ABetterOneRaisesTheBarAWorseOneDoesNotLowerIt) {
@@ -39,11 +38,10 @@ TEST(KnownLikeness, ABetterOneRaisesTheBarAWorseOneDoesNotLowerIt) {
 }
 
 TEST(KnownLikeness, ForgetsAfterAWhileOutOfSightAndOnRequest) {
-  const TrackParams params;
   auto likeness = known(0.05);
-  EXPECT_FALSE(likeness.allows(0.6, 3.0 + 0.9 * params.likeness_sec));
-  EXPECT_TRUE(likeness.allows(0.6, 3.0 + 1.1 * params.likeness_sec));
-  EXPECT_TRUE(likeness.allows(0.6, 3.0 - 1.1 * params.likeness_sec)) << "a clock that went back";
+  EXPECT_FALSE(likeness.allows(0.6, 3.0 + 0.9 * KnownLikeness::kValidSec));
+  EXPECT_TRUE(likeness.allows(0.6, 3.0 + 1.1 * KnownLikeness::kValidSec));
+  EXPECT_TRUE(likeness.allows(0.6, 3.0 - 1.1 * KnownLikeness::kValidSec)) << "a clock that went back";
   likeness.forget();
   EXPECT_TRUE(likeness.allows(0.6, 3.0));
 }

@@ -27,7 +27,7 @@ TEST(SecondOpinion, ATrackThatTheSearchConfirmsIsLeftAlone) {
   const TrackParams params;
   SecondOpinion opinion(params);
   opinion.start();
-  EXPECT_FALSE(preferred(opinion, params.confirmations * params.question_every, squareAt(101, 100, 80)));
+  EXPECT_FALSE(preferred(opinion, params.confirmations * SecondOpinion::kEveryFrames, squareAt(101, 100, 80)));
   EXPECT_TRUE(opinion.isConfirmed());
   for (int i = 0; i < 1000; ++i) ASSERT_FALSE(opinion.isDue()) << "no more searches";
   opinion.doubt();
