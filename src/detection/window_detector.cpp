@@ -5,6 +5,7 @@
 
 #include "detection/candidates/candidate_search.hpp"
 #include "detection/candidates/nested_quads.hpp"
+#include "detection/quads.hpp"
 #include "detection/reference/reference_judge.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -16,7 +17,6 @@ constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller pict
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
-constexpr double kOtherPlace = 0.5;       ///< overlap below which two loops are of two windows
 constexpr int kFewestFitted =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
 constexpr double kFaithful = 0.75;       ///< see RingMatch: then its colours may be others
@@ -63,7 +63,6 @@ struct WindowDetector::Impl {
   DetectorParams params;
   CandidateSearch search;
   ReferenceJudge reference;
-  LoopJudge loops;
   BorderRefinement refinement;
   DetectionTrace trace;
   std::vector<Rival> rivals;
@@ -107,10 +106,10 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
 
 // Correlation of the next best place.
 double WindowDetector::Impl::runnerUp(const Rival& target) const {
+  const Sameness same(target.quad);
   double best = 0.0;
   for (const Rival& other : rivals)
-    if (other.located && geometry::intersectionOverUnion(other.quad, target.quad) < kOtherPlace)
-      best = std::max(best, other.correlation.value_or(0.0));
+    if (other.located && !same.sameWindow(other.quad)) best = std::max(best, other.correlation.value_or(0.0));
   return best;
 }
 
@@ -156,7 +155,7 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat
                                                                    const geometry::PinholeCamera* camera) {
   rivals = search.kept();
   const bool compared = reference.judgeFrames(image, camera, rivals);
-  if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
+  if (!compared || !reference.knowsBorders()) judgeNestedQuads(image, search.factor(), rivals);
   done(watch, Stage::kReference);
   return choose(image, stamp_sec, camera);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -48,23 +49,6 @@ bool cornersOf(const Matrix3d& map, Quadrilateral& quad) {
     quad[i] = p.hnormalized();
   }
   return geometry::isFinite(quad) && geometry::isConvex(quad);
-}
-
-double meanSide(const Quadrilateral& quad) {
-  const auto sides = geometry::sideLengths(quad);
-  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
-}
-
-double furthest(const Quadrilateral& a, const Quadrilateral& b) {
-  double most = 0.0;
-  for (int i = 0; i < 4; ++i) most = std::max(most, (a[i] - b[i]).norm());
-  return most;
-}
-
-Quadrilateral through(const geometry::PinholeCamera* lens, Quadrilateral quad, bool distort) {
-  if (lens)
-    for (Vector2d& corner : quad) corner = distort ? lens->distort(corner) : lens->undistort(corner);
-  return quad;
 }
 
 }  // namespace
@@ -164,7 +148,7 @@ double RingAlignment::read(const Scale& scale, const Matrix3d& map) {
 }
 
 RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
-  const Quadrilateral ideal = through(lens_, quad, false);
+  const Quadrilateral ideal = undistorted(quad, lens_);
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return {};
   const Scale scale = scaleFor(meanSide(ideal), side_px);
   const double seen = read(scale, centred(ideal));
@@ -301,7 +285,7 @@ RingMatch RingAlignment::refine(const Scale& scale, const Quadrilateral& start, 
     at = at * step->inverse();
     at /= at(2, 2);
     Quadrilateral quad;
-    if (!cornersOf(at, quad) || furthest(quad, start) > reach_px) break;
+    if (!cornersOf(at, quad) || furthestCorner(quad, start) > reach_px) break;
     if ((*step - Matrix3d::Identity()).cwiseAbs().maxCoeff() * scale.ring->side_px < kStill_px)
       n = most_steps - 1;
   }
@@ -309,7 +293,7 @@ RingMatch RingAlignment::refine(const Scale& scale, const Quadrilateral& start, 
 }
 
 std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, double finest_px) {
-  const Quadrilateral ideal = through(lens_, start, false);
+  const Quadrilateral ideal = undistorted(start, lens_);
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
   Matrix3d map = centred(ideal);
   map /= map(2, 2);
@@ -326,7 +310,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
     if (wanted >= finest) break;
   }
   if (!cornersOf(map, found.quad)) return std::nullopt;
-  found.quad = through(lens_, found.quad, true);
+  found.quad = distorted(found.quad, lens_);
   return found;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -9,16 +11,8 @@ constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///<
 constexpr std::size_t kPlaces = 10;                                         ///< that are aligned
 constexpr std::size_t kFinePlaces = 2;                                      ///< and of these, to the last
 constexpr int kVariants = 2;                   ///< rough loops of one place from which it is aligned
-constexpr double kSamePlace = 0.2;             ///< loops whose corners differ less are of one place [sides]
 constexpr double kSure = 0.85, kBehind = 0.3;  ///< a place found, and what promises so much less is left out
 constexpr double kGeometryWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
-
-bool isAbout(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
-  const double reach = kSamePlace * kSamePlace * std::abs(geometry::signedArea(b));
-  for (int i = 0; i < 4; ++i)
-    if ((a[i] - b[i]).squaredNorm() > reach) return false;
-  return true;
-}
 
 void sortByScore(std::vector<Rival>& rivals) {
   std::stable_sort(rivals.begin(), rivals.end(),
@@ -59,8 +53,9 @@ std::optional<Rival> RingJudge::aligned(const Rival& rough, double finest_px) {
 
 // Of all that come to lie about one place the best.
 void RingJudge::keep(const Rival& rival) {
+  const Sameness sameness(rival.quad);
   const auto same = std::find_if(aligned_.begin(), aligned_.end(),
-                                 [&](const Rival& other) { return isAbout(rival.quad, other.quad); });
+                                 [&](const Rival& other) { return sameness.samePlace(other.quad); });
   if (same == aligned_.end())
     aligned_.push_back(rival);
   else if (rival.score > same->score)
@@ -79,9 +74,9 @@ const std::vector<Rival>& RingJudge::align(const cv::Mat& image, const geometry:
   } best;
   for (const auto& [promise, i] : order_) {
     if (places.size() >= kPlaces || (best.score > kSure && promise < best.promise - kBehind)) break;
-    const auto variants = std::count_if(places.begin(), places.end(), [&, at = i](std::size_t place) {
-      return isAbout(rivals[at].quad, rivals[place].quad);
-    });
+    const Sameness same(rivals[i].quad);
+    const auto variants = std::count_if(
+        places.begin(), places.end(), [&](std::size_t place) { return same.samePlace(rivals[place].quad); });
     if (variants >= kVariants) continue;
     places.push_back(i);
     const auto rival = aligned(rivals[i], kAlignedPx);

@@ -35,7 +35,6 @@ struct Candidate {
 struct LoopVerdict {
   RejectReason reject = RejectReason::kNone;  ///< kOuterBorder, kPane, or kNone
   int other = -1;                             ///< the loop that is taken in its place
-  bool framed = false;                        ///< it is the inner border of a frame that was seen
 };
 
 /// A candidate that passed the gates on single candidates, and what is found out about it.

@@ -5,29 +5,19 @@
 
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/side_support.hpp"
+#include "detection/quads.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kSameLoopPx =
-    1.0;  ///< corners of the same loop differ less than this on the search level [px]
-constexpr double kVariantPart = 0.2;  ///< loops whose corners differ less, in its size, belong to one window
-constexpr int kMostVariants = 6;      ///< of one window that are looked at
 constexpr double kDoubtfulScore = 0.5;
 constexpr std::size_t kMostDoubtful = 200;
-constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
   return {toFullImage(quad[0], factor), toFullImage(quad[1], factor), toFullImage(quad[2], factor),
           toFullImage(quad[3], factor)};
-}
-
-double cornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
-  double worst = 0.0;
-  for (int i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).squaredNorm());
-  return std::sqrt(worst);
 }
 
 }  // namespace
@@ -132,26 +122,16 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
   }
 }
 
-// How many of those kept are loops of the same window.
-int CandidateSearch::variants(const Rival& rival) const {
-  const double near_px = kVariantPart * std::sqrt(std::abs(geometry::signedArea(rival.candidate.quad)));
-  return static_cast<int>(std::count_if(kept_.begin(), kept_.end(), [&](const Rival& better) {
-    return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
-  }));
-}
-
 void CandidateSearch::keepBest(DetectionTrace& trace) {
   sortByRank(admitted_);
   kept_.clear();
   for (const Rival& rival : admitted_) {
-    const double near_px =
-        kSameLoopPx + kSameLoopPart * std::sqrt(std::abs(geometry::signedArea(rival.candidate.quad)));
-    const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const Rival& better) {
-      return cornerDistance(rival.candidate.quad, better.candidate.quad) < near_px;
-    });
+    const Sameness same(rival.candidate.quad);
+    const auto twin = std::find_if(kept_.begin(), kept_.end(),
+                                   [&](const Rival& better) { return same.sameQuad(better.candidate.quad); });
     if (twin != kept_.end()) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
-    } else if (static_cast<int>(kept_.size()) >= params_.max_candidates || variants(rival) >= kMostVariants) {
+    } else if (static_cast<int>(kept_.size()) >= params_.max_candidates) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
       if (doubtful_.size() < kMostDoubtful) doubtful_.push_back(rival);
     } else {

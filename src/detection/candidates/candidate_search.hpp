@@ -56,7 +56,6 @@ class CandidateSearch {
   const std::vector<Rival>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
   void doubt(Rival rival, const Rejection& rejection);
   void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
-  int variants(const Rival& rival) const;
   void keepBest(DetectionTrace& trace);
 
   DetectorParams params_;

@@ -4,12 +4,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
+constexpr double kContinued =
+    22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
 constexpr double kMaxRing = 0.25;   ///< width of a frame, in mean sides of its outer border
 constexpr double kRingRatio = 3.0;  ///< widest over narrowest side of a frame
 constexpr double kUniform = 22.0;   ///< colours of a frame's four sides differ less than this [grey levels]
@@ -17,11 +21,7 @@ constexpr double kContainerScore =
     1.0;                            ///< a loop round panes wins if its score is at least this part of theirs
 constexpr double kMaxPanes = 40.0;  ///< area of a window over the area of its smallest pane
 constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
-constexpr double kVariantOverlap =
-    0.6;  ///< loops that overlap more, and are not round each other, are one window
 constexpr int kRingSamples = 24;
-constexpr double kContinued =
-    22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
 
 cv::Vec3d colourAt(const cv::Mat& image, const Vector2d& p) {
   const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
@@ -34,11 +34,6 @@ cv::Vec3d colourAt(const cv::Mat& image, const Vector2d& p) {
 double depth(const Quadrilateral& quad, int i, const Vector2d& point) {
   const Vector2d along = (quad[(i + 1) % 4] - quad[i]).normalized(), d = point - quad[i];
   return along.x() * d.y() - along.y() * d.x();
-}
-
-double meanSide(const Quadrilateral& quad) {
-  const auto sides = geometry::sideLengths(quad);
-  return std::accumulate(sides.begin(), sides.end(), 0.0) / 4.0;
 }
 
 bool isWithin(const Quadrilateral& outer, const Quadrilateral& inner, double tolerance_px) {
@@ -98,8 +93,8 @@ bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double
          most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 
-std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
-                                          const std::vector<double>& scores, double tolerance_px) const {
+std::vector<LoopVerdict> nestedVerdicts(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
+                                        const std::vector<double>& scores, double tolerance_px) {
   const int count = static_cast<int>(quads.size());
   std::vector<LoopVerdict> verdicts(count);
   std::vector<int> order(count);
@@ -122,55 +117,30 @@ std::vector<LoopVerdict> NestedLoops::run(const cv::Mat& image, const std::vecto
         const cv::Vec3d colour = ringColour(image, quads[front], quads[inner]);
         if (front == outer) paint = colour;
         if (cv::norm(colour - paint) < kContinued) {
-          verdicts[front] = {RejectReason::kOuterBorder, inner, false};
+          verdicts[front] = {RejectReason::kOuterBorder, inner};
           front = inner;
-          verdicts[front].framed = true;
           continue;
         }
       }
       if (areas[front] <= kMaxPanes * areas[inner] && scores[front] >= kContainerScore * scores[inner])
-        verdicts[inner] = {RejectReason::kPane, front, false};
+        verdicts[inner] = {RejectReason::kPane, front};
     }
   }
   return verdicts;
 }
 
-// One with some sides swapped for those of a neighbouring loop. Loops round each other are not.
-bool LoopJudge::isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b,
-                          double tolerance_px) const {
-  const double size = std::max(std::abs(geometry::signedArea(a)), std::abs(geometry::signedArea(b)));
-  if ((geometry::centroid(a) - geometry::centroid(b)).squaredNorm() > size) return false;
-  return geometry::intersectionOverUnion(a, b) > kVariantOverlap && !isConcentric(a, b, tolerance_px) &&
-         !isConcentric(b, a, tolerance_px);
-}
-
-std::vector<Rival*> LoopJudge::bestOfVariants(std::vector<Rival>& rivals, double tolerance_px) const {
-  std::vector<Rival*> loops;
-  for (Rival& rival : rivals) {
-    const auto better = std::find_if(loops.begin(), loops.end(), [&](const Rival* loop) {
-      return isVariant(rival.quad, loop->quad, tolerance_px);
-    });
-    if (better == loops.end())
-      loops.push_back(&rival);
-    else
-      rival.verdict.reject = RejectReason::kDuplicate;
-  }
-  return loops;
-}
-
-void LoopJudge::judge(const cv::Mat& image, int factor, std::vector<Rival>& rivals) const {
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<Rival>& rivals) {
   const double tolerance_px = kLoopTolerancePx * factor;
-  const std::vector<Rival*> loops = bestOfVariants(rivals, tolerance_px);
   std::vector<geometry::Quadrilateral> quads;
   std::vector<double> ranks;
-  for (const Rival* loop : loops) quads.push_back(loop->quad), ranks.push_back(loop->rank());
-  const auto verdicts = nested_.run(image, quads, ranks, tolerance_px);
-  for (std::size_t i = 0; i < loops.size(); ++i) loops[i]->verdict = verdicts[i];
+  for (const Rival& rival : rivals) quads.push_back(rival.quad), ranks.push_back(rival.rank());
+  const auto verdicts = nestedVerdicts(image, quads, ranks, tolerance_px);
+  for (std::size_t i = 0; i < rivals.size(); ++i) rivals[i].verdict = verdicts[i];
   // A frame is one thing: its inner border is as sure as its outer one.
-  for (std::size_t i = 0; i < loops.size(); ++i)
+  for (std::size_t i = 0; i < rivals.size(); ++i)
     if (verdicts[i].reject == RejectReason::kOuterBorder) {
-      Rival& inner = *loops[verdicts[i].other];
-      inner.score = std::max(inner.score, loops[i]->score);
+      Rival& inner = rivals[verdicts[i].other];
+      inner.score = std::max(inner.score, rivals[i].score);
     }
 }
 

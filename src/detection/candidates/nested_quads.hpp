@@ -22,27 +22,14 @@ bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrila
 /// opening wins: from the outermost loop inwards as long as the ring passed over is uniform, as the four
 /// sides of a frame are (same plane, same paint) and those of a reveal are not. Without a uniform ring there
 /// is no frame: the outermost loop is the opening's front. A loop that holds panes wins over each of them.
-class NestedLoops {
- public:
-  /// \param quads in pixels of `image`; scores in the same order
-  /// \param tolerance_px uncertainty of a loop's position [px]
-  std::vector<LoopVerdict> run(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& quads,
-                               const std::vector<double>& scores, double tolerance_px) const;
-};
+/// \param quads in pixels of `image`; scores in the same order
+/// \param tolerance_px uncertainty of a loop's position [px]
+std::vector<LoopVerdict> nestedVerdicts(const cv::Mat& image,
+                                        const std::vector<geometry::Quadrilateral>& quads,
+                                        const std::vector<double>& scores, double tolerance_px);
 
-/// Which of the rivals is the opening, by their geometry alone: of the variants of a loop the best, of loops
-/// round each other the front inner border.
-class LoopJudge {
- public:
-  /// Sets the verdicts. \param factor pixels of the image a pixel of the search level
-  void judge(const cv::Mat& image, int factor, std::vector<Rival>& rivals) const;
-
- private:
-  bool isVariant(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b,
-                 double tolerance_px) const;
-  std::vector<Rival*> bestOfVariants(std::vector<Rival>& rivals, double tolerance_px) const;
-
-  NestedLoops nested_;
-};
+/// Sets the verdicts of the rivals: which is the opening, by their geometry alone.
+/// \param factor pixels of the image a pixel of the search level
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<Rival>& rivals);
 
 }  // namespace window_ingress::detection

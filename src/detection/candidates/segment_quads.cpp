@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -14,13 +16,11 @@ constexpr double kMinAngle_rad = 0.6;   ///< between neighbouring sides [rad]
 constexpr double kOddSide =
     0.95;  ///< factor for each side that is brighter inside where most are darker, or so
 constexpr double kSlackPx = 3.0;
-constexpr double kRoundedPx = 1.5;       ///< edges end this far before a corner
-constexpr std::size_t kVariants = 4;     ///< of each loop that is kept so many are compared
-constexpr double kOnPart = 0.3;          ///< a segment goes on beyond a junction with this part of its length
-constexpr double kSameLoopPx = 1.0;      ///< corners of the same loop differ less than this [px]
-constexpr double kSameLoopPart = 0.005;  ///< plus this part of its size
-constexpr double kLongest = 2.0;         ///< mean side of the largest quadrilateral on a side, in its lengths
-constexpr double kLargest = 2.0;         ///< the same at a corner, in the mean lengths of its segments
+constexpr double kRoundedPx = 1.5;    ///< edges end this far before a corner
+constexpr std::size_t kVariants = 4;  ///< of each loop that is kept so many are compared
+constexpr double kOnPart = 0.3;       ///< a segment goes on beyond a junction with this part of its length
+constexpr double kLongest = 2.0;      ///< mean side of the largest quadrilateral on a side, in its lengths
+constexpr double kLargest = 2.0;      ///< the same at a corner, in the mean lengths of its segments
 constexpr float kNoWay = 1e9F;
 constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
 
@@ -47,12 +47,6 @@ int brighterInside(const std::array<const Segment*, 4>& sides, const Vector2d& c
   int count = 0;
   for (const Segment* side : sides) count += side->normal.dot(centre - side->a) > 0.0;
   return count;
-}
-
-bool sameLoop(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b, double near_px) {
-  for (int i = 0; i < 4; ++i)
-    if ((a[i] - b[i]).squaredNorm() > near_px * near_px) return false;
-  return true;
 }
 
 }  // namespace
@@ -184,10 +178,9 @@ void SegmentQuads::keepBest() {
   result_.candidates.clear();
   for (int i : order_) {
     const Found& one = found_[i];
-    const double near_px = kSameLoopPx + kSameLoopPart * std::sqrt(geometry::signedArea(one.quad));
-    const bool known =
-        std::any_of(result_.candidates.begin(), result_.candidates.end(),
-                    [&](const Candidate& better) { return sameLoop(better.quad, one.quad, near_px); });
+    const Sameness same(one.quad);
+    const bool known = std::any_of(result_.candidates.begin(), result_.candidates.end(),
+                                   [&](const Candidate& better) { return same.sameQuad(better.quad); });
     if (known) continue;
     if (static_cast<int>(result_.candidates.size()) == effort_.quads) {
       result_.budget_exceeded = true;

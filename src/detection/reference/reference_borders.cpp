@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "detection/reference/veil.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
@@ -22,8 +23,6 @@ constexpr double kContrastFull =
 constexpr double kStepFull = 0.06;  ///< difference of the colours on both sides of a border that counts fully
 constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness beside chroma
 constexpr double kClear = 0.006;            ///< nearer to a border colours are mixed [mean sides]
-constexpr double kStrongerExponent =
-    0.2;                                 ///< of a border's contrast over the strongest one's across its side
 constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that of bricks and joints is 0.08
 constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
@@ -135,8 +134,6 @@ double ReferenceBorders::frameEnds(int side, double border) const {
 double ReferenceBorders::choose(int side, double& border) const {
   const SideProfile& profile = sides_[side];
   const int count = static_cast<int>(profile.means.size());
-  double strongest = 1.0;
-  for (int k = 1; k + 1 < count; ++k) strongest = std::max(strongest, static_cast<double>(profile.change(k)));
   const bool framed = frame_widths_[side] > 0.0;
   double best = 0.0;
   Bands bands;
@@ -156,9 +153,7 @@ double ReferenceBorders::choose(int side, double& border) const {
     beside[2] -= features(bands[kBands - 1])[2];
     const double goes_on = difference(within, beside);
     // Where the end of the frame tells the place, a faint border will do.
-    const double visible = framed ? ends * (peak ? 1.0 : kForetold)
-                                  : std::min(1.0, here / kContrastFull) * std::min(1.0, goes_on / kStepFull) *
-                                        std::pow(here / strongest, kStrongerExponent);
+    const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
     const double away = at / kInward / kFarAway;
     const double worth = std::exp(-off / kAlike - 0.5 * away * away) * visible;
     if (worth > best) best = worth, border = at;
@@ -172,9 +167,7 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
                                                                   const Effort& effort) {
   if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
   const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
-  Quadrilateral ideal = rough;
-  if (lens)
-    for (Vector2d& corner : ideal) corner = lens->undistort(corner);
+  const Quadrilateral ideal = undistorted(rough, lens);
   measure(image, ideal, lens, aspect_, effort);
   darkest_ = 255.0F;
   for (const SideProfile& side : sides_)
@@ -191,10 +184,9 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
   for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
   const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
   const geometry::UnitSquare map(ideal);
-  located.quad = {map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),
-                  map.toImage({left, bottom})};
-  if (lens)
-    for (Vector2d& corner : located.quad) corner = lens->distort(corner);
+  located.quad = distorted({map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),
+                            map.toImage({left, bottom})},
+                           lens);
   if (!geometry::isFinite(located.quad) || !geometry::isConvex(located.quad)) return std::nullopt;
   return located;
 }

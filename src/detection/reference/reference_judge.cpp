@@ -5,13 +5,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "detection/candidates/candidate_gates.hpp"
+#include "detection/quads.hpp"
 #include "detection/reference/ring_histogram.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kMostCertain = 0.99;  ///< of a score before the reference is asked
-constexpr double kSameWindow = 0.22;   ///< loops whose corners differ less, in its size, are of one window
+constexpr double kMostCertain = 0.99;       ///< of a score before the reference is asked
 constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
@@ -19,14 +19,6 @@ constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the refe
 constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
-
-// Loops of one window: no corner is further off than a part of its size.
-bool isAbout(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
-  const double reach = kSameWindow * kSameWindow * std::abs(geometry::signedArea(b));
-  for (int i = 0; i < 4; ++i)
-    if ((a[i] - b[i]).squaredNorm() > reach) return false;
-  return true;
-}
 
 // Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
 double updated(double score, double odds) {
@@ -39,7 +31,8 @@ void choosePlaces(const std::vector<Rival>& rivals, std::vector<std::size_t>& pl
   places.clear();
   for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
     int variants = 0;
-    for (std::size_t place : places) variants += isAbout(rivals[i].quad, rivals[place].quad);
+    const Sameness same(rivals[i].quad);
+    for (std::size_t place : places) variants += same.samePlace(rivals[place].quad);
     if (variants < kVariantsLocated) places.push_back(i);
   }
 }
@@ -113,8 +106,9 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<Rival>& rivals) con
 // Loops whose borders were not located count less; not at all where others have surely been.
 void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<Rival>& rivals) const {
   for (Rival& rival : rivals) {
+    const Sameness same(rival.quad);
     const bool sure = std::any_of(located_.begin(), located_.end(), [&](const Rival& place) {
-      return place.worth > kSureWorth && isAbout(rival.quad, place.quad);
+      return place.worth > kSureWorth && same.samePlace(place.quad);
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
     if (sure)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "detection/quads.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -132,17 +133,6 @@ double aspectOf(const Quadrilateral& ideal, const PinholeCamera& camera) {
   for (Vector2d& p : rays) p = {(p.x() - camera.cx) / camera.fx, (p.y() - camera.cy) / camera.fy};
   const Eigen::Matrix3d map = geometry::UnitSquare(rays).matrix();
   return map.col(0).norm() / map.col(1).norm();
-}
-
-double meanSide(const Quadrilateral& quad) {
-  const auto sides = geometry::sideLengths(quad);
-  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
-}
-
-Quadrilateral undistorted(Quadrilateral quad, const PinholeCamera* lens) {
-  if (lens)
-    for (Vector2d& corner : quad) corner = lens->undistort(corner);
-  return quad;
 }
 
 // Width of the frame beside the border at 0, edge to edge whatever the blur: colours between frame and wall

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -14,11 +15,6 @@ using geometry::Quadrilateral;
 
 constexpr double kSkip = 0.08;  ///< left out at both ends of a side
 constexpr int kFewestAcross = 12;
-
-double meanSide(const Quadrilateral& quad) {
-  const auto sides = geometry::sideLengths(quad);
-  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
-}
 
 // Point of the unit square's plane beside side `i`, t along it, `out` from it in sides across.
 Vector2d beside(int i, double t, double out) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "detection/borders/lines.hpp"
+#include "detection/quads.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -20,11 +21,6 @@ constexpr double kGoodInliers = 0.8;   // part of profiles on a line that is as 
 constexpr double kBeyondEnd =
     0.3;  // a corner may lie this much beyond what was seen of a side, in its lengths
 constexpr double kBeyondEndPx = 6.0;
-
-double sizeOf(const Quadrilateral& quad) {
-  const auto sides = geometry::sideLengths(quad);
-  return 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]);
-}
 
 // What is left of the change between two quadrilaterals when place, size and roll are taken out [px].
 double warpBetween(const Quadrilateral& before, const Quadrilateral& after) {
@@ -71,15 +67,15 @@ BorderQuartet::BorderQuartet(const TrackParams& track)
 
 void BorderQuartet::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
                           const Quadrilateral& quad) {
-  for (int i = 0; i < 4; ++i) followers_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, sizeOf(quad));
+  for (int i = 0; i < 4; ++i) followers_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
 }
 
 bool BorderQuartet::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
   const Quadrilateral predicted = motion.predicted();
   in_view_ = fitted_ = 0;
   for (int i = 0; i < 4; ++i) {
-    borders_[i] = followers_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]}, sizeOf(predicted),
-                                       motion.sigmaAcross(i));
+    borders_[i] = followers_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]},
+                                       meanSide(predicted), motion.sigmaAcross(i));
     in_view_ += borders_[i].in_view;
     fitted_ += borders_[i].fitted;
   }
@@ -104,7 +100,7 @@ bool BorderQuartet::keepsShape(const QuadMotion& motion) const {
   const Quadrilateral now = motion.quad();
   if (!geometry::isFinite(now) || !geometry::isConvex(now) || !(geometry::signedArea(now) > 0.0))
     return false;
-  const double slack_px = std::max(kLeastSlackPx, kMaxShapeChange * sizeOf(now));
+  const double slack_px = std::max(kLeastSlackPx, kMaxShapeChange * meanSide(now));
   return warpBetween(motion.predicted(), now) <= slack_px;
 }
 
@@ -127,7 +123,7 @@ void BorderQuartet::describe(const cv::Mat& image, const geometry::PinholeCamera
 void BorderQuartet::keep(const cv::Mat& image, const geometry::PinholeCamera* lens,
                          const Quadrilateral& quad) {
   for (int i = 0; i < 4; ++i)
-    if (borders_[i].fitted) followers_[i].keep(image, lens, sizeOf(quad));
+    if (borders_[i].fitted) followers_[i].keep(image, lens, meanSide(quad));
 }
 
 double BorderQuartet::quality() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "detection/tracking/image_sequence.hpp"
 
 namespace window_ingress::detection {

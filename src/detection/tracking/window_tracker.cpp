@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "detection/tracking/window_tracker_impl.hpp"
 #include "window_ingress/parameters/fields.hpp"
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "detection/quads.hpp"
 #include "detection/tracking/window_tracker_impl.hpp"
 
 namespace window_ingress::detection {
@@ -9,7 +10,6 @@ using geometry::Quadrilateral;
 
 constexpr double kFoundSigmaPx = 0.3;     // of corners just found
 constexpr int kCompletionFrames = 10;     // between searches for a border that is in view and not found
-constexpr double kSameWindow = 0.6;       // overlap of two loops of one window, of their union
 constexpr double kVariantRadiusPx = 4.0;  // reach of the fit of a candidate that the search passed over
 
 }  // namespace
@@ -45,18 +45,21 @@ void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found
   tracking = has_motion = true;
 }
 
-// A window that the search passed over for a better one, where the old one must be; another loop of the one
-// that it found says that this is the old one.
+// A window that the search passed over for a better one, where the old one must be, of several the best;
+// another loop of the one that it found says that this is the old one.
 std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInput& input,
                                                                   const WindowObservation& found) {
-  for (const CandidateTrace& other : detector.trace().candidates) {
-    if (other.reject != RejectReason::kOutscored ||
-        !identity.isSame(undistorted(other.quad, pictures.lens()), motion.quad()))
-      continue;
-    if (geometry::intersectionOverUnion(other.quad, found.corners) > kSameWindow) return found;
-    const auto borders = refinement.run(input.image, {other.quad, kVariantRadiusPx}, input.camera);
-    if (!borders) continue;
-    return observationOf(other, *borders, input.stamp_sec);
+  std::vector<const CandidateTrace*> others;
+  for (const CandidateTrace& other : detector.trace().candidates)
+    if (other.reject == RejectReason::kOutscored &&
+        identity.isSame(undistorted(other.quad, pictures.lens()), motion.quad()))
+      others.push_back(&other);
+  std::stable_sort(others.begin(), others.end(),
+                   [](const auto* a, const auto* b) { return a->score > b->score; });
+  for (const CandidateTrace* other : others) {
+    if (Sameness(other->quad).sameWindow(found.corners)) return found;
+    const auto borders = refinement.run(input.image, {other->quad, kVariantRadiusPx}, input.camera);
+    if (borders) return observationOf(*other, *borders, input.stamp_sec);
   }
   return std::nullopt;
 }

@@ -15,7 +15,7 @@ const cv::Size kImage(320, 240);
 Candidate good() {
   Candidate candidate;
   candidate.quad = candidate.seen = test::rectangle(100, 80, 200, 160);
-  for (SideSupport& side : candidate.sides) side = {1.0, 20.0, 0.0, -1.0};
+  for (SideSupport& side : candidate.sides) side = {1.0, 20.0, 0.0};
   return candidate;
 }
 
