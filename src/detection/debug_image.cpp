@@ -70,13 +70,13 @@ void drawCandidates(cv::Mat& canvas, const DetectionTrace& trace) {
       drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
 }
 
-std::vector<Lettering::Line> legendOf(const DetectionTrace& trace) {
+std::vector<TextOverlay::Line> legendOf(const DetectionTrace& trace) {
   std::array<int, kRejectReasons> counts{};
   for (const CandidateTrace& candidate : trace.candidates) ++counts[static_cast<int>(candidate.reject)];
   std::vector<int> order;
   for (int i = 1; i < kRejectReasons; ++i)
     if (counts[i] > 0) order.push_back(i);
-  std::vector<Lettering::Line> lines;
+  std::vector<TextOverlay::Line> lines;
   for (int i : order) {
     const auto reason = static_cast<RejectReason>(i);
     lines.push_back({std::to_string(counts[i]) + "  " + toString(reason), colourOf(reason), true});
@@ -105,7 +105,7 @@ bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
 }
 
 // A few, each of another place.
-void explainBest(Lettering& lettering, const DetectionTrace& trace) {
+void explainBest(TextOverlay& lettering, const DetectionTrace& trace) {
   constexpr double kSamePlace = 0.5;
   std::vector<const CandidateTrace*> all, told;
   for (const CandidateTrace& candidate : trace.candidates)
@@ -203,7 +203,7 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
   canvas.convertTo(canvas, -1, kDim);
   drawCandidates(canvas, trace);
   if (window) window->whole() ? drawWhole(canvas, *window) : drawSides(canvas, *window);
-  Lettering lettering(canvas);
+  TextOverlay lettering(canvas);
   lettering.footer({summaryOf(trace, window, milliseconds), window ? kGreen : kYellow});
   if (window && window->whole()) lettering.keepFree(boxRound(window->corners));
   lettering.box(legendOf(trace));
@@ -216,7 +216,7 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
 void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text) {
   if (canvas.empty() || canvas.type() != CV_8UC3 || !window.whole() || !geometry::isFinite(window.corners))
     return;
-  Lettering lettering(canvas);
+  TextOverlay lettering(canvas);
   lettering.keepFree(boxRound(window.corners));
   lettering.label({text, kGreen}, pixel(window.corners[geometry::kBottomLeft]));
 }

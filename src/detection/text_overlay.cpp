@@ -4,7 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-
 namespace window_ingress::detection {
 namespace {
 
@@ -15,18 +14,18 @@ const cv::Scalar kWhite(255, 255, 255);
 
 }  // namespace
 
-Lettering::Lettering(cv::Mat& canvas)
+TextOverlay::TextOverlay(cv::Mat& canvas)
     : canvas_(canvas), scale_(std::clamp(std::min(canvas.cols / 1700.0, canvas.rows / 1200.0), 0.28, 3.0)) {
   height_ = static_cast<int>(std::lround(kRoom * sizeOf("0g").height));
 }
 
-cv::Size Lettering::sizeOf(const std::string& text) const {
+cv::Size TextOverlay::sizeOf(const std::string& text) const {
   int baseline = 0;
   const cv::Size size = cv::getTextSize(text, kFont, scale_, 1, &baseline);
   return {size.width, size.height + baseline / 2};
 }
 
-void Lettering::backdrop(const cv::Rect& area) {
+void TextOverlay::backdrop(const cv::Rect& area) {
   const cv::Rect seen = area & cv::Rect({0, 0}, canvas_.size());
   if (seen.empty()) return;
   cv::Mat part = canvas_(seen);
@@ -34,18 +33,18 @@ void Lettering::backdrop(const cv::Rect& area) {
   taken_.push_back(area);
 }
 
-void Lettering::write(const std::string& text, const cv::Point& baseline, const cv::Scalar& colour) {
+void TextOverlay::write(const std::string& text, const cv::Point& baseline, const cv::Scalar& colour) {
   const int thickness = scale_ > 0.9 ? 2 : 1;
   cv::putText(canvas_, text, baseline, kFont, scale_, colour, thickness, cv::LINE_AA);
 }
 
-bool Lettering::isFree(const cv::Rect& area) const {
+bool TextOverlay::isFree(const cv::Rect& area) const {
   if ((area & cv::Rect({0, 0}, canvas_.size())) != area) return false;
   return std::none_of(taken_.begin(), taken_.end(),
                       [&](const cv::Rect& other) { return !(area & other).empty(); });
 }
 
-cv::Point Lettering::freeCorner(const cv::Size& size) const {
+cv::Point TextOverlay::freeCorner(const cv::Size& size) const {
   const int right = canvas_.cols - size.width, low = canvas_.rows - height_ * 5 / 4 - size.height;
   for (const cv::Point& corner :
        {cv::Point(0, 0), cv::Point(right, 0), cv::Point(0, low), cv::Point(right, low)})
@@ -53,7 +52,7 @@ cv::Point Lettering::freeCorner(const cv::Size& size) const {
   return {0, 0};
 }
 
-void Lettering::box(const std::vector<Line>& lines, double part) {
+void TextOverlay::box(const std::vector<Line>& lines, double part) {
   const int fitting = std::max(1, static_cast<int>(part * canvas_.rows) / height_);
   const int count = std::min(fitting, static_cast<int>(lines.size())), margin = height_ / 2;
   if (count == 0) return;
@@ -72,16 +71,16 @@ void Lettering::box(const std::vector<Line>& lines, double part) {
   }
 }
 
-void Lettering::keepFree(const cv::Rect& area) {
+void TextOverlay::keepFree(const cv::Rect& area) {
   if (3 * area.width < 2 * canvas_.cols && 3 * area.height < 2 * canvas_.rows) taken_.push_back(area);
 }
 
-void Lettering::footer(const Line& line) {
+void TextOverlay::footer(const Line& line) {
   backdrop({0, canvas_.rows - height_ * 5 / 4, canvas_.cols, height_ * 5 / 4});
   write(line.text, {height_ / 2, canvas_.rows - height_ * 2 / 5}, line.colour);
 }
 
-bool Lettering::label(const Line& line, const cv::Point& at) {
+bool TextOverlay::label(const Line& line, const cv::Point& at) {
   const cv::Size size = sizeOf(line.text);
   const int w = size.width + height_ / 2, h = height_, gap = 2;
   const cv::Point places[] = {{at.x, at.y - h - gap}, {at.x, at.y + gap},         {at.x - w, at.y - h - gap},

@@ -50,13 +50,13 @@ struct WindowDetector::Impl {
                                                      const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
-  bool isUnlikeInColour(const Rival& rival) const;
-  std::optional<Rejection> objection(const Rival& rival) const;
-  std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
+  bool isUnlikeInColour(const ScoredCandidate& rival) const;
+  std::optional<Rejection> objection(const ScoredCandidate& rival) const;
+  std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
-  double leastScore(const Rival& rival) const;
-  double runnerUp(const Rival& target) const;
-  void record(const Rival& rival, RejectReason reason, double value, double limit) {
+  double leastScore(const ScoredCandidate& rival) const;
+  double runnerUp(const ScoredCandidate& target) const;
+  void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
     trace.candidates.push_back(traceOf(rival, reason, value, limit));
   }
 
@@ -65,24 +65,24 @@ struct WindowDetector::Impl {
   ReferenceJudge reference;
   BorderRefinement refinement;
   DetectionTrace trace;
-  std::vector<Rival> rivals;
+  std::vector<ScoredCandidate> rivals;
   StageWatch* watch = nullptr;
 };
 
-double WindowDetector::Impl::leastScore(const Rival& rival) const {
+double WindowDetector::Impl::leastScore(const ScoredCandidate& rival) const {
   if (rival.correlation) return params.min_correlation;
   return rival.appearance ? params.min_score_reference : params.min_score;
 }
 
 // Light of another colour changes the colours, and leaves the contrasts of a ring.
-bool WindowDetector::Impl::isUnlikeInColour(const Rival& rival) const {
+bool WindowDetector::Impl::isUnlikeInColour(const ScoredCandidate& rival) const {
   if (!rival.appearance) return false;
   const bool is_unlike = rival.appearance->distance > rival.appearance->limit;
   if (!rival.correlation) return is_unlike;
   return rival.faithful < kFaithful && (is_unlike || !reference.frameless());
 }
 
-std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
+std::optional<Rejection> WindowDetector::Impl::objection(const ScoredCandidate& rival) const {
   if (isUnlikeInColour(rival))
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
   if (rival.correlation && *rival.correlation < params.min_correlation)
@@ -93,7 +93,7 @@ std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) con
   return std::nullopt;
 }
 
-std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, const cv::Mat& image,
+std::optional<RefinedBorders> WindowDetector::Impl::refine(const ScoredCandidate& rival, const cv::Mat& image,
                                                            const geometry::PinholeCamera* camera,
                                                            double& inliers) const {
   BorderStart start;
@@ -105,10 +105,10 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
 }
 
 // Correlation of the next best place.
-double WindowDetector::Impl::runnerUp(const Rival& target) const {
+double WindowDetector::Impl::runnerUp(const ScoredCandidate& target) const {
   const Sameness same(target.quad);
   double best = 0.0;
-  for (const Rival& other : rivals)
+  for (const ScoredCandidate& other : rivals)
     if (other.located && !same.sameWindow(other.quad)) best = std::max(best, other.correlation.value_or(0.0));
   return best;
 }
@@ -119,7 +119,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
   sortByRank(rivals);
   std::optional<WindowObservation> window;
   int tries = 0;
-  for (const Rival& rival : rivals) {
+  for (const ScoredCandidate& rival : rivals) {
     if (const auto fault = objection(rival)) {
       record(rival, fault->reason, fault->value, fault->limit);
     } else if (window) {

@@ -25,9 +25,9 @@ struct Stages {
   DetectorParams params;
   Preprocess preprocess{params.preprocess};
   EdgeDetector edges{params.edges};
-  LevelLens lens;
-  EdgeRuns runs;
-  LineSupport lines{params.lines};
+  LevelCamera lens;
+  EdgeChains runs;
+  HoughSegments lines{params.lines};
   Closing closing{params.closing};
   ContourPolygons contours{params.contours};
   SegmentQuads quads{params.segment_quads};
@@ -38,7 +38,7 @@ struct Stages {
   std::vector<Segment> segments;
   cv::Mat closed;
   DetectionTrace trace;
-  std::vector<Rival> rivals;
+  std::vector<ScoredCandidate> rivals;
 };
 
 bool runPreprocess(Stages& s) { return !s.preprocess.run(s.image).image.empty(); }
@@ -58,7 +58,7 @@ bool runHalfSearch(Stages& s) {
 }
 bool runAppearance(Stages& s) {
   bool compared = false;
-  for (const Rival& rival : s.rivals)
+  for (const ScoredCandidate& rival : s.rivals)
     compared |= s.sequence.reference->distance(s.image, rival.quad, s.params.appearance).has_value();
   return compared;
 }

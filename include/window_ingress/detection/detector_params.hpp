@@ -31,7 +31,7 @@ struct EdgeMapParams {
   }
 };
 
-struct LineSupportParams {
+struct HoughSegmentsParams {
   double min_length = 0.03;    ///< of a segment, in longer sides of the level
   double max_gap = 0.02;       ///< within a segment, in longer sides of the level
   double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
@@ -159,7 +159,7 @@ struct TrackParams {
 struct DetectorParams {
   PreprocessParams preprocess;
   EdgeMapParams edges;
-  LineSupportParams lines;
+  HoughSegmentsParams lines;
   ClosingParams closing;
   ContourPolygonsParams contours;
   SegmentQuadsParams segment_quads;

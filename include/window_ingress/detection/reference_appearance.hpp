@@ -20,6 +20,9 @@ struct AppearanceMatch {
   double odds = 1.0;      ///< how much likelier such a distance is for the target than for something else
 };
 
+/// True if no pixel of a grid over the picture has a colour: then no comparison of colours means anything.
+bool isGrey(const cv::Mat& image);
+
 /// How the target looks (P9): made once from a picture of it.
 ///
 /// The limit on the distance comes from the reference picture: the distance of nine tenths of the other

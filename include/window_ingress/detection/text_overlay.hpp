@@ -9,10 +9,10 @@
 namespace window_ingress::detection {
 
 /// Writes on pictures, in a size that follows theirs, and keeps texts off each other.
-class Lettering {
+class TextOverlay {
  public:
   /// \param canvas CV_8UC3; must outlive this object
-  explicit Lettering(cv::Mat& canvas);
+  explicit TextOverlay(cv::Mat& canvas);
 
   struct Line {
     std::string text;

@@ -102,7 +102,7 @@ void RingAlignment::place(const Scale& scale, const Matrix3d& map) {
   }
   if (!lens_) return;
   for (int i = 0; i < count; ++i) {
-    const Vector2d at = PicturePyramid::onLevel(lens_->distort(Vector2d(at_x_[i], at_y_[i])), scale.level);
+    const Vector2d at = ImagePyramid::onLevel(lens_->distort(Vector2d(at_x_[i], at_y_[i])), scale.level);
     at_x_[i] = static_cast<float>(at.x()), at_y_[i] = static_cast<float>(at.y());
   }
 }

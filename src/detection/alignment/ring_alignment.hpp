@@ -101,7 +101,7 @@ class RingAlignment {
 
   const RingModel* model_ = nullptr;
   const geometry::PinholeCamera* lens_ = nullptr;
-  PicturePyramid pyramid_;
+  ImagePyramid pyramid_;
   int channels_ = 0;
   std::vector<float> at_x_, at_y_;  ///< the ring's samples on the picture's level
   std::vector<float> values_;       ///< of the picture, as those of the ring's level

@@ -14,15 +14,15 @@ constexpr int kVariants = 2;                   ///< rough loops of one place fro
 constexpr double kSure = 0.85, kBehind = 0.3;  ///< a place found, and what promises so much less is left out
 constexpr double kGeometryWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
 
-void sortByScore(std::vector<Rival>& rivals) {
+void sortByScore(std::vector<ScoredCandidate>& rivals) {
   std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.score > b.score; });
+                   [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.score > b.score; });
 }
 
 }  // namespace
 
 // What is promising first.
-void RingJudge::compareAll(std::vector<Rival>& rivals) {
+void RingJudge::compareAll(std::vector<ScoredCandidate>& rivals) {
   order_.clear();
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
@@ -35,15 +35,15 @@ void RingJudge::compareAll(std::vector<Rival>& rivals) {
   });
 }
 
-std::optional<Rival> RingJudge::aligned(const Rival& rough, double finest_px) {
+std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, double finest_px) {
   const auto found = alignment_.align(rough.quad, finest_px);
   if (!found) return std::nullopt;
   const auto quad = geometry::canonical(found->quad);
   if (!quad) return std::nullopt;
-  Rival rival = rough;
+  ScoredCandidate rival = rough;
   rival.quad = *quad;
   rival.candidate.source = CandidateSource::kReference;
-  rival.verdict = LoopVerdict();
+  rival.verdict = NestedVerdict();
   rival.proposal = 0.0;
   rival.located = true;
   rival.size = 1.0;
@@ -52,18 +52,20 @@ std::optional<Rival> RingJudge::aligned(const Rival& rough, double finest_px) {
 }
 
 // Of all that come to lie about one place the best.
-void RingJudge::keep(const Rival& rival) {
+void RingJudge::keep(const ScoredCandidate& rival) {
   const Sameness sameness(rival.quad);
-  const auto same = std::find_if(aligned_.begin(), aligned_.end(),
-                                 [&](const Rival& other) { return sameness.samePlace(other.quad); });
+  const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& other) {
+    return sameness.samePlace(other.quad);
+  });
   if (same == aligned_.end())
     aligned_.push_back(rival);
   else if (rival.score > same->score)
     *same = rival;
 }
 
-const std::vector<Rival>& RingJudge::align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                           std::vector<Rival>& rivals) {
+const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
+                                                     const geometry::PinholeCamera* camera,
+                                                     std::vector<ScoredCandidate>& rivals) {
   aligned_.clear();
   if (!known() || image.channels() != model_.channels()) return aligned_;
   alignment_.set(model_, image, camera);
@@ -88,7 +90,7 @@ const std::vector<Rival>& RingJudge::align(const cv::Mat& image, const geometry:
   for (std::size_t i = 0; i < std::min(aligned_.size(), kFinePlaces); ++i)
     if (const auto rival = aligned(aligned_[i], kFinestPx)) aligned_[i] = *rival;
   sortByScore(aligned_);
-  for (Rival& rival : aligned_) rival.faithful = alignment_.compare(rival.quad, kFinestPx).faithful;
+  for (ScoredCandidate& rival : aligned_) rival.faithful = alignment_.compare(rival.quad, kFinestPx).faithful;
   return aligned_;
 }
 

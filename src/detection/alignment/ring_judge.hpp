@@ -20,19 +20,19 @@ class RingJudge {
 
   /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
   /// correlation of every rival as it is. \param image with as many channels as the reference picture
-  const std::vector<Rival>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                  std::vector<Rival>& rivals);
+  const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                            std::vector<ScoredCandidate>& rivals);
 
  private:
-  std::optional<Rival> aligned(const Rival& rough, double finest_px);
-  void keep(const Rival& rival);
-  void compareAll(std::vector<Rival>& rivals);
+  std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
+  void keep(const ScoredCandidate& rival);
+  void compareAll(std::vector<ScoredCandidate>& rivals);
 
   RingModel model_;
   RingAlignment alignment_;
   std::vector<std::pair<double, std::size_t>>
       order_;  ///< by correlation before anything is moved; of `rivals`
-  std::vector<Rival> aligned_;
+  std::vector<ScoredCandidate> aligned_;
 };
 
 }  // namespace window_ingress::detection

@@ -64,7 +64,7 @@ class Reader {
       : picture_(picture), map_(map), level_(level), model_(model) {}
 
   bool read(const Vector2d& p, std::array<float, 3>& value) const {
-    const Vector2d at = PicturePyramid::onLevel(map_.toImage(p + Vector2d(0.5, 0.5)), level_);
+    const Vector2d at = ImagePyramid::onLevel(map_.toImage(p + Vector2d(0.5, 0.5)), level_);
     if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < picture_.cols - 1 && at.y() < picture_.rows - 1))
       return false;
     const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y()),
@@ -167,7 +167,7 @@ RingLevel sampled(const Reader& reader, const Shape& shape, int channels, double
 
 }  // namespace
 
-void PicturePyramid::set(const cv::Mat& image) {
+void ImagePyramid::set(const cv::Mat& image) {
   deepest_ = 0;
   while (std::min(image.cols, image.rows) >> (deepest_ + 1) >= kShortestSidePx) ++deepest_;
   if (static_cast<int>(levels_.size()) <= deepest_) levels_.resize(deepest_ + 1);
@@ -175,7 +175,7 @@ void PicturePyramid::set(const cv::Mat& image) {
   made_ = 0;
 }
 
-const cv::Mat& PicturePyramid::level(int k) {
+const cv::Mat& ImagePyramid::level(int k) {
   const int wanted = std::clamp(k, 0, deepest_);
   for (; made_ < wanted; ++made_) {
     const cv::Mat& from = levels_[made_];
@@ -211,7 +211,7 @@ void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening, doub
   const Shape shape{2.0 * aspect / (1.0 + aspect), 2.0 / (1.0 + aspect)};
   const double side_px = std::sqrt(std::abs(geometry::signedArea(opening)) / (shape.width * shape.height));
   const geometry::UnitSquare map(opening);
-  PicturePyramid pyramid;
+  ImagePyramid pyramid;
   pyramid.set(picture);
   cv::Mat smooth;
   const double finest = std::clamp(side_px, kCoarsest, kFinest);

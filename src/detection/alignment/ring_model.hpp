@@ -10,7 +10,7 @@ namespace window_ingress::detection {
 
 /// A picture at full, half, quarter ... size; each level is made when it is first asked for. Keeps its
 /// memory.
-class PicturePyramid {
+class ImagePyramid {
  public:
   /// \param image CV_8UC1 or CV_8UC3; shared, not copied
   void set(const cv::Mat& image);

@@ -5,7 +5,7 @@
 
 namespace window_ingress::detection {
 
-CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, double limit) {
+CandidateTrace traceOf(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
   return {rival.quad,
           rival.candidate.source,
           reason,
@@ -18,12 +18,13 @@ CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, do
           rival.proposal};
 }
 
-void sortByRank(std::vector<Rival>& rivals) {
+void sortByRank(std::vector<ScoredCandidate>& rivals) {
   // Equals by their place, so that the order does not depend on the order before.
-  const auto key = [](const Rival& r) {
+  const auto key = [](const ScoredCandidate& r) {
     return std::make_tuple(-r.rank(), r.quad[0].x(), r.quad[0].y(), r.quad[2].x(), r.quad[2].y());
   };
-  std::sort(rivals.begin(), rivals.end(), [&key](const Rival& a, const Rival& b) { return key(a) < key(b); });
+  std::sort(rivals.begin(), rivals.end(),
+            [&key](const ScoredCandidate& a, const ScoredCandidate& b) { return key(a) < key(b); });
 }
 
 }  // namespace window_ingress::detection

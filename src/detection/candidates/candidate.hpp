@@ -32,19 +32,19 @@ struct Candidate {
 };
 
 /// What the loops of a scene are to each other.
-struct LoopVerdict {
+struct NestedVerdict {
   RejectReason reject = RejectReason::kNone;  ///< kOuterBorder, kPane, or kNone
   int other = -1;                             ///< the loop that is taken in its place
 };
 
 /// A candidate that passed the gates on single candidates, and what is found out about it.
-struct Rival {
+struct ScoredCandidate {
   Candidate candidate;
   geometry::Quadrilateral quad;  ///< pixels of the image as it came
   double score = 0.0;            ///< confidence, whatever its size
   double size = 1.0;             ///< preference for its size
   double proposal = 0.0;         ///< its rank in the search; 0 where its borders were located afterwards
-  LoopVerdict verdict;
+  NestedVerdict verdict;
   std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
   bool located = false;                       ///< its borders are where the reference's are
   std::optional<double> correlation;          ///< with the reference's surroundings, where they were aligned
@@ -56,9 +56,9 @@ struct Rival {
 };
 
 /// Higher rank first; deterministic.
-void sortByRank(std::vector<Rival>& rivals);
+void sortByRank(std::vector<ScoredCandidate>& rivals);
 
 /// One line of the trace for a rival.
-CandidateTrace traceOf(const Rival& rival, RejectReason reason, double value, double limit);
+CandidateTrace traceOf(const ScoredCandidate& rival, RejectReason reason, double value, double limit);
 
 }  // namespace window_ingress::detection

@@ -32,8 +32,9 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
       segment_quads_(params.segment_quads),
       gates_(params.gates) {}
 
-const std::vector<Rival>& CandidateSearch::run(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                               DetectionTrace& trace) {
+const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
+                                                         const geometry::PinholeCamera* camera,
+                                                         DetectionTrace& trace) {
   const SearchLevel level = preprocess_.run(image);
   factor_ = level.factor;
   level_size_ = level.image.size();
@@ -57,7 +58,7 @@ void CandidateSearch::look(const cv::Mat& level) {
   done(watch_, Stage::kOutlines);
 }
 
-const std::vector<Rival>& CandidateSearch::runOnColours(DetectionTrace& trace) {
+const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
   kept_.clear();
   doubtful_.clear();
@@ -67,13 +68,13 @@ const std::vector<Rival>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   return combine(SegmentQuads::kThorough, trace);
 }
 
-const std::vector<Rival>& CandidateSearch::runAgain(DetectionTrace& trace) {
+const std::vector<ScoredCandidate>& CandidateSearch::runAgain(DetectionTrace& trace) {
   return combine(SegmentQuads::kThorough, trace);
 }
 
 // Quadrilaterals from segments and contours, through the gates.
-const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& effort,
-                                                   DetectionTrace& trace) {
+const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads::Effort& effort,
+                                                             DetectionTrace& trace) {
   const SegmentQuads::Result& quads =
       segment_quads_.run(*segments_, params_.gates.min_area * level_size_.area(), effort);
   trace.segments = static_cast<int>(segments_->size());
@@ -89,7 +90,7 @@ const std::vector<Rival>& CandidateSearch::combine(const SegmentQuads::Effort& e
   return kept_;
 }
 
-void CandidateSearch::doubt(Rival rival, const Rejection& rejection) {
+void CandidateSearch::doubt(ScoredCandidate rival, const Rejection& rejection) {
   const bool is_dented = rejection.reason == RejectReason::kSolidity;
   if (doubtful_.size() >= kMostDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
     return;
@@ -100,7 +101,7 @@ void CandidateSearch::doubt(Rival rival, const Rejection& rejection) {
 
 void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace& trace) {
   for (const Candidate& one : found) {
-    Rival rival;
+    ScoredCandidate rival;
     rival.candidate = one;
     Candidate& candidate = rival.candidate;
     for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
@@ -125,10 +126,11 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
 void CandidateSearch::keepBest(DetectionTrace& trace) {
   sortByRank(admitted_);
   kept_.clear();
-  for (const Rival& rival : admitted_) {
+  for (const ScoredCandidate& rival : admitted_) {
     const Sameness same(rival.candidate.quad);
-    const auto twin = std::find_if(kept_.begin(), kept_.end(),
-                                   [&](const Rival& better) { return same.sameQuad(better.candidate.quad); });
+    const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const ScoredCandidate& better) {
+      return same.sameQuad(better.candidate.quad);
+    });
     if (twin != kept_.end()) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
     } else if (static_cast<int>(kept_.size()) >= params_.max_candidates) {

@@ -27,24 +27,24 @@ class CandidateSearch {
   /// Valid until the next call. Best first, each loop once, at most `max_candidates`. Everything else goes
   /// into the trace. \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way \param camera its
   /// calibration, or null: the image is then taken as free of distortion
-  const std::vector<Rival>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                DetectionTrace& trace);
+  const std::vector<ScoredCandidate>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                          DetectionTrace& trace);
 
   /// The last image once more, with more segments and more of their combinations: for when none of the
   /// candidates was the target.
-  const std::vector<Rival>& runAgain(DetectionTrace& trace);
+  const std::vector<ScoredCandidate>& runAgain(DetectionTrace& trace);
 
   /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
-  const std::vector<Rival>& runOnColours(DetectionTrace& trace);
+  const std::vector<ScoredCandidate>& runOnColours(DetectionTrace& trace);
 
   /// What the last call returned.
-  const std::vector<Rival>& kept() const { return kept_; }
+  const std::vector<ScoredCandidate>& kept() const { return kept_; }
 
   /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
   /// sides to be taken for a window by its geometry, and what others were better than: for a judge that knows
   /// better.
-  const std::vector<Rival>& doubtful() const { return doubtful_; }
+  const std::vector<ScoredCandidate>& doubtful() const { return doubtful_; }
 
   /// \param watch told of each stage that is done, or null; outlives this
   void setWatch(StageWatch* watch) { watch_ = watch; }
@@ -53,17 +53,17 @@ class CandidateSearch {
 
  private:
   void look(const cv::Mat& level);
-  const std::vector<Rival>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
-  void doubt(Rival rival, const Rejection& rejection);
+  const std::vector<ScoredCandidate>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
+  void doubt(ScoredCandidate rival, const Rejection& rejection);
   void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
   void keepBest(DetectionTrace& trace);
 
   DetectorParams params_;
   Preprocess preprocess_;
   EdgeDetector edges_;
-  LevelLens lens_;
-  EdgeRuns runs_;
-  LineSupport lines_;
+  LevelCamera lens_;
+  EdgeChains runs_;
+  HoughSegments lines_;
   Closing closing_;
   ContourPolygons contours_;
   SegmentQuads segment_quads_;
@@ -72,7 +72,7 @@ class CandidateSearch {
   const std::vector<Segment>* segments_ = nullptr;
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
-  std::vector<Rival> admitted_, kept_, doubtful_;
+  std::vector<ScoredCandidate> admitted_, kept_, doubtful_;
   StageWatch* watch_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;

@@ -43,10 +43,10 @@ Vector2d LineMoments::along() const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-EdgeRuns::EdgeRuns() : min_square_cosine_(static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2))) {}
+EdgeChains::EdgeChains() : min_square_cosine_(static_cast<float>(std::pow(std::cos(kMaxTurn_rad), 2))) {}
 
 // The free neighbour that goes on in the direction of the edge, the straightest first.
-bool EdgeRuns::next(const EdgeMap& map, int sense, Pixel& at) {
+bool EdgeChains::next(const EdgeMap& map, int sense, Pixel& at) {
   const int ahead = stepTowards(-sense * at.dy, sense * at.dx);
   for (int turn : {0, 1, 7}) {
     const short* step = kSteps[(ahead + turn) & 7];
@@ -65,15 +65,15 @@ bool EdgeRuns::next(const EdgeMap& map, int sense, Pixel& at) {
   return false;
 }
 
-void EdgeRuns::follow(const EdgeMap& map, Pixel at, int sense, std::vector<Pixel>& pixels) {
+void EdgeChains::follow(const EdgeMap& map, Pixel at, int sense, std::vector<Pixel>& pixels) {
   pixels.clear();
   while (next(map, sense, at)) pixels.push_back(at);
 }
 
 // A run from a part of the chain.
-void EdgeRuns::emit(std::size_t first, std::size_t last) {
+void EdgeChains::emit(std::size_t first, std::size_t last) {
   if (last - first + 1 < static_cast<std::size_t>(kMinPixels)) return;
-  EdgeRun run;
+  EdgeChain run;
   Vector2d gradient = Vector2d::Zero();
   for (std::size_t i = first; i <= last; ++i) {
     run.moments.add(points_[i]);
@@ -100,7 +100,7 @@ void EdgeRuns::emit(std::size_t first, std::size_t last) {
 }
 
 // Cuts the chain where it is furthest from its chord until all parts are straight (Douglas and Peucker).
-void EdgeRuns::cut(const LevelLens& lens) {
+void EdgeChains::cut(const LevelCamera& lens) {
   points_.clear();
   for (const Pixel& p : forward_) points_.push_back(lens.undistort(p.x, p.y));
   parts_.assign(1, {0, points_.size() - 1});
@@ -125,7 +125,7 @@ void EdgeRuns::cut(const LevelLens& lens) {
   }
 }
 
-const std::vector<EdgeRun>& EdgeRuns::run(const EdgeMap& map, const LevelLens& lens) {
+const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const LevelCamera& lens) {
   runs_.clear();
   pixels_.clear();
   map.edges.copyTo(free_);

@@ -21,27 +21,27 @@ struct LineMoments {
 };
 
 /// A straight run of connected edge pixels, in pixels of the undistorted search level.
-struct EdgeRun {
+struct EdgeChain {
   Eigen::Vector2d a, b;      ///< ends; seen from a to b the brighter side lies on the right of the screen
   Eigen::Vector2d normal;    ///< unit vector towards the brighter side
   LineMoments moments;       ///< of its pixels
   double contrast = 0.0;     ///< mean gradient [grey levels a pixel]
-  int first = 0, count = 0;  ///< of its pixels, see EdgeRuns::pixels
+  int first = 0, count = 0;  ///< of its pixels, see EdgeChains::pixels
 
   double length() const { return (b - a).norm(); }
 };
 
 /// Links neighbouring edge pixels of like gradient direction and cuts the chains where they bend: each pixel
 /// is looked at once. The runs are what the Hough transform votes with.
-class EdgeRuns {
+class EdgeChains {
  public:
-  EdgeRuns();
+  EdgeChains();
 
   /// In the order of the image, from top to bottom. Valid until the next call.
-  const std::vector<EdgeRun>& run(const EdgeMap& map, const LevelLens& lens);
+  const std::vector<EdgeChain>& run(const EdgeMap& map, const LevelCamera& lens);
 
   /// Those of the last map.
-  const std::vector<EdgeRun>& runs() const { return runs_; }
+  const std::vector<EdgeChain>& runs() const { return runs_; }
 
   /// Pixels of all runs of the last map, in pixels of the level as it came.
   const std::vector<cv::Point_<short>>& pixels() const { return pixels_; }
@@ -53,7 +53,7 @@ class EdgeRuns {
 
   bool next(const EdgeMap& map, int sense, Pixel& at);
   void follow(const EdgeMap& map, Pixel start, int sense, std::vector<Pixel>& pixels);
-  void cut(const LevelLens& lens);
+  void cut(const LevelCamera& lens);
   void emit(std::size_t first, std::size_t last);
 
   float min_square_cosine_;
@@ -62,7 +62,7 @@ class EdgeRuns {
   std::vector<Eigen::Vector2d> points_;
   std::vector<std::pair<std::size_t, std::size_t>> parts_;
   double straight_px_ = 1.0;
-  std::vector<EdgeRun> runs_;
+  std::vector<EdgeChain> runs_;
   std::vector<cv::Point_<short>> pixels_;
 };
 

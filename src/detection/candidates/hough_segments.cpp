@@ -52,7 +52,7 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
   }
 }
 
-void LineSupport::prepare(const cv::Size& level) {
+void HoughSegments::prepare(const cv::Size& level) {
   const double side = std::max(level.width, level.height);
   min_length_px_ = std::max(5.0, params_.min_length * side);
   max_gap_px_ = params_.max_gap * side;
@@ -65,14 +65,14 @@ void LineSupport::prepare(const cv::Size& level) {
 }
 
 // Cell of the line of this angle through the middle of a run.
-int LineSupport::cellOf(const Vector2d& middle, int angle) const {
+int HoughSegments::cellOf(const Vector2d& middle, int angle) const {
   const int a = (angle + kAngles) % kAngles;
   const double rho = normals_[a].dot(middle - centre_) / kRhoStepPx + 0.5 * rhos_;
   return a * rhos_ + std::clamp(static_cast<int>(rho), 0, rhos_ - 1);
 }
 
 // Each run votes for the angles that its length leaves open.
-void LineSupport::vote(const std::vector<EdgeRun>& runs) {
+void HoughSegments::vote(const std::vector<EdgeChain>& runs) {
   ballots_.resize(runs.size());
   middles_.resize(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -85,7 +85,7 @@ void LineSupport::vote(const std::vector<EdgeRun>& runs) {
 }
 
 // Sums and lists of all cells, by counting first.
-void LineSupport::countVotes(const std::vector<EdgeRun>& runs) {
+void HoughSegments::countVotes(const std::vector<EdgeChain>& runs) {
   const std::size_t cells = static_cast<std::size_t>(kAngles) * rhos_;
   votes_.assign(cells, 0.0F);
   starts_.assign(cells + 2, 0);
@@ -106,9 +106,9 @@ void LineSupport::countVotes(const std::vector<EdgeRun>& runs) {
 }
 
 // The runs that voted for the seed's line or one beside it, as they lie along it.
-void LineSupport::collect(const std::vector<EdgeRun>& runs, int seed) {
+void HoughSegments::collect(const std::vector<EdgeChain>& runs, int seed) {
   members_.clear();
-  const EdgeRun& own = runs[seed];
+  const EdgeChain& own = runs[seed];
   const Vector2d along = (own.b - own.a).normalized(), across = right(along), mean = middles_[seed];
   for (int angle = ballots_[seed].first_angle; angle <= ballots_[seed].last_angle; ++angle) {
     const int cell = cellOf(mean, angle), row = cell / rhos_ * rhos_;
@@ -130,7 +130,7 @@ void LineSupport::collect(const std::vector<EdgeRun>& runs, int seed) {
 }
 
 // Takes what lies on the line up to the first gap; `way` 1 towards b, -1 towards a.
-void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments& moments, double& end) {
+void HoughSegments::extend(const std::vector<EdgeChain>& runs, int way, LineMoments& moments, double& end) {
   Vector2d mean = moments.mean(), normal = right(moments.along());
   const int count = static_cast<int>(members_.size());
   for (int k = 0; k < count; ++k) {
@@ -138,7 +138,7 @@ void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments&
     const double near = way > 0 ? m.from : m.to, far = way > 0 ? m.to : m.from;
     if (way * (far - end) <= 0.0) continue;
     if (way * (near - end) > max_gap_px_) break;
-    const EdgeRun& other = runs[m.run];
+    const EdgeChain& other = runs[m.run];
     const double off_px = off_line_px_ + kBow * moments.n;
     if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px)
       continue;
@@ -149,8 +149,8 @@ void LineSupport::extend(const std::vector<EdgeRun>& runs, int way, LineMoments&
   }
 }
 
-bool LineSupport::grow(const std::vector<EdgeRun>& runs, int seed, Segment& segment) {
-  const EdgeRun& own = runs[seed];
+bool HoughSegments::grow(const std::vector<EdgeChain>& runs, int seed, Segment& segment) {
+  const EdgeChain& own = runs[seed];
   collect(runs, seed);
   taken_.assign(1, seed);
   LineMoments moments = own.moments;
@@ -172,7 +172,7 @@ bool LineSupport::grow(const std::vector<EdgeRun>& runs, int seed, Segment& segm
   return high - low >= min_length_px_ && moments.n >= params_.min_density * steps;
 }
 
-const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, const cv::Size& level) {
+const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& runs, const cv::Size& level) {
   prepare(level);
   vote(runs);
   segments_.clear();
@@ -203,12 +203,13 @@ const std::vector<Segment>& LineSupport::run(const std::vector<EdgeRun>& runs, c
   return segments_;
 }
 
-void keepOnSegments(const EdgeRuns& runs, const LineSupport& lines, const cv::Size& level, cv::Mat& edges) {
+void keepOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
+                    cv::Mat& edges) {
   edges.create(level, CV_8UC1);
   edges.setTo(0);
   for (std::size_t i = 0; i < runs.runs().size(); ++i) {
     if (!lines.onSegment()[i]) continue;
-    const EdgeRun& run = runs.runs()[i];
+    const EdgeChain& run = runs.runs()[i];
     for (int k = run.first; k < run.first + run.count; ++k)
       edges.ptr(runs.pixels()[k].y)[runs.pixels()[k].x] = 255;
   }

@@ -31,13 +31,13 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
 /// hundred voters in place of ten thousand, and the same result each time. A line takes the runs that voted
 /// for it, from its longest outwards, up to the first gap that is too wide. The edge map itself is not
 /// redrawn.
-class LineSupport {
+class HoughSegments {
  public:
-  explicit LineSupport(const LineSupportParams& params) : params_(params) {}
+  explicit HoughSegments(const HoughSegmentsParams& params) : params_(params) {}
 
   /// Strongest first, by length and the root of the contrast; at most `max_segments`. Deterministic. Valid
   /// until the next call.
-  const std::vector<Segment>& run(const std::vector<EdgeRun>& runs, const cv::Size& level);
+  const std::vector<Segment>& run(const std::vector<EdgeChain>& runs, const cv::Size& level);
 
   /// 1 for each run of the last call that lies on a segment.
   const std::vector<std::uint8_t>& onSegment() const { return used_; }
@@ -55,14 +55,14 @@ class LineSupport {
   };
 
   void prepare(const cv::Size& level);
-  void vote(const std::vector<EdgeRun>& runs);
-  void countVotes(const std::vector<EdgeRun>& runs);
+  void vote(const std::vector<EdgeChain>& runs);
+  void countVotes(const std::vector<EdgeChain>& runs);
   int cellOf(const Eigen::Vector2d& middle, int angle) const;
-  void collect(const std::vector<EdgeRun>& runs, int seed);
-  bool grow(const std::vector<EdgeRun>& runs, int seed, Segment& segment);
-  void extend(const std::vector<EdgeRun>& runs, int way, LineMoments& moments, double& end);
+  void collect(const std::vector<EdgeChain>& runs, int seed);
+  bool grow(const std::vector<EdgeChain>& runs, int seed, Segment& segment);
+  void extend(const std::vector<EdgeChain>& runs, int way, LineMoments& moments, double& end);
 
-  LineSupportParams params_;
+  HoughSegmentsParams params_;
   Eigen::Vector2d centre_;
   int rhos_ = 0;
   double min_length_px_ = 0.0, max_gap_px_ = 0.0, off_line_px_ = 0.0;
@@ -82,6 +82,7 @@ class LineSupport {
 
 /// Of an edge map what lies on the segments that were found: Hough selects (P4), it does not draw.
 /// \param runs and \param lines after their last call \param edges CV_8UC1, result, 0 or 255
-void keepOnSegments(const EdgeRuns& runs, const LineSupport& lines, const cv::Size& level, cv::Mat& edges);
+void keepOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
+                    cv::Mat& edges);
 
 }  // namespace window_ingress::detection

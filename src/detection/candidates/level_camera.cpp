@@ -29,7 +29,7 @@ std::array<double, 12> keyOf(const geometry::PinholeCamera& c) {
 
 }  // namespace
 
-void LevelLens::set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor) {
+void LevelCamera::set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor) {
   if (!camera || !camera->hasDistortion()) {
     camera_.reset();
     table_.release();
@@ -48,11 +48,11 @@ void LevelLens::set(const geometry::PinholeCamera* camera, const cv::Size& level
     }
 }
 
-Eigen::Vector2d LevelLens::undistort(const Eigen::Vector2d& level_px) const {
+Eigen::Vector2d LevelCamera::undistort(const Eigen::Vector2d& level_px) const {
   return camera_ ? camera_->undistort(level_px) : level_px;
 }
 
-Eigen::Vector2d LevelLens::distort(const Eigen::Vector2d& ideal_level_px) const {
+Eigen::Vector2d LevelCamera::distort(const Eigen::Vector2d& ideal_level_px) const {
   return camera_ ? camera_->distort(ideal_level_px) : ideal_level_px;
 }
 

@@ -11,7 +11,7 @@ namespace window_ingress::detection {
 
 /// The lens as it shows on the search level: straight borders are straight lines of the undistorted level
 /// only. Points are undistorted, never the image. Without a camera, or without distortion, nothing changes.
-class LevelLens {
+class LevelCamera {
  public:
   /// For pictures of this camera, reduced by this factor. Costs something only when camera or factor change.
   void set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor);

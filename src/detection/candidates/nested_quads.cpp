@@ -93,10 +93,10 @@ bool isConcentric(const Quadrilateral& outer, const Quadrilateral& inner, double
          most + tolerance_px <= kRingRatio * (least + tolerance_px);
 }
 
-std::vector<LoopVerdict> nestedVerdicts(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
-                                        const std::vector<double>& scores, double tolerance_px) {
+std::vector<NestedVerdict> nestedVerdicts(const cv::Mat& image, const std::vector<Quadrilateral>& quads,
+                                          const std::vector<double>& scores, double tolerance_px) {
   const int count = static_cast<int>(quads.size());
-  std::vector<LoopVerdict> verdicts(count);
+  std::vector<NestedVerdict> verdicts(count);
   std::vector<int> order(count);
   std::vector<double> areas(count);
   for (int i = 0; i < count; ++i) areas[i] = std::abs(geometry::signedArea(quads[i]));
@@ -129,17 +129,17 @@ std::vector<LoopVerdict> nestedVerdicts(const cv::Mat& image, const std::vector<
   return verdicts;
 }
 
-void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<Rival>& rivals) {
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals) {
   const double tolerance_px = kLoopTolerancePx * factor;
   std::vector<geometry::Quadrilateral> quads;
   std::vector<double> ranks;
-  for (const Rival& rival : rivals) quads.push_back(rival.quad), ranks.push_back(rival.rank());
+  for (const ScoredCandidate& rival : rivals) quads.push_back(rival.quad), ranks.push_back(rival.rank());
   const auto verdicts = nestedVerdicts(image, quads, ranks, tolerance_px);
   for (std::size_t i = 0; i < rivals.size(); ++i) rivals[i].verdict = verdicts[i];
   // A frame is one thing: its inner border is as sure as its outer one.
   for (std::size_t i = 0; i < rivals.size(); ++i)
     if (verdicts[i].reject == RejectReason::kOuterBorder) {
-      Rival& inner = rivals[verdicts[i].other];
+      ScoredCandidate& inner = rivals[verdicts[i].other];
       inner.score = std::max(inner.score, rivals[i].score);
     }
 }

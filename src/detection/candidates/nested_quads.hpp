@@ -24,12 +24,12 @@ bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrila
 /// is no frame: the outermost loop is the opening's front. A loop that holds panes wins over each of them.
 /// \param quads in pixels of `image`; scores in the same order
 /// \param tolerance_px uncertainty of a loop's position [px]
-std::vector<LoopVerdict> nestedVerdicts(const cv::Mat& image,
-                                        const std::vector<geometry::Quadrilateral>& quads,
-                                        const std::vector<double>& scores, double tolerance_px);
+std::vector<NestedVerdict> nestedVerdicts(const cv::Mat& image,
+                                          const std::vector<geometry::Quadrilateral>& quads,
+                                          const std::vector<double>& scores, double tolerance_px);
 
 /// Sets the verdicts of the rivals: which is the opening, by their geometry alone.
 /// \param factor pixels of the image a pixel of the search level
-void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<Rival>& rivals);
+void judgeNestedQuads(const cv::Mat& image, int factor, std::vector<ScoredCandidate>& rivals);
 
 }  // namespace window_ingress::detection

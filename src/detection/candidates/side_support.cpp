@@ -17,7 +17,7 @@ constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on th
 /// The edges, and the lens that bends them.
 struct Level {
   const EdgeMap& map;
-  const LevelLens& lens;
+  const LevelCamera& lens;
 };
 
 /// The edge pixel found beside one point of a side.
@@ -103,7 +103,7 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
 
 }  // namespace
 
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens,
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelCamera& lens,
                                         const geometry::Quadrilateral& quad) {
   const Level level = {map, lens};
   std::array<SideSupport, 4> sides;

@@ -10,7 +10,7 @@
 namespace window_ingress::detection {
 
 /// How well the sides of a quadrilateral of the undistorted level run along straight edges.
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelLens& lens,
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelCamera& lens,
                                         const geometry::Quadrilateral& quad);
 
 }  // namespace window_ingress::detection

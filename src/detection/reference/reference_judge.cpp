@@ -27,7 +27,7 @@ double updated(double score, double odds) {
 }
 
 // Of all loops about the same place the likeliest ones; the others are variants of them.
-void choosePlaces(const std::vector<Rival>& rivals, std::vector<std::size_t>& places) {
+void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::size_t>& places) {
   places.clear();
   for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
     int variants = 0;
@@ -64,11 +64,13 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
 }
 
 // The rival with its borders where the reference's are, if they are found near it.
-std::optional<Rival> ReferenceJudge::locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                            const Rival& rough, const ReferenceBorders::Effort& effort) {
+std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
+                                                      const geometry::PinholeCamera* camera,
+                                                      const ScoredCandidate& rough,
+                                                      const ReferenceBorders::Effort& effort) {
   const auto found = borders_.locate(image, rough.quad, camera, effort);
   if (!found) return std::nullopt;
-  Rival rival = rough;
+  ScoredCandidate rival = rough;
   rival.quad = found->quad;
   rival.candidate.source = CandidateSource::kReference;
   rival.proposal = 0.0;
@@ -82,7 +84,7 @@ std::optional<Rival> ReferenceJudge::locate(const cv::Mat& image, const geometry
 
 // The borders of the reference at all places where they are found; the best are looked at closely.
 void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                               const std::vector<Rival>& rivals) {
+                               const std::vector<ScoredCandidate>& rivals) {
   located_.clear();
   choosePlaces(rivals, places_);
   for (std::size_t i : places_)
@@ -93,9 +95,9 @@ void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCame
 }
 
 // Compares their frames with the reference's; false if none can be compared.
-bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<Rival>& rivals) const {
+bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
   bool any = false;
-  for (Rival& rival : rivals) {
+  for (ScoredCandidate& rival : rivals) {
     rival.appearance = reference_->compare(image, rival.quad, appearance_);
     any = any || rival.appearance;
     if (rival.appearance) rival.score = updated(rival.score, rival.appearance->odds);
@@ -104,10 +106,10 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<Rival>& rivals) con
 }
 
 // Loops whose borders were not located count less; not at all where others have surely been.
-void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<Rival>& rivals) const {
-  for (Rival& rival : rivals) {
+void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
+  for (ScoredCandidate& rival : rivals) {
     const Sameness same(rival.quad);
-    const bool sure = std::any_of(located_.begin(), located_.end(), [&](const Rival& place) {
+    const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
       return place.worth > kSureWorth && same.samePlace(place.quad);
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
@@ -121,10 +123,10 @@ void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<Rival>& rival
 bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ && isGrey(image) == is_grey_; }
 
 bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                 std::vector<Rival>& rivals) {
+                                 std::vector<ScoredCandidate>& rivals) {
   if (!compares(image)) return false;
   if (!borders_.known()) {
-    std::vector<Rival> weighed = rivals;
+    std::vector<ScoredCandidate> weighed = rivals;
     if (!weigh(image, weighed)) return false;
     rivals.swap(weighed);
     return true;
@@ -137,11 +139,12 @@ bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCa
 }
 
 bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                       std::vector<Rival>& rivals) {
+                                       std::vector<ScoredCandidate>& rivals) {
   if (!compares(image) || !ring_.known()) return false;
   located_ = ring_.align(inChannels(image), camera, rivals);
-  for (Rival& rival : located_) rival.appearance = reference_->compare(image, rival.quad, appearance_);
-  for (Rival& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
+  for (ScoredCandidate& rival : located_)
+    rival.appearance = reference_->compare(image, rival.quad, appearance_);
+  for (ScoredCandidate& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
   rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
 }

@@ -37,12 +37,13 @@ class ReferenceJudge {
 
   /// Weighs the rivals by their frames; adds those whose borders it located. False, and nothing changed, if
   /// they cannot be compared.
-  bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera, std::vector<Rival>& rivals);
+  bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                   std::vector<ScoredCandidate>& rivals);
 
   /// Adds the places that have round them what lies round the reference's opening; no other rival may be the
   /// target then. False, and nothing changed, if they cannot be compared.
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                         std::vector<Rival>& rivals);
+                         std::vector<ScoredCandidate>& rivals);
 
   /// Why fitted borders cannot be the reference's, if they cannot.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
@@ -50,12 +51,12 @@ class ReferenceJudge {
 
  private:
   const cv::Mat& inChannels(const cv::Mat& picture);
-  std::optional<Rival> locate(const cv::Mat& image, const geometry::PinholeCamera* camera, const Rival& rough,
-                              const ReferenceBorders::Effort& effort);
+  std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                        const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
   void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                 const std::vector<Rival>& rivals);
-  bool weigh(const cv::Mat& image, std::vector<Rival>& rivals) const;
-  void weighOthers(const cv::Mat& image, std::vector<Rival>& rivals) const;
+                 const std::vector<ScoredCandidate>& rivals);
+  bool weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
+  void weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
 
   AppearanceParams appearance_;
   ReferenceBorders borders_;
@@ -65,7 +66,7 @@ class ReferenceJudge {
   bool is_grey_ = false;  ///< the reference; then by brightness alone
   cv::Mat channels_;
   std::vector<std::size_t> places_;  ///< of the rivals that are looked at
-  std::vector<Rival> located_;
+  std::vector<ScoredCandidate> located_;
 };
 
 }  // namespace window_ingress::detection

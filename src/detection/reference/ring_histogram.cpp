@@ -6,6 +6,7 @@
 
 #include "detection/reference/ring_samples.hpp"
 #include "detection/reference/veil.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
 
 namespace window_ingress::detection {
 namespace {

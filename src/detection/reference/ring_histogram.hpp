@@ -69,7 +69,4 @@ double bhattacharyya(const RingColours& reference, const RingColours& seen);
 RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part);
 RingColours blended(const RingColours& from, const RingColours& to, double part);
 
-/// True if no pixel of a grid over the picture has a colour: then no comparison of colours means anything.
-bool isGrey(const cv::Mat& image);
-
 }  // namespace window_ingress::detection

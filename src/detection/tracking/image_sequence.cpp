@@ -20,7 +20,7 @@ bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::Pinhole
          a.cy == b.cy && a.distortion == b.distortion && a.model == b.model;
 }
 
-bool PictureSequence::isContinuedBy(const TrackInput& input) const {
+bool ImageSequence::isContinuedBy(const TrackInput& input) const {
   if (!last_sec_ || input.image.size() != size_ || (input.camera != nullptr) != camera_.has_value())
     return false;
   if (input.camera && !isSameCalibration(*input.camera, *camera_)) return false;
@@ -28,7 +28,7 @@ bool PictureSequence::isContinuedBy(const TrackInput& input) const {
   return elapsed > 0.0 && elapsed <= max_gap_sec_;
 }
 
-bool PictureSequence::take(const TrackInput& input) {
+bool ImageSequence::take(const TrackInput& input) {
   const bool continued = isContinuedBy(input);
   if (!continued) forget();
   elapsed_sec_ = continued ? input.stamp_sec - *last_sec_ : 0.0;
@@ -51,7 +51,7 @@ bool PictureSequence::take(const TrackInput& input) {
 }
 
 // White noise of attitudes has six times its variance in the difference of two turns in a row.
-void PictureSequence::noteJitter(const Eigen::Matrix3d& R_now_last) {
+void ImageSequence::noteJitter(const Eigen::Matrix3d& R_now_last) {
   constexpr double kRate = 0.1, kSquares = 6.0, kAxes = 3.0;
   const Eigen::AngleAxisd turned(R_now_last);
   const Eigen::Vector3d turn_rad = turned.angle() * turned.axis();
@@ -60,19 +60,19 @@ void PictureSequence::noteJitter(const Eigen::Matrix3d& R_now_last) {
   last_turn_rad_ = turn_rad;
 }
 
-double PictureSequence::turnSigmaPx() const {
+double ImageSequence::turnSigmaPx() const {
   return camera_ ? camera_->fx * std::sqrt(2.0 * jitter_rad2_) : 0.0;
 }
 
-void PictureSequence::forget() {
+void ImageSequence::forget() {
   last_sec_.reset();
   attitude_.reset();
   last_turn_rad_.reset();
 }
 
-int PictureSequence::longerSide() const { return std::max(size_.width, size_.height); }
+int ImageSequence::longerSide() const { return std::max(size_.width, size_.height); }
 
-const geometry::PinholeCamera* PictureSequence::lens() const {
+const geometry::PinholeCamera* ImageSequence::lens() const {
   return camera_ && camera_->hasDistortion() ? &*camera_ : nullptr;
 }
 

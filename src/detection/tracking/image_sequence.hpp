@@ -17,10 +17,10 @@ bool isPicture(const cv::Mat& image);
 bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b);
 
 /// Pictures of one camera one after the other: what lies between the last two.
-class PictureSequence {
+class ImageSequence {
  public:
   /// \param max_gap_sec pictures further apart do not continue each other
-  explicit PictureSequence(double max_gap_sec) : max_gap_sec_(max_gap_sec) {}
+  explicit ImageSequence(double max_gap_sec) : max_gap_sec_(max_gap_sec) {}
 
   /// \return false if it does not continue the last one: no time went by or too much, or size or calibration
   /// are others. A new sequence begins then.

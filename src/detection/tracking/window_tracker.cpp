@@ -161,7 +161,7 @@ void WindowTracker::setParams(const DetectorParams& params) {
   impl_->identity = TargetIdentity(params.track, before.id());
   impl_->opinion = SecondOpinion(params.track);
   impl_->reference.setParams(params);
-  impl_->pictures = PictureSequence(params.track.max_gap_sec);
+  impl_->pictures = ImageSequence(params.track.max_gap_sec);
   impl_->likeness = KnownLikeness();
   impl_->forget();
 }

@@ -63,7 +63,7 @@ struct WindowTracker::Impl {
   DetectorParams params;
   WindowDetector detector;
   BorderRefinement refinement;
-  PictureSequence pictures;
+  ImageSequence pictures;
   ReferenceWatch reference;
   QuadMotion motion;
   BorderQuartet quartet;

@@ -13,8 +13,8 @@ using geometry::Quadrilateral;
 using test::PatchedWall;
 using test::seenFrom;
 
-Rival rough(const Quadrilateral& quad, double score = 0.7) {
-  Rival rival;
+ScoredCandidate rough(const Quadrilateral& quad, double score = 0.7) {
+  ScoredCandidate rival;
   rival.quad = quad;
   rival.score = score;
   return rival;
@@ -35,8 +35,8 @@ struct Known {
 
 TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   Known known{PatchedWall(3)};
-  std::vector<Rival> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
-                               rough(test::grown(known.opening, 3.0), 0.3)};
+  std::vector<ScoredCandidate> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
+                                         rough(test::grown(known.opening, 3.0), 0.3)};
   const auto& found = known.judge.align(known.image, nullptr, rivals);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
@@ -47,14 +47,14 @@ TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
 
 TEST(RingJudge, LoopsOfOnePlaceGiveOne) {
   Known known{PatchedWall(3)};
-  std::vector<Rival> rivals;
+  std::vector<ScoredCandidate> rivals;
   for (double grown : {-3.0, 0.0, 2.0, 4.0}) rivals.push_back(rough(test::grown(known.opening, grown)));
   EXPECT_EQ(known.judge.align(known.image, nullptr, rivals).size(), 1U);
 }
 
 TEST(RingJudge, NothingIsKnownBeforeAReference) {
   RingJudge judge;
-  std::vector<Rival> rivals = {rough(test::rectangle(9, 9, 50, 50))};
+  std::vector<ScoredCandidate> rivals = {rough(test::rectangle(9, 9, 50, 50))};
   EXPECT_FALSE(judge.known());
   EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
 }

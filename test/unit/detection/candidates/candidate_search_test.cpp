@@ -19,9 +19,11 @@ test::WindowPicture framed(double scale = 1.0) {
   return picture;
 }
 
-bool holds(const std::vector<Rival>& rivals, const geometry::Quadrilateral& quad, double within_px) {
-  return std::any_of(rivals.begin(), rivals.end(),
-                     [&](const Rival& rival) { return test::worstCorner(rival.quad, quad) < within_px; });
+bool holds(const std::vector<ScoredCandidate>& rivals, const geometry::Quadrilateral& quad,
+           double within_px) {
+  return std::any_of(rivals.begin(), rivals.end(), [&](const ScoredCandidate& rival) {
+    return test::worstCorner(rival.quad, quad) < within_px;
+  });
 }
 
 TEST(CandidateSearch, OneSetOfParametersServesAllImageSizes) {

@@ -10,17 +10,17 @@
 namespace window_ingress::detection {
 namespace {
 
-const std::vector<EdgeRun>& runsOf(EdgeRuns& runs, const cv::Mat& image) {
+const std::vector<EdgeChain>& runsOf(EdgeChains& runs, const cv::Mat& image) {
   EdgeDetector edges{EdgeMapParams()};
-  return runs.run(edges.run(image), LevelLens());
+  return runs.run(edges.run(image), LevelCamera());
 }
 
-TEST(EdgeRuns, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {
+TEST(EdgeChains, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(40));
   image(cv::Rect(40, 30, 80, 60)).setTo(200);
-  EdgeRuns runs;
+  EdgeChains runs;
   int sides = 0;
-  for (const EdgeRun& run : runsOf(runs, image)) {
+  for (const EdgeChain& run : runsOf(runs, image)) {
     if (run.length() < 40.0) continue;
     ++sides;
     EXPECT_GT(run.normal.dot(Eigen::Vector2d(80, 60) - run.moments.mean()), 0.0);
@@ -31,12 +31,12 @@ TEST(EdgeRuns, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {
   EXPECT_EQ(sides, 4);
 }
 
-TEST(EdgeRuns, EveryEdgePixelBelongsToOneRunAtMost) {
+TEST(EdgeChains, EveryEdgePixelBelongsToOneRunAtMost) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(128));
   test::addNoise(image, 30.0, 2);
-  EdgeRuns runs;
+  EdgeChains runs;
   cv::Mat seen = cv::Mat::zeros(image.size(), CV_8UC1);
-  for (const EdgeRun& run : runsOf(runs, image)) {
+  for (const EdgeChain& run : runsOf(runs, image)) {
     ASSERT_EQ(run.count, static_cast<int>(run.moments.n));
     for (int k = run.first + 1; k + 1 < run.first + run.count; ++k) {  // parts of a chain share their ends
       const auto p = runs.pixels()[k];
@@ -45,17 +45,17 @@ TEST(EdgeRuns, EveryEdgePixelBelongsToOneRunAtMost) {
   }
 }
 
-TEST(EdgeRuns, ACircleIsCutIntoShortRuns) {
+TEST(EdgeChains, ACircleIsCutIntoShortRuns) {
   cv::Mat image(200, 200, CV_8UC1, cv::Scalar(40));
   cv::circle(image, {100, 100}, 60, cv::Scalar(200), cv::FILLED);
-  EdgeRuns runs;
+  EdgeChains runs;
   const auto& found = runsOf(runs, image);
   EXPECT_GT(found.size(), 6u);
-  for (const EdgeRun& run : found) EXPECT_LT(run.length(), 60.0);
+  for (const EdgeChain& run : found) EXPECT_LT(run.length(), 60.0);
 }
 
-TEST(EdgeRuns, EmptyAndTinyPicturesHaveNone) {
-  EdgeRuns runs;
+TEST(EdgeChains, EmptyAndTinyPicturesHaveNone) {
+  EdgeChains runs;
   for (const cv::Size& size : {cv::Size(1, 1), cv::Size(3, 2), cv::Size(64, 64)})
     EXPECT_TRUE(runsOf(runs, cv::Mat(size, CV_8UC1, cv::Scalar(9))).empty());
 }

@@ -14,9 +14,9 @@ namespace {
 
 /// Edges to segments, as the search does it.
 std::vector<Segment> segmentsOf(const EdgeMap& map) {
-  EdgeRuns runs;
-  LineSupport lines{LineSupportParams()};
-  return lines.run(runs.run(map, LevelLens()), map.edges.size());
+  EdgeChains runs;
+  HoughSegments lines{HoughSegmentsParams()};
+  return lines.run(runs.run(map, LevelCamera()), map.edges.size());
 }
 
 cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
@@ -26,7 +26,7 @@ cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
   return picture.draw();
 }
 
-TEST(LineSupport, FindsTheFourSidesOfAWindowFromAnyAngle) {
+TEST(HoughSegments, FindsTheFourSidesOfAWindowFromAnyAngle) {
   EdgeDetector edges{EdgeMapParams()};
   for (double angle : {0.0, 0.1, 0.35, -0.6, 1.3}) {
     const auto opening = test::turned(test::rectangle(100, 70, 220, 170), angle, 0.1);
@@ -44,7 +44,7 @@ TEST(LineSupport, FindsTheFourSidesOfAWindowFromAnyAngle) {
   }
 }
 
-TEST(LineSupport, BrighterSideLiesOnTheRight) {
+TEST(HoughSegments, BrighterSideLiesOnTheRight) {
   cv::Mat image(100, 100, CV_8UC1, cv::Scalar(50));
   image(cv::Rect(50, 0, 50, 100)).setTo(200);
   EdgeDetector edges{EdgeMapParams()};
@@ -54,7 +54,7 @@ TEST(LineSupport, BrighterSideLiesOnTheRight) {
   EXPECT_LT(segments[0].b.y(), segments[0].a.y()) << "upwards, with the bright half on the right";
 }
 
-TEST(LineSupport, TheTwoEdgesOfABarStayApart) {
+TEST(HoughSegments, TheTwoEdgesOfABarStayApart) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(60));
   image(cv::Rect(78, 0, 4, 120)).setTo(200);
   EdgeDetector edges{EdgeMapParams()};
@@ -63,7 +63,7 @@ TEST(LineSupport, TheTwoEdgesOfABarStayApart) {
   EXPECT_LT(segments[0].normal.dot(segments[1].normal), -0.9);
 }
 
-TEST(LineSupport, NoiseAndEmptyImagesGiveNoLongSegments) {
+TEST(HoughSegments, NoiseAndEmptyImagesGiveNoLongSegments) {
   EdgeDetector edges{EdgeMapParams()};
   EXPECT_TRUE(segmentsOf(edges.run(cv::Mat(64, 64, CV_8UC1, cv::Scalar(5)))).empty());
   cv::Mat noise(240, 320, CV_8UC1, cv::Scalar(128));
@@ -71,14 +71,14 @@ TEST(LineSupport, NoiseAndEmptyImagesGiveNoLongSegments) {
   for (const Segment& segment : segmentsOf(edges.run(noise))) EXPECT_LT(segment.length(), 60.0);
 }
 
-TEST(LineSupport, OnlyWhatLiesOnSegmentsIsKept) {
+TEST(HoughSegments, OnlyWhatLiesOnSegmentsIsKept) {
   EdgeDetector edges{EdgeMapParams()};
   cv::Mat image = window(test::rectangle(90, 60, 200, 170), 0.0);
   cv::circle(image, {270, 40}, 4, cv::Scalar(0), 1);
   const EdgeMap& map = edges.run(image);
-  EdgeRuns runs;
-  LineSupport lines{LineSupportParams()};
-  lines.run(runs.run(map, LevelLens()), map.edges.size());
+  EdgeChains runs;
+  HoughSegments lines{HoughSegmentsParams()};
+  lines.run(runs.run(map, LevelCamera()), map.edges.size());
   cv::Mat kept;
   keepOnSegments(runs, lines, map.edges.size(), kept);
   EXPECT_GT(cv::countNonZero(kept), 380);
@@ -86,18 +86,18 @@ TEST(LineSupport, OnlyWhatLiesOnSegmentsIsKept) {
   EXPECT_EQ(cv::countNonZero(kept(cv::Rect(260, 30, 20, 20))), 0) << "a small ring has no straight side";
 }
 
-TEST(LineSupport, ABorderBentByALensIsStraightAfterIt) {
+TEST(HoughSegments, ABorderBentByALensIsStraightAfterIt) {
   auto camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.4);
   camera.distortion = {-0.25, 0.06, 0.0, 0.0, 0.0};
   cv::Mat image(240, 320, CV_8UC1, cv::Scalar(200));
-  LevelLens lens;
+  LevelCamera lens;
   lens.set(&camera, image.size(), 2);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
       if (lens.undistort(x, y).x() > 285.0) image.at<uchar>(y, x) = 50;
   EdgeDetector edges{EdgeMapParams()};
-  EdgeRuns runs;
-  LineSupport lines{LineSupportParams()};
+  EdgeChains runs;
+  HoughSegments lines{HoughSegmentsParams()};
   const auto& segments = lines.run(runs.run(edges.run(image), lens), image.size());
   ASSERT_FALSE(segments.empty());
   EXPECT_GT(segments[0].length(), 220.0);
@@ -105,7 +105,7 @@ TEST(LineSupport, ABorderBentByALensIsStraightAfterIt) {
   EXPECT_NEAR(segments[0].b.x(), 285.0, 1.0);
 }
 
-TEST(LineSupport, IsDeterministic) {
+TEST(HoughSegments, IsDeterministic) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(90, 60, 200, 170), 4.0));
   const auto first = segmentsOf(map), second = segmentsOf(map);
@@ -132,11 +132,11 @@ TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
   EdgeDetector edges{EdgeMapParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
   const EdgeMap& map = edges.run(window(opening));
-  for (const SideSupport& side : measureSides(map, LevelLens(), opening)) {
+  for (const SideSupport& side : measureSides(map, LevelCamera(), opening)) {
     EXPECT_GT(side.fraction, 0.9);
     EXPECT_LT(side.overshoot, 0.1);
   }
-  for (const SideSupport& side : measureSides(map, LevelLens(), test::rectangle(110, 80, 210, 160)))
+  for (const SideSupport& side : measureSides(map, LevelCamera(), test::rectangle(110, 80, 210, 160)))
     EXPECT_LT(side.fraction, 0.1);
 }
 
@@ -147,17 +147,17 @@ TEST(SideSupport, ACellOfAGridOvershoots) {
     cv::line(image, {60, 30 + 40 * i}, {220, 30 + 40 * i}, cv::Scalar(20), 2);
   }
   EdgeDetector edges{EdgeMapParams()};
-  const auto cell = measureSides(edges.run(image), LevelLens(), test::rectangle(102, 72, 138, 108));
-  const auto grid = measureSides(edges.run(image), LevelLens(), test::rectangle(58, 28, 222, 192));
+  const auto cell = measureSides(edges.run(image), LevelCamera(), test::rectangle(102, 72, 138, 108));
+  const auto grid = measureSides(edges.run(image), LevelCamera(), test::rectangle(58, 28, 222, 192));
   for (int i = 0; i < 4; ++i) EXPECT_GT(cell[i].overshoot, grid[i].overshoot + 0.2);
 }
 
 TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(100, 70, 220, 170)));
-  for (const SideSupport& side : measureSides(map, LevelLens(), test::rectangle(-500, -400, 900, 800)))
+  for (const SideSupport& side : measureSides(map, LevelCamera(), test::rectangle(-500, -400, 900, 800)))
     EXPECT_EQ(side.fraction, 0.0);
-  for (const SideSupport& side : measureSides(map, LevelLens(), test::rectangle(5, 5, 5, 5)))
+  for (const SideSupport& side : measureSides(map, LevelCamera(), test::rectangle(5, 5, 5, 5)))
     EXPECT_EQ(side.fraction, 0.0);
 }
 

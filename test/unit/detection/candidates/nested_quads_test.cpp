@@ -17,7 +17,7 @@ cv::Mat framed() {
   return picture.draw();
 }
 
-std::vector<LoopVerdict> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
+std::vector<NestedVerdict> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
   return nestedVerdicts(image, loops, std::vector<double>(loops.size(), 1.0), 1.0);
 }
 

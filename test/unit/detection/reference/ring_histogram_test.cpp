@@ -8,6 +8,7 @@
 
 #include "detection/reference/ring_samples.hpp"
 #include "drawn_window.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
 
 namespace window_ingress::detection {
 namespace {

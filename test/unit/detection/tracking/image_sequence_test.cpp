@@ -1,11 +1,11 @@
+#include "detection/tracking/image_sequence.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include "detection/tracking/image_sequence.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -29,9 +29,9 @@ struct Pictures {
   }
 };
 
-TEST(PictureSequence, ContinuesWhileTimeGoesOnAndTheCameraIsTheSame) {
+TEST(ImageSequence, ContinuesWhileTimeGoesOnAndTheCameraIsTheSame) {
   const Pictures pictures;
-  PictureSequence sequence(kGap_sec);
+  ImageSequence sequence(kGap_sec);
   EXPECT_FALSE(sequence.take(pictures.at(1.0)));
   EXPECT_EQ(sequence.elapsedSec(), 0.0);
   EXPECT_TRUE(sequence.take(pictures.at(1.25)));
@@ -44,10 +44,10 @@ TEST(PictureSequence, ContinuesWhileTimeGoesOnAndTheCameraIsTheSame) {
   EXPECT_FALSE(sequence.take(pictures.at(1.2 + 2.0 * kGap_sec)));
 }
 
-TEST(PictureSequence, TellsAttitudesThatJitterFromAVehicleThatTurns) {
+TEST(ImageSequence, TellsAttitudesThatJitterFromAVehicleThatTurns) {
   for (const double noise_rad : {0.0, 0.002, 0.009}) {
     const Pictures pictures;
-    PictureSequence sequence(kGap_sec);
+    ImageSequence sequence(kGap_sec);
     std::mt19937 random(4);
     std::normal_distribution<double> noise(0.0, 1.0);
     for (int i = 0; i < 200; ++i) {
@@ -64,10 +64,10 @@ TEST(PictureSequence, TellsAttitudesThatJitterFromAVehicleThatTurns) {
   }
 }
 
-TEST(PictureSequence, WhatIsNoRotationIsNoAttitudeAndLeavesNothingBehind) {
+TEST(ImageSequence, WhatIsNoRotationIsNoAttitudeAndLeavesNothingBehind) {
   const Pictures pictures;
   const Matrix3d level = Matrix3d::Identity();
-  PictureSequence sequence(kGap_sec);
+  ImageSequence sequence(kGap_sec);
   sequence.take(pictures.at(0.0, level));
   int i = 1;
   for (const Matrix3d& bad :
@@ -82,9 +82,9 @@ TEST(PictureSequence, WhatIsNoRotationIsNoAttitudeAndLeavesNothingBehind) {
   EXPECT_EQ(sequence.turnSigmaPx(), 0.0);
 }
 
-TEST(PictureSequence, AnotherSizeOrCalibrationBeginsAnew) {
+TEST(ImageSequence, AnotherSizeOrCalibrationBeginsAnew) {
   Pictures pictures;
-  PictureSequence sequence(kGap_sec);
+  ImageSequence sequence(kGap_sec);
   sequence.take(pictures.at(1.0));
   pictures.camera.fx += 1.0;
   EXPECT_FALSE(sequence.take(pictures.at(1.1)));
@@ -96,11 +96,11 @@ TEST(PictureSequence, AnotherSizeOrCalibrationBeginsAnew) {
   EXPECT_EQ(sequence.lens(), nullptr);
 }
 
-TEST(PictureSequence, TheTurnMovesWhatIsFarAwayToWhereItIsSeen) {
+TEST(ImageSequence, TheTurnMovesWhatIsFarAwayToWhereItIsSeen) {
   const Pictures pictures;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> angle(-0.1, 0.1);
-  PictureSequence sequence(kGap_sec);
+  ImageSequence sequence(kGap_sec);
   Matrix3d before = Matrix3d::Identity();
   sequence.take(pictures.at(0.0, before));
   for (int i = 1; i < 50; ++i) {
@@ -118,11 +118,11 @@ TEST(PictureSequence, TheTurnMovesWhatIsFarAwayToWhereItIsSeen) {
   }
 }
 
-TEST(PictureSequence, NoTurnWithoutTwoAttitudesInARow) {
+TEST(ImageSequence, NoTurnWithoutTwoAttitudesInARow) {
   const Pictures pictures;
   const Matrix3d level = Matrix3d::Identity();
   const Matrix3d bad = Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  PictureSequence sequence(kGap_sec);
+  ImageSequence sequence(kGap_sec);
   sequence.take(pictures.at(0.0, level));
   EXPECT_FALSE(sequence.turn().has_value());
   sequence.take(pictures.at(0.1, bad));
