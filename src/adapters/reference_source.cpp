@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "adapters/parameters.hpp"
-#include "window_ingress/detection/reference_drawing.hpp"
+#include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::adapters {

@@ -4,14 +4,47 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <string>
 #include <vector>
 
-#include "window_ingress/detection/lettering.hpp"
+#include "detection/reference/ring_samples.hpp"
+#include "window_ingress/detection/text_overlay.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
-const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255), kWhite(255, 255, 255);
+const cv::Scalar kGreen(60, 230, 60), kYellow(0, 255, 255), kOrange(0, 140, 255), kBlue(255, 120, 0),
+    kWhite(255, 255, 255);
+constexpr double kFaded = 0.45, kTint = 0.3;
+
+std::vector<cv::Point> pixelsOf(const geometry::Quadrilateral& quad) {
+  constexpr double kFar = 1e5;
+  std::vector<cv::Point> points;
+  for (const auto& corner : quad)
+    points.emplace_back(cvRound(std::clamp(corner.x(), -kFar, kFar)),
+                        cvRound(std::clamp(corner.y(), -kFar, kFar)));
+  return points;
+}
+
+cv::Mat within(const cv::Size& size, const geometry::Quadrilateral& quad) {
+  cv::Mat mask(size, CV_8U, cv::Scalar(0));
+  if (geometry::isFinite(quad)) cv::fillConvexPoly(mask, pixelsOf(quad), cv::Scalar(255));
+  return mask;
+}
+
+void tint(const cv::Mat& picture, const cv::Mat& mask, const cv::Scalar& colour, cv::Mat& canvas) {
+  cv::Mat tinted;
+  cv::addWeighted(picture, 1.0 - kTint, cv::Mat(picture.size(), picture.type(), colour), kTint, 0.0, tinted);
+  tinted.copyTo(canvas, mask);
+}
+
+void write(cv::Mat& canvas, const std::string& text, int height) {
+  cv::copyMakeBorder(canvas, canvas, 0, height, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
+  const double scale = std::min(height / 40.0, canvas.cols / (20.0 * static_cast<double>(text.size())));
+  cv::putText(canvas, text, {6, canvas.rows - height / 3}, cv::FONT_HERSHEY_SIMPLEX, scale, kWhite, 1,
+              cv::LINE_AA);
+}
+
 constexpr double kDim = 0.8;    ///< of the picture's brightness remains, so that lines stand out
 constexpr double kFaint = 0.4;  ///< strength of candidates that failed before they had a score
 constexpr int kLabels = 5;      ///< candidates that are explained in words
@@ -37,13 +70,13 @@ void drawCandidates(cv::Mat& canvas, const DetectionTrace& trace) {
       drawQuad(canvas, candidate.quad, colourOf(candidate.reject), lineWidth(canvas));
 }
 
-std::vector<Lettering::Line> legendOf(const DetectionTrace& trace) {
+std::vector<TextOverlay::Line> legendOf(const DetectionTrace& trace) {
   std::array<int, kRejectReasons> counts{};
   for (const CandidateTrace& candidate : trace.candidates) ++counts[static_cast<int>(candidate.reject)];
   std::vector<int> order;
   for (int i = 1; i < kRejectReasons; ++i)
     if (counts[i] > 0) order.push_back(i);
-  std::vector<Lettering::Line> lines;
+  std::vector<TextOverlay::Line> lines;
   for (int i : order) {
     const auto reason = static_cast<RejectReason>(i);
     lines.push_back({std::to_string(counts[i]) + "  " + toString(reason), colourOf(reason), true});
@@ -72,7 +105,7 @@ bool isMoreWorth(const CandidateTrace* a, const CandidateTrace* b) {
 }
 
 // A few, each of another place.
-void explainBest(Lettering& lettering, const DetectionTrace& trace) {
+void explainBest(TextOverlay& lettering, const DetectionTrace& trace) {
   constexpr double kSamePlace = 0.5;
   std::vector<const CandidateTrace*> all, told;
   for (const CandidateTrace& candidate : trace.candidates)
@@ -123,6 +156,29 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 
 }  // namespace
 
+cv::Mat drawReference(const ReferenceAppearance& reference, const AppearanceParams& params) {
+  cv::Mat picture = reference.picture();
+  if (picture.channels() == 1) cv::cvtColor(reference.picture(), picture, cv::COLOR_GRAY2BGR);
+  const geometry::Quadrilateral& opening = reference.opening();
+  const cv::Mat inner = within(picture.size(), opening);
+  const cv::Mat near = within(picture.size(), ringLine(opening, params.near_width));
+  const cv::Mat far = within(picture.size(), ringLine(opening, params.far_width));
+  cv::Mat canvas;
+  picture.convertTo(canvas, -1, kFaded);
+  tint(picture, far & ~near, kBlue, canvas);
+  tint(picture, near & ~inner, kOrange, canvas);
+  const int width = std::max(1, picture.cols / 400);
+  cv::polylines(canvas, std::vector<std::vector<cv::Point>>{pixelsOf(opening)}, true, kGreen, width,
+                cv::LINE_AA);
+  cv::circle(canvas, pixelsOf(opening)[0], 3 * width + 1, kGreen, cv::FILLED, cv::LINE_AA);
+  write(canvas,
+        std::string(reference.openingIsKnown() ? "green: inner border of the opening"
+                                               : "green: opening, GUESSED") +
+            "; orange: frame, blue: surround, whose colours are compared",
+        std::max(20, picture.rows / 20));
+  return canvas;
+}
+
 cv::Scalar colourOf(RejectReason reason) {
   // Eleven hues that leave out the target's green; pale for the first gates, strong for those that come
   // later.
@@ -147,7 +203,7 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
   canvas.convertTo(canvas, -1, kDim);
   drawCandidates(canvas, trace);
   if (window) window->whole() ? drawWhole(canvas, *window) : drawSides(canvas, *window);
-  Lettering lettering(canvas);
+  TextOverlay lettering(canvas);
   lettering.footer({summaryOf(trace, window, milliseconds), window ? kGreen : kYellow});
   if (window && window->whole()) lettering.keepFree(boxRound(window->corners));
   lettering.box(legendOf(trace));
@@ -160,7 +216,7 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
 void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text) {
   if (canvas.empty() || canvas.type() != CV_8UC3 || !window.whole() || !geometry::isFinite(window.corners))
     return;
-  Lettering lettering(canvas);
+  TextOverlay lettering(canvas);
   lettering.keepFree(boxRound(window.corners));
   lettering.label({text, kGreen}, pixel(window.corners[geometry::kBottomLeft]));
 }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "detection/candidates/candidate_search.hpp"
+#include "detection/candidates/nested_quads.hpp"
+#include "detection/quads.hpp"
+#include "detection/reference/reference_judge.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/candidate_search.hpp"
-#include "window_ingress/detection/loop_judge.hpp"
-#include "window_ingress/detection/reference_judge.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::detection {
@@ -16,7 +17,6 @@ constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller pict
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
-constexpr double kOtherPlace = 0.5;       ///< overlap below which two loops are of two windows
 constexpr int kFewestFitted =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
 constexpr double kFaithful = 0.75;       ///< see RingMatch: then its colours may be others
@@ -40,8 +40,7 @@ std::string imageFault(const cv::Mat& image) {
 }  // namespace
 
 struct WindowDetector::Impl {
-  explicit Impl(const DetectorParams& p)
-      : params(p), search(p), reference(p), loops(p.nested), refinement(p.refinement) {}
+  explicit Impl(const DetectorParams& p) : params(p), search(p), reference(p) {}
 
   std::optional<WindowObservation> judge(const cv::Mat& image, double stamp_sec,
                                          const geometry::PinholeCamera* camera);
@@ -51,40 +50,39 @@ struct WindowDetector::Impl {
                                                      const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
-  bool isUnlikeInColour(const Rival& rival) const;
-  std::optional<Rejection> objection(const Rival& rival) const;
-  std::optional<RefinedBorders> refine(const Rival& rival, const cv::Mat& image,
+  bool isUnlikeInColour(const ScoredCandidate& rival) const;
+  std::optional<Rejection> objection(const ScoredCandidate& rival) const;
+  std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
-  double leastScore(const Rival& rival) const;
-  double runnerUp(const Rival& target) const;
-  void record(const Rival& rival, RejectReason reason, double value, double limit) {
+  double leastScore(const ScoredCandidate& rival) const;
+  double runnerUp(const ScoredCandidate& target) const;
+  void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
     trace.candidates.push_back(traceOf(rival, reason, value, limit));
   }
 
   DetectorParams params;
   CandidateSearch search;
   ReferenceJudge reference;
-  LoopJudge loops;
   BorderRefinement refinement;
   DetectionTrace trace;
-  std::vector<Rival> rivals;
+  std::vector<ScoredCandidate> rivals;
   StageWatch* watch = nullptr;
 };
 
-double WindowDetector::Impl::leastScore(const Rival& rival) const {
+double WindowDetector::Impl::leastScore(const ScoredCandidate& rival) const {
   if (rival.correlation) return params.min_correlation;
   return rival.appearance ? params.min_score_reference : params.min_score;
 }
 
 // Light of another colour changes the colours, and leaves the contrasts of a ring.
-bool WindowDetector::Impl::isUnlikeInColour(const Rival& rival) const {
+bool WindowDetector::Impl::isUnlikeInColour(const ScoredCandidate& rival) const {
   if (!rival.appearance) return false;
   const bool is_unlike = rival.appearance->distance > rival.appearance->limit;
   if (!rival.correlation) return is_unlike;
   return rival.faithful < kFaithful && (is_unlike || !reference.frameless());
 }
 
-std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) const {
+std::optional<Rejection> WindowDetector::Impl::objection(const ScoredCandidate& rival) const {
   if (isUnlikeInColour(rival))
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
   if (rival.correlation && *rival.correlation < params.min_correlation)
@@ -95,7 +93,7 @@ std::optional<Rejection> WindowDetector::Impl::objection(const Rival& rival) con
   return std::nullopt;
 }
 
-std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, const cv::Mat& image,
+std::optional<RefinedBorders> WindowDetector::Impl::refine(const ScoredCandidate& rival, const cv::Mat& image,
                                                            const geometry::PinholeCamera* camera,
                                                            double& inliers) const {
   BorderStart start;
@@ -107,11 +105,11 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const Rival& rival, c
 }
 
 // Correlation of the next best place.
-double WindowDetector::Impl::runnerUp(const Rival& target) const {
+double WindowDetector::Impl::runnerUp(const ScoredCandidate& target) const {
+  const Sameness same(target.quad);
   double best = 0.0;
-  for (const Rival& other : rivals)
-    if (other.located && geometry::intersectionOverUnion(other.quad, target.quad) < kOtherPlace)
-      best = std::max(best, other.correlation.value_or(0.0));
+  for (const ScoredCandidate& other : rivals)
+    if (other.located && !same.sameWindow(other.quad)) best = std::max(best, other.correlation.value_or(0.0));
   return best;
 }
 
@@ -121,7 +119,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
   sortByRank(rivals);
   std::optional<WindowObservation> window;
   int tries = 0;
-  for (const Rival& rival : rivals) {
+  for (const ScoredCandidate& rival : rivals) {
     if (const auto fault = objection(rival)) {
       record(rival, fault->reason, fault->value, fault->limit);
     } else if (window) {
@@ -132,11 +130,11 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
       double inliers = 0.0;
       const auto fitted = refine(rival, image, camera, inliers);
       if (!fitted) {
-        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
       if (rival.correlation && fitted->fitted < kFewestFitted) {
-        record(rival, RejectReason::kRefinement, inliers, params.refinement.min_inliers);
+        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
       if (const auto fault = reference.objectionTo(*fitted, image, camera)) {
@@ -157,7 +155,7 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat
                                                                    const geometry::PinholeCamera* camera) {
   rivals = search.kept();
   const bool compared = reference.judgeFrames(image, camera, rivals);
-  if (!compared || !reference.knowsBorders()) loops.judge(image, search.factor(), rivals);
+  if (!compared || !reference.knowsBorders()) judgeNestedQuads(image, search.factor(), rivals);
   done(watch, Stage::kReference);
   return choose(image, stamp_sec, camera);
 }

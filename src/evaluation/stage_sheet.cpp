@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "detection/candidates/candidate_search.hpp"
 #include "window_ingress/detection/debug_image.hpp"
-#include "window_ingress/detection/lettering.hpp"
+#include "window_ingress/detection/text_overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::evaluation {
@@ -142,9 +143,9 @@ void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const d
 void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet) {
   detection::Preprocess preprocess(params.preprocess);
   detection::EdgeDetector edges(params.edges);
-  detection::EdgeRuns runs(params.runs);
-  detection::LineSupport lines(params.lines);
-  detection::LevelLens lens;  // no calibration: the picture is taken as free of distortion
+  detection::EdgeChains runs;
+  detection::HoughSegments lines(params.lines);
+  detection::LevelCamera lens;  // no calibration: the picture is taken as free of distortion
   detection::Closing closing(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);

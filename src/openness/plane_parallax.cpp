@@ -26,7 +26,7 @@ std::optional<Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
   if (!geometry::isFinite(from) || !geometry::isFinite(to) || !geometry::isConvex(from) ||
       !geometry::isConvex(to))
     return std::nullopt;
-  const Matrix3d H = detection::UnitSquare(to).matrix() * detection::UnitSquare(from).matrix().inverse();
+  const Matrix3d H = geometry::UnitSquare(to).matrix() * geometry::UnitSquare(from).matrix().inverse();
   if (!H.allFinite()) return std::nullopt;
   return Matrix3d(H / H(2, 2));
 }

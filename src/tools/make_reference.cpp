@@ -74,8 +74,7 @@ std::optional<std::vector<double>> fitted(const cv::Mat& picture, const std::vec
   const auto canonical = geometry::canonical(quad);
   if (!canonical) return std::nullopt;
   const double radius_px = kFitRadiusPx * std::max(1.0, std::max(picture.cols, picture.rows) / kMostPx);
-  const auto borders =
-      detection::BorderRefinement(params.refinement).run(picture, {*canonical, radius_px}, nullptr);
+  const auto borders = detection::BorderRefinement().run(picture, {*canonical, radius_px}, nullptr);
   if (!borders) return std::nullopt;
   std::vector<double> result;
   for (const auto& corner : borders->corners) result.insert(result.end(), {corner.x(), corner.y()});

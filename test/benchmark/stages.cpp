@@ -1,9 +1,9 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "detection/candidates/candidate_search.hpp"
 #include "subjects.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/candidate_search.hpp"
 
 namespace window_ingress::bench {
 namespace {
@@ -25,20 +25,20 @@ struct Stages {
   DetectorParams params;
   Preprocess preprocess{params.preprocess};
   EdgeDetector edges{params.edges};
-  LevelLens lens;
-  EdgeRuns runs{params.runs};
-  LineSupport lines{params.lines};
+  LevelCamera lens;
+  EdgeChains runs;
+  HoughSegments lines{params.lines};
   Closing closing{params.closing};
   ContourPolygons contours{params.contours};
   SegmentQuads quads{params.segment_quads};
   CandidateSearch search{params};
-  BorderRefinement borders{params.refinement};
+  BorderRefinement borders;
   SearchLevel level;
   EdgeMap map;
   std::vector<Segment> segments;
   cv::Mat closed;
   DetectionTrace trace;
-  std::vector<Rival> rivals;
+  std::vector<ScoredCandidate> rivals;
 };
 
 bool runPreprocess(Stages& s) { return !s.preprocess.run(s.image).image.empty(); }
@@ -58,7 +58,7 @@ bool runHalfSearch(Stages& s) {
 }
 bool runAppearance(Stages& s) {
   bool compared = false;
-  for (const Rival& rival : s.rivals)
+  for (const ScoredCandidate& rival : s.rivals)
     compared |= s.sequence.reference->distance(s.image, rival.quad, s.params.appearance).has_value();
   return compared;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
@@ -78,5 +79,12 @@ struct DetectionTrace {
 
 /// Sets outcome and detail: without a target the reason of the candidate that came furthest.
 void explain(DetectionTrace& trace);
+
+/// The trace of a frame in which a window was followed: it is the only candidate, if it is whole.
+void traceFollowed(const WindowObservation& window, DetectionTrace& trace);
+
+/// The trace of a search whose window is not taken.
+void traceRefused(const DetectionTrace& search, RejectReason reason, const std::string& detail,
+                  DetectionTrace& trace);
 
 }  // namespace window_ingress::detection

@@ -1,63 +1,189 @@
 #pragma once
 
-#include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/candidate_gates.hpp"
-#include "window_ingress/detection/closing.hpp"
-#include "window_ingress/detection/contour_polygons.hpp"
-#include "window_ingress/detection/edge_map.hpp"
-#include "window_ingress/detection/line_support.hpp"
-#include "window_ingress/detection/nested_loops.hpp"
-#include "window_ingress/detection/preprocess.hpp"
-#include "window_ingress/detection/reference_appearance.hpp"
-#include "window_ingress/detection/reference_borders.hpp"
-#include "window_ingress/detection/reference_shape.hpp"
-#include "window_ingress/detection/segment_quads.hpp"
-#include "window_ingress/detection/side_support.hpp"
-#include "window_ingress/detection/track_params.hpp"
-#include "window_ingress/detection/window_score.hpp"
-
 namespace window_ingress::detection {
+
+struct PreprocessParams {
+  int search_side_px =
+      480;  ///< the search runs on the first pyramid level whose longer side is no longer [px]
+  double blur_sigma_px = 0.4;  ///< Gaussian against noise, on the search level; 0: none [px]
+  bool equalise = false;       ///< contrast-limited histogram equalisation of the search level
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("search_side_px", self.search_side_px, 64, 4096);
+    field("blur_sigma_px", self.blur_sigma_px, 0.0, 10.0);
+    field("equalise", self.equalise);
+  }
+};
+
+struct EdgeMapParams {
+  double high_quantile = 0.85;  ///< this part of all pixels has a smaller gradient than the upper threshold
+  double low_ratio = 0.5;       ///< lower threshold over upper one
+  double floor = 6.0;           ///< the upper threshold is never below this [grey levels a pixel]
+  double ceiling = 30.0;        ///< the upper threshold is never above this [grey levels a pixel]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("high_quantile", self.high_quantile, 0.0, 1.0);
+    field("low_ratio", self.low_ratio, 0.0, 1.0);
+    field("floor", self.floor, 0.1, 255.0);
+    field("ceiling", self.ceiling, 0.1, 255.0);
+  }
+};
+
+struct HoughSegmentsParams {
+  double min_length = 0.03;    ///< of a segment, in longer sides of the level
+  double max_gap = 0.02;       ///< within a segment, in longer sides of the level
+  double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
+  double min_density = 0.55;   ///< edge pixels on a segment over its length
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("min_length", self.min_length, 0.005, 0.5);
+    field("max_gap", self.max_gap, 0.0, 0.5);
+    field("vote_fraction", self.vote_fraction, 0.1, 1.0);
+    field("min_density", self.min_density, 0.0, 1.0);
+  }
+};
+
+struct ClosingParams {
+  double radius = 0.003;  ///< of the dilation, in longer sides of the level; at least one pixel
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("radius", self.radius, 0.0, 0.1);
+  }
+};
+
+struct ContourPolygonsParams {
+  double epsilon = 0.025;       ///< tolerance of the polygon, in perimeters of its outline
+  double min_perimeter = 0.08;  ///< shorter outlines are not looked at, in longer sides of the level
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("epsilon", self.epsilon, 0.001, 0.2);
+    field("min_perimeter", self.min_perimeter, 0.0, 4.0);
+  }
+};
+
+struct SegmentQuadsParams {
+  double extension = 0.4;     ///< a segment may end this far before or behind a corner, in its own lengths
+  double min_coverage = 0.4;  ///< part of each side that its segment covers
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("extension", self.extension, 0.0, 2.0);
+    field("min_coverage", self.min_coverage, 0.0, 1.0);
+  }
+};
+
+struct CandidateGatesParams {
+  double min_area = 0.003;         ///< of the quadrilateral, in areas of the image (the farthest window)
+  double max_area = 0.90;          ///< of the quadrilateral, in areas of the image (the nearest window)
+  double min_aspect = 0.2;         ///< width over height, as seen
+  double max_aspect = 3.5;         ///< width over height, as seen
+  double min_solidity = 0.8;       ///< area of the outline over area of its hull
+  double max_angle_rad = 0.85;     ///< of a corner away from 90 degrees (the largest yaw) [rad]
+  double min_side_support = 0.45;  ///< of the weakest side: part that runs along straight edges
+  double min_contrast = 2.0;       ///< gradient of the weakest side [grey levels a pixel]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("min_area", self.min_area, 0.0, 1.0);
+    field("max_area", self.max_area, 0.0, 1.0);
+    field("min_aspect", self.min_aspect, 0.01, 1.0);
+    field("max_aspect", self.max_aspect, 1.0, 100.0);
+    field("min_solidity", self.min_solidity, 0.0, 1.0);
+    field("max_angle_rad", self.max_angle_rad, 0.0, 1.5);
+    field("min_side_support", self.min_side_support, 0.0, 1.0);
+    field("min_contrast", self.min_contrast, 0.0, 255.0);
+  }
+};
+
+struct ReferenceShapeParams {
+  double sigmas = 3.0;        ///< standard deviations that a shape may differ from the reference's
+  double frame_slack = 0.15;  ///< width of the frame may differ from the reference's by this part
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("sigmas", self.sigmas, 0.0, 100.0);
+    field("frame_slack", self.frame_slack, 0.0, 10.0);
+  }
+};
+
+struct AppearanceParams {
+  double near_width =
+      0.05;  ///< first band of the ring round the border: the frame, in mean sides of the opening
+  double far_width = 0.14;  ///< second band, its outer edge: frame and surround, in mean sides of the opening
+  double max_distance =
+      0.5;  ///< Bhattacharyya distance beyond which a candidate is not the target, at most; 0 to 1
+  double min_distance =
+      0.25;  ///< that limit is never below this, however alike the rest of the reference image looks; 0 to 1
+  double max_drift = 0.3;  ///< slow adaptation: furthest Bhattacharyya distance from the operator's reference
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("near_width", self.near_width, 0.005, 0.5);
+    field("far_width", self.far_width, 0.01, 1.0);
+    field("max_distance", self.max_distance, 0.0, 1.0);
+    field("min_distance", self.min_distance, 0.0, 1.0);
+    field("max_drift", self.max_drift, 0.0, 1.0);
+  }
+};
+
+struct TrackParams {
+  double reach = 0.0094;  ///< furthest a border may lie from where it is predicted [longer image sides]
+  double turn = 0.12;     ///< unforeseen motion of the window's place without attitude [longer image sides/s]
+  double max_gap_sec = 0.5;      ///< pictures further apart start anew [s]
+  double reacquire_sec = 0.6;    ///< a lost window found again in its place within this time is the same [s]
+  double reacquire_gate = 0.35;  ///< furthest from its place to be the same [window sides]
+  int appearance_every = 15;     ///< frames between comparisons with the reference
+  int confirmations =
+      3;  ///< searches that must agree with a new track, or name another place, to be believed
+  double survey_sec = 1.0;  ///< between looks for all windows in view, while one is followed; 0: none [s]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("reach", self.reach, 0.002, 0.1);
+    field("turn", self.turn, 0.001, 10.0);
+    field("max_gap_sec", self.max_gap_sec, 0.01, 60.0);
+    field("reacquire_sec", self.reacquire_sec, 0.0, 60.0);
+    field("reacquire_gate", self.reacquire_gate, 0.01, 0.5);
+    field("appearance_every", self.appearance_every, 1, 100000);
+    field("confirmations", self.confirmations, 1, 100);
+    field("survey_sec", self.survey_sec, 0.0, 60.0);
+  }
+};
 
 /// Parameters of all stages in the order of the pipeline.
 struct DetectorParams {
   PreprocessParams preprocess;
   EdgeMapParams edges;
-  EdgeRunsParams runs;
-  LineSupportParams lines;
+  HoughSegmentsParams lines;
   ClosingParams closing;
   ContourPolygonsParams contours;
   SegmentQuadsParams segment_quads;
-  SideSupportParams side_support;
   CandidateGatesParams gates;
-  WindowScoreParams score;
-  NestedLoopsParams nested;
-  ReferenceBordersParams borders;
   ReferenceShapeParams shape;
   AppearanceParams appearance;
-  BorderRefinementParams refinement;
   TrackParams track;
   int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
   double min_score = 0.4;   ///< below this there is no detection
-  double min_score_reference = 0.5;  ///< the same for what was compared with a reference
-  double min_correlation = 0.58;     ///< of what lies round the target with what the reference shows there
+  double min_score_reference = 0.5;  ///< least score of what was compared with a reference
+  double min_correlation =
+      0.58;  ///< least correlation of what lies round the target with what the reference shows there
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.group("preprocess", self.preprocess);
     field.group("edges", self.edges);
-    field.group("runs", self.runs);
     field.group("lines", self.lines);
     field.group("closing", self.closing);
     field.group("contours", self.contours);
     field.group("segment_quads", self.segment_quads);
-    field.group("side_support", self.side_support);
     field.group("gates", self.gates);
-    field.group("score", self.score);
-    field.group("nested", self.nested);
-    field.group("borders", self.borders);
     field.group("shape", self.shape);
     field.group("appearance", self.appearance);
-    field.group("refinement", self.refinement);
     field.group("track", self.track);
     field("max_candidates", self.max_candidates, 1, 1000);
     field("min_score", self.min_score, 0.0, 1.0);

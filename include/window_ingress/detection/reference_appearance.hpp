@@ -1,36 +1,17 @@
 #pragma once
 
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 
-#include "window_ingress/detection/ring_histogram.hpp"
+#include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 
-struct AppearanceParams {
-  double near_width =
-      0.05;  ///< first band of the ring round the border: the frame, in mean sides of the opening
-  double far_width = 0.14;  ///< second band, its outer edge: frame and surround, in mean sides of the opening
-  int min_pixels = 40;      ///< fewer pixels in a band are not compared
-  double max_distance =
-      0.5;  ///< Bhattacharyya distance beyond which a candidate is not the target, at most; 0 to 1
-  double min_distance =
-      0.25;                ///< and at least, however alike the rest of the reference picture looks; 0 to 1
-  double max_drift = 0.3;  ///< slow adaptation: furthest Bhattacharyya distance from the operator's reference
-
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("near_width", self.near_width, 0.005, 0.5);
-    field("far_width", self.far_width, 0.01, 1.0);
-    field("min_pixels", self.min_pixels, 1, 100000);
-    field("max_distance", self.max_distance, 0.0, 1.0);
-    field("min_distance", self.min_distance, 0.0, 1.0);
-    field("max_drift", self.max_drift, 0.0, 1.0);
-  }
-};
+struct RingColours;
 
 /// One candidate against the reference.
 struct AppearanceMatch {
@@ -38,6 +19,9 @@ struct AppearanceMatch {
   double limit = 1.0;     ///< beyond it this is not the target
   double odds = 1.0;      ///< how much likelier such a distance is for the target than for something else
 };
+
+/// True if no pixel of a grid over the picture has a colour: then no comparison of colours means anything.
+bool isGrey(const cv::Mat& image);
 
 /// How the target looks (P9): made once from a picture of it.
 ///
@@ -93,10 +77,10 @@ class ReferenceAppearance {
   geometry::Quadrilateral opening_;
   bool opening_is_known_ = true;
   // Made when they are first asked for, with the parameters given then.
-  mutable std::optional<RingColours> colours_;
+  mutable std::shared_ptr<const RingColours> colours_;
   mutable double elsewhere_ = 1.0;  ///< distance that most other places of the picture exceed
   mutable std::optional<AppearanceParams> prepared_;
-  std::optional<RingColours> adapted_;
+  std::shared_ptr<const RingColours> adapted_;
 };
 
 }  // namespace window_ingress::detection

@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "window_ingress/detection/unit_square.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
+#include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::openness {
 
@@ -65,7 +65,7 @@ class PlaneParallax {
   double borderVariance(const Eigen::Vector2d& place, const Eigen::Vector2d& along) const;
 
   Eigen::Matrix3d H_, K_inverse_;
-  detection::UnitSquare opening_;  ///< in the later picture
+  geometry::UnitSquare opening_;  ///< in the later picture
   Eigen::Vector3d epipole_, normal_;
   SeenBorder key_, now_;
   Errors errors_;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "window_ingress/detection/interior_tracks.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/openness/opening_cells.hpp"
 #include "window_ingress/openness/track_evidence.hpp"
 

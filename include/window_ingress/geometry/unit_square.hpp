@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::geometry {
+
+/// Projective map between the unit square, (0, 0) to (1, 1) in canonical order, and a convex quadrilateral.
+class UnitSquare {
+ public:
+  explicit UnitSquare(const Quadrilateral& quad);
+
+  /// Pixel of a point of the square's plane; far outside any image for points beyond the horizon.
+  Eigen::Vector2d toImage(const Eigen::Vector2d& unit) const { return apply(map_, unit); }
+  /// The map to the image in homogeneous coordinates; the third one of the result is positive before the
+  /// horizon.
+  const Eigen::Matrix3d& matrix() const { return map_; }
+  /// Point of the square's plane under a pixel.
+  Eigen::Vector2d fromImage(const Eigen::Vector2d& pixel) const { return apply(inverse_, pixel); }
+
+ private:
+  static Eigen::Vector2d apply(const Eigen::Matrix3d& map, const Eigen::Vector2d& point) {
+    const double depth = map(2, 0) * point.x() + (map(2, 1) * point.y() + map(2, 2));
+    if (!(depth > 1e-6)) return {-1e6, -1e6};
+    return (map.col(0).head<2>() * point.x() + map.col(1).head<2>() * point.y() + map.col(2).head<2>()) /
+           depth;
+  }
+
+  Eigen::Matrix3d map_, inverse_;
+};
+
+}  // namespace window_ingress::geometry

@@ -1,0 +1,54 @@
+#include "detection/alignment/homography_sums.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+/// A signed monomial; sign 0: none.
+struct Term {
+  int x, y;
+  float sign;
+};
+
+// What the eight parameters move a point by, in x and in y.
+constexpr Term kInX[8] = {{1, 0, 1.0F}, {0, 1, 1.0F}, {0, 0, 1.0F},  {0, 0, 0.0F},
+                          {0, 0, 0.0F}, {0, 0, 0.0F}, {2, 0, -1.0F}, {1, 1, -1.0F}};
+constexpr Term kInY[8] = {{0, 0, 0.0F}, {0, 0, 0.0F}, {0, 0, 0.0F},  {1, 0, 1.0F},
+                          {0, 1, 1.0F}, {0, 0, 1.0F}, {1, 1, -1.0F}, {0, 2, -1.0F}};
+
+constexpr int placeOf(int x, int y) { return (x + y) * (x + y + 1) / 2 + y; }
+
+template <typename Sums>
+float termOf(const Sums& sums, const Term& p, const Term& q) {
+  return p.sign * q.sign * sums[placeOf(p.x + q.x, p.y + q.y)];
+}
+
+}  // namespace
+
+Monomials monomialsOf(float x, float y) {
+  Monomials m = Monomials::Zero();
+  for (int degree = 0, at = 0; degree <= 4; ++degree)
+    for (int power = 0; power <= degree; ++power, ++at) {
+      m[at] = 1.0F;
+      for (int k = 0; k < degree - power; ++k) m[at] *= x;
+      for (int k = 0; k < power; ++k) m[at] *= y;
+    }
+  return m;
+}
+
+Vector8f DerivativeSum::vector() const {
+  constexpr Term one{0, 0, 1.0F};
+  Vector8f v;
+  for (int k = 0; k < 8; ++k) v[k] = termOf(a, kInX[k], one) + termOf(b, kInY[k], one);
+  return v;
+}
+
+Matrix8f NormalSum::matrix() const {
+  Matrix8f m;
+  for (int k = 0; k < 8; ++k)
+    for (int l = 0; l < 8; ++l)
+      m(k, l) = termOf(aa, kInX[k], kInX[l]) + termOf(ab, kInX[k], kInY[l]) + termOf(ab, kInY[k], kInX[l]) +
+                termOf(bb, kInY[k], kInY[l]);
+  return m;
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,97 @@
+#include "detection/alignment/ring_judge.hpp"
+
+#include <algorithm>
+
+#include "detection/quads.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
+constexpr std::size_t kPlaces = 10;                                         ///< that are aligned
+constexpr std::size_t kFinePlaces = 2;                                      ///< and of these, to the last
+constexpr int kVariants = 2;                   ///< rough loops of one place from which it is aligned
+constexpr double kSure = 0.85, kBehind = 0.3;  ///< a place found, and what promises so much less is left out
+constexpr double kGeometryWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
+
+void sortByScore(std::vector<ScoredCandidate>& rivals) {
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.score > b.score; });
+}
+
+}  // namespace
+
+// What is promising first.
+void RingJudge::compareAll(std::vector<ScoredCandidate>& rivals) {
+  order_.clear();
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
+    rivals[i].correlation = std::max(0.0, match.correlation);
+    if (match.correlation > -1.0)
+      order_.emplace_back(match.correlation + kGeometryWeight * rivals[i].score, i);
+  }
+  std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
+    return a.first > b.first || (a.first == b.first && a.second < b.second);
+  });
+}
+
+std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, double finest_px) {
+  const auto found = alignment_.align(rough.quad, finest_px);
+  if (!found) return std::nullopt;
+  const auto quad = geometry::canonical(found->quad);
+  if (!quad) return std::nullopt;
+  ScoredCandidate rival = rough;
+  rival.quad = *quad;
+  rival.candidate.source = CandidateSource::kReference;
+  rival.verdict = NestedVerdict();
+  rival.proposal = 0.0;
+  rival.located = true;
+  rival.size = 1.0;
+  rival.correlation = rival.score = std::max(0.0, found->match.correlation);
+  return rival;
+}
+
+// Of all that come to lie about one place the best.
+void RingJudge::keep(const ScoredCandidate& rival) {
+  const Sameness sameness(rival.quad);
+  const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& other) {
+    return sameness.samePlace(other.quad);
+  });
+  if (same == aligned_.end())
+    aligned_.push_back(rival);
+  else if (rival.score > same->score)
+    *same = rival;
+}
+
+const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
+                                                     const geometry::PinholeCamera* camera,
+                                                     std::vector<ScoredCandidate>& rivals) {
+  aligned_.clear();
+  if (!known() || image.channels() != model_.channels()) return aligned_;
+  alignment_.set(model_, image, camera);
+  compareAll(rivals);
+  std::vector<std::size_t> places;
+  struct {
+    double score = 0.0, promise = 0.0;
+  } best;
+  for (const auto& [promise, i] : order_) {
+    if (places.size() >= kPlaces || (best.score > kSure && promise < best.promise - kBehind)) break;
+    const Sameness same(rivals[i].quad);
+    const auto variants = std::count_if(
+        places.begin(), places.end(), [&](std::size_t place) { return same.samePlace(rivals[place].quad); });
+    if (variants >= kVariants) continue;
+    places.push_back(i);
+    const auto rival = aligned(rivals[i], kAlignedPx);
+    if (!rival) continue;
+    if (rival->score > best.score) best = {rival->score, promise};
+    keep(*rival);
+  }
+  sortByScore(aligned_);
+  for (std::size_t i = 0; i < std::min(aligned_.size(), kFinePlaces); ++i)
+    if (const auto rival = aligned(aligned_[i], kFinestPx)) aligned_[i] = *rival;
+  sortByScore(aligned_);
+  for (ScoredCandidate& rival : aligned_) rival.faithful = alignment_.compare(rival.quad, kFinestPx).faithful;
+  return aligned_;
+}
+
+}  // namespace window_ingress::detection

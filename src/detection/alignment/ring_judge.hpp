@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "detection/alignment/ring_alignment.hpp"
+#include "detection/candidates/candidate_search.hpp"
+
+namespace window_ingress::detection {
+
+/// Which rivals have round them what the reference shows round the opening, and where exactly: all are
+/// compared, the best are moved to where the ring fits best.
+class RingJudge {
+ public:
+  /// See RingModel.
+  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0) {
+    model_.learn(picture, opening, colour);
+  }
+  void forget() { model_.forget(); }
+  bool known() const { return model_.known(); }
+
+  /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
+  /// correlation of every rival as it is. \param image with as many channels as the reference picture
+  const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                            std::vector<ScoredCandidate>& rivals);
+
+ private:
+  std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
+  void keep(const ScoredCandidate& rival);
+  void compareAll(std::vector<ScoredCandidate>& rivals);
+
+  RingModel model_;
+  RingAlignment alignment_;
+  std::vector<std::pair<double, std::size_t>>
+      order_;  ///< by correlation before anything is moved; of `rivals`
+  std::vector<ScoredCandidate> aligned_;
+};
+
+}  // namespace window_ingress::detection

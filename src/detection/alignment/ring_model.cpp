@@ -1,0 +1,241 @@
+#include "detection/alignment/ring_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "detection/alignment/homography_sums.hpp"
+#include "window_ingress/geometry/unit_square.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using geometry::Quadrilateral;
+
+constexpr int kShortestSidePx = 16;
+
+constexpr double kCoarsest = 14.0, kFinest = 400.0;  ///< levels [samples a mean side]
+constexpr double kBlur = 0.5;                        ///< of a level [samples]
+constexpr int kMostSamples = 2400;                   ///< of a level
+constexpr double kSteepPart = 0.67;  ///< of them those with the largest slopes; the others are spread evenly
+constexpr float kDark = 4.0F;        ///< added to colours: the least light that counts [grey levels]
+constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: small numbers are summed more exactly [grey levels]
+
+/// One sample of the picture, before they are sorted by segments.
+struct Sample {
+  float x, y;
+  std::array<float, 3> value, slope_x, slope_y;
+  int segment;
+  float steepness;
+};
+
+/// Measures of the opening in its mean sides.
+struct Shape {
+  double width, height;
+};
+
+// Far away everything counts; near, what may lie in another plane than the opening is left out.
+double widthOf(double side_px) { return side_px < 28.0 ? RingModel::kWidth : 0.7 * RingModel::kWidth; }
+
+// Nearer to the opening colours are mixed with what lies in it [mean sides]. Where little is seen, little is
+// given away.
+double clearOf(double side_px) { return (side_px < 28.0 ? 1.0 : 2.0) / side_px; }
+
+int segmentsASide(double side_px) { return side_px < 28.0 ? 2 : side_px < 80.0 ? 4 : 6; }
+
+// Which stretch of which side lies nearest; -1 within the opening or beside the ring.
+int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side) {
+  const double out_x = (std::abs(p.x()) - 0.5) * shape.width, out_y = (std::abs(p.y()) - 0.5) * shape.height;
+  const double out = std::max(out_x, out_y);
+  if (out < clearOf(side_px) || out > widthOf(side_px)) return -1;
+  const bool upright = out_x > out_y;
+  const int side = upright ? (p.x() > 0.0 ? 1 : 3) : (p.y() > 0.0 ? 2 : 0);
+  const double length = upright ? shape.height : shape.width, along = (upright ? p.y() : p.x()) * length;
+  const double part = along / (length + 2.0 * RingModel::kWidth) + 0.5;
+  return side * a_side + std::clamp(static_cast<int>(part * a_side), 0, a_side - 1);
+}
+
+/// The picture, smoothed for one level, read between its pixels.
+class Reader {
+ public:
+  Reader(const cv::Mat& picture, const geometry::UnitSquare& map, int level, const RingModel& model)
+      : picture_(picture), map_(map), level_(level), model_(model) {}
+
+  bool read(const Vector2d& p, std::array<float, 3>& value) const {
+    const Vector2d at = ImagePyramid::onLevel(map_.toImage(p + Vector2d(0.5, 0.5)), level_);
+    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < picture_.cols - 1 && at.y() < picture_.rows - 1))
+      return false;
+    const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y()),
+              channels = picture_.channels();
+    const auto u = static_cast<float>(at.x() - column), v = static_cast<float>(at.y() - row);
+    const float *top = picture_.ptr<float>(row) + column * channels,
+                *bottom = picture_.ptr<float>(row + 1) + column * channels;
+    for (int c = 0; c < channels; ++c)
+      value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + channels]) +
+                       v * ((1.0F - u) * bottom[c] + u * bottom[c + channels]));
+    if (channels == 3) model_.weighColour(value[0], value[1], value[2]);
+    return true;
+  }
+
+ private:
+  const cv::Mat& picture_;
+  const geometry::UnitSquare& map_;
+  int level_;
+  const RingModel& model_;
+};
+
+bool sampleAt(const Reader& reader, const Vector2d& p, const Vector2d& half_step, int channels,
+              Sample& sample) {
+  std::array<float, 3> left, right, up, down;
+  if (!reader.read(p, sample.value) || !reader.read(p - Vector2d(half_step.x(), 0), left) ||
+      !reader.read(p + Vector2d(half_step.x(), 0), right) ||
+      !reader.read(p - Vector2d(0, half_step.y()), up) || !reader.read(p + Vector2d(0, half_step.y()), down))
+    return false;
+  sample.x = static_cast<float>(p.x()), sample.y = static_cast<float>(p.y());
+  sample.steepness = 0.0F;
+  for (int c = 0; c < channels; ++c) {
+    sample.slope_x[c] = (right[c] - left[c]) / static_cast<float>(2.0 * half_step.x());
+    sample.slope_y[c] = (down[c] - up[c]) / static_cast<float>(2.0 * half_step.y());
+    sample.steepness += sample.slope_x[c] * sample.slope_x[c] + sample.slope_y[c] * sample.slope_y[c];
+  }
+  return true;
+}
+
+// Of each segment the steepest ones, and some of the rest.
+void thinOut(std::vector<Sample>& samples, int segments) {
+  if (static_cast<int>(samples.size()) <= kMostSamples) return;
+  const int steep = static_cast<int>(kSteepPart * kMostSamples / segments);
+  const int others = kMostSamples / segments - steep;
+  std::vector<Sample> kept;
+  for (auto begin = samples.begin(); begin != samples.end();) {
+    const auto end =
+        std::find_if(begin, samples.end(), [&](const Sample& s) { return s.segment != begin->segment; });
+    const auto middle = begin + std::min<std::ptrdiff_t>(steep, end - begin);
+    std::nth_element(begin, middle == end ? begin : middle, end,
+                     [](const Sample& a, const Sample& b) { return a.steepness > b.steepness; });
+    kept.insert(kept.end(), begin, middle);
+    const auto left = end - middle;
+    for (std::ptrdiff_t k = 0; k < std::min<std::ptrdiff_t>(others, left); ++k)
+      kept.push_back(*(middle + k * left / std::min<std::ptrdiff_t>(others, left)));
+    begin = end;
+  }
+  samples.swap(kept);
+}
+
+RingLevel levelFrom(const std::vector<Sample>& samples, int channels, int segments, double side_px) {
+  RingLevel level;
+  level.side_px = side_px;
+  for (const Sample& s : samples) {
+    const Monomials monomials = monomialsOf(s.x, s.y);
+    level.x.push_back(s.x), level.y.push_back(s.y);
+    level.monomials.insert(level.monomials.end(), monomials.data(), monomials.data() + monomials.size());
+  }
+  for (int c = 0; c < channels; ++c)
+    for (const Sample& s : samples) {
+      level.values.push_back(s.value[c]);
+      level.slopes_x.push_back(s.slope_x[c]);
+      level.slopes_y.push_back(s.slope_y[c]);
+    }
+  for (int k = 0; k <= segments; ++k)
+    level.segments.push_back(
+        static_cast<int>(std::lower_bound(samples.begin(), samples.end(), k,
+                                          [](const Sample& s, int at) { return s.segment < at; }) -
+                         samples.begin()));
+  return level;
+}
+
+// The ring on a grid of this resolution.
+RingLevel sampled(const Reader& reader, const Shape& shape, int channels, double side_px) {
+  const double pitch = 1.0 / side_px, half = RingModel::kWidth + 0.5 * std::max(shape.width, shape.height);
+  const int a_side = segmentsASide(side_px);
+  const Vector2d step(pitch / shape.width, pitch / shape.height);
+  std::vector<Sample> samples;
+  for (double y = -half + 0.5 * pitch; y < half; y += pitch)
+    for (double x = -half + 0.5 * pitch; x < half; x += pitch) {
+      const Vector2d p(x / shape.width, y / shape.height);
+      Sample sample{};
+      sample.segment = segmentOf(p, shape, side_px, a_side);
+      if (sample.segment >= 0 && sampleAt(reader, p, 0.5 * step, channels, sample)) samples.push_back(sample);
+    }
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.segment < b.segment; });
+  thinOut(samples, 4 * a_side);
+  return levelFrom(samples, channels, 4 * a_side, side_px);
+}
+
+}  // namespace
+
+void ImagePyramid::set(const cv::Mat& image) {
+  deepest_ = 0;
+  while (std::min(image.cols, image.rows) >> (deepest_ + 1) >= kShortestSidePx) ++deepest_;
+  if (static_cast<int>(levels_.size()) <= deepest_) levels_.resize(deepest_ + 1);
+  levels_[0] = image;
+  made_ = 0;
+}
+
+const cv::Mat& ImagePyramid::level(int k) {
+  const int wanted = std::clamp(k, 0, deepest_);
+  for (; made_ < wanted; ++made_) {
+    const cv::Mat& from = levels_[made_];
+    const cv::Size half(from.cols / 2, from.rows / 2);
+    cv::resize(from(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[made_ + 1], half, 0, 0,
+               cv::INTER_AREA);
+  }
+  return levels_[wanted];
+}
+
+float logOf(float value) {
+  static const std::array<float, 257> table = [] {
+    std::array<float, 257> logs{};
+    for (int i = 0; i < 257; ++i) logs[i] = std::log((static_cast<float>(i) + kDark) / kMiddle);
+    return logs;
+  }();
+  const int whole = std::clamp(static_cast<int>(value), 0, 255);
+  return table[whole] + (value - static_cast<float>(whole)) * (table[whole + 1] - table[whole]);
+}
+
+void RingModel::weighColour(float& blue, float& green, float& red) const {
+  const float brightness = (blue + green + red) / 3.0F;
+  for (float* channel : {&blue, &green, &red}) *channel = brightness + colour_ * (*channel - brightness);
+}
+
+void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening, double colour) {
+  forget();
+  if (picture.empty() || (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)) return;
+  if (!geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
+  channels_ = picture.channels();
+  colour_ = static_cast<float>(colour);
+  const double aspect = geometry::aspectRatio(opening);
+  const Shape shape{2.0 * aspect / (1.0 + aspect), 2.0 / (1.0 + aspect)};
+  const double side_px = std::sqrt(std::abs(geometry::signedArea(opening)) / (shape.width * shape.height));
+  const geometry::UnitSquare map(opening);
+  ImagePyramid pyramid;
+  pyramid.set(picture);
+  cv::Mat smooth;
+  const double finest = std::clamp(side_px, kCoarsest, kFinest);
+  const int count = 1 + static_cast<int>(std::floor(2.0 * std::log2(finest / kCoarsest) + 1e-6));
+  for (int k = 0; k < count; ++k) {
+    const double wanted = finest * std::pow(2.0, -0.5 * (count - 1 - k));
+    const int from =
+        std::clamp(static_cast<int>(std::floor(std::log2(side_px / wanted) + 1e-6)), 0, pyramid.deepest());
+    const double ratio = side_px / wanted / (1 << from);
+    pyramid.level(from).convertTo(smooth, CV_32F);
+    const double blur = kBlur * std::sqrt(std::max(0.0, ratio * ratio - (from > 0 ? 0.5 : 0.0)));
+    if (ratio > 1.1 && blur > 0.1)
+      cv::GaussianBlur(smooth, smooth, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
+    levels_.push_back(sampled(Reader(smooth, map, from, *this), shape, channels_, wanted));
+  }
+  levels_.erase(
+      std::remove_if(levels_.begin(), levels_.end(), [](const RingLevel& l) { return l.size() < 40; }),
+      levels_.end());
+}
+
+const RingLevel& RingModel::level(double side_px) const {
+  const auto off = [&](const RingLevel& l) { return std::abs(std::log(l.side_px / side_px)); };
+  return *std::min_element(levels_.begin(), levels_.end(),
+                           [&](const RingLevel& a, const RingLevel& b) { return off(a) < off(b); });
+}
+
+}  // namespace window_ingress::detection

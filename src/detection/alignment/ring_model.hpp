@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// A picture at full, half, quarter ... size; each level is made when it is first asked for. Keeps its
+/// memory.
+class ImagePyramid {
+ public:
+  /// \param image CV_8UC1 or CV_8UC3; shared, not copied
+  void set(const cv::Mat& image);
+
+  /// \param k 0: the picture itself; clamped to what is left of it
+  const cv::Mat& level(int k);
+  int deepest() const { return deepest_; }  ///< level of which the shorter side has 16 pixels or so
+
+  /// Pixel of a level under a pixel of the picture: pixel centres are integers on both.
+  static Eigen::Vector2d onLevel(const Eigen::Vector2d& pixel, int k) {
+    const double factor = 1 << k;
+    return (pixel.array() - 0.5 * (factor - 1.0)) / factor;
+  }
+
+ private:
+  std::vector<cv::Mat> levels_;
+  int made_ = 0, deepest_ = 0;
+};
+
+/// Logarithm of a colour: what the light multiplies is added to it.
+float logOf(float value);
+
+/// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
+/// Points lie in the order of their segments.
+struct RingLevel {
+  double side_px = 0.0;     ///< samples along a mean side of the opening
+  std::vector<float> x, y;  ///< in sides of the opening from its centre: within it, both are in -0.5 .. 0.5
+  std::vector<float> monomials;           ///< of x and y, 16 a point
+  std::vector<float> values;              ///< logarithms of the colours, channel by channel
+  std::vector<float> slopes_x, slopes_y;  ///< their change a side of the opening, likewise
+  std::vector<int> segments;  ///< where each begins, and the end: light is taken to be even over a segment
+
+  int size() const { return static_cast<int>(x.size()); }
+  int segmentCount() const { return static_cast<int>(segments.size()) - 1; }
+};
+
+/// What lies around the opening in the operator's picture, at several resolutions: a ring of frame and wall,
+/// flat, so that a homography takes it into any picture. Nothing within the opening counts, and nothing that
+/// the picture does not show.
+class RingModel {
+ public:
+  static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]
+
+  /// \param picture CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels \param colour weight of
+  /// the differences between channels, beside brightness
+  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0);
+  void forget() { levels_.clear(); }
+  bool known() const { return !levels_.empty(); }
+  int channels() const { return channels_; }
+
+  /// Gives the differences of three logarithms their weight.
+  void weighColour(float& blue, float& green, float& red) const;
+
+  /// The level nearest to this resolution, coarse to fine by steps of the square root of two.
+  const RingLevel& level(double side_px) const;
+  double finest() const { return levels_.back().side_px; }  ///< [px a mean side]
+
+ private:
+  std::vector<RingLevel> levels_;
+  int channels_ = 0;
+  float colour_ = 1.0F;
+};
+
+}  // namespace window_ingress::detection

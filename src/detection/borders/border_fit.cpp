@@ -1,0 +1,159 @@
+#include "detection/borders/border_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "detection/borders/double_edge.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr float kFaintest = 0.5f;  // slope that may be an edge [grey levels a pixel]
+constexpr int kLeastProfiles = 4;
+constexpr double kSigmas = 2.0;  // of a difference between the halves of a side
+constexpr int kNoPeak = 1 << 20;
+constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
+constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
+
+// Offset of the maximum of a bell curve through three equidistant values, the middle one the largest.
+double peak(double left, double middle, double right) {
+  const double floor = 0.02 * middle;
+  const double l = std::log(std::max(left, floor)), m = std::log(middle),
+               r = std::log(std::max(right, floor));
+  const double curvature = l - 2.0 * m + r;
+  return curvature < -1e-9 ? std::clamp(0.5 * (l - r) / curvature, -1.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+Line FittedBorder::inImage(const EdgeProfiles& profiles) const {
+  Line border;
+  border.point = profiles.point(middle(), line.at(middle()));
+  border.normal = (profiles.normal() - line.slope * profiles.along()).normalized();
+  border.sigma_px = sigma_px;
+  border.sigma_rad = sigma_rad;
+  return border;
+}
+
+void BorderFit::project(const EdgeProfiles& profiles, const Eigen::Vector3f& colour) {
+  profiles_ = &profiles;
+  const int width = profiles.width(), channels = profiles.channels();
+  const Eigen::Vector3f weights = 0.5f * (channels == 1 ? Eigen::Vector3f(colour.sum(), 0, 0) : colour);
+  slopes_.assign(static_cast<std::size_t>(profiles.count()) * width, 0.0f);
+  peak_at_.assign(profiles.count(), kNoPeak);
+  peak_.resize(profiles.count());
+  for (int i = 0; i < profiles.count(); ++i) {
+    if (!profiles.inside(i)) continue;
+    float* out = slopes_.data() + static_cast<std::size_t>(i) * width;
+    for (int c = 0; c < channels; ++c) {
+      const float* in = profiles.samples(i, c);
+      for (int k = 1; k + 1 < width; ++k) out[k] += weights[c] * (in[k + 1] - in[k - 1]);
+    }
+  }
+}
+
+// Where a profile has its edge near an offset, to a pixel.
+std::optional<int> BorderFit::steepest(int i, double centre, const BorderFitLimits& limits) const {
+  const int reach = profiles_->reach() - 2;
+  const int first = std::max(-reach, static_cast<int>(std::lround(centre - limits.radius_px)));
+  const int last = std::min(reach, static_cast<int>(std::lround(centre + limits.radius_px)));
+  const float* slope = slopesOf(i);
+  const float falloff = static_cast<float>(0.5 / (limits.prior_px * limits.prior_px));
+  float best = 0.0f;
+  int at = first;
+  for (int o = first; o <= last; ++o) {
+    const float off = static_cast<float>(o - centre), damped = 1.0f + falloff * off * off;
+    const float weight = slope[o] / (damped * damped);
+    if (weight > best) best = weight, at = o;
+  }
+  if (best < kFaintest) return std::nullopt;
+  while (at > first && slope[at - 1] > slope[at]) --at;
+  while (at < last && slope[at + 1] > slope[at]) ++at;
+  if (at <= first || at >= last) return std::nullopt;
+  return at;
+}
+
+void BorderFit::measure(const OffsetLine& about, const BorderFitLimits& limits) {
+  positions_.clear();
+  offsets_.clear();
+  for (int i = 0; i < profiles_->count(); ++i) {
+    if (!profiles_->inside(i)) continue;
+    const auto at = steepest(i, about.at(profiles_->position(i)), limits);
+    if (!at) continue;
+    if (peak_at_[i] != *at) {
+      const float* slope = slopesOf(i);
+      peak_at_[i] = *at;
+      peak_[i] = *at + peak(slope[*at - 1], slope[*at], slope[*at + 1]);
+    }
+    positions_.push_back(profiles_->position(i));
+    offsets_.push_back(peak_[i]);
+  }
+}
+
+void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) const {
+  double squares = 0.0;
+  border.inliers = 0;
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    const double rest = offsets_[i] - border.line.at(positions_[i]);
+    if (std::abs(rest) > 2.0 * limits.outlier_px) continue;
+    squares += rest * rest;
+    border.from = border.inliers == 0 ? positions_[i] : border.from;
+    border.to = positions_[i];
+    ++border.inliers;
+  }
+  const double spacing_px = profiles_->length() / profiles_->count();
+  const double independent = std::max(2.0, border.inliers * std::min(1.0, spacing_px / kCorrelationPx) - 2.0);
+  border.sigma_px =
+      std::hypot(limits.sigma_floor_px, std::sqrt(squares / std::max(1, border.inliers) / independent));
+  border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
+}
+
+// Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
+// part along it; as a
+// whole where a half alone does not tell, and in a track.
+DoubleEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
+  const int count = profiles_->count(), middle = count / 2;
+  const DoubleEdge edge = frontOf(limits, border.line, 0, count);
+  border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
+  border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
+  if (!(edge.apart > 0.0)) return edge;
+  if (limits.before) {
+    border.line.offset += edge.front;
+    return edge;
+  }
+  DoubleEdgeLimits halves = limits;
+  halves.before = &edge;
+  const DoubleEdge first = frontOf(halves, border.line, 0, middle),
+                   last = frontOf(halves, border.line, middle, count);
+  const double apart = std::abs(last.front - first.front);
+  if (first.apart > 0.0 && last.apart > 0.0 && apart > kSigmas * std::hypot(first.sigma_px, last.sigma_px)) {
+    const double at = profiles_->position(middle / 2), to = profiles_->position((middle + count) / 2);
+    const double slope = (last.front - first.front) / std::max(1.0, to - at);
+    border.line.slope += slope;
+    border.line.offset += first.front - slope * at;
+  } else {
+    border.line.offset += edge.front;
+  }
+  return edge;
+}
+
+DoubleEdge BorderFit::frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first,
+                              int last) const {
+  constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
+  std::array<float, 3 * kSize> mean;
+  if (profiles_->meanAlong(line, kHalf, first, last, mean.data()) < kLeastProfiles) return {};
+  return fitDoubleEdge(mean.data(), profiles_->channels(), kHalf, limits);
+}
+
+bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {
+  measure(border.line, limits);
+  const int count = static_cast<int>(positions_.size());
+  if (count < 4) return false;
+  scratch_.resize(2 * positions_.size());
+  fitOffsets({positions_.data(), offsets_.data(), scratch_.data(), count}, limits.outlier_px, border.line);
+  spread(limits, border);
+  return border.inliers >= 4;
+}
+
+}  // namespace window_ingress::detection

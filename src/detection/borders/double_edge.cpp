@@ -1,0 +1,237 @@
+#include "detection/borders/double_edge.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of a picture, standard deviation [px]
+constexpr double kSoftest = 2.0;                        // of an edge that may be two
+constexpr double kLeastBlur = 0.35, kLeastApart = 0.15, kMostApart = 4.5;
+constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
+constexpr double kModelNoise = 0.003;  // and what a blurred step fails to describe, of its change
+constexpr double kBlackest = -5.0, kWhitest = 262.0, kColourSpread = 10.0;  // of a reveal
+constexpr double kGoodEnough = 5.0;   // mean squared rest of one step, in noises, that needs no second one
+constexpr double kFits = 1.2;         // of two that need no other ones
+constexpr double kStillGood = 10.0;   // of two steps that are believed
+constexpr double kBetter = 0.25;      // of the rest of one step
+constexpr double kWellKnownPx = 0.3;  // standard deviation of a front that is believed
+constexpr double kBesidePx = 1.2;     // a front further out must have the right colour outside
+constexpr float kAlike = 0.35f;       // of the change across an edge: colours nearer than this are the same
+constexpr float kCollinear = 0.97f, kMostOvershoot = 0.3f;
+constexpr int kIterations = 8;
+constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
+constexpr int kMostSamples = 2 * kMostHalfOfEdge + 1, kMostRests = 3 * kMostSamples + 4;
+
+using Params = Eigen::Vector3d;  // front, apart, blur
+using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostSamples, 3>;
+using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRests, 1>;
+using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostRests, 3>;
+
+/// The normal distribution, from a table.
+class Step {
+ public:
+  Step() {
+    for (int i = 0; i <= kSize; ++i) values_[i] = 0.5 * std::erfc(-(kFrom + i / kPerUnit) * M_SQRT1_2);
+  }
+  double operator()(double z) const {
+    const double place = std::clamp((z - kFrom) * kPerUnit, 0.0, kSize - 1.0);
+    const int i = static_cast<int>(place);
+    return values_[i] + (place - i) * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr double kFrom = -4.0, kPerUnit = 128.0;
+  static constexpr int kSize = 1024;
+  std::array<double, kSize + 1> values_;
+};
+
+double step(double z) {
+  static const Step table;
+  return table(z);
+}
+
+/// Colours between two offsets, as one step or two.
+class Model {
+ public:
+  Model(const float* mean, int channels, int half, int first, int last, bool two)
+      : first_(first), count_(last - first + 1), two_(two) {
+    colours_.resize(count_, 3);
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < count_; ++k)
+        colours_(k, c) = mean[(channels == 1 ? 0 : c) * (2 * half + 1) + half + first + k];
+    const double change = (colours_.colwise().maxCoeff() - colours_.colwise().minCoeff()).norm();
+    noise_ = kNoise + kModelNoise * change;
+    freedom_ = std::max(1.0, (channels == 1 ? 1.0 : 3.0) * (count_ - (two ? 3 : 2)) - (two ? 3 : 2));
+    grey_ = channels == 1;
+  }
+
+  Eigen::Matrix3d rests(const Params& p, Rests& out) const {
+    Samples basis(count_, 3);
+    for (int k = 0; k < count_; ++k) {
+      const double o = first_ + k, front = step((o - p[0]) / p[2]);
+      basis(k, 0) = 1.0, basis(k, 1) = front;
+      basis(k, 2) = two_ ? step((o - p[0] + p[1]) / p[2]) - front : 0.0;
+    }
+    Eigen::Matrix3d normal = basis.transpose() * basis;
+    normal.diagonal().array() += 1e-9;
+    const Eigen::Matrix3d levels = normal.ldlt().solve(basis.transpose() * colours_);
+    const Samples left = (colours_ - basis * levels) / (grey_ ? noise_ * std::sqrt(3.0) : noise_);
+    const int size = 3 * count_;
+    out.resize(size + 4);
+    for (int c = 0; c < 3; ++c) out.segment(c * count_, count_) = left.col(c);
+    out[size] = two_ ? (p[2] - kUsualBlur) / kBlurSpread : 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double reveal = levels(0, c) + levels(2, c);
+      out[size + 1 + c] =
+          two_ ? (std::max(0.0, reveal - kWhitest) + std::min(0.0, reveal - kBlackest)) / kColourSpread : 0.0;
+    }
+    return levels;
+  }
+  double freedom() const { return freedom_; }
+  bool two() const { return two_; }
+
+ private:
+  int first_, count_;
+  bool two_, grey_ = false;
+  Samples colours_;
+  double noise_ = 1.0, freedom_ = 1.0;
+};
+
+struct Fit {
+  Params params = Params::Zero();
+  double rest = 0.0;   // mean square, in noises
+  double sigma = 0.0;  // of the front
+  Eigen::Vector3f outside = Eigen::Vector3f::Zero(), reveal = outside, within = outside;
+};
+
+void keepSane(Params& p) {
+  p[1] = std::clamp(p[1], kLeastApart, kMostApart);
+  p[2] = std::clamp(p[2], kLeastBlur, 3.0);
+}
+
+void slopesOf(const Model& model, const Params& at, const Rests& rests, Slopes& slopes) {
+  constexpr double kDifference = 0.02;
+  slopes.resize(rests.size(), 3);
+  Rests moved;
+  for (int i = 0; i < 3; ++i) {
+    if (i == 1 && !model.two()) {
+      slopes.col(i).setZero();
+      continue;
+    }
+    Params next = at;
+    next[i] += kDifference;
+    model.rests(next, moved);
+    slopes.col(i) = (moved - rests) / kDifference;
+  }
+}
+
+Fit fit(const Model& model, const Params& start) {
+  Fit best;
+  best.params = start;
+  Rests rests, tried;
+  model.rests(start, rests);
+  double cost = rests.squaredNorm(), damping = 1e-2;
+  Slopes slopes;
+  Eigen::Matrix3d normal;
+  for (int i = 0; i < kIterations; ++i) {
+    slopesOf(model, best.params, rests, slopes);
+    normal = slopes.transpose() * slopes;
+    const Eigen::Vector3d descent = slopes.transpose() * rests;
+    Eigen::Matrix3d damped = normal;
+    damped.diagonal() += damping * normal.diagonal() + Eigen::Vector3d::Constant(1e-6);
+    Params next = best.params - damped.ldlt().solve(descent);
+    keepSane(next);
+    model.rests(next, tried);
+    const double then = tried.squaredNorm(), gain = cost - then;
+    if (!(gain > 0.0)) {
+      damping *= 8.0;
+      continue;
+    }
+    best.params = next, cost = then, rests = tried, damping *= 0.3;
+    if (gain < kSettled * cost + kSettled) break;
+  }
+  const Eigen::Matrix3d levels = model.rests(best.params, tried);
+  best.outside = (levels.row(0) + levels.row(1)).transpose().cast<float>();
+  best.reveal = (levels.row(0) + levels.row(2)).transpose().cast<float>();
+  best.within = levels.row(0).transpose().cast<float>();
+  best.rest = cost / model.freedom();
+  normal.diagonal().array() += 1e-6;
+  best.sigma = std::sqrt(std::max(0.0, normal.inverse()(0, 0)) * std::max(1.0, best.rest));
+  return best;
+}
+
+// The colour beyond the edge is the one that is known to lie outside.
+bool isNextTo(const float* mean, int channels, int half, const Eigen::Vector3f& outside) {
+  const auto strangeness = [&](int o) {
+    Eigen::Vector3f colour;
+    for (int c = 0; c < 3; ++c) colour[c] = mean[(channels == 1 ? 0 : c) * (2 * half + 1) + half + o];
+    return (colour - outside).norm();
+  };
+  return strangeness(2) < std::max(4.0f, kAlike * strangeness(-2));
+}
+
+// A picture that was sharpened overshoots beside its edges: no strip of its own.
+bool isOvershoot(const Fit& two) {
+  const Eigen::Vector3f over = two.reveal - two.outside, change = two.outside - two.within;
+  return over.dot(change) > kCollinear * over.norm() * change.norm() &&
+         over.norm() < kMostOvershoot * change.norm();
+}
+
+bool isOutside(const Fit& two, const DoubleEdgeLimits& limits) {
+  if (!limits.outside) return true;
+  return (two.outside - *limits.outside).norm() < 0.5f * (two.reveal - *limits.outside).norm();
+}
+
+bool isGood(const Fit& two, const DoubleEdgeLimits& limits, bool near) {
+  if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px || isOvershoot(two))
+    return false;
+  if (two.params[0] > kBesidePx && (near || !isOutside(two, limits))) return false;
+  return two.rest < kFits && two.sigma < kWellKnownPx;
+}
+
+DoubleEdge answer(const Fit& two, double moved) {
+  return {two.params[0], two.params[1], std::min(two.sigma, moved), two.params[2]};
+}
+
+}  // namespace
+
+DoubleEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits) {
+  const auto bad = [](float v) { return !std::isfinite(v); };
+  if (std::any_of(mean, mean + channels * (2 * half + 1), bad)) return {};
+  const Model near(mean, channels, half, -4, 2, true), far(mean, channels, half, -3, 4, true);
+  if (limits.before && limits.before->apart > 0.0 && limits.before->blur > 0.0) {
+    const DoubleEdge& last = *limits.before;
+    const Fit two = fit(last.front > kBesidePx ? far : near, {last.front, last.apart, last.blur});
+    if (isGood(two, limits, last.front <= kBesidePx)) return answer(two, 1.0);
+  }
+  const Fit one = fit(Model(mean, channels, half, -3, 2, false), {0.0, 1.0, kUsualBlur});
+  const bool goes_on = limits.outside && !isNextTo(mean, channels, half, *limits.outside);
+  if ((one.rest < kGoodEnough && !goes_on) || one.params[2] > kSoftest) return {};
+  Fit best;
+  best.rest = best.sigma = 1e9;
+  for (const auto& [model, front, apart] : std::array<std::tuple<const Model*, double, double>, 4>{
+           {{&near, 0.0, 0.7}, {&near, 0.0, 2.0}, {&near, 1.0, 1.0}, {&far, 2.0, 2.0}}}) {
+    if (model == &far ? front > limits.farthest_px + 1.0 : one.rest < kGoodEnough) continue;
+    const Fit two = fit(*model, {front, apart, kUsualBlur});
+    if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px) continue;
+    if ((model == &near && two.params[0] > kBesidePx) || isOvershoot(two)) continue;
+    if (two.params[0] > kBesidePx && !isOutside(two, limits)) continue;
+    if (two.sigma < kWellKnownPx ? best.sigma > kWellKnownPx || two.rest < best.rest
+                                 : best.sigma > kWellKnownPx && two.rest < best.rest)
+      best = two;
+    if (best.rest < kFits && best.sigma < kWellKnownPx) break;
+  }
+  if (best.rest > kBetter * one.rest && !(goes_on && best.params[0] > kBesidePx)) return {};
+  const double moved = std::abs(best.params[0] - one.params[0]);
+  if (best.rest > kStillGood || best.sigma > kWellKnownPx) return {0.0, 0.0, 0.5 * std::min(2.0, moved), 0.0};
+  return answer(best, moved);
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,93 @@
+#include "detection/candidates/candidate_gates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kSupportLow = 0.4;       ///< support of a side that counts nothing
+constexpr double kOvershootWeight = 1.0;  ///< exponent of the part that sides end at their corners
+constexpr double kAreaFull =
+    0.06;  ///< area from which size makes no difference to the rank, in areas of the image
+constexpr double kAreaWeight = 0.45;    ///< exponent of the area's part in the rank
+constexpr double kClosureWeight = 0.5;  ///< exponent of the closure's part
+constexpr double kGeometryWeight =
+    0.25;  ///< exponent of all of the above where there is a reference to compare with
+constexpr double kWorthWeight = 0.7;  ///< exponent of the worth of its borders, beside the reference's
+constexpr double kBorderPart =
+    0.003;  ///< a corner this close to the image's border is cut, in longer sides of the image
+constexpr double kMeanSideSupport = 0.7;  ///< least support of the four sides together
+constexpr double kRightAngle = 1.5707963267948966;
+
+double worstAngle(const geometry::Quadrilateral& quad) {
+  double worst = 0.0;
+  for (double angle : geometry::interiorAngles(quad)) worst = std::max(worst, std::abs(angle - kRightAngle));
+  return worst;
+}
+
+double distanceToBorder(const geometry::Quadrilateral& quad, const cv::Size& image) {
+  double least = std::max(image.width, image.height);
+  for (const Eigen::Vector2d& p : quad)
+    least = std::min({least, p.x(), p.y(), image.width - 1 - p.x(), image.height - 1 - p.y()});
+  return least;
+}
+
+}  // namespace
+
+std::optional<Rejection> CandidateGates::shape(const Candidate& candidate, const cv::Size& image) const {
+  if (!geometry::isFinite(candidate.quad) || !geometry::isConvex(candidate.quad))
+    return Rejection{RejectReason::kCorners, 0.0, 4.0};
+  const double area = std::abs(geometry::signedArea(candidate.quad)) / image.area();
+  if (area < params_.min_area) return Rejection{RejectReason::kAreaSmall, area, params_.min_area};
+  if (area > params_.max_area) return Rejection{RejectReason::kAreaLarge, area, params_.max_area};
+  const double aspect = geometry::aspectRatio(candidate.quad);
+  if (aspect < params_.min_aspect) return Rejection{RejectReason::kAspect, aspect, params_.min_aspect};
+  if (aspect > params_.max_aspect) return Rejection{RejectReason::kAspect, aspect, params_.max_aspect};
+  if (candidate.solidity < params_.min_solidity)
+    return Rejection{RejectReason::kSolidity, candidate.solidity, params_.min_solidity};
+  const double angle = worstAngle(candidate.quad);
+  if (angle > params_.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params_.max_angle_rad};
+  const double margin = distanceToBorder(candidate.seen, image);
+  const double limit = kBorderPart * std::max(image.width, image.height);
+  if (margin < limit) return Rejection{RejectReason::kBorder, margin, limit};
+  return std::nullopt;
+}
+
+std::optional<Rejection> CandidateGates::support(const Candidate& candidate) const {
+  double least = 1.0, sum = 0.0, contrast = 255.0;
+  for (const SideSupport& side : candidate.sides) {
+    least = std::min(least, side.fraction);
+    sum += side.fraction;
+    contrast = std::min(contrast, side.contrast);
+  }
+  if (least < params_.min_side_support)
+    return Rejection{RejectReason::kLineSupport, least, params_.min_side_support};
+  if (sum / 4.0 < kMeanSideSupport) return Rejection{RejectReason::kLineSupport, sum / 4.0, kMeanSideSupport};
+  if (contrast < params_.min_contrast)
+    return Rejection{RejectReason::kContrast, contrast, params_.min_contrast};
+  return std::nullopt;
+}
+
+double windowScore(const Candidate& candidate) {
+  double least = 1.0, sum = 0.0, overshoot = 0.0;
+  for (const SideSupport& side : candidate.sides) {
+    least = std::min(least, side.fraction);
+    sum += 0.25 * side.fraction;
+    overshoot += 0.25 * side.overshoot;
+  }
+  const double support = std::max(0.0, (0.5 * (least + sum) - kSupportLow) / (1.0 - kSupportLow));
+  return std::min(1.0, support) * std::pow(candidate.closure, kClosureWeight) *
+         std::pow(1.0 - overshoot, kOvershootWeight);
+}
+
+double scoreWithReference(double geometry, double worth) {
+  return std::pow(geometry, kGeometryWeight) * std::pow(worth, kWorthWeight);
+}
+
+double sizeRank(const geometry::Quadrilateral& quad, const cv::Size& image) {
+  const double area = std::abs(geometry::signedArea(quad)) / std::max(1, image.area());
+  return std::pow(std::min(1.0, area / kAreaFull), kAreaWeight);
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,145 @@
+#include "detection/candidates/candidate_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detection/candidates/candidate_gates.hpp"
+#include "detection/candidates/side_support.hpp"
+#include "detection/quads.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kDoubtfulScore = 0.5;
+constexpr std::size_t kMostDoubtful = 200;
+
+Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
+  return {toFullImage(quad[0], factor), toFullImage(quad[1], factor), toFullImage(quad[2], factor),
+          toFullImage(quad[3], factor)};
+}
+
+}  // namespace
+
+CandidateSearch::CandidateSearch(const DetectorParams& params)
+    : params_(params),
+      preprocess_(params.preprocess),
+      edges_(params.edges),
+      lines_(params.lines),
+      closing_(params.closing),
+      contours_(params.contours),
+      segment_quads_(params.segment_quads),
+      gates_(params.gates) {}
+
+const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
+                                                         const geometry::PinholeCamera* camera,
+                                                         DetectionTrace& trace) {
+  const SearchLevel level = preprocess_.run(image);
+  factor_ = level.factor;
+  level_size_ = level.image.size();
+  lens_.set(camera, level_size_, factor_);
+  done(watch_, Stage::kPreprocess);
+  look(level.image);
+  return combine(SegmentQuads::kQuick, trace);
+}
+
+// From edges to segments and outlines.
+void CandidateSearch::look(const cv::Mat& level) {
+  map_ = &edges_.run(level);
+  done(watch_, Stage::kEdges);
+  segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
+  done(watch_, Stage::kLines);
+  keepOnSegments(runs_, lines_, level_size_, straight_);
+  outlines_ = contours_.run(closing_.run(straight_), closing_.radiusPx(level_size_));
+  for (CandidateTrace& rejected : outlines_.rejected) rejected.quad = inFullImage(rejected.quad, factor_);
+  for (Candidate& outline : outlines_.candidates)
+    for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
+  done(watch_, Stage::kOutlines);
+}
+
+const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace& trace) {
+  const cv::Mat& colours = preprocess_.coloursAlone();
+  kept_.clear();
+  doubtful_.clear();
+  if (colours.empty()) return kept_;
+  done(watch_, Stage::kPreprocess);
+  look(colours);
+  return combine(SegmentQuads::kThorough, trace);
+}
+
+const std::vector<ScoredCandidate>& CandidateSearch::runAgain(DetectionTrace& trace) {
+  return combine(SegmentQuads::kThorough, trace);
+}
+
+// Quadrilaterals from segments and contours, through the gates.
+const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads::Effort& effort,
+                                                             DetectionTrace& trace) {
+  const SegmentQuads::Result& quads =
+      segment_quads_.run(*segments_, params_.gates.min_area * level_size_.area(), effort);
+  trace.segments = static_cast<int>(segments_->size());
+  trace.contours = outlines_.contours;
+  trace.budget_exceeded = outlines_.budget_exceeded || quads.budget_exceeded;
+  trace.candidates.insert(trace.candidates.end(), outlines_.rejected.begin(), outlines_.rejected.end());
+  admitted_.clear();
+  doubtful_.clear();
+  admit(quads.candidates, trace);
+  admit(outlines_.candidates, trace);
+  keepBest(trace);
+  done(watch_, Stage::kCandidates);
+  return kept_;
+}
+
+void CandidateSearch::doubt(ScoredCandidate rival, const Rejection& rejection) {
+  const bool is_dented = rejection.reason == RejectReason::kSolidity;
+  if (doubtful_.size() >= kMostDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
+    return;
+  rival.candidate.solidity = 1.0;
+  rival.score = kDoubtfulScore;
+  if (!is_dented || !gates_.shape(rival.candidate, level_size_)) doubtful_.push_back(rival);
+}
+
+void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace& trace) {
+  for (const Candidate& one : found) {
+    ScoredCandidate rival;
+    rival.candidate = one;
+    Candidate& candidate = rival.candidate;
+    for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
+    auto rejection = gates_.shape(candidate, level_size_);
+    if (!rejection) {
+      candidate.sides = measureSides(*map_, lens_, candidate.quad);
+      rejection = gates_.support(candidate);
+    }
+    rival.quad = inFullImage(candidate.seen, factor_);
+    if (rejection) {
+      doubt(rival, *rejection);
+      trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
+      continue;
+    }
+    rival.score = windowScore(candidate);
+    rival.size = sizeRank(candidate.quad, level_size_);
+    rival.proposal = rival.rank();
+    admitted_.push_back(rival);
+  }
+}
+
+void CandidateSearch::keepBest(DetectionTrace& trace) {
+  sortByRank(admitted_);
+  kept_.clear();
+  for (const ScoredCandidate& rival : admitted_) {
+    const Sameness same(rival.candidate.quad);
+    const auto twin = std::find_if(kept_.begin(), kept_.end(), [&](const ScoredCandidate& better) {
+      return same.sameQuad(better.candidate.quad);
+    });
+    if (twin != kept_.end()) {
+      trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
+    } else if (static_cast<int>(kept_.size()) >= params_.max_candidates) {
+      trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
+      if (doubtful_.size() < kMostDoubtful) doubtful_.push_back(rival);
+    } else {
+      kept_.push_back(rival);
+    }
+  }
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "detection/candidates/candidate.hpp"
+#include "detection/candidates/candidate_gates.hpp"
+#include "detection/candidates/canny_edges.hpp"
+#include "detection/candidates/contour_polygons.hpp"
+#include "detection/candidates/edge_chains.hpp"
+#include "detection/candidates/hough_segments.hpp"
+#include "detection/candidates/level_camera.hpp"
+#include "detection/candidates/preprocess.hpp"
+#include "detection/candidates/segment_quads.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+#include "window_ingress/detection/stage_watch.hpp"
+
+namespace window_ingress::detection {
+
+/// The first half of the detector, on the search level: image to candidates that passed the gates (P2 to P8).
+class CandidateSearch {
+ public:
+  explicit CandidateSearch(const DetectorParams& params);
+
+  /// Valid until the next call. Best first, each loop once, at most `max_candidates`. Everything else goes
+  /// into the trace. \param image CV_8UC1 or CV_8UC3, at least 16 pixels each way \param camera its
+  /// calibration, or null: the image is then taken as free of distortion
+  const std::vector<ScoredCandidate>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                          DetectionTrace& trace);
+
+  /// The last image once more, with more segments and more of their combinations: for when none of the
+  /// candidates was the target.
+  const std::vector<ScoredCandidate>& runAgain(DetectionTrace& trace);
+
+  /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
+  /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
+  const std::vector<ScoredCandidate>& runOnColours(DetectionTrace& trace);
+
+  /// What the last call returned.
+  const std::vector<ScoredCandidate>& kept() const { return kept_; }
+
+  /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
+  /// sides to be taken for a window by its geometry, and what others were better than: for a judge that knows
+  /// better.
+  const std::vector<ScoredCandidate>& doubtful() const { return doubtful_; }
+
+  /// \param watch told of each stage that is done, or null; outlives this
+  void setWatch(StageWatch* watch) { watch_ = watch; }
+
+  int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
+
+ private:
+  void look(const cv::Mat& level);
+  const std::vector<ScoredCandidate>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
+  void doubt(ScoredCandidate rival, const Rejection& rejection);
+  void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
+  void keepBest(DetectionTrace& trace);
+
+  DetectorParams params_;
+  Preprocess preprocess_;
+  EdgeDetector edges_;
+  LevelCamera lens_;
+  EdgeChains runs_;
+  HoughSegments lines_;
+  Closing closing_;
+  ContourPolygons contours_;
+  SegmentQuads segment_quads_;
+  CandidateGates gates_;
+  const EdgeMap* map_ = nullptr;
+  const std::vector<Segment>* segments_ = nullptr;
+  ContourPolygons::Result outlines_;
+  cv::Mat straight_;
+  std::vector<ScoredCandidate> admitted_, kept_, doubtful_;
+  StageWatch* watch_ = nullptr;
+  int factor_ = 1;
+  cv::Size level_size_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "detection/candidates/canny_edges.hpp"
+#include "detection/candidates/level_camera.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+
+namespace window_ingress::detection {
+
+/// Sums over points, from which the line of least squares follows.
+struct LineMoments {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+
+  void add(const Eigen::Vector2d& p);
+  void add(const LineMoments& other);
+  Eigen::Vector2d mean() const { return {x / n, y / n}; }
+  Eigen::Vector2d along() const;  ///< unit vector of least squares, of either sign
+};
+
+/// A straight run of connected edge pixels, in pixels of the undistorted search level.
+struct EdgeChain {
+  Eigen::Vector2d a, b;      ///< ends; seen from a to b the brighter side lies on the right of the screen
+  Eigen::Vector2d normal;    ///< unit vector towards the brighter side
+  LineMoments moments;       ///< of its pixels
+  double contrast = 0.0;     ///< mean gradient [grey levels a pixel]
+  int first = 0, count = 0;  ///< of its pixels, see EdgeChains::pixels
+
+  double length() const { return (b - a).norm(); }
+};
+
+/// Links neighbouring edge pixels of like gradient direction and cuts the chains where they bend: each pixel
+/// is looked at once. The runs are what the Hough transform votes with.
+class EdgeChains {
+ public:
+  EdgeChains();
+
+  /// In the order of the image, from top to bottom. Valid until the next call.
+  const std::vector<EdgeChain>& run(const EdgeMap& map, const LevelCamera& lens);
+
+  /// Those of the last map.
+  const std::vector<EdgeChain>& runs() const { return runs_; }
+
+  /// Pixels of all runs of the last map, in pixels of the level as it came.
+  const std::vector<cv::Point_<short>>& pixels() const { return pixels_; }
+
+ private:
+  struct Pixel {
+    short x, y, dx, dy;
+  };
+
+  bool next(const EdgeMap& map, int sense, Pixel& at);
+  void follow(const EdgeMap& map, Pixel start, int sense, std::vector<Pixel>& pixels);
+  void cut(const LevelCamera& lens);
+  void emit(std::size_t first, std::size_t last);
+
+  float min_square_cosine_;
+  cv::Mat free_;  ///< CV_8UC1, edge pixels that belong to no chain yet
+  std::vector<Pixel> forward_, backward_;
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<std::pair<std::size_t, std::size_t>> parts_;
+  double straight_px_ = 1.0;
+  std::vector<EdgeChain> runs_;
+  std::vector<cv::Point_<short>> pixels_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,218 @@
+#include "detection/candidates/hough_segments.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kOffLine =
+    0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
+constexpr double kBow = 0.02;  ///< runs lie further off a line by this part of its pixels: lenses bend
+constexpr double kJoinGap =
+    0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
+constexpr int kMaxSegments = 300;  ///< the strongest are kept
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
+constexpr double kLeastSeed = 0.6;    ///< part of the shortest segment that one run of it must cover
+constexpr std::size_t kMostJoined = 180;  ///< of the first segments, that are tried with each other
+constexpr double kSpread = 0.05;          ///< the direction of a short seed is this uncertain
+constexpr double kSameDirection = 0.99;   ///< cosine between pieces of one line
+
+Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
+
+// The line through the moments, turned as `like`.
+Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
+  const Vector2d along = moments.along();
+  return along.dot(like) < 0.0 ? Vector2d(-along) : along;
+}
+
+}  // namespace
+
+void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow) {
+  const std::size_t count = std::min(segments.size(), kMostJoined);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Segment p = segments[i];
+    const double p_length = p.length();
+    const Vector2d along = (p.b - p.a) / p_length;
+    for (std::size_t j = 0; j < count; ++j) {
+      const Segment& q = segments[j];
+      if (p.normal.dot(q.normal) < kSameDirection) continue;
+      const double gap = along.dot(q.a - p.b);
+      if (gap < 0.0 || gap > max_gap * (p_length + q.length())) continue;
+      const Vector2d joint = (q.b - p.a).normalized(), normal = right(joint);
+      const double off_px = off_line_px + bow * (p.pixels + q.pixels);
+      if (std::abs(normal.dot(p.b - p.a)) > off_px || std::abs(normal.dot(q.a - p.a)) > off_px) continue;
+      const double pixels = p.pixels + q.pixels;
+      const double contrast = (p.contrast * p.pixels + q.contrast * q.pixels) / pixels;
+      segments.push_back({p.a, q.b, normal, pixels, contrast});
+    }
+  }
+}
+
+void HoughSegments::prepare(const cv::Size& level) {
+  const double side = std::max(level.width, level.height);
+  min_length_px_ = std::max(5.0, params_.min_length * side);
+  max_gap_px_ = params_.max_gap * side;
+  off_line_px_ = std::max(0.9, kOffLine * side);
+  centre_ = 0.5 * Vector2d(level.width, level.height);
+  rhos_ = static_cast<int>(2.6 * centre_.norm() / kRhoStepPx) + 2;
+  if (normals_.empty())
+    for (int k = 0; k < kAngles; ++k)
+      normals_.emplace_back(std::cos(k * kTwoPi / kAngles), std::sin(k * kTwoPi / kAngles));
+}
+
+// Cell of the line of this angle through the middle of a run.
+int HoughSegments::cellOf(const Vector2d& middle, int angle) const {
+  const int a = (angle + kAngles) % kAngles;
+  const double rho = normals_[a].dot(middle - centre_) / kRhoStepPx + 0.5 * rhos_;
+  return a * rhos_ + std::clamp(static_cast<int>(rho), 0, rhos_ - 1);
+}
+
+// Each run votes for the angles that its length leaves open.
+void HoughSegments::vote(const std::vector<EdgeChain>& runs) {
+  ballots_.resize(runs.size());
+  middles_.resize(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    middles_[i] = runs[i].moments.mean();
+    const double angle = std::atan2(runs[i].normal.y(), runs[i].normal.x()) * kAngles / kTwoPi;
+    const double open = kDirectionPx / runs[i].moments.n * kAngles / kTwoPi;
+    ballots_[i] = {static_cast<int>(std::lround(angle - open)), static_cast<int>(std::lround(angle + open))};
+  }
+  countVotes(runs);
+}
+
+// Sums and lists of all cells, by counting first.
+void HoughSegments::countVotes(const std::vector<EdgeChain>& runs) {
+  const std::size_t cells = static_cast<std::size_t>(kAngles) * rhos_;
+  votes_.assign(cells, 0.0F);
+  starts_.assign(cells + 2, 0);
+  cells_.clear();
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k) {
+      const int cell = cellOf(middles_[i], k);
+      cells_.push_back(cell);
+      votes_[cell] += static_cast<float>(runs[i].moments.n);
+      ++starts_[cell + 2];
+    }
+  for (std::size_t c = 2; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+  voters_.resize(starts_.back());
+  const int* cell = cells_.data();
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (int k = ballots_[i].first_angle; k <= ballots_[i].last_angle; ++k)
+      voters_[starts_[*cell++ + 1]++] = static_cast<int>(i);
+}
+
+// The runs that voted for the seed's line or one beside it, as they lie along it.
+void HoughSegments::collect(const std::vector<EdgeChain>& runs, int seed) {
+  members_.clear();
+  const EdgeChain& own = runs[seed];
+  const Vector2d along = (own.b - own.a).normalized(), across = right(along), mean = middles_[seed];
+  for (int angle = ballots_[seed].first_angle; angle <= ballots_[seed].last_angle; ++angle) {
+    const int cell = cellOf(mean, angle), row = cell / rhos_ * rhos_;
+    for (int c = std::max(row, cell - 1); c <= std::min(row + rhos_ - 1, cell + 1); ++c)
+      for (int v = starts_[c]; v < starts_[c + 1]; ++v) {
+        const int i = voters_[v];
+        if (used_[i] || asked_[i] == seed) continue;
+        asked_[i] = seed;
+        const Vector2d apart = middles_[i] - mean;
+        const double ahead = along.dot(apart), off = std::abs(across.dot(apart));
+        if (i == seed || off > 2.0 * off_line_px_ + (kSpread + kBow) * std::abs(ahead)) continue;
+        const double half = 0.5 * runs[i].moments.n;
+        members_.push_back({ahead - half, ahead + half, i});
+      }
+  }
+  std::sort(members_.begin(), members_.end(), [](const Member& p, const Member& q) {
+    return p.from < q.from || (p.from == q.from && p.run < q.run);
+  });
+}
+
+// Takes what lies on the line up to the first gap; `way` 1 towards b, -1 towards a.
+void HoughSegments::extend(const std::vector<EdgeChain>& runs, int way, LineMoments& moments, double& end) {
+  Vector2d mean = moments.mean(), normal = right(moments.along());
+  const int count = static_cast<int>(members_.size());
+  for (int k = 0; k < count; ++k) {
+    const Member& m = members_[way > 0 ? k : count - 1 - k];
+    const double near = way > 0 ? m.from : m.to, far = way > 0 ? m.to : m.from;
+    if (way * (far - end) <= 0.0) continue;
+    if (way * (near - end) > max_gap_px_) break;
+    const EdgeChain& other = runs[m.run];
+    const double off_px = off_line_px_ + kBow * moments.n;
+    if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px)
+      continue;
+    moments.add(other.moments);
+    mean = moments.mean(), normal = right(moments.along());
+    end = far;
+    taken_.push_back(m.run);
+  }
+}
+
+bool HoughSegments::grow(const std::vector<EdgeChain>& runs, int seed, Segment& segment) {
+  const EdgeChain& own = runs[seed];
+  collect(runs, seed);
+  taken_.assign(1, seed);
+  LineMoments moments = own.moments;
+  const Vector2d start = moments.mean(), before = (own.b - own.a).normalized();
+  double high = before.dot(own.b - start), low = before.dot(own.a - start);
+  extend(runs, 1, moments, high);
+  extend(runs, -1, moments, low);
+  const Vector2d along = alongLike(moments, before), mean = moments.mean();
+  low = high = 0.0;
+  segment.contrast = 0.0;
+  for (int i : taken_) {
+    low = std::min(low, along.dot(runs[i].a - mean)), high = std::max(high, along.dot(runs[i].b - mean));
+    segment.contrast += runs[i].contrast * runs[i].moments.n / moments.n;
+  }
+  segment.a = mean + low * along, segment.b = mean + high * along;
+  segment.normal = right(along);
+  segment.pixels = moments.n;
+  const double steps = (high - low) * along.cwiseAbs().maxCoeff();
+  return high - low >= min_length_px_ && moments.n >= params_.min_density * steps;
+}
+
+const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& runs, const cv::Size& level) {
+  prepare(level);
+  vote(runs);
+  segments_.clear();
+  used_.assign(runs.size(), 0);
+  asked_.assign(runs.size(), -1);
+  order_.clear();
+  for (std::size_t i = 0; i < runs.size(); ++i) order_.emplace_back(-runs[i].moments.n, static_cast<int>(i));
+  std::sort(order_.begin(), order_.end());
+  const double enough = params_.vote_fraction * min_length_px_;
+  for (const auto& [pixels, seed] : order_) {
+    if (runs[seed].moments.n < kLeastSeed * min_length_px_) break;
+    if (used_[seed]) continue;
+    if (votes_[cellOf(middles_[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough)
+      continue;
+    Segment segment;
+    if (!grow(runs, seed, segment)) continue;
+    for (int i : taken_) used_[i] = 1;
+    segments_.push_back(segment);
+  }
+  const auto stronger = [](const Segment& p, const Segment& q) {
+    return (p.b - p.a).squaredNorm() * p.contrast > (q.b - q.a).squaredNorm() * q.contrast;
+  };
+  std::stable_sort(segments_.begin(), segments_.end(), stronger);
+  if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
+  joinCollinear(segments_, kJoinGap, off_line_px_, kBow);
+  std::stable_sort(segments_.begin(), segments_.end(), stronger);
+  if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
+  return segments_;
+}
+
+void keepOnSegments(const EdgeChains& runs, const HoughSegments& lines, const cv::Size& level,
+                    cv::Mat& edges) {
+  edges.create(level, CV_8UC1);
+  edges.setTo(0);
+  for (std::size_t i = 0; i < runs.runs().size(); ++i) {
+    if (!lines.onSegment()[i]) continue;
+    const EdgeChain& run = runs.runs()[i];
+    for (int k = run.first; k < run.first + run.count; ++k)
+      edges.ptr(runs.pixels()[k].y)[runs.pixels()[k].x] = 255;
+  }
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,60 @@
+#include "detection/candidates/preprocess.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kColourGain = 2.0;  ///< of differences between channels, in the picture of colours alone
+constexpr double kClipLimit = 2.0;   ///< of the equalisation [mean bin counts]
+constexpr int kTiles = 6;            ///< of the equalisation, each way
+
+}  // namespace
+
+SearchLevel Preprocess::run(const cv::Mat& image) {
+  SearchLevel level;
+  cv::Mat current = image;
+  for (int i = 0; std::max(current.cols, current.rows) > params_.search_side_px; i ^= 1) {
+    const cv::Size half(current.cols / 2, current.rows / 2);
+    cv::resize(current(cv::Rect(0, 0, 2 * half.width, 2 * half.height)), levels_[i], half, 0, 0,
+               cv::INTER_AREA);
+    current = levels_[i];
+    level.factor *= 2;
+  }
+  if (params_.blur_sigma_px > 0.0)
+    cv::GaussianBlur(current, smooth_, cv::Size(), params_.blur_sigma_px, params_.blur_sigma_px,
+                     cv::BORDER_REPLICATE);
+  else
+    current.copyTo(smooth_);
+  if (params_.equalise) equalise(smooth_);
+  level.image = smooth_;
+  return level;
+}
+
+const cv::Mat& Preprocess::coloursAlone() {
+  colours_.release();
+  if (smooth_.channels() != 3) return colours_;
+  const float half = static_cast<float>(0.5 * kColourGain), middle = 128.0F;
+  const cv::Matx34f differences(0.0F, -half, half, middle,                 //
+                                half, -0.5F * half, -0.5F * half, middle,  //
+                                -half, 0.0F, half, middle);
+  cv::transform(smooth_, colours_, differences);
+  return colours_;
+}
+
+void Preprocess::equalise(cv::Mat& image) {
+  const auto clahe = cv::createCLAHE(kClipLimit, cv::Size(kTiles, kTiles));
+  if (image.channels() == 1) {
+    clahe->apply(image, image);
+    return;
+  }
+  cv::cvtColor(image, lab_, cv::COLOR_BGR2Lab);
+  cv::Mat lightness;
+  cv::extractChannel(lab_, lightness, 0);
+  clahe->apply(lightness, lightness);
+  cv::insertChannel(lightness, lab_, 0);
+  cv::cvtColor(lab_, image, cv::COLOR_Lab2BGR);
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "window_ingress/detection/detector_params.hpp"
+
+namespace window_ingress::detection {
+
+/// A pyramid level: each pixel of it is the mean of factor x factor pixels of the image as it came.
+struct SearchLevel {
+  cv::Mat image;  ///< CV_8UC1 or CV_8UC3, smoothed
+  int factor = 1;
+};
+
+/// Pixel of the image as it came under a pixel of the search level; both have their centres at integers.
+inline Eigen::Vector2d toFullImage(const Eigen::Vector2d& level_px, int factor) {
+  return factor * level_px + Eigen::Vector2d::Constant(0.5 * (factor - 1));
+}
+
+/// Noise removal and reduction (P2): pyramid down to the search level by means of pixels, Gaussian blur,
+/// histogram equalisation.
+class Preprocess {
+ public:
+  explicit Preprocess(const PreprocessParams& params) : params_(params) {}
+
+  /// \param image CV_8UC1 or CV_8UC3, not empty. The result may share the object's buffers until the next
+  /// call.
+  SearchLevel run(const cv::Mat& image);
+
+  /// The last level without its brightness (P23): CV_8UC3, the differences between its channels about 128.
+  /// Empty if it has no colours.
+  const cv::Mat& coloursAlone();
+
+ private:
+  void equalise(cv::Mat& image);
+
+  PreprocessParams params_;
+  cv::Mat levels_[2], smooth_, lab_, colours_;
+};
+
+}  // namespace window_ingress::detection

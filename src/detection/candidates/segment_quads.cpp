@@ -1,0 +1,214 @@
+#include "detection/candidates/segment_quads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "detection/quads.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kMeanCoverage = 0.65;  ///< least mean coverage of the four sides
+constexpr double kMinAngle_rad = 0.6;   ///< between neighbouring sides [rad]
+constexpr double kOddSide =
+    0.95;  ///< factor for each side that is brighter inside where most are darker, or so
+constexpr double kSlackPx = 3.0;
+constexpr double kRoundedPx = 1.5;    ///< edges end this far before a corner
+constexpr std::size_t kVariants = 4;  ///< of each loop that is kept so many are compared
+constexpr double kOnPart = 0.3;       ///< a segment goes on beyond a junction with this part of its length
+constexpr double kLongest = 2.0;      ///< mean side of the largest quadrilateral on a side, in its lengths
+constexpr double kLargest = 2.0;      ///< the same at a corner, in the mean lengths of its segments
+constexpr float kNoWay = 1e9F;
+constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Part of the stretch from t1 to t2 that the segment, 0 to 1, covers.
+double coverage(double t1, double t2) {
+  const double low = std::min(t1, t2), high = std::max(t1, t2);
+  return high > low ? std::max(0.0, std::min(high, 1.0) - std::max(low, 0.0)) / (high - low) : 0.0;
+}
+
+// How far the ends of a segment are off a corner at t, if a side goes on from there to a, or to b; running
+// beyond counts half. Nothing where too little of it goes on.
+std::array<float, 2> gapsPx(double length, double t) {
+  const auto gap = [length](double short_by) {
+    const double px = length * (short_by > 0.0 ? short_by : -0.5 * short_by);
+    return static_cast<float>(std::max(0.0, px - kRoundedPx));
+  };
+  return {t > kOnPart ? gap(t - 1.0) : kNoWay, 1.0 - t > kOnPart ? gap(-t) : kNoWay};
+}
+
+// Number of sides that are brighter inside.
+int brighterInside(const std::array<const Segment*, 4>& sides, const Vector2d& centre) {
+  int count = 0;
+  for (const Segment* side : sides) count += side->normal.dot(centre - side->a) > 0.0;
+  return count;
+}
+
+}  // namespace
+
+// Where two lines meet, if both segments come near enough.
+bool SegmentQuads::meet(const Side& p, const Side& q, Junction& junction) const {
+  const double sine = cross(p.way, q.way);
+  if (std::abs(sine) < min_sine_ * p.length * q.length) return false;
+  const Vector2d d = q.start - p.start;
+  const double t_p = cross(d, q.way) / sine;
+  if (std::abs(t_p - 0.5) > p.reach) return false;
+  const double t_q = cross(d, p.way) / sine;
+  if (std::abs(t_q - 0.5) > q.reach) return false;
+  junction.t_own = static_cast<float>(t_p), junction.t_other = static_cast<float>(t_q);
+  junction.from_left = sine > 0.0;
+  junction.own_gap_px = gapsPx(p.length, t_p), junction.other_gap_px = gapsPx(q.length, t_q);
+  junction.point = p.start + t_p * p.way;
+  return true;
+}
+
+// Notes for which ways and sides the junction may be a corner.
+void SegmentQuads::enter(int i, const Junction& junction) {
+  const double size_px = kLargest * std::sqrt(sides_[i].length * sides_[junction.other].length);
+  const double most_px = mostGap(size_px);
+  bool any = false;
+  for (int way : {kToA, kToB})
+    for (int side : {kLeft, kRight}) {
+      if (junction.gapPx(way, side) > most_px) continue;
+      corners(i, way, side)[junction.other / 64] |= std::uint64_t{1} << (junction.other % 64);
+      any = true;
+    }
+  if (!any) return;
+  places_[i * count_ + junction.other] = static_cast<std::int16_t>(junctions_[i].size());
+  junctions_[i].push_back(junction);
+}
+
+void SegmentQuads::connect(const std::vector<Segment>& segments) {
+  count_ = std::min<int>(static_cast<int>(segments.size()), effort_.segments);
+  words_ = (count_ + 63) / 64;
+  if (static_cast<int>(junctions_.size()) < count_) junctions_.resize(count_);
+  for (auto& list : junctions_) list.clear();
+  corners_.assign(static_cast<std::size_t>(count_) * 4 * words_, 0);
+  places_.resize(static_cast<std::size_t>(count_) * count_);
+  sides_.clear();
+  for (int i = 0; i < count_; ++i) {
+    const Segment& s = segments[i];
+    const double length = s.length();
+    sides_.push_back({s.a, s.b - s.a, length, 0.5 + params_.extension + kSlackPx / length});
+  }
+  Junction junction;
+  for (int i = 0; i < count_; ++i)
+    for (int j = 0; j < count_; ++j) {
+      if (i == j || !meet(sides_[i], sides_[j], junction)) continue;
+      junction.other = j;
+      enter(i, junction);
+    }
+}
+
+// Quadrilaterals on one side of segment i, which is the first of their four.
+void SegmentQuads::combineFrom(const std::vector<Segment>& segments, int i, int side) {
+  const double length = sides_[i].length;
+  for (const Junction& first : junctions_[i]) {
+    if (first.other < i || first.gapPx(kToB, side) >= kNoWay) continue;
+    for (const Junction& second : junctions_[i]) {
+      if (second.other < i || second.t_own <= first.t_own || second.gapPx(kToA, side) >= kNoWay) continue;
+      const double stretch = (second.t_own - first.t_own) * length;
+      if (stretch * stretch < 0.1 * min_area_px_) continue;
+      const double gap_px = first.gapPx(kToB, side) + second.gapPx(kToA, side);
+      const double most_px = mostGap(kLongest * stretch);
+      if (gap_px > most_px || coverage(first.t_own, second.t_own) < params_.min_coverage) continue;
+      if (std::abs(segments[first.other].normal.dot(segments[second.other].normal)) < kSmallestCosine)
+        continue;
+      close(segments, {i, side, &first, &second, gap_px, most_px});
+      if (combinations_ >= effort_.combinations) return;
+    }
+  }
+}
+
+// The fourth segments k: each makes a corner with both neighbours j and l of the first one, i.
+void SegmentQuads::close(const std::vector<Segment>& segments, const Base& base) {
+  const Junction &ij = *base.first, &il = *base.second;
+  const Way back_j = ij.otherTowards(1 - base.side), back_l = il.otherTowards(1 - base.side);
+  // On which side of j and l the first segment goes on.
+  const int side_j = ij.from_left ? kLeft : kRight, side_l = il.from_left ? kRight : kLeft;
+  const std::uint64_t *of_j = corners(ij.other, back_j, side_j), *of_l = corners(il.other, back_l, side_l);
+  for (int word = base.own / 64; word < words_; ++word)
+    for (std::uint64_t both = of_j[word] & of_l[word]; both; both &= both - 1) {
+      const int k = 64 * word + __builtin_ctzll(both);
+      if (k <= base.own) continue;
+      const Junction &jk = between(ij.other, k), &lk = between(il.other, k);
+      const double gap_px = base.gap_px + jk.gapPx(back_j, side_j) + lk.gapPx(back_l, side_l);
+      if (gap_px <= base.most_gap_px) consider(segments, base, jk, lk, gap_px);
+    }
+}
+
+void SegmentQuads::consider(const std::vector<Segment>& segments, const Base& base, const Junction& jk,
+                            const Junction& lk, double gap_px) {
+  ++combinations_;
+  const Junction &ij = *base.first, &il = *base.second;
+  const double covered[4] = {coverage(ij.t_own, il.t_own), coverage(ij.t_other, jk.t_own),
+                             coverage(jk.t_other, lk.t_other), coverage(lk.t_own, il.t_other)};
+  const double mean = 0.25 * (covered[0] + covered[1] + covered[2] + covered[3]);
+  if (mean < kMeanCoverage || *std::min_element(covered, covered + 4) < params_.min_coverage) return;
+  const auto quad = geometry::canonical({ij.point, jk.point, lk.point, il.point});
+  if (!quad) return;
+  const double area = geometry::signedArea(*quad), size_px = std::sqrt(area);
+  if (area < min_area_px_ || gap_px > mostGap(size_px)) return;
+  const double closed = std::exp(-gap_px / closurePx(size_px));
+  const std::array<const Segment*, 4> sides = {&segments[base.own], &segments[ij.other], &segments[jk.other],
+                                               &segments[il.other]};
+  const int bright = brighterInside(sides, 0.25 * (ij.point + jk.point + lk.point + il.point));
+  const int odd = std::min(bright, 4 - bright);
+  const double even = odd == 0 ? 1.0 : odd == 1 ? kOddSide : kOddSide * kOddSide;
+  found_.push_back({mean * closed * even * std::sqrt(size_px), closed * even, *quad});
+}
+
+// The best, each loop once.
+void SegmentQuads::keepBest() {
+  order_.resize(found_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  const auto better = [&](int a, int b) {
+    return found_[a].value > found_[b].value || (found_[a].value == found_[b].value && a < b);
+  };
+  const std::size_t looked_at = std::min(order_.size(), kVariants * static_cast<std::size_t>(effort_.quads));
+  result_.budget_exceeded = result_.budget_exceeded || looked_at < order_.size();
+  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(looked_at), order_.end(),
+                    better);
+  order_.resize(looked_at);
+  result_.candidates.clear();
+  for (int i : order_) {
+    const Found& one = found_[i];
+    const Sameness same(one.quad);
+    const bool known = std::any_of(result_.candidates.begin(), result_.candidates.end(),
+                                   [&](const Candidate& better) { return same.sameQuad(better.quad); });
+    if (known) continue;
+    if (static_cast<int>(result_.candidates.size()) == effort_.quads) {
+      result_.budget_exceeded = true;
+      return;
+    }
+    Candidate candidate;
+    candidate.quad = candidate.seen = one.quad;
+    candidate.source = CandidateSource::kSegments;
+    candidate.closure = one.closure;
+    result_.candidates.push_back(candidate);
+  }
+}
+
+const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px,
+                                              const Effort& effort) {
+  effort_ = effort;
+  found_.clear();
+  combinations_ = 0;
+  min_area_px_ = min_area_px;
+  tolerance_ = -std::log(effort.min_closure);
+  min_sine_ = std::sin(kMinAngle_rad);
+  connect(segments);
+  for (int i = 0; i < count_; ++i)
+    for (int side : {kLeft, kRight}) combineFrom(segments, i, side);
+  result_.budget_exceeded =
+      combinations_ >= effort_.combinations || count_ < static_cast<int>(segments.size());
+  keepBest();
+  return result_;
+}
+
+}  // namespace window_ingress::detection

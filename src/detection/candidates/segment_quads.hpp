@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "detection/candidates/candidate.hpp"
+#include "detection/candidates/hough_segments.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+
+namespace window_ingress::detection {
+
+/// Quadrilaterals whose four sides are straight segments and whose corners are the segments' intersections:
+/// finds the windows whose contour is broken or runs into its neighbours (P4 selects and constrains, P7).
+class SegmentQuads {
+ public:
+  struct Result {
+    std::vector<Candidate> candidates;  ///< best covered first, each loop once
+    bool budget_exceeded = false;
+  };
+
+  static constexpr double kClosurePx =
+      1.5;  ///< mean distance of segment ends from corners that takes e-fold off the closure [px]
+  static constexpr double kClosureSide = 0.02;  ///< added to that, in mean sides of the quadrilateral
+
+  explicit SegmentQuads(const SegmentQuadsParams& params) : params_(params) {}
+
+  /// Where the search stops: the strongest segments are combined to what is closed so far at least, the best
+  /// covered quadrilaterals kept.
+  struct Effort {
+    int segments, combinations, quads;
+    double min_closure;
+  };
+  static constexpr Effort kQuick = {180, 100000, 100, 0.2}, kThorough = {260, 300000, 250, 0.03};
+
+  /// \param segments strongest first, in pixels of the search level. Valid until the next call.
+  const Result& run(const std::vector<Segment>& segments, double min_area_px, const Effort& effort);
+
+ private:
+  /// The ways along a segment, and the sides of it as seen when going from a to b.
+  enum Way { kToA, kToB };
+  enum SideOf { kLeft, kRight };
+
+  /// Where the line of one segment meets that of another; `t` is 0 to 1 from its end a to its end b.
+  struct Junction {
+    int other = 0;
+    bool from_left = false;  ///< the other segment, going to b, crosses from the left to the right
+    float t_own = 0.0F, t_other = 0.0F;
+    std::array<float, 2> own_gap_px,
+        other_gap_px;  ///< by the way a side goes on from here: how far the end of
+                       ///< the segment is off this corner; kNoWay: no side there
+    Eigen::Vector2d point;
+
+    Way otherTowards(int side) const { return from_left == (side == kRight) ? kToB : kToA; }
+    float gapPx(int way, int side) const { return own_gap_px[way] + other_gap_px[otherTowards(side)]; }
+  };
+
+  /// A segment as it is asked for junctions: `reach` from its middle a line may meet it, in its lengths.
+  struct Side {
+    Eigen::Vector2d start, way;
+    double length = 0.0, reach = 0.0;
+  };
+  /// Two neighbouring corners on the first segment, and what their ends cost.
+  struct Base {
+    int own = 0, side = kLeft;
+    const Junction *first = nullptr, *second = nullptr;
+    double gap_px = 0.0, most_gap_px = 0.0;
+  };
+  struct Found {
+    double value = 0.0, closure = 0.0;
+    geometry::Quadrilateral quad;
+  };
+
+  void connect(const std::vector<Segment>& segments);
+  bool meet(const Side& p, const Side& q, Junction& junction) const;
+  void enter(int i, const Junction& junction);
+  void combineFrom(const std::vector<Segment>& segments, int i, int side);
+  void close(const std::vector<Segment>& segments, const Base& base);
+  void consider(const std::vector<Segment>& segments, const Base& base, const Junction& jk,
+                const Junction& lk, double gap_px);
+  double mostGap(double size_px) const { return tolerance_ * closurePx(size_px); }
+  double closurePx(double size_px) const { return 8.0 * (kClosurePx + kClosureSide * size_px); }
+  const Junction& between(int i, int j) const { return junctions_[i][places_[i * count_ + j]]; }
+  std::uint64_t* corners(int i, int way, int side) { return &corners_[((i * 2 + way) * 2 + side) * words_]; }
+  void keepBest();
+
+  SegmentQuadsParams params_;
+  Effort effort_ = kQuick;
+  int count_ = 0, words_ = 0, combinations_ = 0;
+  double min_area_px_ = 0.0, min_sine_ = 0.0, tolerance_ = 0.0;
+  std::vector<Side> sides_;
+  std::vector<std::vector<Junction>> junctions_;
+  std::vector<std::uint64_t>
+      corners_;                       ///< of each segment by way and side: a bit for each that makes a corner
+  std::vector<std::int16_t> places_;  ///< of the junction of a pair
+  std::vector<Found> found_;
+  std::vector<int> order_;
+  Result result_;
+};
+
+}  // namespace window_ingress::detection

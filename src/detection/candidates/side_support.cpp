@@ -1,0 +1,114 @@
+#include "detection/candidates/side_support.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kTolerancePx = 2.0;  ///< distance of an edge pixel from the side, on the search level [px]
+constexpr double kDirection_rad = 0.35;  ///< angle between its gradient and the side's normal [rad]
+constexpr double kBeyond = 0.2;    ///< stretch beyond each corner that is looked at, in lengths of the side
+constexpr double kSkip = 0.06;     ///< left out at both ends: corners are rounded, in lengths of the side
+constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
+
+/// The edges, and the lens that bends them.
+struct Level {
+  const EdgeMap& map;
+  const LevelCamera& lens;
+};
+
+/// The edge pixel found beside one point of a side.
+struct Hit {
+  double worth = 0.0;     ///< 1 on the side, less beside it, 0: none
+  double strength = 0.0;  ///< gradient along the side's outward normal [grey levels a pixel], signed
+};
+
+/// The question that is asked at many points along one line.
+struct Probe {
+  Vector2d outward;      ///< unit vector across the line
+  double square_cosine;  ///< of the largest angle between it and a gradient
+  int reach;             ///< how far beside the line [px]
+};
+
+// Looks at one pixel; worth 0 if there is no edge of this direction.
+inline Hit hitAt(const Level& level, const Vector2d& ideal, const Probe& probe) {
+  const Vector2d p = level.lens.bends() ? level.lens.distort(ideal) : ideal;
+  const EdgeMap& map = level.map;
+  const int x = static_cast<int>(p.x() + 0.5), y = static_cast<int>(p.y() + 0.5);
+  if (p.x() < 0.0 || p.y() < 0.0 || x >= map.edges.cols || y >= map.edges.rows || !map.edges.ptr(y)[x])
+    return {};
+  const Vector2d gradient(map.dx.ptr<short>(y)[x], map.dy.ptr<short>(y)[x]);
+  const double along = gradient.dot(probe.outward);
+  if (along * along < probe.square_cosine * gradient.squaredNorm()) return {};
+  return {1.0, along / EdgeMap::kSobelGain};
+}
+
+// The nearest, first on the line, then outside and inside in turn.
+Hit hitNear(const Level& level, const Vector2d& at, const Probe& probe) {
+  Hit hit = hitAt(level, at, probe);
+  for (int offset = 1; offset <= probe.reach && hit.worth == 0.0; ++offset) {
+    const Vector2d beside = offset * probe.outward;
+    hit = hitAt(level, at + beside, probe);
+    if (hit.worth == 0.0) hit = hitAt(level, at - beside, probe);
+    if (offset > 1) hit.worth *= 0.5;
+  }
+  return hit;
+}
+
+// Part of the stretch beyond `corner` where an edge as strong as the side's goes on in the direction `way`
+// (unit vector); weaker ones, as the joints of a wall that run along a border, count in squares.
+double overshoot(const Level& level, const Vector2d& corner, const Vector2d& way, double stretch_px,
+                 double square_cosine, double contrast) {
+  const Probe probe = {{way.y(), -way.x()}, square_cosine, 1};
+  const int samples = std::clamp(static_cast<int>(stretch_px), 4, 6);
+  double sum = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double distance = kCornerPx + stretch_px * (i + 0.5) / samples;
+    const Hit hit = hitNear(level, corner + distance * way, probe);
+    if (hit.worth > 0.0) sum += std::min(1.0, std::pow(hit.strength / std::max(1.0, contrast), 2));
+  }
+  return sum / samples;
+}
+
+SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b) {
+  SideSupport support;
+  const Vector2d along = b - a;
+  const double length = along.norm();
+  if (length < 1.0) return support;
+  const double cosine = std::cos(kDirection_rad), square_cosine = cosine * cosine;
+  const Probe probe = {Vector2d(along.y(), -along.x()) / length, square_cosine,
+                       static_cast<int>(std::lround(kTolerancePx))};
+  const int samples = std::clamp(static_cast<int>(length * (1.0 - 2.0 * kSkip)), 4, 16);
+  int hits = 0;
+  double strength = 0.0, worth = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double t = kSkip + (1.0 - 2.0 * kSkip) * (i + 0.5) / samples;
+    const Hit hit = hitNear(level, a + t * along, probe);
+    if (hit.worth <= 0.0) continue;
+    ++hits;
+    worth += hit.worth;
+    strength += std::abs(hit.strength);
+  }
+  support.fraction = worth / samples;
+  support.contrast = hits ? strength / hits : 0.0;
+  const double stretch_px = std::max(4.0, kBeyond * length);
+  support.overshoot =
+      0.5 * (overshoot(level, a, -along / length, stretch_px, square_cosine, support.contrast) +
+             overshoot(level, b, along / length, stretch_px, square_cosine, support.contrast));
+  return support;
+}
+
+}  // namespace
+
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelCamera& lens,
+                                        const geometry::Quadrilateral& quad) {
+  const Level level = {map, lens};
+  std::array<SideSupport, 4> sides;
+  for (int i = 0; i < 4; ++i) sides[i] = measureSide(level, quad[i], quad[(i + 1) % 4]);
+  return sides;
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// Root of a quadrilateral's area [px].
+double sizeOf(const geometry::Quadrilateral& quad);
+/// Mean length of its four sides [px].
+double meanSide(const geometry::Quadrilateral& quad);
+/// How far the corner that differs most lies from its counterpart [px].
+double furthestCorner(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);
+
+/// Corners of the undistorted image and of the image as it came. \param lens null where they are the same
+geometry::Quadrilateral undistorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
+geometry::Quadrilateral distorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
+
+/// Which others are the same as one quadrilateral, in the three senses in which detection asks.
+class Sameness {
+ public:
+  explicit Sameness(const geometry::Quadrilateral& quad);
+
+  /// The same four edges: every corner within 1 px and 0.005 of its size.
+  bool sameQuad(const geometry::Quadrilateral& other) const { return isWithin(other, same_px_); }
+  /// Edges of the same window, such as the two borders of its frame: every corner within 0.2 of its size.
+  bool samePlace(const geometry::Quadrilateral& other) const { return isWithin(other, place_px_); }
+  /// The same window: the intersection is more than 0.6 of the union.
+  bool sameWindow(const geometry::Quadrilateral& other) const;
+
+ private:
+  bool isWithin(const geometry::Quadrilateral& other, double limit_px) const {
+    for (int i = 0; i < 4; ++i)
+      if ((other[i] - quad_[i]).squaredNorm() > limit_px * limit_px) return false;
+    return true;
+  }
+
+  geometry::Quadrilateral quad_;
+  double same_px_, place_px_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,168 @@
+#include "window_ingress/detection/reference_appearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "detection/reference/ring_histogram.hpp"
+#include "window_ingress/geometry/unit_square.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using geometry::Quadrilateral;
+
+constexpr int kMinPixels = 40;            ///< fewer pixels in a band are not compared
+constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
+constexpr double kElsewherePart = 0.1;    ///< of the other places that are nearer than `elsewhere_`
+constexpr double kLimitPart = 0.6;  ///< of that distance: the limit, somewhat nearer to it than to the target
+constexpr double kElsewhereScale = 0.4;   ///< size of those places, in that of the opening
+constexpr int kElsewhereSteps = 7;        ///< positions each way
+constexpr double kOwnRing = 0.25;         ///< places on the frame are left out: within this of the border
+constexpr double kEvenDistance = 0.8;     ///< in limits: where target and others are equally likely
+constexpr double kHalvingDistance = 0.2;  ///< in limits: further off by this, half the odds
+
+bool same(const AppearanceParams& a, const AppearanceParams& b) {
+  return a.near_width == b.near_width && a.far_width == b.far_width;
+}
+
+std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening,
+                                     const AppearanceParams& params) {
+  return ringColours(image, opening, {params.near_width, params.far_width}, kMinPixels);
+}
+
+Quadrilateral inset(const cv::Size& size, double width) {
+  const double w = size.width - 1.0, h = size.height - 1.0, d = width * 0.5 * (w + h);
+  return {Vector2d(d, d), Vector2d(w - d, d), Vector2d(w - d, h - d), Vector2d(d, h - d)};
+}
+
+Quadrilateral placedAt(const Quadrilateral& quad, double scale, const Vector2d& centre) {
+  const Vector2d from = geometry::centroid(quad);
+  Quadrilateral placed;
+  for (int i = 0; i < 4; ++i) placed[i] = centre + scale * (quad[i] - from);
+  return placed;
+}
+
+// True if the border of the unit square passes through a ring of this half width about the point.
+bool touchesFrame(const Vector2d& centre) {
+  const double off = (centre - Vector2d(0.5, 0.5)).cwiseAbs().maxCoeff() - 0.5;
+  return std::abs(off) < 0.5 * kElsewhereScale + kOwnRing * kElsewhereScale;
+}
+
+// Distances of rings at other places of the picture, whether there is something or not.
+std::vector<double> distancesElsewhere(const cv::Mat& picture, const Quadrilateral& opening,
+                                       const RingColours& colours, const AppearanceParams& params) {
+  std::vector<double> distances;
+  const geometry::UnitSquare square(opening);
+  for (int i = 0; i < kElsewhereSteps; ++i)
+    for (int k = 0; k < kElsewhereSteps; ++k) {
+      const Vector2d at((i + 0.5) / kElsewhereSteps * picture.cols,
+                        (k + 0.5) / kElsewhereSteps * picture.rows);
+      if (touchesFrame(square.fromImage(at))) continue;
+      if (const auto other = coloursOf(picture, placedAt(opening, kElsewhereScale, at), params))
+        distances.push_back(bhattacharyya(colours.seen, other->seen));
+    }
+  return distances;
+}
+
+double lowQuantile(std::vector<double> values) {
+  if (values.empty()) return 1.0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(kElsewherePart * values.size());
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+// 1 at the even distance, doubled or halved with each further step; colours that are everywhere tell less.
+double oddsOf(double distance, double limit, double elsewhere) {
+  const double power = std::min(1.0, elsewhere / limit);
+  return std::exp2(power * (kEvenDistance - distance / limit) / kHalvingDistance);
+}
+
+}  // namespace
+
+ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, const Quadrilateral& opening)
+    : picture_(picture.clone()), opening_(opening) {}
+
+ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, double frame_width)
+    : ReferenceAppearance(guessed(picture, inset(picture.size(), frame_width))) {}
+
+ReferenceAppearance ReferenceAppearance::guessed(const cv::Mat& picture, const Quadrilateral& opening) {
+  ReferenceAppearance reference(picture, opening);
+  reference.opening_is_known_ = false;
+  return reference;
+}
+
+std::string ReferenceAppearance::faultOf(const cv::Mat& picture, const Quadrilateral& opening) {
+  if (picture.empty()) return "the picture is empty";
+  if (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)
+    return "the picture has neither one nor three channels of eight bits";
+  if (!geometry::isFinite(opening) || !geometry::isConvex(opening))
+    return "the corners are no convex quadrilateral";
+  for (const Vector2d& corner : opening)
+    if (corner.x() < -0.5 || corner.y() < -0.5 || corner.x() > picture.cols - 0.5 ||
+        corner.y() > picture.rows - 0.5)
+      return "corner (" + std::to_string(std::lround(corner.x())) + ", " +
+             std::to_string(std::lround(corner.y())) + ") lies outside the picture of " +
+             std::to_string(picture.cols) + " x " + std::to_string(picture.rows) + " pixels";
+  const auto sides = geometry::sideLengths(opening);
+  const double shortest = *std::min_element(sides.begin(), sides.end());
+  if (shortest < kShortestSidePx)
+    return "a side of the opening is " + std::to_string(std::lround(shortest)) + " pixels long, " +
+           std::to_string(static_cast<int>(kShortestSidePx)) + " are needed";
+  return {};
+}
+
+void ReferenceAppearance::prepare(const AppearanceParams& params) const {
+  if (prepared_ && same(*prepared_, params)) return;
+  prepared_ = params;
+  colours_.reset();
+  if (isGrey(picture_)) return;
+  if (const auto colours = coloursOf(picture_, opening_, params))
+    colours_ = std::make_shared<RingColours>(*colours);
+  if (colours_) elsewhere_ = lowQuantile(distancesElsewhere(picture_, opening_, *colours_, params));
+}
+
+std::optional<AppearanceMatch> ReferenceAppearance::compare(const cv::Mat& image,
+                                                            const Quadrilateral& opening,
+                                                            const AppearanceParams& params) const {
+  prepare(params);
+  if (!colours_) return std::nullopt;
+  const auto candidate = coloursOf(image, opening, params);
+  if (!candidate) return std::nullopt;
+  AppearanceMatch match;
+  match.distance = bhattacharyya(*colours_, *candidate);
+  if (adapted_) match.distance = std::min(match.distance, bhattacharyya(*adapted_, *candidate));
+  match.limit = std::min(std::max(kLimitPart * elsewhere_, params.min_distance), params.max_distance);
+  match.odds = oddsOf(match.distance, std::max(match.limit, 1e-3), elsewhere_);
+  return match;
+}
+
+std::optional<double> ReferenceAppearance::distance(const cv::Mat& image, const Quadrilateral& opening,
+                                                    const AppearanceParams& params) const {
+  const auto match = compare(image, opening, params);
+  if (!match) return std::nullopt;
+  return match->distance;
+}
+
+bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& opening, double rate,
+                                const AppearanceParams& params) {
+  const auto match = compare(image, opening, params);
+  if (!match || match->distance > match->limit || !(rate > 0.0)) return false;
+  const RingColours before = adapted_ ? *adapted_ : *colours_;
+  const RingColours view = *coloursOf(image, opening, params);
+  double part = std::min(rate, 1.0);
+  RingColours after = blended(before, view, part);
+  for (int halvings = 0; bhattacharyya(*colours_, after) > params.max_drift; ++halvings) {
+    if (halvings == 8) return false;
+    after = blended(before, view, part *= 0.5);
+  }
+  adapted_ = std::make_shared<RingColours>(after);
+  return true;
+}
+
+double ReferenceAppearance::drift() const {
+  return adapted_ && colours_ ? bhattacharyya(*colours_, *adapted_) : 0.0;
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,194 @@
+#include "detection/reference/reference_borders.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detection/quads.hpp"
+#include "detection/reference/veil.hpp"
+#include "window_ingress/geometry/unit_square.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3f;
+using geometry::Quadrilateral;
+
+constexpr double kInward = 0.14;   ///< borders are looked for so far inside a rough loop, in mean sides of it
+constexpr double kOutward = 0.40;  ///< borders are looked for so far outside a rough loop
+constexpr double kAlike =
+    0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
+constexpr double kContrastFull =
+    10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
+constexpr double kStepFull = 0.06;  ///< difference of the colours on both sides of a border that counts fully
+constexpr double kBrightnessWeight = 0.25;  ///< of relative brightness beside chroma
+constexpr double kClear = 0.006;            ///< nearer to a border colours are mixed [mean sides]
+constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that of bricks and joints is 0.08
+constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
+constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
+constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
+constexpr float kVeilFrom = 40.0F;    ///< the darkest place about is brighter than this [grey levels]
+constexpr double kNoVeil = 1e3;
+constexpr double kFarAway = 1.5;          ///< standard deviation of a border from the rough loop, in `inward`
+constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
+constexpr double kForetold = 0.8;         ///< worth of such a border
+constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
+constexpr double kLeastChange =
+    3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
+
+Vector3f features(const Vector3f& bgr) {
+  const float sum = bgr.sum() + 12.0F;
+  return {(bgr[2] + 4.0F) / sum, (bgr[1] + 4.0F) / sum, std::log(sum)};
+}
+
+}  // namespace
+
+// The profiles of all four sides.
+void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
+                               const geometry::PinholeCamera* lens, double aspect, const Effort& effort) {
+  const ProfileReach reach{kInward, kOutward, aspect, effort.along, effort.across};
+  measureSides(image, ideal, lens, reach, sides_);
+}
+
+// Colours of the bands outwards from a border; false if the profile ends before the second.
+bool ReferenceBorders::coloursFrom(const SideProfile& profile, double border, Bands& colours) {
+  int filled = 0;
+  for (; filled < kBands; ++filled) {
+    const double from = border + filled * kBandWidth;
+    if (!profile.mean(from + (filled == 0 ? kClear : 0.0), from + kBandWidth, colours[filled])) break;
+  }
+  if (filled < 2) return false;
+  for (int b = filled; b < kBands; ++b) colours[b] = colours[filled - 1];
+  return true;
+}
+
+// Their features, brightness relative to the outermost.
+ReferenceBorders::Bands ReferenceBorders::featuresOf(const Bands& colours) {
+  Bands bands;
+  for (int b = 0; b < kBands; ++b) bands[b] = features(colours[b]);
+  const float outermost = bands[kBands - 1][2];
+  for (Vector3f& band : bands) band[2] -= outermost;
+  return bands;
+}
+
+double ReferenceBorders::unlike(const Bands& colours, int side) const {
+  const Bands bands = featuresOf(colours);
+  double sum = 0.0;
+  for (int b = 0; b < kBands; ++b) sum += difference(bands[b], reference_[side][b]);
+  return sum / kBands;
+}
+
+// The same through the veil that fits best, if there may be one.
+double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const {
+  const Bands& wanted = reference_colours_[side];
+  const Vector3f &wall = colours[kBands - 1], &wanted_wall = wanted[kBands - 1];
+  float along = 0.0F, square = 1.0F;
+  for (int b = 0; b < kBands; ++b) {
+    along += (colours[b] - wall).dot(wanted[b] - wanted_wall);
+    square += (wanted[b] - wanted_wall).squaredNorm();
+  }
+  const auto veil = veilThatLeaves(along / square, wanted_wall, wall, darkest_);
+  if (!veil) return kNoVeil;
+  Bands clear;
+  for (int b = 0; b < kBands; ++b) clear[b] = veil->off(colours[b]).cwiseMax(0.0F);
+  return unlike(clear, side);
+}
+
+void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& opening) {
+  known_ = false;
+  if (picture.type() != CV_8UC3 || picture.empty() || !geometry::isConvex(opening)) return;
+  const auto sides = geometry::sideLengths(opening);
+  aspect_ = (sides[0] + sides[2]) / (sides[1] + sides[3]);
+  measure(picture, opening, nullptr, aspect_, kFine);
+  double frame = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    if (!coloursFrom(sides_[i], 0.0, reference_colours_[i])) return;
+    reference_[i] = featuresOf(reference_colours_[i]);
+    double end = 0.0;
+    const double contrast = sides_[i].largestChange(kThinnestFrame, kBands * kBandWidth, &end);
+    frame_widths_[i] = contrast > kContrastFull ? end : 0.0;
+    frame += 0.25 * difference(reference_[i][1], reference_[i][kBands - 1]);
+  }
+  frameless_ = frame < kFaintestFrame;
+  known_ = true;
+}
+
+double ReferenceBorders::difference(const Vector3f& a, const Vector3f& b) const {
+  return std::hypot(a[0] - b[0], a[1] - b[1]) + kBrightnessWeight * std::min(1.0F, std::abs(a[2] - b[2]));
+}
+
+// How far the frame ends as far outside as in the reference: 1 it does; where the reference shows no end,
+// always.
+double ReferenceBorders::frameEnds(int side, double border) const {
+  if (frame_widths_[side] <= 0.0) return 1.0;
+  const SideProfile& profile = sides_[side];
+  const double end = border + frame_widths_[side];
+  const double there = profile.largestChange(end - 0.5 * profile.step, end + 0.5 * profile.step);
+  const double near = profile.largestChange(end - kEndReach, end + kEndReach);
+  return kWithoutEnd +
+         (1.0 - kWithoutEnd) * (near > kLeastChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
+}
+
+// The edge from which outwards the colours are most like those of the reference, and inwards are not; its
+// worth.
+double ReferenceBorders::choose(int side, double& border) const {
+  const SideProfile& profile = sides_[side];
+  const int count = static_cast<int>(profile.means.size());
+  const bool framed = frame_widths_[side] > 0.0;
+  double best = 0.0;
+  Bands bands;
+  for (int k = 1; k + 1 < count; ++k) {
+    const double here = profile.change(k);
+    const double at = profile.at(k);
+    const bool peak = here >= kLeastChange && here >= profile.change(k - 1) && here >= profile.change(k + 1);
+    const double ends = framed ? frameEnds(side, at) : 1.0;
+    if (!peak && !(framed && ends > kSureEnd)) continue;
+    Vector3f within;
+    if (!coloursFrom(profile, at, bands) || !profile.mean(at - kBandWidth, at - kClear, within)) continue;
+    double off = unlike(bands, side);
+    if (framed && darkest_ > kVeilFrom) off = std::min(off, unlikeThroughVeil(bands, side));
+    within = features(within);
+    within[2] -= features(bands[kBands - 1])[2];
+    Vector3f beside = features(bands[0]);
+    beside[2] -= features(bands[kBands - 1])[2];
+    const double goes_on = difference(within, beside);
+    // Where the end of the frame tells the place, a faint border will do.
+    const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
+    const double away = at / kInward / kFarAway;
+    const double worth = std::exp(-off / kAlike - 0.5 * away * away) * visible;
+    if (worth > best) best = worth, border = at;
+  }
+  return best;
+}
+
+std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat& image,
+                                                                  const Quadrilateral& rough,
+                                                                  const geometry::PinholeCamera* camera,
+                                                                  const Effort& effort) {
+  if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
+  const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  const Quadrilateral ideal = undistorted(rough, lens);
+  measure(image, ideal, lens, aspect_, effort);
+  darkest_ = 255.0F;
+  for (const SideProfile& side : sides_)
+    for (const Vector3f& colour : side.means) darkest_ = std::min(darkest_, colour.minCoeff());
+  std::array<double, 4> borders{};
+  Located located;
+  double least = 1.0, mean_worth = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double worth = choose(i, borders[i]);
+    if (worth <= 0.0) return std::nullopt;
+    least = std::min(least, worth), mean_worth += 0.25 * worth;
+  }
+  located.worth = std::sqrt(least * mean_worth);
+  for (int i = 0; i < 4; ++i) borders[i] /= i % 2 ? 2.0 * aspect_ / (1.0 + aspect_) : 2.0 / (1.0 + aspect_);
+  const double top = -borders[0], right = 1.0 + borders[1], bottom = 1.0 + borders[2], left = -borders[3];
+  const geometry::UnitSquare map(ideal);
+  located.quad = distorted({map.toImage({left, top}), map.toImage({right, top}), map.toImage({right, bottom}),
+                            map.toImage({left, bottom})},
+                           lens);
+  if (!geometry::isFinite(located.quad) || !geometry::isConvex(located.quad)) return std::nullopt;
+  return located;
+}
+
+}  // namespace window_ingress::detection

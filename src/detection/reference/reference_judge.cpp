@@ -1,0 +1,161 @@
+#include "detection/reference/reference_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "detection/candidates/candidate_gates.hpp"
+#include "detection/quads.hpp"
+#include "detection/reference/ring_histogram.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kMostCertain = 0.99;       ///< of a score before the reference is asked
+constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
+constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
+constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
+constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
+constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
+constexpr double kUnlocatedPart =
+    0.7;  ///< of its score keeps a loop whose borders are not those of the reference
+
+// Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
+double updated(double score, double odds) {
+  const double prior = std::min(score, kMostCertain);
+  return prior * odds / (1.0 - prior + prior * odds);
+}
+
+// Of all loops about the same place the likeliest ones; the others are variants of them.
+void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::size_t>& places) {
+  places.clear();
+  for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
+    int variants = 0;
+    const Sameness same(rivals[i].quad);
+    for (std::size_t place : places) variants += same.samePlace(rivals[place].quad);
+    if (variants < kVariantsLocated) places.push_back(i);
+  }
+}
+
+}  // namespace
+
+ReferenceJudge::ReferenceJudge(const DetectorParams& params)
+    : appearance_(params.appearance), shape_(params.shape) {}
+
+// A grey picture as one of three equal channels.
+const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
+  if (picture.channels() != 1) return picture;
+  cv::cvtColor(picture, channels_, cv::COLOR_GRAY2BGR);
+  return channels_;
+}
+
+void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference) {
+  reference_ = std::move(reference);
+  borders_.forget();
+  ring_.forget();
+  shape_.forget();
+  is_grey_ = reference_ && isGrey(reference_->picture());
+  if (!reference_ || !reference_->openingIsKnown() ||
+      !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
+    return;
+  borders_.learn(inChannels(reference_->picture()), reference_->opening());
+  ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames);
+  shape_.learn(reference_->picture(), reference_->opening());
+}
+
+// The rival with its borders where the reference's are, if they are found near it.
+std::optional<ScoredCandidate> ReferenceJudge::locate(const cv::Mat& image,
+                                                      const geometry::PinholeCamera* camera,
+                                                      const ScoredCandidate& rough,
+                                                      const ReferenceBorders::Effort& effort) {
+  const auto found = borders_.locate(image, rough.quad, camera, effort);
+  if (!found) return std::nullopt;
+  ScoredCandidate rival = rough;
+  rival.quad = found->quad;
+  rival.candidate.source = CandidateSource::kReference;
+  rival.proposal = 0.0;
+  rival.located = true;
+  rival.worth = found->worth;
+  rival.geometry = rough.located ? rough.geometry : rough.score;
+  rival.score = scoreWithReference(rival.geometry, rival.worth);
+  rival.verdict.reject = RejectReason::kNone;
+  return rival;
+}
+
+// The borders of the reference at all places where they are found; the best are looked at closely.
+void ReferenceJudge::locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                               const std::vector<ScoredCandidate>& rivals) {
+  located_.clear();
+  choosePlaces(rivals, places_);
+  for (std::size_t i : places_)
+    if (auto rival = locate(image, camera, rivals[i], ReferenceBorders::kCoarse)) located_.push_back(*rival);
+  sortByRank(located_);
+  for (std::size_t i = 0; i < std::min(located_.size(), kPlacesFine); ++i)
+    if (auto rival = locate(image, camera, located_[i], ReferenceBorders::kFine)) located_[i] = *rival;
+}
+
+// Compares their frames with the reference's; false if none can be compared.
+bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
+  bool any = false;
+  for (ScoredCandidate& rival : rivals) {
+    rival.appearance = reference_->compare(image, rival.quad, appearance_);
+    any = any || rival.appearance;
+    if (rival.appearance) rival.score = updated(rival.score, rival.appearance->odds);
+  }
+  return any;
+}
+
+// Loops whose borders were not located count less; not at all where others have surely been.
+void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
+  for (ScoredCandidate& rival : rivals) {
+    const Sameness same(rival.quad);
+    const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
+      return place.worth > kSureWorth && same.samePlace(place.quad);
+    });
+    rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
+    if (sure)
+      rival.verdict.reject = RejectReason::kDuplicate;
+    else
+      rival.score = updated(kUnlocatedPart * rival.score, rival.appearance ? rival.appearance->odds : 1.0);
+  }
+}
+
+bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ && isGrey(image) == is_grey_; }
+
+bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                 std::vector<ScoredCandidate>& rivals) {
+  if (!compares(image)) return false;
+  if (!borders_.known()) {
+    std::vector<ScoredCandidate> weighed = rivals;
+    if (!weigh(image, weighed)) return false;
+    rivals.swap(weighed);
+    return true;
+  }
+  locateAll(inChannels(image), camera, rivals);
+  weigh(image, located_);
+  weighOthers(image, rivals);
+  rivals.insert(rivals.end(), located_.begin(), located_.end());
+  return true;
+}
+
+bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                       std::vector<ScoredCandidate>& rivals) {
+  if (!compares(image) || !ring_.known()) return false;
+  located_ = ring_.align(inChannels(image), camera, rivals);
+  for (ScoredCandidate& rival : located_)
+    rival.appearance = reference_->compare(image, rival.quad, appearance_);
+  for (ScoredCandidate& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
+  rivals.insert(rivals.end(), located_.begin(), located_.end());
+  return true;
+}
+
+std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
+                                                     const geometry::PinholeCamera* camera) {
+  if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, camera))
+    return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
+  if (const auto off = shape_.inFrame(image, fitted.corners, camera))
+    return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
+  return std::nullopt;
+}
+
+}  // namespace window_ingress::detection

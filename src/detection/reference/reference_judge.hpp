@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "detection/alignment/ring_judge.hpp"
+#include "detection/candidates/candidate_gates.hpp"
+#include "detection/candidates/candidate_search.hpp"
+#include "detection/reference/reference_borders.hpp"
+#include "detection/reference/reference_shape.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+
+namespace window_ingress::detection {
+
+/// Which of the rivals is the target that the reference shows (P9): where its borders are, how far its
+/// colours and its shape are those of the reference.
+class ReferenceJudge {
+ public:
+  explicit ReferenceJudge(const DetectorParams& params);
+
+  /// \param reference null: none
+  void learn(std::shared_ptr<const ReferenceAppearance> reference);
+  const std::shared_ptr<const ReferenceAppearance>& reference() const { return reference_; }
+
+  /// True if rivals can be told apart by the colours about their borders.
+  bool knowsBorders() const { return borders_.known(); }
+
+  /// True if the reference shows no frame.
+  bool frameless() const { return borders_.frameless(); }
+
+  /// False if there is no reference or only one of reference and picture has colours.
+  bool compares(const cv::Mat& image) const;
+
+  /// Weighs the rivals by their frames; adds those whose borders it located. False, and nothing changed, if
+  /// they cannot be compared.
+  bool judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                   std::vector<ScoredCandidate>& rivals);
+
+  /// Adds the places that have round them what lies round the reference's opening; no other rival may be the
+  /// target then. False, and nothing changed, if they cannot be compared.
+  bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                         std::vector<ScoredCandidate>& rivals);
+
+  /// Why fitted borders cannot be the reference's, if they cannot.
+  std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
+                                       const geometry::PinholeCamera* camera);
+
+ private:
+  const cv::Mat& inChannels(const cv::Mat& picture);
+  std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                        const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
+  void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                 const std::vector<ScoredCandidate>& rivals);
+  bool weigh(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
+  void weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
+
+  AppearanceParams appearance_;
+  ReferenceBorders borders_;
+  RingJudge ring_;
+  ReferenceShape shape_;
+  std::shared_ptr<const ReferenceAppearance> reference_;
+  bool is_grey_ = false;  ///< the reference; then by brightness alone
+  cv::Mat channels_;
+  std::vector<std::size_t> places_;  ///< of the rivals that are looked at
+  std::vector<ScoredCandidate> located_;
+};
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "detection/reference/side_profile.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// How badly four corners fit any view of a rectangle of a known aspect [standard deviations]: the square
+/// root of what is left of the squared, weighted distances of the corners when pose and aspect are fitted.
+/// Chi with two degrees of freedom, where the corners are what they are said to be: size and distance do not
+/// show, the six numbers of a pose do, eight coordinates are seen.
+struct RectangleMisfit {
+  double aspect = 1.0;            ///< width over height
+  double log_aspect_sigma = 0.0;  ///< of its logarithm; above 0
+  double least_px = 0.3;          ///< at least this standard deviation of each coordinate [px]
+
+  /// \param ideal pixels of the undistorted picture, canonical order
+  /// \param covariance of each corner [px^2]
+  /// \return nothing for what is not convex or not finite
+  std::optional<double> of(const geometry::Quadrilateral& ideal,
+                           const std::array<Eigen::Matrix2d, 4>& covariance,
+                           const geometry::PinholeCamera& camera) const;
+};
+
+/// A value as far as a picture tells.
+struct Measured {
+  double value = 0.0, sigma = 0.0;
+};
+
+/// The target's shape as the reference picture shows it: aspect of the opening, and the width of its frame
+/// relative to the opening's sides. Both stay the same from anywhere; size does not show in one picture.
+class ReferenceShape {
+ public:
+  explicit ReferenceShape(const ReferenceShapeParams& params) : params_(params) {}
+
+  /// \param picture by an unknown camera: its focal length is taken to be half to twice the longer side
+  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  void forget() { aspect_.reset(), frame_.fill(0.0); }
+
+  /// Where a shape differs by more than it may: value and limit; nothing where it does not, or cannot be
+  /// told.
+  struct Difference {
+    double value, limit;
+  };
+
+  /// \param corners fitted, pixels of the image as it came; \param camera without one nothing is told
+  std::optional<Difference> inAspect(const geometry::Quadrilateral& corners,
+                                     const std::array<Eigen::Matrix2d, 4>& covariance,
+                                     const geometry::PinholeCamera* camera) const;
+
+  /// Middle of the four sides' widths, each over the reference's: one side may be hidden, or have a sill.
+  std::optional<Difference> inFrame(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                                    const geometry::PinholeCamera* camera);
+
+  /// The ratio itself.
+  std::optional<Measured> frameRatio(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                                     const geometry::PinholeCamera* camera);
+
+ private:
+  ReferenceShapeParams params_;
+  std::optional<Measured> aspect_;  ///< sigma: half the range over all focal lengths
+  double seen_aspect_ = 1.0;
+  std::array<double, 4> frame_{};  ///< of each side [mean sides of the opening]; 0: no frame
+  std::array<SideProfile, 4> sides_;
+  std::vector<double> ratios_;
+};
+
+}  // namespace window_ingress::detection

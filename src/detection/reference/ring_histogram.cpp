@@ -1,0 +1,190 @@
+#include "detection/reference/ring_histogram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "detection/reference/ring_samples.hpp"
+#include "detection/reference/veil.hpp"
+#include "window_ingress/detection/reference_appearance.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr int kSteps = 16;     ///< places between two bins
+constexpr int kDarkest = 45;   ///< sum of the channels below which chroma is noise
+constexpr double kTop = 0.80;  ///< chromaticity at the last bin; the first is at 0
+constexpr double kWeight[RingHistogram::kBands] = {2.0, 1.0};
+/// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
+constexpr double kSharing = 4.0 / 9.0;
+
+constexpr double kTurn_rad = 0.05;     ///< of the difference between frame and surround, from paint and light
+constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
+constexpr double kLeastDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
+
+using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
+
+/// 65536 times the places a chromaticity of value / sum lies from the first bin, per value.
+std::array<std::uint32_t, 766> reciprocals() {
+  std::array<std::uint32_t, 766> table{};
+  for (int sum = 1; sum < 766; ++sum)
+    table[sum] = static_cast<std::uint32_t>(65536.0 * (RingHistogram::kBins - 1) * kSteps / kTop / sum);
+  return table;
+}
+
+// Adds one pixel to the four bins round its chromaticity; false if it is too dark.
+bool addPixel(const cv::Vec3b& pixel, Counts& counts) {
+  static const auto kPerSum = reciprocals();
+  constexpr std::uint32_t kLast = (RingHistogram::kBins - 1) * kSteps - 1;
+  const int blue = pixel[0], green = pixel[1], red = pixel[2], sum = blue + green + red;
+  if (sum < kDarkest) return false;
+  const std::uint32_t r = std::min(red * kPerSum[sum] >> 16, kLast),
+                      g = std::min(green * kPerSum[sum] >> 16, kLast);
+  const std::uint32_t u = r % kSteps, v = g % kSteps;
+  std::uint32_t* cell = &counts[r / kSteps * RingHistogram::kBins + g / kSteps];
+  cell[0] += (kSteps - u) * (kSteps - v);
+  cell[1] += (kSteps - u) * v;
+  cell[RingHistogram::kBins] += u * (kSteps - v);
+  cell[RingHistogram::kBins + 1] += u * v;
+  return true;
+}
+
+RingHistogram::Band bandOf(const RingSamples::Band& samples, int min_pixels) {
+  Counts counts{};
+  int counted = 0;
+  for (int i = 0; i < samples.count; ++i) counted += addPixel(samples.pixels[i], counts);
+  RingHistogram::Band band;
+  if (samples.asked == 0) return band;
+  const double seen = std::min<double>(counted, samples.area_px * counted / samples.asked);
+  if (seen < min_pixels || 2 * counted < samples.count) return band;
+  band.pixels = seen;
+  const float scale = 1.0F / (static_cast<float>(counted) * kSteps * kSteps);
+  for (int i = 0; i < RingHistogram::kCells; ++i) band.share[i] = scale * static_cast<float>(counts[i]);
+  return band;
+}
+
+RingHistogram histogramOf(const RingSamples& samples, int min_pixels) {
+  RingHistogram histogram;
+  for (int b = 0; b < RingHistogram::kBands; ++b) histogram.bands[b] = bandOf(samples.bands[b], min_pixels);
+  return histogram;
+}
+
+bool isSeen(const RingHistogram& histogram) { return histogram.bands[0].pixels > 0.0; }
+
+bool hasColour(const cv::Vec3b& pixel) {
+  constexpr int kNoise = 3;
+  const auto [least, most] = std::minmax({pixel[0], pixel[1], pixel[2]});
+  return most - least > kNoise;
+}
+
+bool hasColour(const RingSamples& samples) {
+  for (const RingSamples::Band& band : samples.bands)
+    if (std::any_of(band.pixels.begin(), band.pixels.begin() + band.count,
+                    [](const cv::Vec3b& pixel) { return hasColour(pixel); }))
+      return true;
+  return false;
+}
+
+// Mean of a band's pixels; adds the variance of that mean.
+Eigen::Vector3f meanOf(const RingSamples::Band& band, double& variance) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero(), squares = Eigen::Vector3f::Zero();
+  for (int i = 0; i < band.count; ++i) {
+    const Eigen::Vector3f pixel(band.pixels[i][0], band.pixels[i][1], band.pixels[i][2]);
+    sum += pixel;
+    squares += pixel.cwiseProduct(pixel);
+  }
+  const float n = static_cast<float>(std::max(band.count, 1));
+  const Eigen::Vector3f mean = sum / n;
+  variance += std::max(0.0F, (squares / n - mean.cwiseProduct(mean)).maxCoeff()) / n;
+  return mean;
+}
+
+RingMeans meansOf(const RingSamples& samples) {
+  RingMeans means;
+  double variance = 0.0;
+  means.frame = meanOf(samples.bands[0], variance);
+  means.surround = meanOf(samples.bands[1], variance);
+  means.sigma = std::sqrt(variance);
+  means.darkest = samples.darkest;
+  return means;
+}
+
+// 1 - sum sqrt(p q), less what samples of these sizes show even if the colours are the same.
+double divergence(const RingHistogram::Band& a, const RingHistogram::Band& b) {
+  const auto m = static_cast<float>(b.pixels);
+  float alike = 0.0F, spread = 0.0F;
+  for (int i = 0; i < RingHistogram::kCells; ++i) {
+    alike += std::sqrt(a.share[i] * b.share[i]);
+    spread += (1.0F - a.share[i]) * std::min(1.0F, m * a.share[i]);  // a bin without pixels adds none
+  }
+  return 1.0 - alike - kSharing * spread / 8.0 * (1.0 / a.pixels + 1.0 / b.pixels);
+}
+
+}  // namespace
+
+bool isGrey(const cv::Mat& image) {
+  if (image.type() != CV_8UC3) return true;
+  constexpr int kAcross = 32, kDown = 24;
+  for (int i = 0; i < kDown; ++i) {
+    const auto* row = image.ptr<cv::Vec3b>((2 * i + 1) * image.rows / (2 * kDown));
+    for (int k = 0; k < kAcross; ++k)
+      if (hasColour(row[(2 * k + 1) * image.cols / (2 * kAcross)])) return false;
+  }
+  return true;
+}
+
+std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,
+                                       const RingWidths& widths, int min_pixels) {
+  if (image.type() != CV_8UC3 || image.empty() || !geometry::isFinite(opening) ||
+      !geometry::isConvex(opening))
+    return std::nullopt;
+  RingSamples samples;
+  sampleRing(image, opening, widths.near, widths.far, samples);
+  const RingColours colours{histogramOf(samples, min_pixels), meansOf(samples)};
+  if (!isSeen(colours.seen) || (!hasColour(samples) && isGrey(image))) return std::nullopt;
+  return colours;
+}
+
+double bhattacharyya(const RingHistogram& a, const RingHistogram& b) {
+  double sum = 0.0, weights = 0.0;
+  for (int i = 0; i < RingHistogram::kBands; ++i) {
+    if (a.bands[i].pixels == 0.0 || b.bands[i].pixels == 0.0) continue;
+    sum += kWeight[i] * divergence(a.bands[i], b.bands[i]);
+    weights += kWeight[i];
+  }
+  return weights > 0.0 ? std::sqrt(std::clamp(sum / weights, 0.0, 1.0)) : 1.0;
+}
+
+std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen) {
+  const Eigen::Vector3f expected = reference.frame - reference.surround, found = seen.frame - seen.surround;
+  const double square = expected.squaredNorm();
+  if (square < kLeastDifference * kLeastDifference) return std::nullopt;
+  const double left = found.dot(expected) / square, along = left * std::sqrt(square);
+  if (!(along > kClearOfNoise * seen.sigma)) return std::nullopt;
+  if (!veilThatLeaves(left, reference.surround, seen.surround, seen.darkest)) return std::nullopt;
+  const double across = (found - static_cast<float>(left) * expected).norm() / along;
+  const double noise = seen.sigma / along, spread = kTurn_rad * kTurn_rad + noise * noise;
+  return std::sqrt(1.0 - std::exp(-across * across / (8.0 * spread)));
+}
+
+double bhattacharyya(const RingColours& reference, const RingColours& seen) {
+  const double plain = bhattacharyya(reference.seen, seen.seen);
+  return std::min(plain, distanceThroughVeil(reference.means, seen.means).value_or(plain));
+}
+
+RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part) {
+  RingHistogram result = from;
+  const auto share = static_cast<float>(part);
+  for (int b = 0; b < RingHistogram::kBands; ++b) {
+    if (from.bands[b].pixels == 0.0 || to.bands[b].pixels == 0.0) continue;
+    for (int i = 0; i < RingHistogram::kCells; ++i)
+      result.bands[b].share[i] += share * (to.bands[b].share[i] - from.bands[b].share[i]);
+  }
+  return result;
+}
+
+RingColours blended(const RingColours& from, const RingColours& to, double part) {
+  return {blended(from.seen, to.seen, part), from.means};
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// The ring round an opening, in two bands: its frame, and the surround. All widths in mean sides of the
+/// opening.
+struct RingWidths {
+  double near = 0.05;  ///< outer edge of the frame's band
+  double far = 0.14;   ///< outer edge of the surround's band
+};
+
+/// Colour of the ring round an opening: for each band a histogram of the chromaticities r = R / (R + G + B)
+/// and g, each pixel shared between the four bins round it. What is seen through the opening, and how bright
+/// things are, does not count (traps 11 and 12).
+struct RingHistogram {
+  static constexpr int kBands = 2;  ///< frame, surround
+  static constexpr int kBins = 8, kCells = kBins * kBins;
+
+  struct Band {
+    std::array<float, kCells>
+        share{};          ///< of the band's pixels; their sum is 1, or 0 if the band is not seen
+    double pixels = 0.0;  ///< different pixels of the picture in it; 0: too few to count
+  };
+  std::array<Band, kBands> bands;
+};
+
+/// Mean colours of a ring, for what a veil leaves: differences.
+struct RingMeans {
+  Eigen::Vector3f frame = Eigen::Vector3f::Zero(), surround = Eigen::Vector3f::Zero();  ///< BGR
+  double sigma = 0.0;    ///< of their difference, by the spread of their pixels [grey levels]
+  double darkest = 0.0;  ///< least channel of ring and opening [grey levels]
+};
+
+/// How a ring looks.
+struct RingColours {
+  RingHistogram seen;
+  RingMeans means;
+};
+
+/// Measures a ring; allocates nothing.
+/// \param image CV_8UC3; anything else has no colour
+/// \param min_pixels a band with fewer is not seen
+/// \return nothing if the frame's band is not seen, or the whole picture is grey
+std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,
+                                       const RingWidths& widths, int min_pixels);
+
+/// Bhattacharyya distance of two rings, sqrt(1 - sum sqrt(p q)): 0 alike, 1 disjoint, bands weighted two to
+/// one. Two samples of n and m pixels of the same colours are not at distance 0: the expected sum falls short
+/// of 1 by sum over bins (1 - p) (1/n + 1/m) / 8 (second order of the square root about its mean; n of 1 -
+/// sum times 8 is Freeman and Tukey's statistic, chi-square in the limit). That much is taken off.
+double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
+
+/// The same for two normal distributions of what a veil has left of the difference between frame and
+/// surround, by its direction: the turn that light and paint may show is a standard deviation of kTurn_rad.
+/// \return nothing where there is no veil, or it has left less than noise
+std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen);
+
+/// The smaller of the distances as seen and through a veil.
+double bhattacharyya(const RingColours& reference, const RingColours& seen);
+
+/// Moves `from` towards `to`: 0 leaves it, 1 replaces it. Bands that either has not seen stay as they are.
+RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part);
+RingColours blended(const RingColours& from, const RingColours& to, double part);
+
+}  // namespace window_ingress::detection

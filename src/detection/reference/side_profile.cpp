@@ -1,0 +1,104 @@
+#include "detection/reference/side_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detection/quads.hpp"
+#include "window_ingress/geometry/unit_square.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3f;
+using geometry::Quadrilateral;
+
+constexpr double kSkip = 0.08;  ///< left out at both ends of a side
+constexpr int kFewestAcross = 12;
+
+// Point of the unit square's plane beside side `i`, t along it, `out` from it in sides across.
+Vector2d beside(int i, double t, double out) {
+  switch (i) {
+    case geometry::kTop:
+      return {t, -out};
+    case geometry::kRight:
+      return {1.0 + out, t};
+    case geometry::kBottom:
+      return {1.0 - t, 1.0 + out};
+    default:
+      return {-out, 1.0 - t};
+  }
+}
+
+// Mean along side `i`; false if less than a third of it lies within the picture.
+bool meanAlong(const cv::Mat& image, const geometry::UnitSquare& map, const geometry::PinholeCamera* lens,
+               int i, double out, int along, Vector3f& mean) {
+  const double right = image.cols - 0.5, bottom = image.rows - 0.5;
+  int count = 0;
+  mean.setZero();
+  for (int n = 0; n < along; ++n) {
+    Vector2d p = map.toImage(beside(i, kSkip + (1.0 - 2.0 * kSkip) * (n + 0.5) / along, out));
+    if (lens) p = lens->distort(p);
+    if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
+    const cv::Vec3b& pixel =
+        image.ptr<cv::Vec3b>(static_cast<int>(p.y() + 0.5))[static_cast<int>(p.x() + 0.5)];
+    mean += Vector3f(pixel[0], pixel[1], pixel[2]);
+    ++count;
+  }
+  mean /= static_cast<float>(std::max(count, 1));
+  return count >= along / 3;
+}
+
+}  // namespace
+
+bool SideProfile::mean(double from, double to, Vector3f& colour) const {
+  if (means.empty()) return false;
+  const int count = static_cast<int>(means.size());
+  const int begin = static_cast<int>(std::ceil((from - first) / step - 1e-9));
+  const int last = std::max(begin, static_cast<int>(std::floor((to - first) / step)));
+  if (begin < 0 || last >= count) return false;
+  colour.setZero();
+  for (int k = begin; k <= last; ++k) colour += means[k];
+  colour /= static_cast<float>(last - begin + 1);
+  return true;
+}
+
+float SideProfile::change(int i) const {
+  return i < 1 || i + 1 >= static_cast<int>(means.size()) ? 0.0F : (means[i + 1] - means[i - 1]).norm();
+}
+
+double SideProfile::largestChange(double from, double to, double* place) const {
+  if (means.empty()) return 0.0;
+  const int begin = std::max(1, static_cast<int>(std::floor((from - first) / step)));
+  const int last =
+      std::min(static_cast<int>(means.size()) - 2, static_cast<int>(std::ceil((to - first) / step)));
+  double most = 0.0;
+  for (int k = begin; k <= last; ++k)
+    if (change(k) > most) {
+      most = change(k);
+      if (place) *place = at(k);
+    }
+  return most;
+}
+
+void measureSides(const cv::Mat& image, const Quadrilateral& ideal, const geometry::PinholeCamera* lens,
+                  const ProfileReach& reach, std::array<SideProfile, 4>& sides) {
+  const geometry::UnitSquare map(ideal);
+  const double width = 2.0 * reach.aspect / (1.0 + reach.aspect), height = 2.0 / (1.0 + reach.aspect);
+  const double length = reach.inward + reach.outward;
+  const int steps = std::clamp(static_cast<int>(length * meanSide(ideal)), kFewestAcross, reach.across);
+  for (int i = 0; i < 4; ++i) {
+    SideProfile& profile = sides[i];
+    profile.first = -reach.inward;
+    profile.step = length / steps;
+    profile.means.clear();
+    const double across = i % 2 ? width : height;
+    Vector3f mean;
+    for (int k = 0; k < steps; ++k) {
+      if (!meanAlong(image, map, lens, i, profile.at(k) / across, reach.along, mean)) break;
+      profile.means.push_back(mean);
+    }
+  }
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,136 @@
+#include "detection/tracking/border_quartet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "detection/borders/lines.hpp"
+#include "detection/quads.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using geometry::Quadrilateral;
+
+constexpr double kMaxShapeChange =
+    0.06;  ///< of aspect, skew and keystone between frames beyond the prediction [sides]
+constexpr int kLeastSides = 2;
+constexpr double kLeastSlackPx = 2.0;  // of the shape, whatever the window's size
+constexpr double kGoodInliers = 0.8;   // part of profiles on a line that is as good as all
+constexpr double kBeyondEnd =
+    0.3;  // a corner may lie this much beyond what was seen of a side, in its lengths
+constexpr double kBeyondEndPx = 6.0;
+
+// What is left of the change between two quadrilaterals when place, size and roll are taken out [px].
+double warpBetween(const Quadrilateral& before, const Quadrilateral& after) {
+  const Vector2d from = geometry::centroid(before), to = geometry::centroid(after);
+  double dot = 0.0, cross = 0.0, norm = 1e-9;
+  for (int i = 0; i < 4; ++i) {
+    const Vector2d a = before[i] - from, b = after[i] - to;
+    dot += a.dot(b), cross += a.x() * b.y() - a.y() * b.x(), norm += a.squaredNorm();
+  }
+  double worst = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const Vector2d a = before[i] - from;
+    const Vector2d turned((dot * a.x() - cross * a.y()) / norm, (cross * a.x() + dot * a.y()) / norm);
+    worst = std::max(worst, (after[i] - to - turned).norm());
+  }
+  return worst;
+}
+
+bool reaches(const FollowedBorder& border, const Vector2d& corner) {
+  const double beyond = std::min((border.a - corner).norm(), (border.b - corner).norm());
+  return beyond <= kBeyondEndPx + kBeyondEnd * (border.b - border.a).norm();
+}
+
+bool shows(const cv::Mat& image, const Vector2d& p) {
+  return p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= image.cols - 1 && p.y() <= image.rows - 1;
+}
+
+// The corner between two borders if it was seen.
+std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                                     const FollowedBorder& before, const FollowedBorder& after) {
+  if (!before.fitted || !after.fitted) return std::nullopt;
+  const auto corner = meet(before.line, after.line);
+  if (!corner || !reaches(before, corner->point) || !reaches(after, corner->point)) return std::nullopt;
+  const LineCorner seen = throughLens(*corner, lens);
+  if (!shows(image, seen.point)) return std::nullopt;
+  return seen;
+}
+
+}  // namespace
+
+BorderQuartet::BorderQuartet(const TrackParams& track)
+    : followers_{BorderFollower(track), BorderFollower(track), BorderFollower(track), BorderFollower(track)} {
+}
+
+void BorderQuartet::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                          const Quadrilateral& quad) {
+  for (int i = 0; i < 4; ++i) followers_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
+}
+
+bool BorderQuartet::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
+  const Quadrilateral predicted = motion.predicted();
+  in_view_ = fitted_ = 0;
+  for (int i = 0; i < 4; ++i) {
+    borders_[i] = followers_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]},
+                                       meanSide(predicted), motion.sigmaAcross(i));
+    in_view_ += borders_[i].in_view;
+    fitted_ += borders_[i].fitted;
+  }
+  if (fitted_ < kLeastSides || fitted_ < in_view_ - 1) return false;
+  for (int i = 0; i < 4; ++i)
+    if (borders_[i].fitted) motion.correct(i, borders_[i].line);
+  if (fitted_ == 4) placeCorners(motion);
+  return keepsShape(motion);
+}
+
+void BorderQuartet::placeCorners(QuadMotion& motion) const {
+  Quadrilateral quad;
+  for (int i = 0; i < 4; ++i) {
+    const auto corner = meet(borders_[(i + 3) % 4].line, borders_[i].line);
+    if (!corner) return;
+    quad[i] = corner->point;
+  }
+  motion.place(quad);
+}
+
+bool BorderQuartet::keepsShape(const QuadMotion& motion) const {
+  const Quadrilateral now = motion.quad();
+  if (!geometry::isFinite(now) || !geometry::isConvex(now) || !(geometry::signedArea(now) > 0.0))
+    return false;
+  const double slack_px = std::max(kLeastSlackPx, kMaxShapeChange * meanSide(now));
+  return warpBetween(motion.predicted(), now) <= slack_px;
+}
+
+void BorderQuartet::describe(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                             const QuadMotion& motion, WindowObservation& window) const {
+  const Quadrilateral quad = motion.quad();
+  const auto first = std::min_element(quad.begin(), quad.end(),
+                                      [](const Vector2d& a, const Vector2d& b) { return a.sum() < b.sum(); });
+  const int start = static_cast<int>(first - quad.begin());
+  for (int i = 0; i < 4; ++i) {
+    const FollowedBorder &before = borders_[(start + i + 3) % 4], &after = borders_[(start + i) % 4];
+    window.edges[i] = after.fitted ? edgeThroughLens(after.line, after.a, after.b, lens) : Edge();
+    const auto corner = seenCorner(image, lens, before, after);
+    window.corner_visible[i] = corner.has_value();
+    window.corners[i] = corner ? corner->point : Vector2d(Vector2d::Zero());
+    window.corner_covariance[i] = corner ? corner->covariance : Eigen::Matrix2d(Eigen::Matrix2d::Zero());
+  }
+}
+
+void BorderQuartet::keep(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                         const Quadrilateral& quad) {
+  for (int i = 0; i < 4; ++i)
+    if (borders_[i].fitted) followers_[i].keep(image, lens, meanSide(quad));
+}
+
+double BorderQuartet::quality() const {
+  double sum = 0.0;
+  for (const FollowedBorder& border : borders_)
+    if (border.fitted) sum += std::max(0.0, border.similarity) * std::min(1.0, border.inliers / kGoodInliers);
+  return sum / std::max(1, in_view_);
+}
+
+}  // namespace window_ingress::detection

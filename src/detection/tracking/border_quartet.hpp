@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+
+#include "detection/tracking/border_follower.hpp"
+#include "detection/tracking/quad_motion.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+
+namespace window_ingress::detection {
+
+/// The four borders of the tracked window, followed together.
+class BorderQuartet {
+ public:
+  explicit BorderQuartet(const TrackParams& track);
+
+  /// Takes the borders of a window that was just found as what is to be followed.
+  void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
+
+  /// Looks for all of them round the prediction; corrects it by what was found.
+  /// \return true if enough of the borders in view are found, and the shape changed as a window's can
+  bool follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion);
+
+  /// Borders and corners as followed last, in canonical order, pixels of the image as it came.
+  void describe(const cv::Mat& image, const geometry::PinholeCamera* lens, const QuadMotion& motion,
+                WindowObservation& window) const;
+  /// Takes them into memory.
+  void keep(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
+
+  int inView() const { return in_view_; }
+  int fitted() const { return fitted_; }
+  double quality() const;  ///< mean agreement of the borders in view, 0 to 1
+  const FollowedBorder& border(int side) const { return borders_[side]; }
+
+ private:
+  bool keepsShape(const QuadMotion& motion) const;
+  void placeCorners(QuadMotion& motion) const;
+
+  std::array<BorderFollower, 4> followers_;
+  std::array<FollowedBorder, 4> borders_;
+  int in_view_ = 0, fitted_ = 0;
+};
+
+}  // namespace window_ingress::detection

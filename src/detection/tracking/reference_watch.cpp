@@ -1,0 +1,87 @@
+#include "detection/tracking/reference_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "detection/quads.hpp"
+#include "detection/tracking/image_sequence.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kAdaptation = 0.1;   ///< part of a difference in appearance that a comparison takes over
+constexpr double kSureWorth = 0.3;    // of the reference's borders, to say where they are
+constexpr double kAlignedPx = 100.0;  // resolution of a ring [px a mean side]
+constexpr int kAlignEvery = 3;        // frames
+constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
+
+}  // namespace
+
+void ReferenceWatch::setParams(const DetectorParams& params) {
+  params_ = params;
+  learnBorders();
+}
+
+void ReferenceWatch::setReference(std::shared_ptr<ReferenceAppearance> reference) {
+  reference_ = std::move(reference);
+  learnBorders();
+}
+
+void ReferenceWatch::learnBorders() {
+  borders_.reset();
+  if (!reference_) return;
+  borders_ = std::make_unique<ReferenceBorders>();
+  borders_->learn(reference_->picture(), reference_->opening());
+  ring_.forget();
+  if (reference_->openingIsKnown()) ring_.learn(reference_->picture(), reference_->opening());
+}
+
+void ReferenceWatch::start() {
+  restart();
+  frames_to_comparison_ = params_.track.appearance_every;
+}
+
+std::optional<geometry::Quadrilateral> ReferenceWatch::align(const TrackInput& input,
+                                                             const geometry::Quadrilateral& followed) {
+  if (!ring_.known() || input.image.channels() != ring_.channels() || --frames_to_alignment_ > 0)
+    return std::nullopt;
+  frames_to_alignment_ = kAlignEvery;
+  alignment_.set(ring_, input.image, input.camera);
+  const auto found = alignment_.align(followed, kAlignedPx);
+  if (!found || found->match.correlation < params_.min_correlation) return std::nullopt;
+  if (borders_->frameless()) return found->quad;
+  const auto located = borders_->locate(input.image, found->quad, input.camera, ReferenceBorders::kFine);
+  if (!located || located->worth < kSureWorth) return std::nullopt;
+  if (furthestCorner(located->quad, followed) <= std::max(kLeastStrayPx, kStray * sizeOf(followed)))
+    return std::nullopt;
+  return located->quad;
+}
+
+bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
+  if (borders_->frameless()) return false;
+  const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
+  if (!found || found->worth < kSureWorth) return false;
+  return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
+}
+
+bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral& followed,
+                          WindowObservation& window) {
+  agreed_ = compared_ = false;
+  if (!reference_ || --frames_to_comparison_ > 0) return true;
+  frames_to_comparison_ = params_.track.appearance_every;
+  const bool in_place = !strays(input, followed);
+  if (!window.whole()) return in_place;
+  const auto match = reference_->compare(input.image, window.corners, params_.appearance);
+  window.has_appearance = match.has_value();
+  window.bhattacharyya = match ? match->distance : 0.0;
+  compared_ = window.has_appearance;
+  unlike_ = match && match->distance > match->limit;
+  agreed_ = match && !unlike_;
+  return in_place && !unlike_;
+}
+
+void ReferenceWatch::adapt(const TrackInput& input, const WindowObservation& window) {
+  reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
+}
+
+}  // namespace window_ingress::detection

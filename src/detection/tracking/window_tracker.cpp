@@ -1,0 +1,213 @@
+#include "window_ingress/detection/window_tracker.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "detection/quads.hpp"
+#include "detection/tracking/window_tracker_impl.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kReshape = 0.25;        ///< unforeseen change of its size and roll [window sides/s]
+constexpr double kWarp = 0.08;           ///< unforeseen change of aspect, skew and keystone [window sides/s]
+constexpr double kAdaptCertainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
+constexpr double kKnownTurn =
+    0.5;  ///< part of the unforeseen motion that is left where the attitude is known
+constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
+constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
+constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
+constexpr double kLeastMovePx = 1.5,
+                 kLeastMove = 0.012;  // of a corner, to be led by the wall; in the window's sizes
+constexpr double kAlignedSigmaPx = 1.0,
+                 kAlignedStrayPx = 2.0;  // of borders from where the wall says they are
+constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
+
+}  // namespace
+
+void WindowTracker::Impl::begin(const TrackInput& input) {
+  was_searched = false;
+  if (!pictures.take(input)) forgetTrack();
+  place_is_expected =
+      input.expected && geometry::isFinite(*input.expected) && geometry::isConvex(*input.expected);
+  if (place_is_expected) heedExpected(input);
+  if (has_motion) predict();
+}
+
+// What is followed there stays; what is followed elsewhere does not.
+void WindowTracker::Impl::heedExpected(const TrackInput& input) {
+  const Quadrilateral place = undistorted(*input.expected, pictures.lens());
+  if (tracking) {
+    frames_elsewhere = identity.isSame(motion.quad(), place) ? 0 : frames_elsewhere + 1;
+    if (frames_elsewhere < kElsewhereFrames) return;
+    forgetTrack();
+    identity.change();
+  }
+  frames_elsewhere = 0;
+  identity.expect(input.stamp_sec);
+  motion.start(place, kExpectedSigma * pictures.longerSide());
+  has_motion = true;
+}
+
+// An attitude that jitters by more than what is unforeseen without it is worse than none.
+bool WindowTracker::Impl::knowsTurn() const {
+  return pictures.turn() &&
+         pictures.turnSigmaPx() < params.track.turn * pictures.longerSide() * pictures.elapsedSec();
+}
+
+QuadSpread WindowTracker::Impl::spread() const {
+  const double side = sizeOf(motion.quad()), elapsed_sec = pictures.elapsedSec();
+  const double unforeseen_px = pictures.longerSide() * elapsed_sec;
+  const double place_px =
+      knowsTurn() ? std::hypot(kKnownTurn * params.track.turn * unforeseen_px, pictures.turnSigmaPx())
+                  : params.track.turn * unforeseen_px;
+  return {place_px, kReshape * side * elapsed_sec, kWarp * side * elapsed_sec};
+}
+
+void WindowTracker::Impl::predict() {
+  motion.predict(knowsTurn() ? *pictures.turn() : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
+                 pictures.elapsedSec(), spread());
+}
+
+bool WindowTracker::Impl::follow(const TrackInput& input) {
+  const bool found = quartet.follow(input.image, pictures.lens(), motion);
+  const double quality = found ? quartet.quality() * (reference.isUnlike() ? kUnlikePart : 1.0) : 0.0;
+  certainty += kQualityRate * (quality - certainty);
+  if (!found || certainty < kMinCertainty) return false;
+  motion.settle(pictures.elapsedSec());
+  quartet.keep(input.image, pictures.lens(), motion.quad());
+  quartet.describe(input.image, pictures.lens(), motion, window);
+  identity.follow(input.stamp_sec);
+  window.stamp_sec = input.stamp_sec;
+  window.target_id = identity.id();
+  watch(input);
+  window.score = std::clamp(certainty, 0.0, 1.0);
+  return true;
+}
+
+void WindowTracker::Impl::watch(const TrackInput& input) {
+  if (quartet.inView() < 4) return;
+  if (!reference.look(input, distorted(motion.quad(), pictures.lens()), window)) opinion.doubt();
+  if (reference.hasAgreed() && opinion.isConfirmed() && certainty > kAdaptCertainty && quartet.fitted() == 4)
+    reference.adapt(input, window);
+  if (reference.hasCompared() && opinion.isConfirmed()) likeness.note(window.bhattacharyya, input.stamp_sec);
+}
+
+// Textures beside a border are followed easily for it: where the wall says that the borders are elsewhere,
+// those there are followed from now on.
+void WindowTracker::Impl::realign(const TrackInput& input) {
+  if (quartet.inView() < 4) return;
+  const Quadrilateral followed = distorted(motion.quad(), pictures.lens());
+  const auto expected = reference.align(input, followed);
+  if (!expected ||
+      furthestCorner(*expected, followed) < std::max(kLeastMovePx, kLeastMove * sizeOf(followed)))
+    return;
+  BorderStart start;
+  start.quad = *expected;
+  start.fallback_sigma_px = kAlignedSigmaPx;
+  start.max_stray_px = kAlignedStrayPx;
+  const auto borders = refinement.run(input.image, start, input.camera);
+  if (!borders || borders->fitted < 3) return;
+  const Quadrilateral quad = undistorted(borders->corners, pictures.lens());
+  motion.place(quad);
+  quartet.learn(input.image, pictures.lens(), quad);
+  window.corners = borders->corners;
+  window.corner_visible.fill(true);
+  window.corner_covariance = borders->corner_covariance;
+  window.edges = borders->edges;
+}
+
+// So near that no two sides are in view: the window is where it must be, for a while.
+bool WindowTracker::Impl::surrounds(const TrackInput& input) {
+  if (quartet.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec) ||
+      !geometry::contains(motion.quad(), {0.5 * pictures.size().width, 0.5 * pictures.size().height}))
+    return false;
+  refuse(RejectReason::kBorder,
+         std::to_string(quartet.inView()) + " of 4 sides in view: the picture lies within the window");
+  own_trace.candidates.clear();
+  return true;
+}
+
+std::optional<WindowObservation> WindowTracker::Impl::updated(const TrackInput& input) {
+  begin(input);
+  const bool followed = tracking && follow(input);
+  done(detector.watch(), Stage::kTrack);
+  if (followed) {
+    realign(input);
+    has_own_trace = true;
+    traceFollowed(window, own_trace);
+    if (auto whole = complete(input)) return whole;
+    if (auto other = askSearch(input)) return other;
+    return window;
+  }
+  if (tracking && surrounds(input)) return std::nullopt;
+  tracking = false;
+  return search(input);
+}
+
+WindowTracker::WindowTracker(const DetectorParams& params) : impl_(std::make_unique<Impl>(params)) {}
+WindowTracker::~WindowTracker() = default;
+
+void WindowTracker::setParams(const DetectorParams& params) {
+  impl_->detector.setParams(params);
+  impl_->params = params;
+  impl_->refinement = BorderRefinement();
+  impl_->quartet = BorderQuartet(params.track);
+  const TargetIdentity before = impl_->identity;
+  impl_->identity = TargetIdentity(params.track, before.id());
+  impl_->opinion = SecondOpinion(params.track);
+  impl_->reference.setParams(params);
+  impl_->pictures = ImageSequence(params.track.max_gap_sec);
+  impl_->likeness = KnownLikeness();
+  impl_->forget();
+}
+
+void WindowTracker::setReference(const ReferenceAppearance& reference) {
+  const auto shared = std::make_shared<ReferenceAppearance>(reference);
+  impl_->detector.shareReference(shared);
+  impl_->reference.setReference(shared);
+  impl_->likeness.forget();
+  impl_->forget();
+}
+
+void WindowTracker::clearReference() {
+  impl_->reference.setReference(nullptr);
+  impl_->detector.clearReference();
+  impl_->likeness.forget();
+  impl_->forget();
+}
+
+void WindowTracker::setWatch(StageWatch* watch) { impl_->detector.setWatch(watch); }
+
+void WindowTracker::reset() {
+  impl_->likeness.forget();
+  impl_->forget();
+}
+
+std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) {
+  if (!isPicture(input.image) || !std::isfinite(input.stamp_sec)) {
+    impl_->forget();
+    impl_->has_own_trace = false;
+    impl_->windows.clear();
+    return impl_->detector.detect(input.image, input.stamp_sec, input.camera);
+  }
+  auto window = impl_->updated(input);
+  impl_->survey(input, window);
+  return window;
+}
+
+const std::vector<SeenWindow>& WindowTracker::windows() const { return impl_->windows; }
+
+const DetectionTrace& WindowTracker::trace() const {
+  return impl_->has_own_trace ? impl_->own_trace : impl_->detector.trace();
+}
+
+double WindowTracker::referenceDrift() const { return impl_->reference.drift(); }
+
+bool WindowTracker::tracking() const { return impl_->tracking; }
+
+}  // namespace window_ingress::detection

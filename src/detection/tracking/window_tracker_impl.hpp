@@ -1,0 +1,83 @@
+/// What a tracker consists of; its methods that follow are in window_tracker.cpp, those that search in
+/// window_tracker_search.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "detection/tracking/border_quartet.hpp"
+#include "detection/tracking/image_sequence.hpp"
+#include "detection/tracking/reference_watch.hpp"
+#include "detection/tracking/track_confirmation.hpp"
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
+
+namespace window_ingress::detection {
+
+constexpr double kMinCertainty = 0.4;  ///< below this the track is given up and the window searched, 0 to 1
+
+struct WindowTracker::Impl {
+  explicit Impl(const DetectorParams& p)
+      : params(p),
+        detector(p),
+        pictures(p.track.max_gap_sec),
+        reference(p),
+        motion(),
+        quartet(p.track),
+        identity(p.track),
+        opinion(p.track) {}
+
+  void begin(const TrackInput& input);
+  void heedExpected(const TrackInput& input);
+  std::optional<WindowObservation> lookForWindow(const TrackInput& input);
+  std::optional<WindowObservation> updated(const TrackInput& input);
+  void survey(const TrackInput& input, const std::optional<WindowObservation>& target);
+  void predict();
+  bool knowsTurn() const;
+  QuadSpread spread() const;
+  bool follow(const TrackInput& input);
+  void watch(const TrackInput& input);
+  void realign(const TrackInput& input);
+  std::optional<WindowObservation> search(const TrackInput& input);
+  std::optional<WindowObservation> amongOthers(const TrackInput& input, const WindowObservation& found);
+  void take(const TrackInput& input, WindowObservation& found, bool is_same);
+  void refuse(RejectReason reason, const std::string& detail) {
+    has_own_trace = true;
+    traceRefused(detector.trace(), reason, detail, own_trace);
+  }
+  std::optional<WindowObservation> complete(const TrackInput& input);
+  std::optional<WindowObservation> askSearch(const TrackInput& input);
+  bool surrounds(const TrackInput& input);
+  void forgetTrack() {
+    identity.forget();
+    has_motion = tracking = false;
+  }
+  void forget() {
+    forgetTrack();
+    pictures.forget();
+  }
+
+  DetectorParams params;
+  WindowDetector detector;
+  BorderRefinement refinement;
+  ImageSequence pictures;
+  ReferenceWatch reference;
+  QuadMotion motion;
+  BorderQuartet quartet;
+  TargetIdentity identity;
+  KnownLikeness likeness;
+  SecondOpinion opinion;
+  WindowObservation window;  // as followed last
+  DetectionTrace own_trace;  // where the search's does not tell what happened
+  double certainty = 0.0;
+  std::vector<SeenWindow> windows;
+  double searched_sec = 0.0;
+  int frames_to_completion = 0, frames_elsewhere = 0;
+  bool was_searched = false, place_is_expected = false;
+  bool tracking = false, has_motion = false, has_own_trace = false;
+};
+
+}  // namespace window_ingress::detection

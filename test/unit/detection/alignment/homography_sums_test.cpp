@@ -1,0 +1,33 @@
+#include "detection/alignment/homography_sums.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace window_ingress::detection {
+namespace {
+
+TEST(HomographySums, AreWhatTheDerivativesAddUpTo) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(-0.7F, 0.7F);
+  NormalSum normal;
+  DerivativeSum sum;
+  Matrix8f expected_normal = Matrix8f::Zero();
+  Vector8f expected_sum = Vector8f::Zero();
+  for (int i = 0; i < 50; ++i) {
+    const float x = uniform(random), y = uniform(random), a = uniform(random), b = uniform(random),
+                weight = 1.0F + uniform(random);
+    const Monomials m = monomialsOf(x, y);
+    normal.add(m.data(), weight * a * a, weight * a * b, weight * b * b);
+    sum.add(m.data(), weight * a, weight * b);
+    Vector8f J;  // of the slope (a, b) at (x, y)
+    J << a * x, a * y, a, b * x, b * y, b, -(a * x + b * y) * x, -(a * x + b * y) * y;
+    expected_normal += weight * J * J.transpose();
+    expected_sum += weight * J;
+  }
+  EXPECT_TRUE(normal.matrix().isApprox(expected_normal, 1e-4F));
+  EXPECT_TRUE(sum.vector().isApprox(expected_sum, 1e-4F));
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

@@ -1,0 +1,155 @@
+#include "detection/alignment/ring_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "patched_wall.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using geometry::Quadrilateral;
+using test::PatchedWall;
+using test::seenFrom;
+
+/// A reference picture, and views of the same wall.
+struct Scene {
+  explicit Scene(const PatchedWall& drawn) : wall(drawn) {
+    Quadrilateral opening;
+    const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &opening);
+    model.learn(picture, opening);
+  }
+  void look(const Eigen::Isometry3d& from, cv::Scalar within = cv::Scalar(20, 40, 30)) {
+    image = wall.draw(from, &opening, within);
+    test::addNoise(image, 2.0, 7);
+  }
+  double found(double off_px) {
+    RingAlignment alignment;
+    alignment.set(model, image, nullptr);
+    Quadrilateral start = opening;
+    start[0] += Eigen::Vector2d(off_px, -off_px), start[2] += Eigen::Vector2d(-0.5 * off_px, off_px);
+    const auto aligned = alignment.align(start, 400.0);
+    if (!aligned) return 1e9;
+    correlation = aligned->match.correlation;
+    return test::worstCorner(aligned->quad, opening);
+  }
+
+  PatchedWall wall;
+  RingModel model;
+  cv::Mat image;
+  Quadrilateral opening;
+  double correlation = 0.0;
+};
+
+TEST(RingAlignment, FindsTheCornersOfAHoleWithoutAFrameToAFractionOfAPixel) {
+  Scene scene{PatchedWall(3)};
+  for (double yaw : {-0.6, 0.0, 0.6})
+    for (double distance : {2.0, 3.5, 6.0}) {
+      scene.look(seenFrom(distance, yaw, 0.1, -0.05));
+      EXPECT_LT(scene.found(4.0), 0.25) << distance << " m, " << yaw << " rad";
+      EXPECT_GT(scene.correlation, 0.8);
+    }
+}
+
+TEST(RingAlignment, WhatLiesWithinTheOpeningCountsNothing) {
+  Scene scene{PatchedWall(3, 0.07)};
+  scene.look(seenFrom(3.0, 0.3), cv::Scalar(250, 240, 230));
+  EXPECT_LT(scene.found(3.0), 0.25);
+  const double bright = scene.correlation;
+  scene.look(seenFrom(3.0, 0.3), cv::Scalar(0, 0, 0));
+  EXPECT_LT(scene.found(3.0), 0.25);
+  EXPECT_NEAR(scene.correlation, bright, 0.03);
+}
+
+TEST(RingAlignment, ACastShadowAcrossTheRingChangesNothing) {
+  Scene scene{PatchedWall(5)};
+  scene.look(seenFrom(2.5, 0.2));
+  for (int y = 0; y < scene.image.rows; ++y)
+    for (int x = 0; x < scene.image.cols; ++x)
+      if (x + y / 2 < 420) {
+        cv::Vec3b& pixel = scene.image.at<cv::Vec3b>(y, x);
+        pixel = cv::Vec3b(cv::saturate_cast<uchar>(0.55 * pixel[0]), cv::saturate_cast<uchar>(0.5 * pixel[1]),
+                          cv::saturate_cast<uchar>(0.45 * pixel[2]));
+      }
+  EXPECT_LT(scene.found(3.0), 0.2);
+  EXPECT_GT(scene.correlation, 0.7);
+}
+
+TEST(RingAlignment, AThirdOfTheRingMayBeCovered) {
+  Scene scene{PatchedWall(6)};
+  scene.look(seenFrom(2.5, -0.2));
+  test::fillQuad(scene.image,
+                 test::rectangle(0, geometry::centroid(scene.opening).y(), scene.opening[0].x() + 60, 480),
+                 cv::Scalar(40, 90, 60));
+  EXPECT_LT(scene.found(3.0), 0.3);
+  EXPECT_GT(scene.correlation, 0.5);
+}
+
+TEST(RingAlignment, ExposureAndWhiteBalanceChangeNothing) {
+  Scene scene{PatchedWall(7)};
+  scene.look(seenFrom(3.0, 0.2));
+  cv::multiply(scene.image, cv::Scalar(0.8, 0.6, 0.5), scene.image);
+  EXPECT_LT(scene.found(3.0), 0.25);
+  EXPECT_GT(scene.correlation, 0.8);
+}
+
+TEST(RingAlignment, AnotherWallDoesNotFit) {
+  Scene scene{PatchedWall(3)}, other{PatchedWall(4)};
+  for (double yaw : {-0.4, 0.0, 0.4}) {
+    other.look(seenFrom(3.0, yaw));
+    RingAlignment alignment;
+    alignment.set(scene.model, other.image, nullptr);
+    const auto aligned = alignment.align(other.opening, 400.0);
+    EXPECT_LT(aligned ? aligned->match.correlation : 0.0, 0.4);
+    EXPECT_LT(alignment.compare(other.opening, 28.0).correlation, 0.3);
+  }
+}
+
+TEST(RingAlignment, LensesAreSeenThrough) {
+  Scene scene{PatchedWall(8)};
+  geometry::PinholeCamera camera = PatchedWall::lensless();
+  scene.look(seenFrom(2.5, 0.3));
+  camera.distortion = {-0.25, 0.06, 0.0, 0.0, 0.0};
+  cv::Mat x(scene.image.size(), CV_32F), y(scene.image.size(), CV_32F), bent;
+  for (int row = 0; row < x.rows; ++row)
+    for (int column = 0; column < x.cols; ++column) {
+      const Eigen::Vector2d ideal = camera.undistort(Eigen::Vector2d(column, row));
+      x.at<float>(row, column) = static_cast<float>(ideal.x()),
+                       y.at<float>(row, column) = static_cast<float>(ideal.y());
+    }
+  cv::remap(scene.image, bent, x, y, cv::INTER_CUBIC);
+  Quadrilateral seen = scene.opening, start;
+  for (int i = 0; i < 4; ++i)
+    seen[i] = camera.distort(seen[i]), start[i] = seen[i] + Eigen::Vector2d(3.0, -2.0);
+  RingAlignment alignment;
+  alignment.set(scene.model, bent, &camera);
+  const auto aligned = alignment.align(start, 400.0);
+  ASSERT_TRUE(aligned);
+  EXPECT_LT(test::worstCorner(aligned->quad, seen), 0.25);
+}
+
+TEST(RingModel, WhatTheReferenceDoesNotShowIsLeftOut) {
+  Quadrilateral opening;
+  const cv::Mat picture = PatchedWall(3).draw(seenFrom(2.5, 0.0), &opening);
+  const int top = static_cast<int>(opening[0].y()) - 4;  // next to nothing above the opening
+  Quadrilateral cut = opening;
+  for (auto& corner : cut) corner.y() -= top;
+  RingModel whole, part;
+  whole.learn(picture, opening);
+  part.learn(picture.rowRange(top, picture.rows), cut);
+  ASSERT_TRUE(whole.known() && part.known());
+  EXPECT_LT(part.level(24.0).size(), 0.85 * whole.level(24.0).size());
+  EXPECT_GT(part.level(24.0).size(), 0.5 * whole.level(24.0).size());
+  for (float y : part.level(24.0).y) EXPECT_GT(y, -0.6F);
+}
+
+TEST(RingModel, NothingIsLearnedFromWhatIsNoPicture) {
+  RingModel model;
+  model.learn(cv::Mat(), test::rectangle(0, 0, 10, 10));
+  EXPECT_FALSE(model.known());
+  model.learn(cv::Mat(100, 100, CV_8UC3), {Eigen::Vector2d(20, 20), Eigen::Vector2d(80, 80),
+                                           Eigen::Vector2d(80, 20), Eigen::Vector2d(20, 80)});
+  EXPECT_FALSE(model.known());
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

@@ -1,0 +1,170 @@
+#include "detection/alignment/ring_judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include "detection/tracking/reference_watch.hpp"
+#include "patched_wall.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using geometry::Quadrilateral;
+using test::PatchedWall;
+using test::seenFrom;
+
+ScoredCandidate rough(const Quadrilateral& quad, double score = 0.7) {
+  ScoredCandidate rival;
+  rival.quad = quad;
+  rival.score = score;
+  return rival;
+}
+
+/// A judge that knows one wall, before a view of it.
+struct Known {
+  explicit Known(const PatchedWall& wall) {
+    Quadrilateral corners;
+    const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
+    judge.learn(picture, corners);
+    image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
+  }
+  RingJudge judge;
+  cv::Mat image;
+  Quadrilateral opening;
+};
+
+TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
+  Known known{PatchedWall(3)};
+  std::vector<ScoredCandidate> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
+                                         rough(test::grown(known.opening, 3.0), 0.3)};
+  const auto& found = known.judge.align(known.image, nullptr, rivals);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
+  EXPECT_GT(*found[0].correlation, 0.8);
+  EXPECT_TRUE(found[0].located);
+  EXPECT_LT(found.size() > 1 ? *found[1].correlation : 0.0, 0.5);
+}
+
+TEST(RingJudge, LoopsOfOnePlaceGiveOne) {
+  Known known{PatchedWall(3)};
+  std::vector<ScoredCandidate> rivals;
+  for (double grown : {-3.0, 0.0, 2.0, 4.0}) rivals.push_back(rough(test::grown(known.opening, grown)));
+  EXPECT_EQ(known.judge.align(known.image, nullptr, rivals).size(), 1U);
+}
+
+TEST(RingJudge, NothingIsKnownBeforeAReference) {
+  RingJudge judge;
+  std::vector<ScoredCandidate> rivals = {rough(test::rectangle(9, 9, 50, 50))};
+  EXPECT_FALSE(judge.known());
+  EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
+}
+
+TrackInput inputOf(const cv::Mat& image) {
+  TrackInput input;
+  input.image = image;
+  return input;
+}
+
+// Of three looks one compares.
+std::optional<Quadrilateral> aligned(const PatchedWall& wall, const Quadrilateral& followed,
+                                     const cv::Mat& image) {
+  Quadrilateral corners;
+  const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
+  ReferenceWatch watch{DetectorParams()};
+  watch.setReference(std::make_shared<ReferenceAppearance>(picture, corners));
+  std::optional<Quadrilateral> found;
+  for (int i = 0; i < 3 && !found; ++i) found = watch.align(inputOf(image), followed);
+  return found;
+}
+
+TEST(ReferenceWatch, TheWallSaysWhereTheBordersOfAHoleAre) {
+  const PatchedWall wall(3, 0.0, 25.0);
+  const Known known{wall};
+  Quadrilateral followed = known.opening;  // its left border on something beside it
+  followed[0].x() -= 7.0, followed[3].x() -= 7.0;
+  const auto found = aligned(wall, followed, known.image);
+  ASSERT_TRUE(found);
+  EXPECT_LT(test::worstCorner(*found, known.opening), 0.5);
+  EXPECT_FALSE(aligned(PatchedWall(4, 0.0, 25.0), followed, known.image)) << "of another wall";
+}
+
+TEST(ReferenceWatch, TheWallLeadsToAFrameThatWasLeft) {
+  const PatchedWall framed(3, 0.07, 25.0);
+  const Known known{framed};
+  EXPECT_FALSE(aligned(framed, known.opening, known.image)) << "it is in its place";
+  Quadrilateral followed = known.opening;
+  followed[0].x() -= 8.0, followed[3].x() -= 8.0;
+  const auto found = aligned(framed, followed, known.image);
+  ASSERT_TRUE(found);
+  EXPECT_LT(test::worstCorner(*found, known.opening), 2.5);
+}
+
+/// What the detector makes of views of a wall, with a picture of it as reference.
+struct Detected {
+  explicit Detected(const PatchedWall& wall) : detector(DetectorParams()) {
+    Quadrilateral corners;
+    const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
+    detector.setReference(ReferenceAppearance(picture, corners));
+  }
+  std::optional<WindowObservation> look(const PatchedWall& wall, double yaw_rad, Quadrilateral* opening) {
+    cv::Mat image = wall.draw(seenFrom(3.0, yaw_rad), opening, cv::Scalar(30, 40, 35));
+    if (evening) shine(image, *opening);
+    test::addNoise(image, 2.0, 3);
+    const geometry::PinholeCamera camera = PatchedWall::lensless();
+    return detector.detect(image, 0.0, &camera);
+  }
+  // Light of another colour, and a shadow over the right half of the window.
+  static void shine(cv::Mat& image, const Quadrilateral& opening) {
+    cv::multiply(image, cv::Scalar(0.6, 0.8, 1.1), image);
+    const int from = static_cast<int>(geometry::centroid(opening).x());
+    cv::Mat dark = image.colRange(from, image.cols);
+    dark *= 0.5;
+  }
+  WindowDetector detector;
+  bool evening = false;
+};
+
+TEST(WindowDetector, AFrameInOtherLightIsKnownByItsContrasts) {
+  PatchedWall wall(3, 0.07, 15.0);
+  Detected detected(wall);
+  detected.evening = true;
+  for (double yaw : {-0.5, 0.0, 0.5}) {
+    Quadrilateral opening;
+    const auto window = detected.look(wall, yaw, &opening);
+    ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
+    EXPECT_LT(test::worstCorner(window->corners, opening), 0.5) << yaw;
+    wall.paint = cv::Scalar(60, 140, 60);
+    EXPECT_FALSE(detected.look(wall, yaw, &opening)) << yaw << ": painted green";
+    wall.paint = PatchedWall(3).paint;
+  }
+}
+
+TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
+  const PatchedWall wall(3, 0.0, 25.0);
+  Detected detected(wall);
+  for (double yaw : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
+    Quadrilateral opening;
+    const auto window = detected.look(wall, yaw, &opening);
+    ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
+    EXPECT_LT(test::worstCorner(window->corners, opening), 0.3) << yaw;
+    EXPECT_GT(window->correlation, 0.7);
+    EXPECT_LT(window->runner_up, 0.55) << "nothing else is like it";
+  }
+}
+
+TEST(WindowDetector, AHoleInAnotherWallIsNotTheTarget) {
+  Detected detected(PatchedWall(3, 0.0, 25.0));
+  Quadrilateral opening;
+  EXPECT_FALSE(detected.look(PatchedWall(4, 0.0, 25.0), 0.2, &opening));
+  EXPECT_EQ(detected.detector.trace().outcome, RejectReason::kUnlike);
+}
+
+TEST(WindowDetector, AWallThatWasClosedIsNoWindow) {
+  PatchedWall wall(3, 0.0, 25.0);
+  Detected detected(wall);
+  wall.is_open = false;
+  for (double yaw : {-0.3, 0.0, 0.3}) EXPECT_FALSE(detected.look(wall, yaw, nullptr)) << yaw;
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

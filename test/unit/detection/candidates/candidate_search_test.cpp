@@ -1,0 +1,97 @@
+#include "detection/candidates/candidate_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "drawn_window.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+test::WindowPicture framed(double scale = 1.0) {
+  test::WindowPicture picture;
+  picture.width = static_cast<int>(640 * scale), picture.height = static_cast<int>(480 * scale);
+  picture.opening = test::rectangle(200.3 * scale, 150.2 * scale, 420.4 * scale, 330.1 * scale);
+  picture.frame_px = 14.0 * scale;
+  return picture;
+}
+
+bool holds(const std::vector<ScoredCandidate>& rivals, const geometry::Quadrilateral& quad,
+           double within_px) {
+  return std::any_of(rivals.begin(), rivals.end(), [&](const ScoredCandidate& rival) {
+    return test::worstCorner(rival.quad, quad) < within_px;
+  });
+}
+
+TEST(CandidateSearch, OneSetOfParametersServesAllImageSizes) {
+  CandidateSearch search{DetectorParams()};
+  for (double scale : {0.5, 1.0, 2.0, 3.0}) {
+    DetectionTrace trace;
+    const auto picture = framed(scale);
+    const auto rivals = search.run(picture.draw(), nullptr, trace);
+    EXPECT_TRUE(holds(rivals, picture.opening, 3.0 * search.factor())) << "inner, scale " << scale;
+    EXPECT_TRUE(holds(rivals, test::grown(picture.opening, picture.frame_px), 3.0 * search.factor()))
+        << scale;
+    EXPECT_FALSE(trace.budget_exceeded);
+  }
+}
+
+TEST(CandidateSearch, BestFirstAndNoMoreThanAsked) {
+  DetectorParams params;
+  params.max_candidates = 3;
+  DetectionTrace trace;
+  const auto rivals = CandidateSearch(params).run(framed().draw(), nullptr, trace);
+  ASSERT_EQ(rivals.size(), 3u);
+  EXPECT_GE(rivals[0].rank(), rivals[1].rank());
+  EXPECT_GE(rivals[1].rank(), rivals[2].rank());
+  for (const CandidateTrace& candidate : trace.candidates) EXPECT_NE(candidate.reject, RejectReason::kNone);
+}
+
+TEST(CandidateSearch, AFineGratingStaysWithinItsBudget) {
+  cv::Mat grating(480, 640, CV_8UC1);
+  for (int y = 0; y < grating.rows; ++y)
+    for (int x = 0; x < grating.cols; ++x) grating.at<uchar>(y, x) = (x / 8 + y / 8) % 2 ? 230 : 20;
+  DetectionTrace trace;
+  const auto rivals = CandidateSearch(DetectorParams()).run(grating, nullptr, trace);
+  EXPECT_LE(static_cast<int>(rivals.size()), DetectorParams().max_candidates);
+}
+
+// Bright and dark patches everywhere, and a ring that differs in hue only.
+cv::Mat hueAmongPatches(const geometry::Quadrilateral& opening) {
+  cv::Mat image(480, 640, CV_8UC3), ring(480, 640, CV_8UC1, cv::Scalar(0));
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> grey(60, 190), at(0, 640), size(6, 40);
+  image.setTo(cv::Scalar::all(128));
+  for (int n = 0; n < 1500; ++n)
+    cv::rectangle(image, cv::Rect(at(random), at(random), size(random), size(random)),
+                  cv::Scalar::all(grey(random)), cv::FILLED);
+  test::fillQuad(ring, test::grown(opening, 24.0), cv::Scalar(255));
+  test::fillQuad(ring, opening, cv::Scalar(0));
+  cv::add(image, cv::Scalar(-30, 0, 30), image, ring);
+  return image;
+}
+
+TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
+  const auto opening = test::rectangle(200, 150, 420, 330);
+  const cv::Mat image = hueAmongPatches(opening);
+  CandidateSearch search{DetectorParams()};
+  DetectionTrace trace;
+  const bool at_once = holds(search.run(image, nullptr, trace), opening, 6.0);
+  EXPECT_FALSE(at_once) << "the picture is too easy for this test";
+  EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
+}
+
+TEST(CandidateSearch, AGreyPictureHasNoColours) {
+  cv::Mat grey;
+  cv::cvtColor(framed().draw(), grey, cv::COLOR_BGR2GRAY);
+  CandidateSearch search{DetectorParams()};
+  DetectionTrace trace;
+  EXPECT_FALSE(search.run(grey, nullptr, trace).empty());
+  EXPECT_TRUE(search.runOnColours(trace).empty());
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

@@ -1,0 +1,78 @@
+#include "detection/candidates/nested_quads.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "drawn_window.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+const auto kOpening = test::rectangle(100, 80, 220, 170);
+
+cv::Mat framed() {
+  test::WindowPicture picture;
+  picture.width = 320, picture.height = 240, picture.opening = kOpening, picture.frame_px = 10;
+  return picture.draw();
+}
+
+std::vector<NestedVerdict> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {
+  return nestedVerdicts(image, loops, std::vector<double>(loops.size(), 1.0), 1.0);
+}
+
+TEST(NestedLoops, TheInnerBorderOfAFrameWins) {
+  const auto verdicts = judge(framed(), {test::grown(kOpening, 10), kOpening});
+  EXPECT_EQ(verdicts[0].reject, RejectReason::kOuterBorder);
+  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+}
+
+TEST(NestedLoops, TheBackBorderOfTheRevealLoses) {
+  cv::Mat image = framed();
+  test::fillQuad(image, kOpening, cv::Scalar(120, 120, 125));
+  test::fillQuad(image, test::grown(kOpening, -8), cv::Scalar(40, 40, 40));
+  const auto verdicts = judge(image, {test::grown(kOpening, 10), kOpening, test::grown(kOpening, -8)});
+  EXPECT_EQ(verdicts[0].reject, RejectReason::kOuterBorder);
+  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[2].reject, RejectReason::kPane);
+}
+
+TEST(NestedLoops, WithoutAFrameTheFrontWinsOverTheBack) {
+  cv::Mat image(240, 320, CV_8UC3, cv::Scalar(150, 165, 175));
+  const auto back = test::rectangle(112, 84, 216, 164);
+  test::fillQuad(image, kOpening, cv::Scalar(90, 95, 100));
+  image(cv::Rect(100, 80, 60, 6)).setTo(cv::Scalar(200, 200, 210));
+  image(cv::Rect(100, 164, 120, 6)).setTo(cv::Scalar(220, 220, 225));
+  test::fillQuad(image, back, cv::Scalar(30, 30, 30));
+  const auto verdicts = judge(image, {back, kOpening});
+  EXPECT_EQ(verdicts[0].reject, RejectReason::kPane);
+  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+}
+
+TEST(NestedLoops, PanesBetweenMullionsLose) {
+  cv::Mat image = framed();
+  const auto left = test::rectangle(100, 80, 156, 170), right = test::rectangle(164, 80, 220, 170);
+  image(cv::Rect(156, 80, 8, 90)).setTo(cv::Scalar(50, 140, 215));
+  const auto verdicts = judge(image, {left, right, kOpening});
+  EXPECT_EQ(verdicts[0].reject, RejectReason::kPane);
+  EXPECT_EQ(verdicts[1].reject, RejectReason::kPane);
+  EXPECT_EQ(verdicts[2].reject, RejectReason::kNone);
+}
+
+TEST(NestedLoops, LoopsApartDoNotMatterToEachOther) {
+  const auto verdicts = judge(framed(), {kOpening, test::rectangle(10, 10, 60, 50)});
+  EXPECT_EQ(verdicts[0].reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
+  EXPECT_TRUE(judge(framed(), {}).empty());
+}
+
+TEST(NestedLoops, ConcentricMeansABorderAllRound) {
+  EXPECT_TRUE(isConcentric(test::grown(kOpening, 8), kOpening, 0.6));
+  EXPECT_FALSE(isConcentric(kOpening, test::grown(kOpening, 8), 0.6));
+  EXPECT_FALSE(isConcentric(kOpening, kOpening, 0.6));
+  EXPECT_FALSE(isConcentric(test::rectangle(80, 80, 220, 170), kOpening, 0.6)) << "one side only";
+  EXPECT_FALSE(isConcentric(test::rectangle(10, 10, 310, 230), kOpening, 0.6)) << "too wide for a frame";
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

@@ -1,0 +1,120 @@
+// Preprocess, edges, closing, contours: the first half of the pipeline on drawn pictures.
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "detection/candidates/canny_edges.hpp"
+#include "detection/candidates/contour_polygons.hpp"
+#include "detection/candidates/preprocess.hpp"
+#include "drawn_window.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+TEST(Preprocess, ReducesByPowersOfTwoUntilItFits) {
+  Preprocess preprocess{PreprocessParams()};
+  for (const cv::Size size :
+       {cv::Size(320, 240), cv::Size(640, 480), cv::Size(1280, 720), cv::Size(1920, 1080)}) {
+    const SearchLevel level = preprocess.run(cv::Mat(size, CV_8UC3, cv::Scalar(1, 2, 3)));
+    EXPECT_LE(level.image.cols, 480);
+    EXPECT_GT(level.image.cols, 239);
+    EXPECT_NEAR(level.image.cols * level.factor, size.width, level.factor);
+  }
+}
+
+TEST(Preprocess, APixelOfTheLevelIsTheMeanOfThoseUnderIt) {
+  cv::Mat image(480, 640, CV_8UC1, cv::Scalar(0));
+  cv::circle(image, {200, 300}, 6, cv::Scalar(255), cv::FILLED);
+  const SearchLevel level = Preprocess(PreprocessParams()).run(image);
+  const cv::Moments m = cv::moments(level.image);
+  const Eigen::Vector2d full = toFullImage({m.m10 / m.m00, m.m01 / m.m00}, level.factor);
+  EXPECT_NEAR(full.x(), 200.0, 0.1);
+  EXPECT_NEAR(full.y(), 300.0, 0.1);
+}
+
+TEST(Preprocess, EqualisationRaisesContrastAndTakesBothTypes) {
+  PreprocessParams params;
+  params.equalise = true;
+  for (int type : {CV_8UC1, CV_8UC3}) {
+    cv::Mat image(120, 160, type, cv::Scalar::all(100));
+    image(cv::Rect(40, 30, 60, 50)).setTo(cv::Scalar::all(106));
+    const SearchLevel level = Preprocess(params).run(image);
+    EXPECT_GT(cv::norm(level.image, cv::NORM_INF) - level.image.ptr<uchar>(2)[2], 6.5);
+  }
+}
+
+TEST(EdgeDetector, ThresholdsFollowTheContrastOfTheImage) {
+  EdgeDetector detector{EdgeMapParams()};
+  for (double contrast : {12.0, 40.0, 120.0}) {
+    test::WindowPicture picture;
+    picture.opening = test::rectangle(200, 150, 420, 330);
+    picture.wall = cv::Scalar::all(60 + contrast);
+    picture.hole = cv::Scalar::all(60);
+    picture.noise = 1.0;
+    const EdgeMap& map = detector.run(picture.draw());
+    const int on_border = cv::countNonZero(map.edges(cv::Rect(197, 170, 7, 140)));
+    EXPECT_GE(on_border, 130) << "contrast " << contrast;
+  }
+}
+
+TEST(EdgeDetector, SeesBordersThatDifferInColourOnly) {
+  cv::Mat image(240, 320, CV_8UC3, cv::Scalar(200, 100, 50));
+  test::fillQuad(image, test::rectangle(80, 60, 220, 170), cv::Scalar(60, 100, 190));
+  EdgeDetector detector{EdgeMapParams()};
+  EXPECT_GT(cv::countNonZero(detector.run(image).edges), 400);
+}
+
+TEST(Closing, ClosesGapsUpToTwiceItsRadius) {
+  ClosingParams params;
+  params.radius = 0.01;
+  Closing closing(params);
+  cv::Mat edges(200, 200, CV_8UC1, cv::Scalar(0));
+  EXPECT_EQ(closing.radiusPx(edges.size()), 2);
+  cv::rectangle(edges, {50, 50}, {150, 150}, cv::Scalar(255));
+  edges(cv::Rect(90, 50, 4, 1)).setTo(0);
+  cv::Mat filled = closing.run(edges).clone();
+  cv::floodFill(filled, {100, 100}, cv::Scalar(255));
+  EXPECT_EQ(filled.at<uchar>(0, 0), 0) << "the flood leaked through the gap";
+}
+
+TEST(ContourPolygons, TakesOffWhatTheClosingAdded) {
+  cv::Mat edges(240, 320, CV_8UC1, cv::Scalar(0));
+  const auto truth = test::rectangle(60, 50, 220, 170);
+  cv::rectangle(edges, {60, 50}, {220, 170}, cv::Scalar(255));
+  Closing closing{ClosingParams()};
+  ContourPolygons contours{ContourPolygonsParams()};
+  const auto result = contours.run(closing.run(edges), closing.radiusPx(edges.size()));
+  ASSERT_EQ(result.candidates.size(), 2u);
+  for (const Candidate& candidate : result.candidates)
+    EXPECT_LT(test::worstCorner(candidate.quad, truth), 1.1) << "inner and outer outline are the same edge";
+}
+
+TEST(ContourPolygons, ACircleHasNoFourCorners) {
+  cv::Mat edges(240, 320, CV_8UC1, cv::Scalar(0));
+  cv::circle(edges, {160, 120}, 70, cv::Scalar(255));
+  const auto result = ContourPolygons(ContourPolygonsParams()).run(edges, 0.0);
+  EXPECT_TRUE(result.candidates.empty());
+  ASSERT_FALSE(result.rejected.empty());
+  EXPECT_EQ(result.rejected[0].reject, RejectReason::kCorners);
+}
+
+TEST(ContourPolygons, FourLinesRoundARoundedRectangle) {
+  std::vector<cv::Point> hull = {{20, 10},  {100, 10}, {110, 20}, {110, 80},
+                                 {100, 90}, {20, 90},  {10, 80},  {10, 20}};
+  std::vector<Eigen::Vector2d> buffer;
+  const auto quad = quadRoundHull(hull, buffer);
+  ASSERT_TRUE(quad);
+  EXPECT_LT(test::worstCorner(*quad, test::rectangle(10, 10, 110, 90)), 1e-9);
+  EXPECT_FALSE(quadRoundHull({{0, 0}, {5, 0}, {0, 5}}, buffer));
+}
+
+TEST(ContourPolygons, SaysSoWhenThereAreTooMany) {
+  cv::Mat dots(240, 320, CV_8UC1, cv::Scalar(0));
+  for (int i = 0; i < 4800; ++i) dots.at<uchar>(4 * (i / 80) + 1, 4 * (i % 80) + 1) = 255;
+  const auto result = ContourPolygons(ContourPolygonsParams()).run(dots, 0.0);
+  EXPECT_EQ(result.contours, 4800);
+  EXPECT_TRUE(result.budget_exceeded);
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

@@ -1,0 +1,66 @@
+#include "detection/reference/veil.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "detection/reference/ring_histogram.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector3f;
+
+const Vector3f kWall(137, 154, 163), kOrange(16, 78, 185), kOchre(45, 115, 185), kFog(200, 196, 190);
+
+Vector3f through(const Vector3f& colour, float left) { return left * colour + (1.0F - left) * kFog; }
+
+RingMeans ring(const Vector3f& frame, double darkest, double sigma = 0.5) {
+  return {frame, kWall, sigma, darkest};
+}
+
+RingMeans foggy(const Vector3f& frame, float left) {
+  return {through(frame, left), through(kWall, left), 0.5, (1.0 - left) * 190.0};
+}
+
+TEST(Veil, IsTakenOff) {
+  for (float left : {0.1F, 0.3F, 0.6F}) {
+    const auto veil = veilThatLeaves(left, kWall, through(kWall, left), 190.0);
+    ASSERT_TRUE(veil) << left;
+    EXPECT_LT((veil->off(through(kOrange, left)) - kOrange).norm(), 0.1F);
+    EXPECT_LT((veil->added - (1.0F - left) * kFog).norm(), 0.01F);
+  }
+}
+
+TEST(Veil, NoneThatIsColouredOrBrighterThanTheDarkestPlaceOrThin) {
+  EXPECT_FALSE(veilThatLeaves(0.3, kWall, through(kWall, 0.3F), 90.0)) << "a darker place is seen";
+  EXPECT_FALSE(veilThatLeaves(0.3, kWall, {60, 140, 190}, 190.0)) << "orange light";
+  EXPECT_FALSE(veilThatLeaves(0.95, kWall, through(kWall, 0.95F), 190.0));
+  EXPECT_FALSE(veilThatLeaves(0.01, kWall, through(kWall, 0.01F), 190.0));
+  EXPECT_FALSE(veilThatLeaves(-1.0, kWall, kWall, 190.0));
+  EXPECT_FALSE(veilThatLeaves(std::numeric_limits<double>::quiet_NaN(), kWall, kWall, 190.0));
+}
+
+TEST(DistanceThroughVeil, TheSamePaintIsNearAndAnotherIsFar) {
+  const RingMeans reference = ring(kOrange, 10.0);
+  for (float left : {0.15F, 0.3F, 0.6F}) {
+    const auto same = distanceThroughVeil(reference, foggy(kOrange, left));
+    ASSERT_TRUE(same) << left;
+    EXPECT_LT(*same, 0.1);
+    const auto other = distanceThroughVeil(reference, foggy(kOchre, left));
+    EXPECT_TRUE(!other || *other > 0.5) << left;
+    EXPECT_FALSE(distanceThroughVeil(reference, foggy({240, 240, 235}, left)).value_or(1.0) < 0.9);
+  }
+}
+
+TEST(DistanceThroughVeil, TellsNothingInClearAirInNoiseOrOfAFramelessReference) {
+  const RingMeans reference = ring(kOrange, 10.0);
+  EXPECT_FALSE(distanceThroughVeil(reference, ring(kOchre, 20.0))) << "paler paint in clear air";
+  RingMeans noisy = foggy(kOrange, 0.15F);
+  noisy.sigma = 10.0;
+  EXPECT_FALSE(distanceThroughVeil(reference, noisy));
+  EXPECT_FALSE(distanceThroughVeil(ring(kWall, 10.0), foggy(kWall, 0.3F)));
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

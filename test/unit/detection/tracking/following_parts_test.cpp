@@ -1,0 +1,225 @@
+/// What the tracker is made of, part by part.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "detection/borders/border_fit.hpp"
+#include "detection/borders/lines.hpp"
+#include "detection/tracking/border_follower.hpp"
+#include "detection/tracking/border_memory.hpp"
+#include "detection/tracking/quad_motion.hpp"
+#include "detection/tracking/track_confirmation.hpp"
+#include "drawn_window.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+using Eigen::Vector2d;
+using geometry::Quadrilateral;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Horizontal bands from the top, each a colour from this row on.
+cv::Mat bands(const std::vector<std::pair<double, cv::Scalar>>& from, double noise = 1.0) {
+  cv::Mat image(200, 300, CV_8UC3, from.front().second);
+  for (const auto& [row, colour] : from) test::fillQuad(image, test::rectangle(-5, row, 305, 205), colour);
+  cv::GaussianBlur(image, image, cv::Size(), 0.7);
+  test::addNoise(image, noise, 3);
+  return image;
+}
+
+EdgeProfiles across(const cv::Mat& image, double row, int reach = 14) {
+  EdgeProfiles profiles;
+  profiles.sample(image, nullptr, {Vector2d(40, row), Vector2d(260, row), 40, 0.06, reach});
+  return profiles;
+}
+
+const cv::Scalar kWall(150, 165, 175), kFrame(50, 140, 215), kHole(60, 55, 50), kReveal(110, 150, 190);
+
+TEST(EdgeProfiles, OffsetsCountOutwardsAndTheImageGoesOnBeyondItsBorder) {
+  const EdgeProfiles profiles = across(bands({{0, kWall}, {100, kHole}}), 100);
+  EXPECT_EQ(profiles.insideCount(), 40);
+  EXPECT_GT(profiles.samples(7, 2)[2 * profiles.reach()], 150) << "above: the wall";
+  EXPECT_LT(profiles.samples(7, 2)[0], 80) << "below: the hole";
+  EXPECT_LT((profiles.point(0, 3) - Vector2d(150, 97)).norm(), 1e-9);
+  const EdgeProfiles high = across(bands({{0, kWall}, {100, kHole}}), 4);
+  EXPECT_EQ(high.insideCount(), 40);
+  EXPECT_NEAR(high.samples(3, 0)[2 * high.reach()], kWall[0], 8.0);
+  EXPECT_EQ(across(bands({{0, kWall}}), -30).insideCount(), 0);
+  EXPECT_EQ(across(bands({{0, kWall}}), kNan).insideCount(), 0);
+}
+
+TEST(EdgeProfiles, ALensBendsThePathNotTheImage) {
+  auto lens = geometry::PinholeCamera::fromFieldOfView(300, 200, 1.4);
+  lens.distortion = {-0.25, 0.06, 0.001, -0.002, 0.0};
+  cv::Mat ramp(200, 300, CV_8UC1);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 300; ++x) ramp.at<uchar>(y, x) = static_cast<uchar>(y);
+  EdgeProfiles profiles;
+  profiles.sample(ramp, &lens, {Vector2d(40, 60), Vector2d(260, 60), 20, 0.0, 8});
+  for (int i = 0; i < 20; ++i)
+    for (int o : {-8, -3, 0, 5, 8})
+      EXPECT_NEAR(profiles.samples(i, 0)[8 + o], lens.distort(profiles.point(profiles.position(i), o)).y(),
+                  0.01);
+}
+
+TEST(BorderFit, SpreadIsHonestForNoise) {
+  double squares = 0.0;
+  const int trials = 60;
+  for (int seed = 0; seed < trials; ++seed) {
+    const double row = 100.0 + 0.013 * seed;
+    cv::Mat image = bands({{0, kWall}, {row, kHole}}, 0.0);
+    test::addNoise(image, 12.0, 50 + seed);
+    const EdgeProfiles profiles = across(image, 100, 6);
+    BorderFit fit;
+    fit.project(profiles, Eigen::Vector3f(90, 110, 125).normalized());
+    FittedBorder border;
+    ASSERT_TRUE(fit.run({2.5, 1e3, 0.6, 0.03}, border));
+    squares += std::pow((border.line.at(border.middle()) + row - 100.0) / border.sigma_px, 2) / trials;
+  }
+  EXPECT_GT(squares, 0.3);
+  EXPECT_LT(squares, 3.0);
+}
+
+TEST(BorderMemory, KnowsTheInnerFromTheOuterBorderWhereverTheyLie) {
+  BorderMemory inner;
+  EXPECT_FALSE(inner.match(across(bands({{0, kWall}}), 100), 6, 100.0)) << "nothing learned";
+  inner.learn(across(bands({{0, kWall}, {95, kFrame}, {100, kHole}}), 100), {}, 6, 100.0, 1.0);
+  for (double shift : {-5.0, -2.0, 0.0, 3.0, 5.0}) {
+    const cv::Mat moved = bands({{0, kWall}, {95 + shift, kFrame}, {100 + shift, kHole}});
+    const auto match = inner.match(across(moved, 100), 6, 100.0);
+    ASSERT_TRUE(match);
+    EXPECT_NEAR(match->line.offset, -shift, 1.0);
+    EXPECT_GT(match->similarity, 0.8);
+  }
+  const auto nearer = inner.match(across(bands({{0, kWall}, {90, kFrame}, {100, kHole}}), 100), 6, 200.0);
+  ASSERT_TRUE(nearer);
+  EXPECT_NEAR(nearer->line.offset, 0.0, 1.0);
+  const auto plain = inner.match(across(bands({{0, kWall}}), 100), 6, 100.0);
+  EXPECT_TRUE(!plain || plain->similarity < 0.4);
+  EXPECT_FALSE(inner.match(across(bands({{0, kWall}}), -30), 6, 100.0)) << "outside";
+}
+
+TEST(FrontBorder, MovesOutWhenARevealPartsFromTheFrame) {
+  FrontBorder front;
+  EXPECT_FALSE(front.look(across(bands({{0, kFrame}, {100, kHole}}), 100), {}, 8));
+  std::optional<double> out;
+  for (int i = 0; i < 5 && !out; ++i)
+    out = front.look(across(bands({{0, kFrame}, {95, kReveal}, {100, kHole}}), 100), {}, 8);
+  ASSERT_TRUE(out);
+  EXPECT_NEAR(*out, 5.0, 1.1);
+}
+
+TEST(FrontBorder, StaysAtABorderThatIsTheFrontWhateverIsBeyond) {
+  FrontBorder front;
+  for (int i = 0; i < 10; ++i) {
+    const double frame = 92 - 0.3 * i;  // its outer border moves away as it comes nearer
+    EXPECT_FALSE(front.look(across(bands({{0, kWall}, {frame, kFrame}, {100, kHole}}), 100), {}, 8)) << i;
+  }
+}
+
+TEST(FrontBorder, StaysAtABlurredBorder) {
+  FrontBorder front;
+  for (int i = 0; i < 10; ++i) {
+    cv::Mat image = bands({{0, kFrame}, {100, kHole}});
+    if (i > 0) cv::GaussianBlur(image, image, cv::Size(), 0.35 * i);
+    EXPECT_FALSE(front.look(across(image, 100), {}, 8)) << i;
+  }
+}
+
+TEST(StretchInView, IsCutByThePicture) {
+  const cv::Size size(320, 240);
+  const auto cut = stretchInView({Vector2d(-100, 50), Vector2d(500, 50)}, size, 3.0, nullptr);
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(cut->from.x(), 3.0, 1e-9);
+  EXPECT_NEAR(cut->to.x(), 316.0, 1e-9);
+  EXPECT_FALSE(stretchInView({Vector2d(-100, -50), Vector2d(500, -50)}, size, 3.0, nullptr));
+  EXPECT_FALSE(stretchInView({Vector2d(9, 9), Vector2d(9, 9)}, size, 3.0, nullptr));
+  EXPECT_FALSE(stretchInView({Vector2d(kNan, 9), Vector2d(9, 9)}, size, 3.0, nullptr));
+  auto lens = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.4);
+  lens.distortion = {-0.3, 0.05, 0, 0, 0};
+  const auto bent = stretchInView({Vector2d(-4000, 60), Vector2d(4000, 60)}, size, 3.0, &lens);
+  ASSERT_TRUE(bent) << "far outside, the lens model folds back";
+  EXPECT_TRUE(lens.contains(lens.distort(bent->from)) && lens.contains(lens.distort(bent->to)));
+}
+
+TEST(LineCorners, CovarianceIsThatOfManyDraws) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  Line a{{100, 50}, Vector2d(0.1, 1).normalized(), 0.2, 0.002}, b{{180, 120}, {1, 0}, 0.1, 0.001};
+  const LineCorner corner = meet(a, b).value();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  const auto drawn = [&](Line line) {
+    line.point += normal(random) * line.sigma_px * line.normal;
+    line.normal = Eigen::Rotation2Dd(normal(random) * line.sigma_rad) * line.normal;
+    return line;
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const Vector2d off = meet(drawn(a), drawn(b))->point - corner.point;
+    spread += off * off.transpose() / 4000;
+  }
+  EXPECT_LT((spread - corner.covariance).norm(), 0.1 * spread.norm());
+  EXPECT_FALSE(meet(a, a));
+}
+
+Line sideOf(const Quadrilateral& quad, int i) {
+  const Vector2d along = (quad[(i + 1) % 4] - quad[i]).normalized();
+  return {0.5 * (quad[i] + quad[(i + 1) % 4]), {along.y(), -along.x()}, 0.05, 0.001};
+}
+
+TEST(QuadMotion, PredictsAnUnseenSideFromThreeOrTwo) {
+  for (int unseen : {0, 1, 2, 3})
+    for (bool also_opposite : {false, true}) {
+      QuadMotion motion;
+      const auto at = [](int frame) {  // drifts and comes nearer
+        const double half = 60.0 + 2.0 * frame, x = 150.0 + 1.5 * frame;
+        return test::rectangle(x - half, 120 - half, x + half, 120 + half);
+      };
+      motion.start(at(0), 0.3);
+      for (int i = 1; i < 40; ++i) {
+        motion.predict(Eigen::Matrix3d::Identity(), 0.033, {2.0, 1.0, 0.2});
+        for (int side = 0; side < 4; ++side)
+          if (i < 10 || (side != unseen && !(also_opposite && side == (unseen + 2) % 4)))
+            motion.correct(side, sideOf(at(i), side));
+        motion.settle(0.033);
+      }
+      EXPECT_LT(test::worstCorner(motion.quad(), at(39)), also_opposite ? 8.0 : 4.0) << unseen;
+      EXPECT_GT(motion.sigmaAcross(unseen), 2.0 * motion.sigmaAcross((unseen + 1) % 4));
+    }
+}
+
+TEST(QuadMotion, ATurnOfTheCameraNeedsNoVelocity) {
+  const auto camera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.2);
+  const Quadrilateral quad = test::rectangle(100, 80, 200, 160);
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(0.05, Eigen::Vector3d(0.3, 1, 0.1).normalized()).toRotationMatrix();
+  QuadMotion motion;
+  motion.start(quad, 0.3);
+  motion.predict(camera.K() * R * camera.K().inverse(), 0.033, {1, 1, 1});
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LT((motion.quad()[i] - *camera.project(R * camera.ray(quad[i]))).norm(), 1e-6);
+}
+
+TEST(TargetIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
+  const TrackParams params;
+  TargetIdentity identity(params);
+  EXPECT_FALSE(identity.remembers(0.0));
+  identity.found(false, 1.0);
+  EXPECT_EQ(identity.id(), 1u);
+  EXPECT_TRUE(identity.remembers(1.0 + 0.9 * params.reacquire_sec));
+  EXPECT_FALSE(identity.remembers(1.0 + 1.1 * params.reacquire_sec));
+  const Quadrilateral here = test::rectangle(100, 80, 200, 180);
+  EXPECT_TRUE(identity.isSame(test::rectangle(120, 80, 220, 180), here));
+  EXPECT_FALSE(identity.isSame(test::rectangle(160, 80, 260, 180), here)) << "beside";
+  EXPECT_FALSE(identity.isSame(test::grown(here, 30), here)) << "larger";
+  identity.found(true, 1.5);
+  EXPECT_EQ(identity.id(), 1u);
+  identity.found(false, 9.0);
+  EXPECT_EQ(identity.id(), 2u);
+}
+
+}  // namespace
+}  // namespace window_ingress::detection

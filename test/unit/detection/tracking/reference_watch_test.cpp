@@ -1,0 +1,83 @@
+#include "detection/tracking/reference_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include "drawn_window.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr int kEvery = 4;
+
+struct Watched {
+  Watched() {
+    params.track.appearance_every = kEvery;
+    picture.width = 320, picture.height = 240;
+    picture.opening = test::rectangle(80, 60, 240, 180);
+    input.image = picture.draw();
+    window.corners = picture.opening;
+    window.corner_visible = {true, true, true, true};
+  }
+  bool look(ReferenceWatch& watch) { return watch.look(input, window.corners, window); }
+
+  DetectorParams params;
+  test::WindowPicture picture;
+  TrackInput input;
+  WindowObservation window;
+};
+
+TEST(ReferenceWatch, LooksOnceInAWhileAndAgreesWithTheReferenceItself) {
+  Watched seen;
+  ReferenceWatch watch(seen.params);
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  watch.start();
+  int looked = 0;
+  for (int i = 1; i <= 3 * kEvery; ++i) {
+    EXPECT_TRUE(seen.look(watch)) << i;
+    EXPECT_EQ(watch.hasAgreed(), i % kEvery == 0) << i;
+    looked += watch.hasAgreed();
+  }
+  EXPECT_EQ(looked, 3);
+  EXPECT_TRUE(seen.window.has_appearance);
+  EXPECT_FALSE(watch.isUnlike());
+}
+
+TEST(ReferenceWatch, AnotherPaintIsUnlikeUntilASearchHasSeenItAgain) {
+  Watched seen;
+  ReferenceWatch watch(seen.params);
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  cv::Mat other;
+  const int blue_and_red_swapped[] = {0, 2, 1, 1, 2, 0};
+  other.create(seen.input.image.size(), CV_8UC3);
+  cv::mixChannels(&seen.input.image, 1, &other, 1, blue_and_red_swapped, 3);
+  seen.input.image = other;
+  EXPECT_FALSE(seen.look(watch));
+  EXPECT_TRUE(watch.isUnlike());
+  EXPECT_FALSE(watch.hasAgreed());
+  watch.restart();
+  EXPECT_FALSE(watch.isUnlike());
+}
+
+TEST(ReferenceWatch, WithoutAReferenceNothingIsCompared) {
+  Watched seen;
+  ReferenceWatch watch(seen.params);
+  for (int i = 0; i < 2 * kEvery; ++i) EXPECT_TRUE(seen.look(watch));
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  watch.setReference(nullptr);
+  EXPECT_TRUE(seen.look(watch));
+  EXPECT_FALSE(seen.window.has_appearance);
+  EXPECT_EQ(watch.drift(), 0.0);
+}
+
+TEST(ReferenceWatch, AWindowThatIsNotWholeIsNotComparedNorLearned) {
+  Watched seen;
+  ReferenceWatch watch(seen.params);
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  seen.window.corner_visible[2] = false;
+  EXPECT_TRUE(seen.look(watch));
+  EXPECT_FALSE(watch.hasAgreed());
+  EXPECT_FALSE(seen.window.has_appearance);
+}
+
+}  // namespace
+}  // namespace window_ingress::detection
