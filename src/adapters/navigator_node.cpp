@@ -258,6 +258,7 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
   message.twist = passed.twist;
   gate_fault_ = passed.fault;
   setpoint_publisher_.publish(message);
+  guard_.sent();
 }
 
 void NavigatorNode::publishState(const navigation::NavigatorOutput& output, const ros::Time& now) {

@@ -44,6 +44,8 @@ Health SetpointWatch::health() const {
   if (passesOn() && std::isinf(heard_sec_))
     return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};
   if (passesOn()) return {};
+  if (steadyNowSec() - sent_sec_ > params_.max_silence_sec)
+    return {Health::kOk, "no setpoints are sent: nothing to pass on"};
   if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= Engagement::kGraceSec)
     return {Health::kOk, "waiting for " + topic};
   return {Health::kError,

@@ -23,6 +23,7 @@ class SetpointWatch {
 
   /// Where nobody has been heard so far they are taken to be, unless that is `required`.
   bool passesOn() const;
+  void sent() { sent_sec_ = steadyNowSec(); }  ///< there is something to pass on
   /// Zeros past the guard, if it does not pass them on; to be called in each step of a mission.
   void brakeIfNobodyDoes(const ros::Time& now, const std::string& frame);
 
@@ -33,6 +34,7 @@ class SetpointWatch {
   ros::NodeHandle nh_;
   configuration::SetpointWatchParams params_;
   double started_sec_;
+  double sent_sec_ = -std::numeric_limits<double>::infinity();
   double heard_sec_ = -std::numeric_limits<double>::infinity();
   ros::Subscriber subscriber_;
   ros::Publisher brake_;  ///< only while it is needed: otherwise the autopilot hears the guard alone
