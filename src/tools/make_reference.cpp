@@ -67,8 +67,7 @@ std::vector<double> flat(const std::vector<cv::Point2d>& points) {
 }
 
 /// The corners where straight edges near them meet; nothing if there are none.
-std::optional<std::vector<double>> fitted(const cv::Mat& picture, const std::vector<double>& corners,
-                                          const detection::DetectorParams& params) {
+std::optional<std::vector<double>> fitted(const cv::Mat& picture, const std::vector<double>& corners) {
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto canonical = geometry::canonical(quad);
@@ -84,9 +83,8 @@ std::optional<std::vector<double>> fitted(const cv::Mat& picture, const std::vec
 /// A window in which four corners are clicked.
 class Clicking {
  public:
-  Clicking(const cv::Mat& picture, const detection::DetectorParams& params)
+  explicit Clicking(const cv::Mat& picture)
       : picture_(picture),
-        params_(params),
         scale_(std::min(1.0, kMostPx / std::max(picture.cols, picture.rows))) {
     cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
     cv::setMouseCallback(kWindow, onMouse, this);
@@ -124,7 +122,7 @@ class Clicking {
   }
 
   void fit() {
-    const auto corners = fitted(picture_, flat(points_), params_);
+    const auto corners = fitted(picture_, flat(points_));
     if (!corners) return;
     for (std::size_t i = 0; i < 4; ++i) points_[i] = {(*corners)[2 * i], (*corners)[2 * i + 1]};
   }
@@ -161,7 +159,6 @@ class Clicking {
   }
 
   cv::Mat picture_;
-  const detection::DetectorParams& params_;
   double scale_;
   std::vector<cv::Point2d> points_;
   cv::Point2d at_{0.0, 0.0};
@@ -181,12 +178,12 @@ int run(const Job& job) {
   } else {
     if (!tools::hasDisplay())
       throw UsageError("there is no display to click in: give --corners x1,y1,...,x4,y4");
-    const auto clicked = Clicking(picture, params).run();
+    const auto clicked = Clicking(picture).run();
     if (!clicked) throw std::runtime_error("given up, nothing written");
     corners = *clicked;
   }
   if (job.fit) {
-    const auto better = fitted(picture, corners, params);
+    const auto better = fitted(picture, corners);
     if (!better) throw std::runtime_error("no straight edges near the corners; try without --fit");
     corners = *better;
   }

@@ -36,7 +36,7 @@ struct InputParams {
 
 /// SEARCH: turning on the spot, climbing to a height from which to look.
 struct SearchParams {
-  double yaw_rate_radps = 0.7;       ///< at most; slower where blur or few pictures ask for it [rad/s]
+  double yaw_rate_radps = 0.5;       ///< at most; slower where blur or few pictures ask for it [rad/s]
   double max_blur_px = 2.0;          ///< that turning may bring into a picture [px]
   double max_turn_per_image = 0.25;  ///< of the field of view, from picture to picture
   double height_m = 1.0;             ///< climb to this height of odom first; never down [m]

@@ -36,7 +36,7 @@ struct LimitParams {
   double speed_mps = 1.0;                ///< magnitude of the velocity [m/s]
   double acceleration_mps2 = 2.0;        ///< magnitude of its change [m/s^2]
   double jerk_mps3 = 30.0;               ///< magnitude of the acceleration's change [m/s^3]
-  double yaw_rate_radps = 0.7;           ///< [rad/s]
+  double yaw_rate_radps = 0.5;           ///< [rad/s]
   double yaw_acceleration_radps2 = 2.0;  ///< [rad/s^2]
   double min_height_m = 0.3;             ///< of odom: no way down below this [m]
   double max_height_m = 10.0;            ///< of odom: no way up above this [m]
