@@ -12,7 +12,10 @@ import bisect
 import collections
 import dataclasses
 import math
+import pathlib
 import typing
+
+import yaml
 
 Setpoint = collections.namedtuple("Setpoint", "at stamp source velocity turning")  # m/s (x, y, z), rad/s about z
 State = collections.namedtuple("State", "at name enabled")
@@ -33,15 +36,20 @@ TOUCHED = ("COLLISION", "FALSE_INGRESS")  # verdicts of the simulated world's re
 DISOBEYS = ("cmd_vel garbage", "cmd_vel wrong", "cmd_vel stuck")  # between the guard and the vehicle
 
 
+CONFIG = pathlib.Path(__file__).resolve().parents[3] / "config"
+SHIPPED = yaml.safe_load((CONFIG / "navigator.yaml").read_text())["navigator"]["limits"]
+GUARD_SHIPPED = yaml.safe_load((CONFIG / "guard.yaml").read_text())
+
+
 @dataclasses.dataclass
 class Limits:
-    """What the oracles allow. Those of motion are those of config/navigator.yaml and guard.yaml."""
-    speed_mps: float = 1.0
-    guard_speed_mps: float = 1.2
-    yaw_rate_radps: float = 0.5
-    guard_yaw_rate_radps: float = 1.0
-    acceleration_mps2: float = 1.5
-    yaw_acceleration_radps2: float = 2.0
+    """What the oracles allow. Those of motion are those that are shipped."""
+    speed_mps: float = SHIPPED["speed_mps"]
+    guard_speed_mps: float = GUARD_SHIPPED["max_speed_mps"]
+    yaw_rate_radps: float = SHIPPED["yaw_rate_radps"]
+    guard_yaw_rate_radps: float = GUARD_SHIPPED["max_yaw_rate_radps"]
+    acceleration_mps2: float = SHIPPED["acceleration_mps2"]
+    yaw_acceleration_radps2: float = SHIPPED["yaw_acceleration_radps2"]
     stop_within_s: float = 0.3
     least_rate_hz: float = 10.0
     rate_window_s: float = 1.0
