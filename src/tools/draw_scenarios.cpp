@@ -117,7 +117,7 @@ int run(const Job& job) {
         labelled(photograph(simulation::loadScenario(file, seed), seed, job), label, job.cell_width_px));
     ++seed;
   }
-  if (!cv::imwrite(job.output, sheetOf(cells, job.columns)))
+  if (!cv::imwrite(job.output, sheetOf(cells, job.columns), {cv::IMWRITE_JPEG_QUALITY, 85}))
     throw std::runtime_error(job.output + ": cannot write");
   return 0;
 }

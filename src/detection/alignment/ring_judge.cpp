@@ -53,9 +53,8 @@ std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, 
 
 // Of all that come to lie about one place the best.
 void RingJudge::keep(const ScoredCandidate& rival) {
-  const Sameness sameness(rival.quad);
-  const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& other) {
-    return sameness.samePlace(other.quad);
+  const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& kept) {
+    return Sameness(kept.quad).samePlace(rival.quad);
   });
   if (same == aligned_.end())
     aligned_.push_back(rival);
@@ -76,9 +75,9 @@ const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
   } best;
   for (const auto& [promise, i] : order_) {
     if (places.size() >= kPlaces || (best.score > kSure && promise < best.promise - kBehind)) break;
-    const Sameness same(rivals[i].quad);
-    const auto variants = std::count_if(
-        places.begin(), places.end(), [&](std::size_t place) { return same.samePlace(rivals[place].quad); });
+    const auto variants = std::count_if(places.begin(), places.end(), [&](std::size_t place) {
+      return Sameness(rivals[place].quad).samePlace(rivals[i].quad);
+    });
     if (variants >= kVariants) continue;
     places.push_back(i);
     const auto rival = aligned(rivals[i], kAlignedPx);

@@ -31,8 +31,7 @@ void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::s
   places.clear();
   for (std::size_t i = 0; i < rivals.size() && places.size() < kPlacesLocated; ++i) {
     int variants = 0;
-    const Sameness same(rivals[i].quad);
-    for (std::size_t place : places) variants += same.samePlace(rivals[place].quad);
+    for (std::size_t place : places) variants += Sameness(rivals[place].quad).samePlace(rivals[i].quad);
     if (variants < kVariantsLocated) places.push_back(i);
   }
 }
@@ -108,9 +107,8 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& r
 // Loops whose borders were not located count less; not at all where others have surely been.
 void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
   for (ScoredCandidate& rival : rivals) {
-    const Sameness same(rival.quad);
     const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
-      return place.worth > kSureWorth && same.samePlace(place.quad);
+      return place.worth > kSureWorth && Sameness(place.quad).samePlace(rival.quad);
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
     if (sure)
