@@ -46,6 +46,7 @@ struct WindowDetector::Impl {
                                          const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> judgeFrames(const cv::Mat& image, double stamp_sec,
                                                const geometry::PinholeCamera* camera);
+  void searchOnColours();
   std::optional<WindowObservation> judgeSurroundings(const cv::Mat& image, double stamp_sec,
                                                      const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
@@ -179,6 +180,19 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
   return window;
 }
 
+// What has the paint of the reference's frame and another shape has been seen and refused: to look for that paint
+// would bring it again, less well seen.
+void WindowDetector::Impl::searchOnColours() {
+  const bool has_decoy =
+      std::any_of(trace.candidates.begin(), trace.candidates.end(), [](const CandidateTrace& candidate) {
+        return candidate.reject == RejectReason::kOtherFrame || candidate.reject == RejectReason::kOtherAspect;
+      });
+  if (reference.paint() && !has_decoy)
+    search.runOnPaint(*reference.paint(), trace);
+  else
+    search.runOnColours(trace);
+}
+
 WindowDetector::WindowDetector(const DetectorParams& params) {
   check(params);
   impl_ = std::make_unique<Impl>(params);
@@ -226,7 +240,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     window = impl_->judge(image, stamp_sec, camera);
   }
   if (!window) {
-    impl_->search.runOnColours(impl_->trace);
+    impl_->searchOnColours();
     window = impl_->judge(image, stamp_sec, camera);
   }
   explain(impl_->trace);

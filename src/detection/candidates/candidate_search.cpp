@@ -14,6 +14,7 @@ using geometry::Quadrilateral;
 
 constexpr double kDoubtfulScore = 0.5;
 constexpr std::size_t kMostDoubtful = 200;
+constexpr int kPaintLevels[] = {6, 10, 15, 22, 30};  ///< of the masks, over `kUnpainted`
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
   return {toFullImage(quad[0], factor), toFullImage(quad[1], factor), toFullImage(quad[2], factor),
@@ -51,11 +52,23 @@ void CandidateSearch::look(const cv::Mat& level) {
   segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
   done(watch_, Stage::kLines);
   keepOnSegments(runs_, lines_, level_size_, straight_);
-  outlines_ = contours_.run(closing_.run(straight_), closing_.radiusPx(level_size_));
-  for (CandidateTrace& rejected : outlines_.rejected) rejected.quad = inFullImage(rejected.quad, factor_);
-  for (Candidate& outline : outlines_.candidates)
-    for (Eigen::Vector2d& corner : outline.quad) corner = lens_.undistort(corner);
+  outlines_ = {};
+  outline(straight_);
   done(watch_, Stage::kOutlines);
+}
+
+void CandidateSearch::outline(const cv::Mat& mask) {
+  const auto& found = contours_.run(closing_.run(mask), closing_.radiusPx(level_size_));
+  outlines_.contours += found.contours;
+  outlines_.budget_exceeded = outlines_.budget_exceeded || found.budget_exceeded;
+  for (CandidateTrace rejected : found.rejected) {
+    rejected.quad = inFullImage(rejected.quad, factor_);
+    outlines_.rejected.push_back(rejected);
+  }
+  for (Candidate candidate : found.candidates) {
+    for (Eigen::Vector2d& corner : candidate.quad) corner = lens_.undistort(corner);
+    outlines_.candidates.push_back(candidate);
+  }
 }
 
 const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace& trace) {
@@ -65,6 +78,19 @@ const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace
   if (colours.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(colours);
+  return combine(SegmentQuads::kThorough, trace);
+}
+
+const std::vector<ScoredCandidate>& CandidateSearch::runOnPaint(const Eigen::Vector3f& paint,
+                                                                DetectionTrace& trace) {
+  const cv::Mat& painted = preprocess_.paintAlone(paint);
+  kept_.clear();
+  doubtful_.clear();
+  if (painted.empty()) return kept_;
+  done(watch_, Stage::kPreprocess);
+  look(painted);
+  for (int level : kPaintLevels) outline(painted > Preprocess::kUnpainted + level);
+  done(watch_, Stage::kOutlines);
   return combine(SegmentQuads::kThorough, trace);
 }
 

@@ -38,6 +38,10 @@ class CandidateSearch {
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   const std::vector<ScoredCandidate>& runOnColours(DetectionTrace& trace);
 
+  /// Likewise, by one paint: for thin or blurred frames of a known colour, of which masks at several levels
+  /// are outlined, too. \param paint see `RingMeans::paint`
+  const std::vector<ScoredCandidate>& runOnPaint(const Eigen::Vector3f& paint, DetectionTrace& trace);
+
   /// What the last call returned.
   const std::vector<ScoredCandidate>& kept() const { return kept_; }
 
@@ -53,6 +57,7 @@ class CandidateSearch {
 
  private:
   void look(const cv::Mat& level);
+  void outline(const cv::Mat& mask);
   const std::vector<ScoredCandidate>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
   void doubt(ScoredCandidate rival, const Rejection& rejection);
   void admit(const std::vector<Candidate>& found, DetectionTrace& trace);

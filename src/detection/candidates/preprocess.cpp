@@ -1,12 +1,17 @@
 #include "detection/candidates/preprocess.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
+
+#include "detection/chromaticity.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
 constexpr double kColourGain = 2.0;  ///< of differences between channels, in the picture of colours alone
+constexpr float kPaintGain = 400.0F;  ///< of chromaticities, in the picture of one paint
+constexpr double kPaintSigmaPx = 1.2;  ///< its smoothing: of chromaticities, dark pixels know little
 constexpr double kClipLimit = 2.0;   ///< of the equalisation [mean bin counts]
 constexpr int kTiles = 6;            ///< of the equalisation, each way
 
@@ -40,6 +45,22 @@ const cv::Mat& Preprocess::coloursAlone() {
                                 half, -0.5F * half, -0.5F * half, middle,  //
                                 -half, 0.0F, half, middle);
   cv::transform(smooth_, colours_, differences);
+  return colours_;
+}
+
+const cv::Mat& Preprocess::paintAlone(const Eigen::Vector3f& paint) {
+  colours_.release();
+  if (smooth_.channels() != 3) return colours_;
+  colours_.create(smooth_.size(), CV_8UC1);
+  for (int y = 0; y < smooth_.rows; ++y) {
+    const auto* pixels = smooth_.ptr<cv::Vec3b>(y);
+    auto* painted = colours_.ptr<std::uint8_t>(y);
+    for (int x = 0; x < smooth_.cols; ++x) {
+      const Eigen::Vector3f pixel(pixels[x][0], pixels[x][1], pixels[x][2]);
+      painted[x] = cv::saturate_cast<std::uint8_t>(kUnpainted + kPaintGain * paint.dot(chromaticity(pixel)));
+    }
+  }
+  cv::GaussianBlur(colours_, colours_, cv::Size(), kPaintSigmaPx, kPaintSigmaPx, cv::BORDER_REPLICATE);
   return colours_;
 }
 

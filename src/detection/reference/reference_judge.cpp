@@ -53,6 +53,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   borders_.forget();
   ring_.forget();
   shape_.forget();
+  paint_.reset();
   is_grey_ = reference_ && isGrey(reference_->picture());
   if (!reference_ || !reference_->openingIsKnown() ||
       !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
@@ -60,6 +61,9 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   borders_.learn(inChannels(reference_->picture()), reference_->opening());
   ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames);
   shape_.learn(reference_->picture(), reference_->opening());
+  const auto colours = ringColours(reference_->picture(), reference_->opening(),
+                                   {appearance_.near_width, appearance_.far_width}, 1);
+  if (colours && !frameless()) paint_ = colours->means.paint();
 }
 
 // The rival with its borders where the reference's are, if they are found near it.

@@ -32,6 +32,9 @@ class ReferenceJudge {
   /// True if the reference shows no frame.
   bool frameless() const { return borders_.frameless(); }
 
+  /// Colour of the reference's frame, see `RingMeans::paint`; nothing where it has none.
+  const std::optional<Eigen::Vector3f>& paint() const { return paint_; }
+
   /// False if there is no reference or only one of reference and picture has colours.
   bool compares(const cv::Mat& image) const;
 
@@ -63,6 +66,7 @@ class ReferenceJudge {
   RingJudge ring_;
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
+  std::optional<Eigen::Vector3f> paint_;
   bool is_grey_ = false;  ///< the reference; then by brightness alone
   cv::Mat channels_;
   std::vector<std::size_t> places_;  ///< of the rivals that are looked at

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "detection/chromaticity.hpp"
 #include "detection/reference/ring_samples.hpp"
 #include "detection/reference/veil.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
@@ -20,6 +21,7 @@ constexpr double kSharing = 4.0 / 9.0;
 
 constexpr double kTurn_rad = 0.05;     ///< of the difference between frame and surround, from paint and light
 constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
+constexpr float kLeastPaint = 0.05F;       ///< of chromaticities
 constexpr double kLeastDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
 
 using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
@@ -131,6 +133,14 @@ bool isGrey(const cv::Mat& image) {
       if (hasColour(row[(2 * k + 1) * image.cols / (2 * kAcross)])) return false;
   }
   return true;
+}
+
+std::optional<Eigen::Vector3f> RingMeans::paint() const {
+  const auto coloured = [](const Eigen::Vector3f& of) { return Eigen::Vector3f(of.array() - of.mean()); };
+  const Eigen::Vector3f own = coloured(chromaticity(frame));
+  const Eigen::Vector3f difference = own - coloured(chromaticity(surround));
+  if (own.norm() < kLeastPaint || difference.norm() < kLeastPaint) return std::nullopt;
+  return difference.normalized();
 }
 
 std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,

@@ -36,6 +36,10 @@ struct RingMeans {
   Eigen::Vector3f frame = Eigen::Vector3f::Zero(), surround = Eigen::Vector3f::Zero();  ///< BGR
   double sigma = 0.0;    ///< of their difference, by the spread of their pixels [grey levels]
   double darkest = 0.0;  ///< least channel of ring and opening [grey levels]
+
+  /// Direction of chromaticity from the surround to the frame, BGR, length 1, sum 0; nothing where the frame
+  /// has no colour of its own, or that of the surround.
+  std::optional<Eigen::Vector3f> paint() const;
 };
 
 /// How a ring looks.

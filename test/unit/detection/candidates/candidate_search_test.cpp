@@ -59,15 +59,20 @@ TEST(CandidateSearch, AFineGratingStaysWithinItsBudget) {
   EXPECT_LE(static_cast<int>(rivals.size()), DetectorParams().max_candidates);
 }
 
-// Bright and dark patches everywhere, and a ring that differs in hue only.
-cv::Mat hueAmongPatches(const geometry::Quadrilateral& opening) {
-  cv::Mat image(480, 640, CV_8UC3), ring(480, 640, CV_8UC1, cv::Scalar(0));
+cv::Mat brightAndDarkPatches() {
+  cv::Mat image(480, 640, CV_8UC3);
   std::mt19937 random(3);
   std::uniform_int_distribution<int> grey(60, 190), at(0, 640), size(6, 40);
   image.setTo(cv::Scalar::all(128));
   for (int n = 0; n < 1500; ++n)
     cv::rectangle(image, cv::Rect(at(random), at(random), size(random), size(random)),
                   cv::Scalar::all(grey(random)), cv::FILLED);
+  return image;
+}
+
+// A ring that differs in hue only.
+cv::Mat hueAmongPatches(const geometry::Quadrilateral& opening) {
+  cv::Mat image = brightAndDarkPatches(), ring(image.size(), CV_8UC1, cv::Scalar(0));
   test::fillQuad(ring, test::grown(opening, 24.0), cv::Scalar(255));
   test::fillQuad(ring, opening, cv::Scalar(0));
   cv::add(image, cv::Scalar(-30, 0, 30), image, ring);
@@ -84,6 +89,33 @@ TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
   EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
 }
 
+// A thin, blurred frame of one paint before bright and dark patches, in dim light that differs from place to place.
+cv::Mat thinPaintInPatchyLight(const geometry::Quadrilateral& opening, const cv::Scalar& paint) {
+  cv::Mat image = brightAndDarkPatches(), ring(image.size(), CV_8UC1, cv::Scalar(0)), light, painted;
+  test::fillQuad(ring, test::grown(opening, 5.0), cv::Scalar(255));
+  test::fillQuad(ring, opening, cv::Scalar(0));
+  image.convertTo(light, CV_32FC3, 1.0 / 255.0);
+  cv::multiply(light, paint, painted, 1.0, CV_32FC3);
+  painted.convertTo(painted, CV_8UC3);
+  painted.copyTo(image, ring);
+  cv::GaussianBlur(image, image, cv::Size(), 3.0);
+  image.convertTo(image, CV_8UC3, 0.35);
+  test::addNoise(image, 3.0, 5);
+  return image;
+}
+
+TEST(CandidateSearch, AThinBlurredFrameIsFoundByItsPaintInAnyLight) {
+  const auto opening = test::rectangle(240, 170, 380, 290);
+  const cv::Mat image = thinPaintInPatchyLight(opening, cv::Scalar(100, 180, 245));
+  CandidateSearch search{DetectorParams()};
+  DetectionTrace trace;
+  EXPECT_FALSE(holds(search.run(image, nullptr, trace), opening, 8.0)) << "the picture is too easy for this test";
+  EXPECT_FALSE(holds(search.runOnColours(trace), opening, 8.0)) << "the picture is too easy for this test";
+  EXPECT_TRUE(holds(search.runOnPaint(Eigen::Vector3f(-0.76F, 0.12F, 0.64F), trace), opening, 8.0));
+  EXPECT_FALSE(holds(search.runOnPaint(Eigen::Vector3f(-0.41F, 0.82F, -0.41F), trace), opening, 8.0))
+      << "another paint";
+}
+
 TEST(CandidateSearch, AGreyPictureHasNoColours) {
   cv::Mat grey;
   cv::cvtColor(framed().draw(), grey, cv::COLOR_BGR2GRAY);
@@ -91,6 +123,7 @@ TEST(CandidateSearch, AGreyPictureHasNoColours) {
   DetectionTrace trace;
   EXPECT_FALSE(search.run(grey, nullptr, trace).empty());
   EXPECT_TRUE(search.runOnColours(trace).empty());
+  EXPECT_TRUE(search.runOnPaint(Eigen::Vector3f(-0.7F, 0.0F, 0.7F), trace).empty());
 }
 
 }  // namespace

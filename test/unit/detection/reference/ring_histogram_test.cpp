@@ -52,6 +52,24 @@ TEST(RingHistogram, DistanceHasTheLimitsAndTheSymmetryOfADistance) {
   EXPECT_GT(bhattacharyya(*orange, *blue), 0.6);
 }
 
+TEST(RingMeans, PaintIsTheHueOfAFrameThatHasOneWhateverItsLight) {
+  RingMeans ring;
+  ring.frame = {50, 140, 215}, ring.surround = {150, 160, 170};
+  const auto paint = ring.paint();
+  ASSERT_TRUE(paint);
+  EXPECT_NEAR(paint->norm(), 1.0, 1e-5);
+  EXPECT_NEAR(paint->sum(), 0.0, 1e-5);
+  EXPECT_GT(paint->z(), 0.5F) << "orange: red ...";
+  EXPECT_LT(paint->x(), -0.5F) << "... and no blue";
+  ring.frame *= 0.5F, ring.surround *= 0.5F;
+  ASSERT_TRUE(ring.paint());
+  EXPECT_GT(ring.paint()->dot(*paint), 0.99F);
+  ring.frame = {228, 235, 235}, ring.surround = {40, 70, 170};
+  EXPECT_FALSE(ring.paint()) << "white on brick: the colour is that of the wall";
+  ring.frame = {45, 75, 175};
+  EXPECT_FALSE(ring.paint()) << "that of the wall";
+}
+
 // A ring of few pixels drawn from the same colours is not further away than one of many.
 TEST(RingHistogram, FewPixelsOfTheSameColoursAreNotFurther) {
   cv::Mat colours(600, 800, CV_8UC3);
