@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kSecond = 1.0, kFramesSec = 3.0;
-constexpr double kTellingM = 0.04;  // between the two ways flown, to tell whether the axes have turned
+constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kMaxBiasMps = 0.4;
 constexpr std::size_t kPieces = 16;  // a slide of three seconds is a minority of them
 constexpr std::size_t kLatePieces = 4;
