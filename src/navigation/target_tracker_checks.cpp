@@ -13,6 +13,14 @@ std::string otherWindowText(double factor) {
   return text;
 }
 
+std::string contradictedText(const pose::Consistency& consistency) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%d of %d pictures contradict the window that was made out: of another size than told?",
+                consistency.refused, consistency.refused + consistency.images);
+  return text;
+}
+
 }  // namespace
 
 void TargetTracker::checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera) {
@@ -61,6 +69,7 @@ std::string TargetTracker::approachForbidden(const pose::FilteredWindow& window)
   const pose::FramesVerdict frames = frames_.verdict();
   if (frames.state == pose::FramesVerdict::kWrong) return frames.what;
   if (const auto factor = otherWindow()) return otherWindowText(*factor);
+  if (window.consistency.contradicted) return contradictedText(window.consistency);
   const pose::FitVerdict verdict = fit(window);
   if (verdict.fit == pose::Fit::kGo) return "";
   return std::string("fit ") + pose::toString(verdict.fit) + ": " + verdict.reason;

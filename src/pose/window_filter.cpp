@@ -186,7 +186,10 @@ struct WindowFilter::Impl {
     if (beliefs.empty()) return start(estimate, stamp, view);
     if (mean_squares > params.max_mean_squares && start(estimate, stamp, view)) return true;
     const auto outcome = beliefs.apply(view, stamp - stamp_sec, wayTo(view, stamp));
-    if (!outcome) return ++outliers >= params.outliers_until_restart && start(estimate, stamp, view);
+    if (!outcome) {
+      consistency.refuse();
+      return ++outliers >= params.outliers_until_restart && start(estimate, stamp, view);
+    }
     mean_squares += (outcome->squares - mean_squares) / kMeanOver;
     consistency.add(outcome->squares, view.alone.size());
     accept(stamp, view);

@@ -12,6 +12,10 @@ struct Consistency {
   /// where errors last, more where they are larger than stated.
   double mean_nis = 0.0;
   bool consistent = true;  ///< mean_nis does not exceed its limit, or too few images are there to say
+  int refused = 0;         ///< images beside those, that contradicted what the filter expected
+  /// So many that the filter follows what is not there: two of five, or too few images are there to say.
+  /// With windows, camera and odometry as they are said to be, one of ten at most is refused.
+  bool contradicted = false;
 };
 
 /// Normalised innovation squared (NIS) over a sliding window of images.
@@ -24,14 +28,16 @@ class ConsistencyMonitor {
   ConsistencyMonitor(int images, double limit) : images_(static_cast<std::size_t>(images)), limit_(limit) {}
 
   void add(double squares, int degrees_of_freedom);
+  void refuse();  ///< an image that the filter did not use
   void clear() { samples_.clear(); }
   Consistency consistency() const;
 
  private:
   struct Sample {
     double squares;
-    int degrees_of_freedom;
+    int degrees_of_freedom;  ///< 0: refused
   };
+  void note(const Sample& sample);
   std::size_t images_;
   double limit_;
   std::deque<Sample> samples_;

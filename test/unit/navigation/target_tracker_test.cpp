@@ -153,6 +153,21 @@ TEST(TargetTracker, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
   EXPECT_NE(narrow.target(3.0)->approach_forbidden.find("NO_GO"), std::string::npos);
 }
 
+TEST(TargetTracker, ForbidsTheApproachWhileManyPicturesContradictTheWindow) {
+  for (const double aside_m : {0.0, 0.5}) {  // every second picture shows another place
+    auto track = tracker();
+    for (int i = 0; i <= 60; ++i) {
+      const double now = i / 30.0, y = 0.3 * now;
+      track.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.3, 0.0));
+      track.see(sighting(vehicleAt(i % 2 == 0 ? y : y + aside_m), now), kCamera, kMounting);
+    }
+    const auto target = track.target(2.0);
+    ASSERT_TRUE(target) << track.lastUpdate().why_not;
+    EXPECT_EQ(target->approach_forbidden.find("pictures contradict") != std::string::npos, aside_m > 0.0)
+        << target->approach_forbidden;
+  }
+}
+
 TEST(TargetTracker, ForbidsTheApproachWithFramesThatAreNotAsTold) {
   Eigen::Isometry3d turned = kMounting;
   turned.linear() = geometry::yawRotation(0.3) * turned.linear();

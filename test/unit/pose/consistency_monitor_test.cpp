@@ -48,6 +48,26 @@ TEST(ConsistencyMonitor, JudgesNothingByAFewImages) {
   EXPECT_EQ(monitor.consistency().images, 0);
 }
 
+TEST(ConsistencyMonitor, ManyRefusedImagesContradictWhateverTheOthersSay) {
+  ConsistencyMonitor monitor(50, 3.3);
+  const auto see = [&](int accepted, int refused) {
+    for (int i = 0; i < accepted; ++i) monitor.add(8.0, 8);
+    for (int i = 0; i < refused; ++i) monitor.refuse();
+  };
+  see(0, 20);
+  EXPECT_FALSE(monitor.consistency().contradicted) << "too few to say";
+  see(0, 5);
+  EXPECT_TRUE(monitor.consistency().contradicted);
+  EXPECT_TRUE(monitor.consistency().consistent);
+  see(40, 10);
+  EXPECT_FALSE(monitor.consistency().contradicted);
+  see(25, 25);
+  EXPECT_TRUE(monitor.consistency().contradicted);
+  EXPECT_EQ(monitor.consistency().images, 25);
+  EXPECT_EQ(monitor.consistency().refused, 25);
+  EXPECT_NEAR(monitor.consistency().mean_nis, 1.0, 1e-12);
+}
+
 TEST(ConsistencyMonitor, IgnoresWhatIsNoSquare) {
   ConsistencyMonitor monitor(10, 3.3);
   monitor.add(std::numeric_limits<double>::quiet_NaN(), 8);
