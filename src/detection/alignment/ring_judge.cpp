@@ -75,8 +75,9 @@ const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
   } best;
   for (const auto& [promise, i] : order_) {
     if (places.size() >= kPlaces || (best.score > kSure && promise < best.promise - kBehind)) break;
+    const geometry::Quadrilateral& newcomer = rivals[i].quad;
     const auto variants = std::count_if(places.begin(), places.end(), [&](std::size_t place) {
-      return Sameness(rivals[place].quad).samePlace(rivals[i].quad);
+      return Sameness(rivals[place].quad).samePlace(newcomer);
     });
     if (variants >= kVariants) continue;
     places.push_back(i);
