@@ -16,8 +16,9 @@ double furthestCorner(const geometry::Quadrilateral& a, const geometry::Quadrila
 geometry::Quadrilateral undistorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
 geometry::Quadrilateral distorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
 
-/// Which others are the same as one quadrilateral, in the three senses in which detection asks. Its size sets how far
-/// they reach: ask the one that was chosen first about the newcomer, or a large loop takes a small window's place.
+/// Which others are the same as one quadrilateral, in the three senses in which detection asks. Its size sets
+/// how far they reach: ask the one that was chosen first about the newcomer, or a large loop takes a small
+/// window's place.
 class Sameness {
  public:
   explicit Sameness(const geometry::Quadrilateral& quad);

@@ -180,12 +180,13 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
   return window;
 }
 
-// What has the paint of the reference's frame and another shape has been seen and refused: to look for that paint
-// would bring it again, less well seen.
+// What has the paint of the reference's frame and another shape has been seen and refused: to look for that
+// paint would bring it again, less well seen.
 void WindowDetector::Impl::searchOnColours() {
   const bool has_decoy =
       std::any_of(trace.candidates.begin(), trace.candidates.end(), [](const CandidateTrace& candidate) {
-        return candidate.reject == RejectReason::kOtherFrame || candidate.reject == RejectReason::kOtherAspect;
+        return candidate.reject == RejectReason::kOtherFrame ||
+               candidate.reject == RejectReason::kOtherAspect;
       });
   if (reference.paint() && !has_decoy)
     search.runOnPaint(*reference.paint(), trace);

@@ -13,8 +13,8 @@ struct Consistency {
   double mean_nis = 0.0;
   bool consistent = true;  ///< mean_nis does not exceed its limit, or too few images are there to say
   int refused = 0;         ///< images beside those, that contradicted what the filter expected
-  /// So many that the filter follows what is not there: two of five, or too few images are there to say.
-  /// With windows, camera and odometry as they are said to be, one of ten at most is refused.
+  /// More than two of five are refused: the filter follows what is not there. False where too few images are
+  /// there to say. With window, camera and odometry as they are said to be, one in ten at most is refused.
   bool contradicted = false;
 };
 

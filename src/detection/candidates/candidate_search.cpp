@@ -52,7 +52,10 @@ void CandidateSearch::look(const cv::Mat& level) {
   segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
   done(watch_, Stage::kLines);
   keepOnSegments(runs_, lines_, level_size_, straight_);
-  outlines_ = {};
+  outlines_.candidates.clear();
+  outlines_.rejected.clear();
+  outlines_.contours = 0;
+  outlines_.budget_exceeded = false;
   outline(straight_);
   done(watch_, Stage::kOutlines);
 }
@@ -89,7 +92,10 @@ const std::vector<ScoredCandidate>& CandidateSearch::runOnPaint(const Eigen::Vec
   if (painted.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(painted);
-  for (int level : kPaintLevels) outline(painted > Preprocess::kUnpainted + level);
+  for (int level : kPaintLevels) {
+    cv::compare(painted, Preprocess::kUnpainted + level, straight_, cv::CMP_GT);
+    outline(straight_);
+  }
   done(watch_, Stage::kOutlines);
   return combine(SegmentQuads::kThorough, trace);
 }

@@ -9,11 +9,11 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kColourGain = 2.0;  ///< of differences between channels, in the picture of colours alone
-constexpr float kPaintGain = 400.0F;  ///< of chromaticities, in the picture of one paint
+constexpr double kColourGain = 2.0;    ///< of differences between channels, in the picture of colours alone
+constexpr float kPaintGain = 400.0F;   ///< of chromaticities, in the picture of one paint
 constexpr double kPaintSigmaPx = 1.2;  ///< its smoothing: of chromaticities, dark pixels know little
-constexpr double kClipLimit = 2.0;   ///< of the equalisation [mean bin counts]
-constexpr int kTiles = 6;            ///< of the equalisation, each way
+constexpr double kClipLimit = 2.0;     ///< of the equalisation [mean bin counts]
+constexpr int kTiles = 6;              ///< of the equalisation, each way
 
 }  // namespace
 
@@ -49,8 +49,10 @@ const cv::Mat& Preprocess::coloursAlone() {
 }
 
 const cv::Mat& Preprocess::paintAlone(const Eigen::Vector3f& paint) {
-  colours_.release();
-  if (smooth_.channels() != 3) return colours_;
+  if (smooth_.channels() != 3) {
+    colours_.release();
+    return colours_;
+  }
   colours_.create(smooth_.size(), CV_8UC1);
   for (int y = 0; y < smooth_.rows; ++y) {
     const auto* pixels = smooth_.ptr<cv::Vec3b>(y);

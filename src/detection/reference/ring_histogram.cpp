@@ -21,7 +21,7 @@ constexpr double kSharing = 4.0 / 9.0;
 
 constexpr double kTurn_rad = 0.05;     ///< of the difference between frame and surround, from paint and light
 constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
-constexpr float kLeastPaint = 0.05F;       ///< of chromaticities
+constexpr float kLeastPaint = 0.05F;   ///< of chromaticities
 constexpr double kLeastDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
 
 using Counts = std::array<std::uint32_t, RingHistogram::kCells>;

@@ -89,7 +89,8 @@ TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
   EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
 }
 
-// A thin, blurred frame of one paint before bright and dark patches, in dim light that differs from place to place.
+// A thin, blurred frame of one paint before bright and dark patches, in dim light that differs from place to
+// place.
 cv::Mat thinPaintInPatchyLight(const geometry::Quadrilateral& opening, const cv::Scalar& paint) {
   cv::Mat image = brightAndDarkPatches(), ring(image.size(), CV_8UC1, cv::Scalar(0)), light, painted;
   test::fillQuad(ring, test::grown(opening, 5.0), cv::Scalar(255));
@@ -109,7 +110,8 @@ TEST(CandidateSearch, AThinBlurredFrameIsFoundByItsPaintInAnyLight) {
   const cv::Mat image = thinPaintInPatchyLight(opening, cv::Scalar(100, 180, 245));
   CandidateSearch search{DetectorParams()};
   DetectionTrace trace;
-  EXPECT_FALSE(holds(search.run(image, nullptr, trace), opening, 8.0)) << "the picture is too easy for this test";
+  EXPECT_FALSE(holds(search.run(image, nullptr, trace), opening, 8.0))
+      << "the picture is too easy for this test";
   EXPECT_FALSE(holds(search.runOnColours(trace), opening, 8.0)) << "the picture is too easy for this test";
   EXPECT_TRUE(holds(search.runOnPaint(Eigen::Vector3f(-0.76F, 0.12F, 0.64F), trace), opening, 8.0));
   EXPECT_FALSE(holds(search.runOnPaint(Eigen::Vector3f(-0.41F, 0.82F, -0.41F), trace), opening, 8.0))
