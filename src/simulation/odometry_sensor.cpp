@@ -24,8 +24,16 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
       delivery_random_(seed, "odometry delivery"),
       periodic_(params.rate_hz),
       delivery_(params.latency_sec),
-      own_velocity_(params.estimate_delay_sec) {
+      own_velocity_(params.estimate_delay_sec),
+      velocity_bias_base_mps_(drawBias(seed)) {
   for (int axis = 0; axis < 2; ++axis) wander_m_[axis] = wander_random_.normal(params.wander_m);
+}
+
+Eigen::Vector3d OdometrySensor::drawBias(std::uint32_t seed) const {
+  RandomStream random(seed, "odometry velocity bias");
+  const double towards_rad = random.uniform(-M_PI, M_PI);
+  const double size_mps = params_.velocity_bias_mps + params_.velocity_bias_spread_mps * random.uniform(-1.0, 1.0);
+  return std::max(0.0, size_mps) * Eigen::Vector3d(std::cos(towards_rad), std::sin(towards_rad), 0.0);
 }
 
 void OdometrySensor::update(double now_sec, const VehicleTruth& truth) {
@@ -41,7 +49,7 @@ void OdometrySensor::update(double now_sec, const VehicleTruth& truth) {
 }
 
 Eigen::Vector3d OdometrySensor::velocityEstimate() const {
-  return drift_.linear() * scaled(delayed_velocity_mps_) + velocity_noise_mps_;
+  return drift_.linear() * scaled(delayed_velocity_mps_) + velocity_noise_mps_ + own_bias_mps_;
 }
 
 Eigen::Vector3d OdometrySensor::scaled(const Eigen::Vector3d& velocity_mps) const {
@@ -92,7 +100,10 @@ OdometrySample OdometrySensor::measure(double now_sec, const VehicleTruth& truth
   const Eigen::Vector3d tilt = noise(params_.attitude_noise_rad);
   if (tilt.norm() > 0.0) sample.T_odom_base.rotate(Eigen::AngleAxisd(tilt.norm(), tilt.normalized()));
   velocity_noise_mps_ = horizontalTimes(flow_factor_, noise(params_.velocity_noise_mps));
-  sample.velocity_odom_mps = drift_.linear() * scaled(truth.velocity_odom_mps) + velocity_noise_mps_;
+  const Eigen::Vector3d bias_mps =
+      geometry::yawRotation(geometry::yawOf(sample.T_odom_base.linear())) * velocity_bias_base_mps_;
+  own_bias_mps_ = params_.own_bias_part * bias_mps;
+  sample.velocity_odom_mps = drift_.linear() * scaled(truth.velocity_odom_mps) + velocity_noise_mps_ + bias_mps;
   sample.angular_velocity_base_radps = truth.angular_velocity_base_radps;
   return sample;
 }

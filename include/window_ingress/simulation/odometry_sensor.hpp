@@ -20,7 +20,8 @@ struct OdometrySample {
 
 /// White noise on everything, over an error that comes and goes and a slow random walk of position and
 /// heading. Heading walks about the vehicle, so that it does not throw the position about. Horizontal
-/// movement may be reported too long or too short (`scale_error`); horizontal errors grow with height and
+/// movement may be reported too long or too short (`scale_error`), velocity be off by a constant that turns
+/// with the vehicle (`velocity_bias_mps`), which its positions do not show; horizontal errors grow with height and
 /// lack of texture, as those of optical flow do.
 class OdometrySensor {
  public:
@@ -44,6 +45,7 @@ class OdometrySensor {
   OdometrySample measure(double now_sec, const VehicleTruth& truth);
   Eigen::Vector3d scaled(const Eigen::Vector3d& velocity_mps) const;
   Eigen::Vector3d noise(double sigma);
+  Eigen::Vector3d drawBias(std::uint32_t seed) const;
 
   OdometryParams params_;
   RandomStream walk_random_, noise_random_, wander_random_, delivery_random_;
@@ -53,6 +55,7 @@ class OdometrySensor {
   Eigen::Isometry3d drift_ = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Vector3d> last_position_;
   double flow_factor_ = 1.0;  // of horizontal errors
+  Eigen::Vector3d velocity_bias_base_mps_, own_bias_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d wander_m_ = Eigen::Vector3d::Zero(), velocity_noise_mps_ = Eigen::Vector3d::Zero(),
                   delayed_velocity_mps_ = Eigen::Vector3d::Zero();
 };

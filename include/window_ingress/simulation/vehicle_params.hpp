@@ -39,7 +39,8 @@ struct VehicleParams {
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.choice("profile", self.profile,
-                 {"default", "arducopter_4_0", "arducopter_4_3", "crisp", "external"});
+                 {"default", "arducopter_4_0", "arducopter_4_0_default", "arducopter_4_3", "crisp",
+                  "px4_1_13_gps", "slow", "external"});
     field("half_length_m", self.half_length_m, 0.02, 1.0);
     field("half_width_m", self.half_width_m, 0.02, 1.0);
     field("half_height_m", self.half_height_m, 0.02, 1.0);

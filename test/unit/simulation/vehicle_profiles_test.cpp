@@ -69,9 +69,9 @@ const std::vector<Measured> kMeasured = {
 // Vehicle and odometry as they fly together: the vehicle acts on what it believes.
 class Flyer {
  public:
-  explicit Flyer(const std::string& profile)
+  explicit Flyer(const std::string& profile, std::uint32_t seed = 7)
       : params_(paramsOf(profile, &odometry_params_)),
-        sensor_(odometry_params_, 7),
+        sensor_(odometry_params_, seed),
         vehicle_(params_, geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 10})) {
     sensor_.update(0.0, vehicle_.truth());
   }
@@ -90,6 +90,7 @@ class Flyer {
   double yawRate() const { return vehicle_.truth().angular_velocity_base_radps.z(); }
   double now() const { return now_sec_; }
   Eigen::Vector3d position() const { return vehicle_.truth().T_odom_base.translation(); }
+  Eigen::Matrix3d attitude() const { return vehicle_.truth().T_odom_base.linear(); }
   std::optional<OdometrySample> take() { return sensor_.take(now_sec_); }
   const VehicleParams& params() const { return params_; }
 
@@ -249,8 +250,86 @@ TEST(VehicleProfiles, OdometryComesAndErrsAsMeasured) {
   }
 }
 
+// Over 2 s of flight: the mean velocity reported less the way truly made, in the body's axes.
+Eigen::Vector3d velocityBias(Flyer& flyer) {
+  const double start_sec = flyer.now();
+  const Eigen::Vector3d start_m = flyer.position();
+  Eigen::Vector3d sum_mps = Eigen::Vector3d::Zero();
+  int count = 0;
+  while (flyer.now() < start_sec + 2.0) {
+    flyer.step(0.3);
+    while (const auto sample = flyer.take()) {
+      const Eigen::Matrix3d to_body =
+          geometry::yawRotation(-geometry::yawOf(sample->T_odom_base.linear()));
+      sum_mps += to_body * sample->velocity_odom_mps;
+      ++count;
+    }
+  }
+  const Eigen::Matrix3d to_body = geometry::yawRotation(-geometry::yawOf(flyer.attitude()));
+  return sum_mps / count - to_body * (flyer.position() - start_m) / 2.0;
+}
+
+TEST(VehicleProfiles, VelocitiesAreOffAsMeasuredAndTheErrorTurnsWithTheVehicle) {
+  struct Range {
+    const char* profile;
+    double least_mps, most_mps;
+  };
+  for (const Range& measured : {Range{"arducopter_4_0_default", 0.04, 0.19}, {"px4_1_13_gps", 0.15, 0.29}}) {
+    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+      SCOPED_TRACE(measured.profile + (" seed " + std::to_string(seed)));
+      Flyer flyer(measured.profile, seed);
+      while (flyer.now() < 4.0) flyer.step(0.3);
+      const Eigen::Vector3d bias_mps = velocityBias(flyer);
+      EXPECT_GT(bias_mps.norm(), measured.least_mps - 0.02);
+      EXPECT_LT(bias_mps.norm(), measured.most_mps + 0.02);
+      while (flyer.now() < 10.0) flyer.step(0.0, 0.5);
+      while (flyer.now() < 14.0) flyer.step(0.3);
+      EXPECT_LT((velocityBias(flyer) - bias_mps).norm(), 0.04);
+    }
+  }
+}
+
+// Measured: 1.0 m in 10 s, 1.7 m in 16 s.
+TEST(VehicleProfiles, Px4CreepsAtZeroVelocity) {
+  double sum_m = 0.0;
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    Flyer flyer("px4_1_13_gps", seed);
+    while (flyer.now() < 10.0) flyer.step(0.0);
+    sum_m += flyer.position().head<2>().norm() / 30.0;
+  }
+  EXPECT_NEAR(sum_m, 1.0, kTolerance * 1.0);
+}
+
+TEST(VehicleProfiles, Px4StampsItsOdometryAhead) {
+  Flyer flyer("px4_1_13_gps");
+  double least_sec = 1.0, most_sec = 0.0;
+  int count = 0;
+  while (flyer.now() < 20.0) {
+    flyer.step(0.0);
+    while (const auto sample = flyer.take()) {
+      least_sec = std::min(least_sec, sample->stamp_sec - flyer.now());
+      most_sec = std::max(most_sec, sample->stamp_sec - flyer.now());
+      ++count;
+    }
+  }
+  EXPECT_NEAR(least_sec, 0.084, kTolerance * 0.084);
+  EXPECT_NEAR(most_sec, 0.164, kTolerance * 0.164);
+  EXPECT_NEAR(count / 20.0, 30.0, 1.0);
+}
+
+TEST(VehicleProfiles, ChangeTheirVelocityAsSlowlyAsTheyMay) {
+  for (const auto& [profile, limit_mps2] : {std::pair{"slow", 0.6}, {"arducopter_4_0_default", 1.0}}) {
+    Flyer flyer(profile);
+    while (flyer.now() < 1.0) flyer.step(1.5);
+    const double before_mps = flyer.speed();
+    while (flyer.now() < 1.5) flyer.step(1.5);
+    EXPECT_NEAR((flyer.speed() - before_mps) / 0.5, limit_mps2, kTolerance * limit_mps2) << profile;
+  }
+}
+
 TEST(VehicleProfiles, AreWithinTheRangesAndUnknownOnesChangeNothing) {
-  for (const char* profile : {"default", "arducopter_4_0", "arducopter_4_3", "crisp", "external"}) {
+  for (const char* profile : {"default", "arducopter_4_0", "arducopter_4_0_default", "arducopter_4_3", "crisp",
+                              "px4_1_13_gps", "slow", "external"}) {
     VehicleParams vehicle;
     OdometryParams odometry;
     applyProfile(profile, vehicle, odometry);
