@@ -8,6 +8,7 @@
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/openness/interior_follower.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
+#include "window_ingress/pose/sender_clock.hpp"
 #include "window_ingress/simulation/world.hpp"
 
 namespace window_ingress::evaluation {
@@ -99,6 +100,7 @@ class Flight {
   openness::InteriorFollower interior_;
   ProjectedSight sight_;
   pose::PoseBuffer attitude_;
+  pose::SenderClock odometry_clock_;
   navigation::TargetTracker tracker_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
@@ -115,9 +117,9 @@ class Flight {
 void Flight::sense() {
   while (const auto odometry = world_.takeOdometry()) {
     for (auto* observer : observers_) observer->onOdometry(*odometry);
-    tracker_.addOdometry(odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps);
-    input_.vehicle =
-        navigation::VehicleState{odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
+    const double stamp_sec = odometry_clock_.atReceiver(odometry->stamp_sec, world_.timeSec());
+    tracker_.addOdometry(stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps);
+    input_.vehicle = navigation::VehicleState{stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
   }
   while (const auto imu = world_.takeImu()) {
     for (auto* observer : observers_) observer->onImu(*imu);

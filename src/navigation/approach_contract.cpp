@@ -22,6 +22,7 @@ double stoppingDistance(double speed_mps, double braking_mps2, double response_s
 namespace {
 
 constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
+constexpr double kUsualOdometryMps = 0.06;  // between position and velocity over two seconds, where all is well
 
 /// From here on the opening is larger than the picture. Nobody commits from further off the axis than half of
 /// the opening; there, yaw and height keep it in view.
@@ -65,6 +66,12 @@ double remaining(const RelativeState& relative, const NavigatorParams& params) {
   const double way_m = relative.distance() - params.vehicle.half_length_m;
   const double steering_sec = way_m / params.commit.speed_mps - params.vehicle.response_sec;
   return std::exp(-params.align.lateral_gain_hz * std::max(0.0, steering_sec));
+}
+
+/// A velocity that is off by so much carries the vehicle past the axis: it is coasted by, and steered against.
+double missByOdometry(double odometry_mps, const NavigatorParams& params) {
+  const double off_mps = std::max(0.0, odometry_mps - kUsualOdometryMps);
+  return off_mps * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);
 }
 
 /// What chance may add: `sigma_factor` standard deviations.
@@ -133,8 +140,9 @@ Contract evaluateContract(const ContractInput& input, const NavigatorParams& par
       spreadOf(atPlane(relative.sigma_vertical_m), input.gust_vertical_mps, blind_sec, params);
   const Eigen::Vector3d offset = coastedOffset(relative, params).cwiseAbs();
   const double left = remaining(relative, params);
-  contract.miss_lateral_m = left * offset.y() + lateral_m;
-  contract.miss_vertical_m = left * offset.z() + vertical_m;
+  const double odometry_m = missByOdometry(input.odometry_mps, params);
+  contract.miss_lateral_m = left * offset.y() + lateral_m + odometry_m;
+  contract.miss_vertical_m = left * offset.z() + vertical_m + odometry_m;
 
   const double before_line_m = std::max(0.0, relative.distance() - contract.commit_distance_m);
   contract.funnel_m = params.approach.funnel_slope * before_line_m;

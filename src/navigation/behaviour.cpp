@@ -99,6 +99,7 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   input.motion = target.motion;
   input.gust_lateral_mps = along(1);
   input.gust_vertical_mps = along(2);
+  input.odometry_mps = memory.odometry_unexplained_mps;
   Contract contract = evaluateContract(input, params);
   const std::string why_not = whyNotEntered(target, memory, params.commit);
   contract.opening_unverified = !why_not.empty();

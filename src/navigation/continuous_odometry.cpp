@@ -13,7 +13,7 @@ namespace {
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
-constexpr double kPieceSec = 0.5, kMaxBiasMps = 0.4;
+constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kPieces = 16;  // a slide of three seconds is a minority of them
 constexpr std::size_t kLatePieces = 4;
 
@@ -137,11 +137,16 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
 }
 
-double ContinuousOdometry::disagreementMps() const {
-  if (pieces_mps_.size() < kLatePieces) return 0.0;
+Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
+  if (pieces_mps_.size() < kLatePieces) return bias_base_mps_;
   const Eigen::Vector3d sum_mps =
       std::accumulate(pieces_mps_.end() - kLatePieces, pieces_mps_.end(), Eigen::Vector3d(0, 0, 0));
-  return sum_mps.norm() / kLatePieces;
+  return sum_mps / kLatePieces;
+}
+
+Eigen::Vector3d ContinuousOdometry::unbiased(const VehicleState& smooth) const {
+  if (bias_base_mps_.norm() < kNoticeableMps) return smooth.velocity_odom_mps;
+  return smooth.velocity_odom_mps + uprightOf(smooth) * bias_base_mps_;
 }
 
 void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {

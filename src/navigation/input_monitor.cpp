@@ -158,8 +158,9 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
     return;
   }
   situation.vehicle = smooth_;
+  situation.vehicle->velocity_odom_mps = odometry_.unbiased(*smooth_);
   const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
-  situation.vehicle->T_odom_base.translation() += sample.velocity_odom_mps * ahead_sec;
+  situation.vehicle->T_odom_base.translation() += situation.vehicle->velocity_odom_mps * ahead_sec;
 }
 
 void InputMonitor::told(const Setpoint& setpoint, double now_sec) {

@@ -86,6 +86,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     memory.gusts_odom = observer.gusts();
     params.vehicle.response_sec = observer.response().responseSec();
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
+    memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
     home.follow(*situation.vehicle, memory);
   }
   noteSide(situation, params, memory);

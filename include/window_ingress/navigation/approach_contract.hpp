@@ -33,6 +33,7 @@ struct ContractInput {
   pose::TargetMotion motion;       ///< of the window
   double gust_lateral_mps = 0.0;   ///< root mean square of the velocity that gusts bring
   double gust_vertical_mps = 0.0;  ///< likewise
+  double odometry_mps = 0.0;       ///< by which the odometry's velocity may be off
 };
 
 /// The bargain with the wall, at this moment.

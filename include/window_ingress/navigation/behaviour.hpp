@@ -29,6 +29,7 @@ struct MissionMemory {
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
+  double odometry_unexplained_mps = 0.0;        ///< what of it is no steady bias of the velocity
   std::optional<Eigen::Vector3d> home_odom_m;   ///< where the mission began
   std::optional<double> keeping_since_sec;      ///< a place is wanted
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood

@@ -37,9 +37,13 @@ class ContinuousOdometry {
   /// By how much the reported heading is turned against the axes of the setpoints [rad]: to be taken off
   /// where setpoints are turned into body axes.
   double headingErrorRad() const;
+  /// The vehicle's velocity without its steady error, once that is known; axes of `smooth`.
+  Eigen::Vector3d unbiased(const VehicleState& smooth) const;
   /// What position and velocity differ by, over the latest two seconds [m/s]: a bias of the velocity, an
   /// error of the position, or axes that are not those of the other.
-  double disagreementMps() const;
+  double disagreementMps() const { return latePiecesMps().norm(); }
+  /// What of it the known bias does not explain [m/s].
+  double unexplainedMps() const { return (latePiecesMps() - bias_base_mps_).norm(); }
 
  private:
   struct Sample {
@@ -62,6 +66,7 @@ class ContinuousOdometry {
   VehicleState inSmooth(const VehicleState& odometry) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
+  Eigen::Vector3d latePiecesMps() const;
   void shiftIfUnexplained(VehicleState& smooth);
   void noteFrame();
 
