@@ -12,12 +12,17 @@ namespace {
 
 /// Beyond it nobody knows which of the two to fly by when the window is out of sight.
 constexpr double kMaxDisagreementMps = 0.35;
+constexpr double kMaxUnexplainedMps = 0.08;  // likewise, before a steady bias can be told from a slide
 
-std::string whyNoOdometryToCommitBy(double disagreement_mps) {
-  char text[100];
-  std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
-                disagreement_mps);
-  return disagreement_mps > kMaxDisagreementMps ? text : "";
+std::string whyNoOdometryToCommitBy(const MissionMemory& memory) {
+  char text[120] = "";
+  if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
+    std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
+                  memory.odometry_disagreement_mps);
+  else if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
+    std::snprintf(text, sizeof text, "odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
+                  memory.odometry_unexplained_mps);
+  return text;
 }
 
 }  // namespace
@@ -103,7 +108,7 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   Contract contract = evaluateContract(input, params);
   const std::string why_not = whyNotEntered(target, memory, params.commit);
   contract.opening_unverified = !why_not.empty();
-  if (contract.holds) contract.unmet = whyNoOdometryToCommitBy(memory.odometry_disagreement_mps);
+  if (contract.holds) contract.unmet = whyNoOdometryToCommitBy(memory);
   if (contract.unmet.empty()) contract.unmet = why_not;
   contract.holds = contract.unmet.empty();
   return contract;

@@ -14,7 +14,6 @@ constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTur
 constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
-constexpr std::size_t kPieces = 16;  // a slide of three seconds is a minority of them
 constexpr std::size_t kLatePieces = 4;
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
@@ -131,7 +130,7 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   pieces_mps_.push_back(uprightOf(smooth).transpose() * unexplained_m / piece_sec);
   if (pieces_mps_.size() > kPieces) pieces_mps_.pop_front();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
-  if (pieces_mps_.size() < kPieces) return;
+  if (!isBiasKnown()) return;
   std::vector<Eigen::Vector3d> pieces_mps(pieces_mps_.begin(), pieces_mps_.end());
   bias_base_mps_ = geometry::componentwiseMedian(pieces_mps);
   if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();

@@ -87,6 +87,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     params.vehicle.response_sec = observer.response().responseSec();
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
+    memory.odometry_bias_known = monitor.odometry().isBiasKnown();
     home.follow(*situation.vehicle, memory);
   }
   noteSide(situation, params, memory);

@@ -44,8 +44,10 @@ class ContinuousOdometry {
   double disagreementMps() const { return latePiecesMps().norm(); }
   /// What of it the known bias does not explain [m/s].
   double unexplainedMps() const { return (latePiecesMps() - bias_base_mps_).norm(); }
+  bool isBiasKnown() const { return pieces_mps_.size() == kPieces; }
 
  private:
+  static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
   struct Sample {
     double stamp_sec;
     Eigen::Vector3d position_m;  ///< in smooth
