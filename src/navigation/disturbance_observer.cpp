@@ -7,8 +7,9 @@ namespace {
 
 constexpr double kStrongestGustMps = 3.0;
 constexpr double kUsualGustMps = 0.06, kUsualSec = 0.3;
-constexpr double kWorthComparingMps = 0.3;
+constexpr double kStoodSec = 1.0;  // as if it had stood without wind for so long before
 constexpr double kEnoughM2ps = 0.3;  // about half a second at 0.8 m/s
+constexpr double kGustsM2ps = 0.9;       // three times what gusts of 0.3 m/s that last a second turn, squared
 constexpr double kLeastShareGone = 0.6;
 constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
 
@@ -40,23 +41,35 @@ void DisturbanceObserver::restart() {
   gust_mps_.setZero();
   gusts_m2ps_.setZero();
   watched_sec_ = 0.0;
-  told_.setZero();
-  told_m2ps_ = 0.0;
+  directions_ = Directions();
 }
 
-// A vehicle that only stands against the wind goes in no direction.
+void DisturbanceObserver::Directions::fade(double keep) {
+  sec *= keep, said_m2ps *= keep;
+  said_m *= keep, done_m *= keep, both_m2ps *= keep;
+}
+
+// By regression of what was done on what was said. A vehicle that only stands against the wind goes in no
+// direction.
 double DisturbanceObserver::turnedRad() const {
-  const bool goes = told_.norm() > kLeastShareGone * told_m2ps_;
-  return goes && told_m2ps_ > kEnoughM2ps ? std::atan2(told_.y(), told_.x()) : 0.0;
+  const double sec = directions_.sec + kStoodSec;
+  const double spread_m2ps = directions_.said_m2ps - std::norm(directions_.said_m) / sec;
+  const std::complex<double> goes =
+      directions_.both_m2ps - std::conj(directions_.said_m) * directions_.done_m / sec;
+  if (spread_m2ps < kEnoughM2ps || std::abs(goes) < kLeastShareGone * spread_m2ps) return 0.0;
+  const double turned_rad = std::arg(goes);
+  return turned_rad * turned_rad * spread_m2ps > kGustsM2ps ? turned_rad : 0.0;
 }
 
-// Both in the plane: what was said as the real axis, what was done beside it.
 void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec) {
-  const Eigen::Vector2d said = response_.velocity().head<2>(), done = measured_mps.head<2>();
-  if (said.norm() < kWorthComparingMps) return;
-  const double keep = 1.0 - share(dt_sec, approach_.gust_memory_sec);
-  told_ = keep * told_ + dt_sec * Eigen::Vector2d(said.dot(done), said.x() * done.y() - said.y() * done.x());
-  told_m2ps_ = keep * told_m2ps_ + dt_sec * said.squaredNorm();
+  const Eigen::Vector3d& model_mps = response_.velocity();
+  const std::complex<double> said(model_mps.x(), model_mps.y()), done(measured_mps.x(), measured_mps.y());
+  directions_.fade(1.0 - share(dt_sec, approach_.gust_memory_sec));
+  directions_.sec += dt_sec;
+  directions_.said_m2ps += dt_sec * std::norm(said);
+  directions_.said_m += dt_sec * said;
+  directions_.done_m += dt_sec * done;
+  directions_.both_m2ps += dt_sec * std::conj(said) * done;
 }
 
 // Until it has been watched for a while, what is usual counts beside it.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/response_estimator.hpp"
@@ -29,19 +30,26 @@ class DisturbanceObserver {
   /// gusts. Whatever the vehicle is told meanwhile counts, for it is told most while gusts carry it off.
   Eigen::Matrix3d gusts() const;
   /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
-  /// plane; 0 as long as it was told, or moved, too little to tell [rad].
+  /// plane; 0 as long as it was told, or moved, too little to tell [rad]. What is there whatever it is told
+  /// (wind, a biased velocity) turns nothing.
   double turnedRad() const;
   const ResponseEstimator& response() const { return response_; }
 
  private:
+  /// What the setpoints alone would have given, and what was measured, both in the plane: sums over the time.
+  struct Directions {
+    double sec = 0.0, said_m2ps = 0.0;
+    std::complex<double> said_m = 0.0, done_m = 0.0, both_m2ps = 0.0;
+    void fade(double keep);
+  };
+
   void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
 
   ApproachParams approach_;
   ResponseEstimator response_;
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
-  Eigen::Vector2d told_ = Eigen::Vector2d::Zero();      ///< of what was told, done: along it, to its left
-  double told_m2ps_ = 0.0;                              ///< how much was told [m^2/s]
+  Directions directions_;
   Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();
   double watched_sec_ = 0.0;  ///< fading
 };

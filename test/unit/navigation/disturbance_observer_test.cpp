@@ -84,19 +84,41 @@ TEST(DisturbanceObserver, IgnoresWhatIsNoNumber) {
 
 TEST(DisturbanceObserver, TellsAVehicleThatGoesBesideWhatItIsToldFromOneInWind) {
   const NavigatorParams params;
-  const auto turnedBy = [&](double turn_rad, const Eigen::Vector3d& wind_mps) {
+  const auto turnedBy = [&](double turn_rad, const Eigen::Vector3d& wind_mps, int flown_steps) {
     DisturbanceObserver observer(params.vehicle, params.approach);
-    observer.update(wind_mps, Eigen::Vector3d::Zero(), 0.03);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 100; ++i) observer.update(wind_mps, Eigen::Vector3d::Zero(), 0.03);
+    for (int i = 0; i < flown_steps; ++i) {
       const Eigen::Vector3d told(0.8, 0.0, 0.0);
       observer.update(geometry::yawRotation(turn_rad) * told + wind_mps, told, 0.03);
     }
     return observer.turnedRad();
   };
-  EXPECT_NEAR(turnedBy(1.2, Eigen::Vector3d::Zero()), 1.2, 0.05);
-  EXPECT_NEAR(turnedBy(-2.5, Eigen::Vector3d::Zero()), -2.5, 0.05);
-  EXPECT_LT(std::abs(turnedBy(0.0, {0.0, params.approach.max_wind_mps, 0.0})), params.input.max_turned_rad);
+  const Eigen::Vector3d calm(0.0, 0.0, 0.0), wind_mps(0.0, params.approach.max_wind_mps, 0.0);
+  EXPECT_NEAR(turnedBy(1.2, calm, 100), 1.2, 0.05);
+  EXPECT_NEAR(turnedBy(-2.5, wind_mps, 100), -2.5, 0.2);
+  EXPECT_NEAR(turnedBy(0.0, wind_mps, 100), 0.0, 0.3);
+  constexpr int kOneAndAHalfSec = 50;
+  for (const double turn_rad : {0.5 * M_PI, -0.5 * M_PI, 3.0})
+    EXPECT_GT(std::abs(turnedBy(turn_rad, wind_mps, kOneAndAHalfSec)), params.input.max_turned_rad) << turn_rad;
   EXPECT_EQ(DisturbanceObserver(params.vehicle, params.approach).turnedRad(), 0.0);
+}
+
+// A gust that happens to come while a slow vehicle begins to move is no turn of its axes.
+TEST(DisturbanceObserver, OneGustTurnsNothing) {
+  const NavigatorParams params;
+  constexpr double kGustMps = 0.55, kStep = 0.03;
+  for (double begins_sec = 0.0; begins_sec < 6.0; begins_sec += 0.5) {
+    DisturbanceObserver observer(params.vehicle, params.approach);
+    double speed_mps = 0.0, most_rad = 0.0;
+    for (double t = 0.0; t < 8.0; t += kStep) {
+      const double told_mps = t < 3.0 ? 0.0 : 0.9;
+      speed_mps += std::clamp(told_mps - speed_mps, -0.6 * kStep, 0.6 * kStep);  // 0.6 m/s^2
+      const double gust_mps = t > begins_sec ? kGustMps * std::sin(1.5 * (t - begins_sec)) : 0.0;
+      observer.update({speed_mps, gust_mps, 0.0}, {told_mps, 0.0, 0.0}, kStep);
+      most_rad = std::max(most_rad, std::abs(observer.turnedRad()));
+    }
+    EXPECT_LT(most_rad, params.input.max_turned_rad) << begins_sec;
+  }
 }
 
 TEST(DisturbanceObserver, AVehicleThatStandsAgainstTheWindGoesBesideNothing) {
