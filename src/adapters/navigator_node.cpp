@@ -116,10 +116,12 @@ void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.arrived();
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return odom_health_.refused(*late);
-  const auto vehicle = fromMsg(*message, params_.frames);
+  auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
   odom_health_.stamped(vehicle.value->stamp_sec);
+  if (!lockstep_)
+    vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
   input_.vehicle = vehicle.value;
 }
 
@@ -172,6 +174,7 @@ void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
   if (!clock_.jumpedBack(now_sec)) return;
   ROS_WARN("the clock jumped back: inputs forgotten%s", last_.enabled ? ", mission aborted" : "");
   input_ = {};
+  odom_clock_.clear();
   trail_.clear();
   marker_publisher_.publish(allGone(toStamp(now_sec), params_.frames.odom));
   if (last_.enabled) navigator_.abort();

@@ -22,6 +22,7 @@
 #include "adapters/stamps.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/pose/sender_clock.hpp"
 
 namespace window_ingress::adapters {
 
@@ -66,6 +67,7 @@ class NavigatorNode : public Node {
   Diagnostics diagnostics_;
   TopicHealth odom_health_, pose_health_;
   StampGate odom_gate_, pose_gate_;
+  pose::SenderClock odom_clock_;
   Engagement engagement_;
   SetpointWatch guard_;
   ClockWatch clock_;

@@ -13,15 +13,19 @@ Health framesHealth(const pose::FramesVerdict& frames) {
   return {Health::kOk, "camera mounting and velocity frame verified"};
 }
 
-Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset) {
+Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset, const pose::SenderClock& odometry) {
   constexpr double kMostOffsetSec = 0.05, kSigmas = 3.0;
-  if (!offset) return {Health::kOk, "to be seen in the first turn before a window"};
-  char text[120];
+  char text[200] = "";
+  if (odometry.aheadSec() > 0.0)
+    std::snprintf(text, sizeof text, "; odometry is stamped %.2f s ahead of its arrival, which is taken off",
+                  odometry.aheadSec());
+  const std::string ahead = text;
+  if (!offset) return {Health::kOk, "to be seen in the first turn before a window" + ahead};
   std::snprintf(text, sizeof text, "pictures are stamped %.2f +- %.2f s %s beside odometry",
                 std::abs(offset->late_sec), offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
   const double least_sec = std::max(kMostOffsetSec, kSigmas * offset->sigma_sec);
-  if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text};
-  return {Health::kWarn, std::string(text) + ": correct the driver's stamps, or the autopilot's time sync"};
+  if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text + ahead};
+  return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
 }
 
 // Closed is no fault of the node's: it is for the navigator to act upon.

@@ -9,12 +9,13 @@
 #include "window_ingress/pose/consistency_monitor.hpp"
 #include "window_ingress/pose/filter_params.hpp"
 #include "window_ingress/pose/frames_params.hpp"
+#include "window_ingress/pose/sender_clock.hpp"
 
 namespace window_ingress::adapters {
 
 Health framesHealth(const pose::FramesVerdict& frames);
-/// A warning from 50 ms on, if that is certain.
-Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset);
+/// A warning from 50 ms on, if that is certain. Odometry stamped ahead of its arrival is said, and corrected.
+Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset, const pose::SenderClock& odometry);
 Health opennessHealth(const openness::OpennessVerdict& verdict);
 Health consistencyHealth(const pose::Consistency& consistency, const pose::FilterParams& params);
 

@@ -64,7 +64,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
                            {pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_});
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
   diagnostics_.add("frames check", [this] { return framesHealth(tracker_.frames()); });
-  diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset()); });
+  diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset(), odom_clock_); });
   diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_, params_.filter); });
   diagnostics_.add("openness", [this] { return opennessHealth(tracker_.openness()); });
   if (params_.lockstep) {
@@ -119,10 +119,12 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.arrived();
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return odom_health_.refused(*late);
-  const auto vehicle = fromMsg(*message, params_.frames);
+  auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
   odom_health_.stamped(vehicle.value->stamp_sec);
+  if (!lockstep_)
+    vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
   tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
                        vehicle.value->velocity_odom_mps);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
@@ -256,6 +258,7 @@ void PoseNode::restartIfClockJumpedBack() {
   if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
   ROS_WARN("the clock jumped back: odometry, transforms and filter forgotten");
   odometry_stamp_sec_ = -1.0;
+  odom_clock_.clear();
   pending_.reset();
   tracker_.reset();
   tf_.clear();

@@ -23,6 +23,7 @@
 #include "adapters/tf_attitude.hpp"
 #include "window_ingress/configuration/pose_node_params.hpp"
 #include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/pose/sender_clock.hpp"
 
 namespace window_ingress::adapters {
 
@@ -60,6 +61,7 @@ class PoseNode : public Node {
   std::optional<Lockstep> lockstep_;
   ros::Time window_came_, odom_came_, imu_came_;  // stamps of what came last, used or not
   StampGate window_gate_, odom_gate_;
+  pose::SenderClock odom_clock_;
   ClockWatch clock_;
   CameraSource camera_;
   navigation::TargetTracker tracker_;

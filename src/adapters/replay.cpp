@@ -19,6 +19,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/text.hpp"
 #include "window_ingress/pose/pose_buffer.hpp"
+#include "window_ingress/pose/sender_clock.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -59,7 +60,7 @@ class Replay {
   };
 
   void takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode);
-  void takeOdometry(const nav_msgs::Odometry& message);
+  void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec);
   void takeImu(const sensor_msgs::Imu& message);
   void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
   void noticeJump(const ros::Time& stamp);
@@ -85,6 +86,7 @@ class Replay {
   detection::WindowTracker detector_;
   openness::InteriorFollower interior_;
   pose::PoseBuffer attitude_, odometry_;
+  pose::SenderClock odometry_clock_;
   navigation::TargetTracker tracker_;
   Converted<geometry::PinholeCamera> camera_;
   RecordedTransforms transforms_;
@@ -118,7 +120,8 @@ void Replay::take(const rosbag::MessageInstance& message) {
   } else if (topic == params_.topics.camera_info) {
     if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
   } else if (topic == params_.topics.odom) {
-    if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) takeOdometry(*odometry);
+    if (const auto odometry = message.instantiate<nav_msgs::Odometry>())
+      takeOdometry(*odometry, message.getTime().toSec());
   } else if (topic == params_.topics.imu) {
     if (const auto imu = message.instantiate<sensor_msgs::Imu>()) takeImu(*imu);
   }
@@ -144,10 +147,11 @@ void Replay::processComplete() {
   while (!waiting_.empty() && isComplete(waiting_.front())) processFirst();
 }
 
-void Replay::takeOdometry(const nav_msgs::Odometry& message) {
-  const auto vehicle = fromMsg(message, params_.frames);
+void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
+  auto vehicle = fromMsg(message, params_.frames);
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
   noticeJump(message.header.stamp);
+  vehicle.value->stamp_sec = odometry_clock_.atReceiver(vehicle.value->stamp_sec, arrival_sec);
   odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
   tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
                        vehicle.value->velocity_odom_mps);
@@ -193,6 +197,7 @@ void Replay::forgetAll() {
   tracker_.reset();
   attitude_.clear();
   odometry_.clear();
+  odometry_clock_.clear();
   expected_.reset();
   odometry_sec_ = attitude_sec_ = -1.0;
 }
