@@ -22,6 +22,7 @@ double stoppingDistance(double speed_mps, double braking_mps2, double response_s
 namespace {
 
 constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
+constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
 constexpr double kUsualOdometryMps = 0.06;  // between position and velocity over two seconds, where all is well
 
 /// From here on the opening is larger than the picture. Nobody commits from further off the axis than half of
@@ -74,10 +75,17 @@ double missByOdometry(double odometry_mps, const NavigatorParams& params) {
   return off_mps * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);
 }
 
+/// How far gusts carry the vehicle past the axis. What is measured in calm air, too, carries nobody off, and
+/// hides as much of what does.
+double carriedM(double gust_mps, const NavigatorParams& params) {
+  const double beyond_calm_mps = std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps));
+  return params.approach.gust_carry_sec * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
+}
+
 /// What chance may add: `sigma_factor` standard deviations.
 double spreadOf(double sigma_m, double gust_mps, double blind_sec, const NavigatorParams& params) {
   const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
-  const double gust_m = params.approach.gust_carry_sec * gust_mps;
+  const double gust_m = carriedM(gust_mps, params);
   return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
 }
 

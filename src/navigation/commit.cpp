@@ -27,10 +27,13 @@ bool isBroken(const Contract& contract, const NavigatorParams& params) {
          contract.miss_vertical_m > contract.clearance_vertical_m + given_m;
 }
 
-/// The nose can still be stopped before it is in the opening.
-bool canStop(const RelativeState& relative, const NavigatorParams& params) {
-  const double stop_m = stoppingDistance(std::max(0.0, relative.velocity_window_mps.x()),
-                                         params.vehicle.braking_mps2, params.vehicle.response_sec);
+/// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take up.
+bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionMemory& memory,
+             const NavigatorParams& params) {
+  const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
+  const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
+  const double stop_m =
+      stoppingDistance(speed_mps, params.vehicle.braking_mps2, params.vehicle.response_sec);
   return relative.distance() - params.vehicle.half_length_m > stop_m;
 }
 
@@ -74,7 +77,7 @@ Decision Commit::step(const Situation& situation, MissionMemory& memory) {
     decision.reason = text("%.2f m behind the window", -relative.distance());
     const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
     if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
-  } else if (canStop(relative, *params_)) {
+  } else if (canStop(relative, target, memory, *params_)) {
     memory.predicted_miss_m = contract.missM();
     turnBackIfUnsafe(contract, blind_sec, decision);
   }
@@ -141,7 +144,7 @@ bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
   const TargetEstimate committed = ahead(*memory.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, committed);
   if (relative.distance() < -params.vehicle.half_length_m) return true;
-  if (canStop(relative, params) && !seesCommitted(situation, committed, params)) return false;
+  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed, params)) return false;
   return !isBroken(contractWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
 }
 

@@ -80,6 +80,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     observer.restart();
     home.odometryJumped();
   }
+  memory.told_odom_mps = last_setpoint.velocity_odom_mps;
   if (situation.vehicle) {
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     memory.wind_odom_mps = observer.disturbance();

@@ -26,6 +26,7 @@ struct MissionMemory {
   std::optional<TargetEstimate> committed;       ///< what COMMIT flies by, in odom
   double committed_sec = 0.0;                    ///< as known at this time; its spread has grown since
   std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
+  Eigen::Vector3d told_odom_mps = Eigen::Vector3d::Zero();  ///< velocity last commanded
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
