@@ -101,17 +101,35 @@ TEST(Contract, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
   EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
 
-  input.gust_lateral_mps = 0.4;
-  const double gust_m = 0.4 * params.approach.gust_carry_sec;
+  input.gust_lateral_mps = 0.05;
+  const double gust_m = 0.05 * params.approach.gust_carry_sec;
   const auto gusty = evaluateContract(input, params);
   EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
   EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
-  EXPECT_FALSE(gusty.holds);
+  input.gust_lateral_mps = 0.4;
+  EXPECT_GT(evaluateContract(input, params).miss_lateral_m, 3.0 * 1.5 * 0.4 * params.approach.gust_carry_sec)
+      << "calm does not hide what carries";
+  EXPECT_FALSE(evaluateContract(input, params).holds);
 
   input.gust_lateral_mps = 0.0;
   input.unseen_sec = 4.0;
   EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m,
               3.0 * std::hypot(0.01, params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec + 4.0)), 1e-12);
+}
+
+// It is coasted by until the vehicle answers, and steered against for ever.
+TEST(Contract, AVelocityThatIsOffIsAMiss) {
+  const NavigatorParams params;
+  ContractInput input;
+  input.relative = at(0.8);
+  input.opening = kOpening;
+  const Contract before = evaluateContract(input, params);
+  input.odometry_mps = 0.05;
+  EXPECT_EQ(evaluateContract(input, params).miss_lateral_m, before.miss_lateral_m) << "as with any odometry";
+  input.odometry_mps = 0.3;
+  const double least_m = 0.2 * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);
+  EXPECT_GT(evaluateContract(input, params).miss_lateral_m, before.miss_lateral_m + least_m);
+  EXPECT_GT(evaluateContract(input, params).miss_vertical_m, before.miss_vertical_m + least_m);
 }
 
 TEST(Contract, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {

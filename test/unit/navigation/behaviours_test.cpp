@@ -309,6 +309,24 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
   EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
 }
 
+// A vehicle that was told to go on does so until it answers: it stands too late.
+TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
+  static constexpr double kBesideM = 0.8;  // no contract holds there
+  const auto eventAt = [](double distance_m, double told_mps) {
+    MissionMemory memory;
+    memory.committed = test::targetAtOrigin(0.0);
+    memory.told_odom_mps = {told_mps, 0.0, 0.0};
+    Commit commit{kDefaults};
+    commit.enter();
+    return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
+  };
+  const auto& vehicle = kDefaults.vehicle;
+  const double needed_m = vehicle.half_length_m + stoppingDistance(0.95, vehicle.braking_mps2, vehicle.response_sec);
+  EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kContractUnmet);
+  EXPECT_EQ(eventAt(needed_m - 0.02, 0.95), std::nullopt);
+  EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);
+}
+
 TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
   MissionMemory memory;
   memory.committed = test::targetAtOrigin(0.0);

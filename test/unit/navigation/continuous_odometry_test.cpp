@@ -197,12 +197,28 @@ TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   EXPECT_LT(worst_m, ContinuousOdometry::kUnexplainedM + 0.03);
 }
 
+TEST(ContinuousOdometry, WhatIsNotSteadyYetIsUnexplained) {
+  Curve curve;
+  curve.bias_base = {0.15, -0.2, 0.0};
+  ContinuousOdometry continuous;
+  for (int i = 0; i < 100; ++i) continuous.add(curve.step());
+  EXPECT_FALSE(continuous.isBiasKnown());
+  EXPECT_NEAR(continuous.unexplainedMps(), 0.25, 0.02);
+  const VehicleState last = *continuous.add(curve.step());
+  EXPECT_EQ(continuous.unbiased(last), last.velocity_odom_mps);
+}
+
 TEST(ContinuousOdometry, ASteadyBiasOfTheVelocityIsLearntAndASlideBesideItIsSeen) {
   Curve curve;
   curve.bias_base = {0.15, -0.2, 0.0};
   ContinuousOdometry continuous;
   for (int i = 0; i < 450; ++i) continuous.add(curve.step());
   EXPECT_NEAR(continuous.disagreementMps(), 0.25, 0.02);
+  EXPECT_NEAR(continuous.unexplainedMps(), 0.0, 0.02);
+  EXPECT_TRUE(continuous.isBiasKnown());
+  const VehicleState biased = *continuous.add(curve.step());
+  EXPECT_NEAR((biased.velocity_odom_mps - curve.velocity()).norm(), 0.25, 0.02);
+  EXPECT_LT((continuous.unbiased(biased) - curve.velocity()).norm(), 0.03);
   const Eigen::Vector3d shift_m = continuous.T_smooth_odom(curve.time).translation();
   const VehicleState before = *continuous.add(curve.step());
   const Eigen::Vector3d from = curve.position;

@@ -106,6 +106,19 @@ TEST_F(MotionGuard, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
   }
 }
 
+TEST_F(MotionGuard, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeSteady) {
+  situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
+  for (const bool is_known : {false, true}) {
+    for (const double unexplained_mps : {0.0, 0.05, 0.1}) {
+      memory_.odometry_bias_known = is_known;
+      memory_.odometry_unexplained_mps = unexplained_mps;
+      const Contract contract = contractWith(*situation_.target, *situation_.vehicle, memory_, params_);
+      EXPECT_EQ(contract.holds, is_known || unexplained_mps < 0.08) << unexplained_mps;
+      EXPECT_EQ(contract.unmet.find("steadily") != std::string::npos, !contract.holds) << contract.unmet;
+    }
+  }
+}
+
 TEST_F(MotionGuard, TheFenceLeavesRoomToStop) {
   memory_.committed = situation_.target;
   memory_.home_odom_m = situation_.vehicle->T_odom_base.translation();
