@@ -83,8 +83,7 @@ double carriedM(double gust_mps, const NavigatorParams& params) {
 }
 
 /// What chance may add: `sigma_factor` standard deviations.
-double spreadOf(double sigma_m, double gust_mps, double blind_sec, const NavigatorParams& params) {
-  const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
+double spreadOf(double sigma_m, double gust_mps, double drift_m, const NavigatorParams& params) {
   const double gust_m = carriedM(gust_mps, params);
   return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
 }
@@ -142,10 +141,12 @@ Contract evaluateContract(const ContractInput& input, const NavigatorParams& par
   const double blind_sec = blindSec(input, params);
   const double way_sec = blind_sec - input.unseen_sec;
   const auto atPlane = [&](double sigma_m) { return sigmaAhead(sigma_m, input.motion, way_sec); };
+  const double drift_m =
+      std::max(params.commit.drift_m_per_sqrt_sec, input.drift_m_per_sqrt_sec) * std::sqrt(blind_sec);
   const double lateral_m =
-      spreadOf(atPlane(relative.sigma_lateral_m), input.gust_lateral_mps, blind_sec, params);
+      spreadOf(atPlane(relative.sigma_lateral_m), input.gust_lateral_mps, drift_m, params);
   const double vertical_m =
-      spreadOf(atPlane(relative.sigma_vertical_m), input.gust_vertical_mps, blind_sec, params);
+      spreadOf(atPlane(relative.sigma_vertical_m), input.gust_vertical_mps, drift_m, params);
   const Eigen::Vector3d offset = coastedOffset(relative, params).cwiseAbs();
   const double left = remaining(relative, params);
   const double odometry_m = missByOdometry(input.odometry_mps, params);

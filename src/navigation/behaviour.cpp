@@ -105,6 +105,7 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   input.gust_lateral_mps = along(1);
   input.gust_vertical_mps = along(2);
   input.odometry_mps = memory.odometry_unexplained_mps;
+  input.drift_m_per_sqrt_sec = memory.odometry_drift_m_per_sqrt_sec;
   Contract contract = evaluateContract(input, params);
   const std::string why_not = whyNotEntered(target, memory, params.commit);
   contract.opening_unverified = !why_not.empty();

@@ -15,6 +15,7 @@ constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4;
+constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
@@ -134,6 +135,10 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   std::vector<Eigen::Vector3d> pieces_mps(pieces_mps_.begin(), pieces_mps_.end());
   bias_base_mps_ = geometry::componentwiseMedian(pieces_mps);
   if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
+  std::vector<double> errors_mps;
+  for (const Eigen::Vector3d& mps : pieces_mps_)
+    for (const int axis : {0, 1}) errors_mps.push_back(std::abs(mps[axis] - bias_base_mps_[axis]));
+  drift_m_per_sqrt_sec_ = kSigmaOfMedian * geometry::median(errors_mps) * std::sqrt(kPieceSec);
 }
 
 Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {

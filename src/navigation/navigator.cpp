@@ -24,6 +24,7 @@
 
 namespace window_ingress::navigation {
 constexpr double kBeyondFenceM = 1.0;
+constexpr double kUnknownBrakingMps2 = 0.6;  // until the vehicle has shown what it can
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
@@ -40,6 +41,7 @@ struct Navigator::Impl {
         reason(waiting()) {}
 
   NavigatorParams params;
+  const double told_braking_mps2 = params.vehicle.braking_mps2;  ///< what is measured may be less
   InputMonitor monitor;
   SetpointLimiter limiter;
   DisturbanceObserver observer;
@@ -83,12 +85,16 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
   memory.told_odom_mps = last_setpoint.velocity_odom_mps;
   if (situation.vehicle) {
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
-    memory.wind_odom_mps = observer.disturbance();
+    if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
     params.vehicle.response_sec = observer.response().responseSec();
+    params.vehicle.braking_mps2 = std::min(
+        told_braking_mps2,
+        observer.response().isMeasured() ? observer.response().accelerationMps2() : kUnknownBrakingMps2);
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
     memory.odometry_bias_known = monitor.odometry().isBiasKnown();
+    memory.odometry_drift_m_per_sqrt_sec = monitor.odometry().driftMPerSqrtSec();
     home.follow(*situation.vehicle, memory);
   }
   noteSide(situation, params, memory);

@@ -1,13 +1,15 @@
 #include "window_ingress/navigation/response_estimator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace window_ingress::navigation {
 namespace {
 
-constexpr int kModelsToEachSide = 4;
-constexpr double kFastestShare = 0.5, kSlowestShare = 3.0;  // of the time assumed
+constexpr std::array<double, 7> kResponsesSec{0.12, 0.17, 0.24, 0.33, 0.46, 0.64, 0.9};
+constexpr std::array<double, 5> kAccelerationsMps2{std::numeric_limits<double>::infinity(), 1.4, 1.0, 0.7, 0.5};
 constexpr double kDeadTimeSec = 0.1, kLeastLagSec = 0.02;
 constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
 constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
@@ -20,13 +22,11 @@ ResponseEstimator::ResponseEstimator(double assumed_sec) : assumed_sec_(assumed_
 
 void ResponseEstimator::reset() {
   models_.clear();
-  for (int i = -kModelsToEachSide; i <= kModelsToEachSide; ++i) {
-    const double furthest = i < 0 ? kFastestShare : kSlowestShare;
-    const double factor = std::pow(furthest, std::abs(i) / static_cast<double>(kModelsToEachSide));
-    models_.push_back({factor * assumed_sec_});
+  for (const double acceleration_mps2 : kAccelerationsMps2) {
+    models_.push_back({assumed_sec_, acceleration_mps2});
+    for (const double response_sec : kResponsesSec) models_.push_back({response_sec, acceleration_mps2});
   }
-  best_ = kModelsToEachSide;
-  response_sec_ = assumed_sec_;
+  best_ = 0;
   excitation_ = 0.0;
   is_started_ = false;
 }
@@ -41,12 +41,15 @@ void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen:
     is_started_ = true;
   }
   const Eigen::Vector3d asked_mps = delayed(commanded_mps, dt_sec);
-  const Eigen::Vector3d change_mps = commanded_mps - usual_command_mps_;
-  usual_command_mps_ += share(dt_sec, kChangeSec) * change_mps;
-  excitation_ += dt_sec * change_mps.squaredNorm();
+  const Eigen::Vector3d new_mps = commanded_mps - usual_command_mps_;
+  usual_command_mps_ += share(dt_sec, kChangeSec) * new_mps;
+  excitation_ += dt_sec * new_mps.squaredNorm();
   for (Model& model : models_) {
-    model.velocity_mps += share(dt_sec, std::max(kLeastLagSec, model.response_sec - kDeadTimeSec)) *
-                          (asked_mps - model.velocity_mps);
+    const double lag_sec = std::max(kLeastLagSec, model.response_sec - kDeadTimeSec);
+    Eigen::Vector3d change_mps = share(dt_sec, lag_sec) * (asked_mps - model.velocity_mps);
+    const double most_mps = model.acceleration_mps2 * dt_sec;
+    if (change_mps.norm() > most_mps) change_mps *= most_mps / change_mps.norm();
+    model.velocity_mps += change_mps;
     const Eigen::Vector3d remains_mps = measured_mps - model.velocity_mps - model.offset_mps;
     model.offset_mps += share(dt_sec, kOffsetSec) * remains_mps;
     model.error += share(dt_sec, kErrorSec) * (remains_mps.squaredNorm() - model.error);
@@ -68,7 +71,6 @@ void ResponseEstimator::choose() {
   const auto least = std::min_element(models_.begin(), models_.end(), better);
   if (least->error < kClearlyBetter * models_[best_].error)
     best_ = static_cast<std::size_t>(least - models_.begin());
-  response_sec_ = models_[best_].response_sec;
 }
 
 }  // namespace window_ingress::navigation

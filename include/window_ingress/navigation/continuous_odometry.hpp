@@ -44,6 +44,8 @@ class ContinuousOdometry {
   double disagreementMps() const { return latePiecesMps().norm(); }
   /// What of it the known bias does not explain [m/s].
   double unexplainedMps() const { return (latePiecesMps() - bias_base_mps_).norm(); }
+  /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
+  double driftMPerSqrtSec() const { return drift_m_per_sqrt_sec_; }
   bool isBiasKnown() const { return pieces_mps_.size() == kPieces; }
 
  private:
@@ -85,6 +87,7 @@ class ContinuousOdometry {
   std::optional<Sample> piece_;                        ///< where the present piece of the way began
   std::deque<Eigen::Vector3d> pieces_mps_;  ///< unexplained velocity of the latest pieces, body axes
   Eigen::Vector3d bias_base_mps_ = Eigen::Vector3d::Zero();
+  double drift_m_per_sqrt_sec_ = 0.0;
 };
 
 }  // namespace window_ingress::navigation

@@ -6,11 +6,10 @@
 
 namespace window_ingress::navigation {
 
-/// How fast the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
-/// different time constants, all fed with the setpoints that were sent, the one whose velocity is most like
-/// the measured one. A steady difference (wind, a biased velocity) counts for nothing: each model learns its
-/// own and is judged by what remains. A vehicle whose acceleration is limited looks like a slow one, and that
-/// is how it has to be flown.
+/// How the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
+/// different time constants and limits of acceleration, all fed with the setpoints that were sent, the one
+/// whose velocity is most like the measured one. A steady difference (wind, a biased velocity) counts for
+/// nothing: each model learns its own and is judged by what remains.
 class ResponseEstimator {
  public:
   /// \param assumed_sec is believed until the vehicle has been asked to change its velocity often enough to
@@ -24,8 +23,10 @@ class ResponseEstimator {
   /// What was shown is forgotten, too.
   void reset();
 
-  /// From a setpoint to the velocity following it [s]: between half and three times what was assumed.
-  double responseSec() const { return response_sec_; }
+  /// From a setpoint to the velocity following it [s]: 0.12 to 0.9 s, or as assumed.
+  double responseSec() const { return models_[best_].response_sec; }
+  /// The vehicle changes its velocity no faster; infinite where no limit has shown.
+  double accelerationMps2() const { return models_[best_].acceleration_mps2; }
   bool isMeasured() const { return excitation_ >= kEnoughExcitation; }
   /// Velocity that the setpoints alone would have given the vehicle [m/s].
   const Eigen::Vector3d& velocity() const { return models_[best_].velocity_mps; }
@@ -33,17 +34,18 @@ class ResponseEstimator {
  private:
   struct Model {
     double response_sec;  ///< dead time and time constant
+    double acceleration_mps2;
     Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
     Eigen::Vector3d offset_mps =
         Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from it
     double error = 0.0;           ///< mean square of what remains, fading [m^2/s^2]
   };
-  static constexpr double kEnoughExcitation = 0.3;  ///< [m^2/s]
+  static constexpr double kEnoughExcitation = 0.15;  ///< [m^2/s]
 
   Eigen::Vector3d delayed(const Eigen::Vector3d& commanded_mps, double dt_sec);
   void choose();
 
-  double assumed_sec_, response_sec_;
+  double assumed_sec_;
   std::vector<Model> models_;
   std::size_t best_;
   struct Command {
