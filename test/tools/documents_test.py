@@ -1,5 +1,7 @@
 """Documents: every link leads somewhere, every command can be pasted and those of the README run, Doxygen has nothing to say."""
 import functools
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import re
@@ -102,6 +104,14 @@ def readme_commands():
     return printed_commands(ROOT / "README.md")
 
 
+def load_ingress():
+    loader = importlib.machinery.SourceFileLoader("ingress", str(ROOT / "scripts/ingress"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("ingress", loader))
+    loader.exec_module(module)
+    return module
+
+
+INGRESS = load_ingress()
 ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun plotjuggler) "  # of other packages
 ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 
@@ -124,9 +134,12 @@ def test_printed_commands_can_be_pasted(document):
         if re.match(ELSEWHERE, command):
             continue
         first, *words = command.split()
-        assert re.match(r"(\./)?scripts/", first), f"{command}: begins with neither ./scripts/ nor ./scripts/run"
+        assert re.match(r"(\./)?scripts/", first), f"{command}: does not begin with ./scripts/"
         assert (ROOT / first).is_file(), command
-        tool = words.pop(0) if first.endswith("/run") else pathlib.Path(first).name
+        if first.endswith("/ingress"):
+            tool, words = INGRESS.parse(words)
+        else:
+            tool = words.pop(0) if first.endswith("/run") else pathlib.Path(first).name
         if tool == "roslaunch":
             assert words[0] == "window_ingress" and {word.split(":=")[0] for word in words[2:]} <= arguments_of(words[1]), command
         elif tool not in ROS:
@@ -134,7 +147,7 @@ def test_printed_commands_can_be_pasted(document):
             assert explained(tool), f"{command}: no such tool"
             assert all(re.search(rf"{option}\b", explained(tool)) for option in options), command
         if tool == "rosservice":
-            assert f"~{words[1].split('/')[-1]}`" in (ROOT / "README.md").read_text(encoding="utf-8"), command
+            assert f"~{words[1].split('/')[-1]}`" in (ROOT / "doc/ros_api.md").read_text(encoding="utf-8"), command
         assert all((ROOT / word).exists() for word in words if word.startswith("config/") and "*" not in word), command
 
 
@@ -187,7 +200,7 @@ def calls_a_service(command, folder):
 CHECKS = [(r"\./scripts/(demo|test|bench|build|build_deb|check_deb|check_install)\b", checked_elsewhere),
           (r"\./scripts/run roslaunch window_ingress", launches),
           (r"\./scripts/run rosservice call", calls_a_service),
-          (r"\./scripts/run \w+", runs_a_tool)]
+          (r"\./scripts/(run|ingress) \w+", runs_a_tool)]
 
 
 @pytest.mark.parametrize("command", readme_commands())
