@@ -59,23 +59,27 @@ def reference_of(scenario, seed, folder):
     return ",".join(f"{value:.1f}" for corner in corners for value in corner)
 
 
-def path_panel(steps, now, scenario):
+def path_panel(steps, now, scenario, from_the_side):
+    """The path so far, from above or from the side, the vehicle's nose with it."""
     panel = np.full((HEIGHT, WIDTH, 3), 255, np.uint8)
+    name, size = ("z_m", "height_m") if from_the_side else ("y_m", "width_m")
 
     def at(step):
-        return (int(PLANE[0] + METRE_PX * float(step["x_m"])), int(PLANE[1] - METRE_PX * float(step["y_m"])))
+        return (int(PLANE[0] + METRE_PX * float(step["x_m"])), int(PLANE[1] - METRE_PX * float(step[name])))
 
-    half = int(0.5 * METRE_PX * scenario["window"]["width_m"])
+    half = int(0.5 * METRE_PX * scenario["window"][size])
     for top, bottom in ((0, PLANE[1] - half), (PLANE[1] + half, HEIGHT)):
         cv2.rectangle(panel, (PLANE[0], top), (PLANE[0] + 8, bottom), (150, 150, 150), cv2.FILLED)
     for before, after in zip(steps[:now], steps[1:now + 1]):
         cv2.line(panel, at(before), at(after), colour(after), 2, cv2.LINE_AA)
     nose = float(steps[now]["heading_rad"])
     tip = at(steps[now])
-    end = (int(tip[0] + 14 * math.cos(nose)), int(tip[1] - 14 * math.sin(nose)))
+    rise = 0.0 if from_the_side else math.sin(nose)
+    end = (int(tip[0] + 14 * math.cos(nose)), int(tip[1] - 14 * rise))
     cv2.arrowedLine(panel, tip, end, (40, 40, 40), 2, cv2.LINE_AA, tipLength=0.4)
     cv2.circle(panel, tip, 5, colour(steps[now]), cv2.FILLED, cv2.LINE_AA)
-    cv2.putText(panel, f"{float(steps[now]['time_s']):4.1f} s  {steps[now]['state']}", (6, 172), FONT, 0.45, colour(steps[now]), 1, cv2.LINE_AA)
+    text = "from the side" if from_the_side else f"{float(steps[now]['time_s']):4.1f} s  {steps[now]['state']}"
+    cv2.putText(panel, text, (6, 172), FONT, 0.45, (90, 90, 90) if from_the_side else colour(steps[now]), 1, cv2.LINE_AA)
     return panel
 
 
@@ -117,6 +121,7 @@ def main():
     parser.add_argument("--log", required=True, type=pathlib.Path, help="flight_N.csv of fly --log")
     parser.add_argument("--scenario", required=True, type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--path-only", action="store_true", help="the path from the side in place of the camera's images")
     parser.add_argument("--rate", type=float, default=6.0, help="images a second")
     parser.add_argument("--colours", type=int, default=64)
     parser.add_argument("--output", required=True, type=pathlib.Path)
@@ -128,9 +133,12 @@ def main():
     chosen = [int(np.searchsorted(times, t)) for t in np.arange(times[0], times[-1], 1.0 / arguments.rate)]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        panels = camera_panels(steps, chosen, scenario, arguments.seed, folder)
+        if arguments.path_only:
+            panels = {i: path_panel(steps, i, scenario, True) for i in chosen}
+        else:
+            panels = camera_panels(steps, chosen, scenario, arguments.seed, folder)
         for number, i in enumerate(chosen):
-            cv2.imwrite(str(folder / f"{number:04d}.png"), np.hstack([panels[i], path_panel(steps, i, scenario)]))
+            cv2.imwrite(str(folder / f"{number:04d}.png"), np.hstack([panels[i], path_panel(steps, i, scenario, False)]))
         palette = f"split[a][b];[a]palettegen=max_colors={arguments.colours}[p];[b][p]paletteuse=dither=none:diff_mode=rectangle"
         run("ffmpeg", "-y", "-framerate", arguments.rate, "-i", folder / "%04d.png", "-vf", palette, "-loop", 0, arguments.output)
     print(f"{arguments.output}: {len(chosen)} images, {arguments.output.stat().st_size / 1e6:.2f} MB")
