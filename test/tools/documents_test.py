@@ -151,6 +151,18 @@ def test_printed_commands_can_be_pasted(document):
         assert all((ROOT / word).exists() for word in words if word.startswith("config/") and "*" not in word), command
 
 
+OVERLAYS = [(file.name, block) for file in DOCUMENTS
+            for block in re.findall(r"^```yaml\n(.*?)^```", file.read_text(encoding="utf-8"), flags=re.M | re.S)
+            if re.match(r"(#.*\n)*(vehicle|window_detector|homography_pose|ingress_navigator|setpoint_guard):", block)]
+
+
+@pytest.mark.parametrize("document, text", OVERLAYS, ids=[document for document, _ in OVERLAYS])
+def test_printed_parameter_files_can_be_given(document, text, tmp_path):
+    (tmp_path / document).with_suffix(".yaml").write_text(text)
+    done = run("scripts/run", "check_overlay", (tmp_path / document).with_suffix(".yaml"))
+    assert done.returncode == 0, done.stderr
+
+
 def checked_elsewhere(command, _):
     """What builds, tests or measures everything: here only that it can be read. scripts/test is, runs demo and
     check_install; bench, build_deb and check_deb take long and are run by hand."""
