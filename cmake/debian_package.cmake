@@ -19,5 +19,6 @@ set(run_dependencies
     python3-rostopic python3-sensor-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs
     python3-yaml rosbash rosout topic-tools)
 list(JOIN run_dependencies ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS rviz)
+# parallel: ingress campaign; python3-deap: ingress evaluate envelope.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "rviz, parallel, python3-deap")
 include(CPack)

@@ -11,7 +11,8 @@ import collections
 import os
 import sys
 
-import evaluate_detections as rules
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import evaluate_detections as rules  # noqa: E402
 
 FIRST = (1, 10, 50)
 

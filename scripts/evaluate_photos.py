@@ -12,12 +12,14 @@ import struct
 import subprocess
 import sys
 
-import evaluate_candidates
-import evaluate_detections as rules
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import evaluate_candidates  # noqa: E402
+import evaluate_detections as rules  # noqa: E402
+import package_paths  # noqa: E402
 
 MARGIN = 0.25  # of the references `ref_with_margin`: at each side, of the target's own width or height
 CELL, COLUMNS = (280, 210), 8  # of the sheet of what went wrong [px]
-DEFAULT_TOOL = pathlib.Path(__file__).resolve().parents[1] / "build" / "core" / "detect_images"
+DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
 
 
 def png_size(path):

@@ -6,13 +6,16 @@ corners say: that frame is the reference. A frame is lost if nothing is found in
 target by less than an intersection over union of 0.7. Corners are compared in the cyclic order that fits best.
 """
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
 
-import evaluate_detections as rules
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import evaluate_detections as rules  # noqa: E402
+import package_paths  # noqa: E402
 
-DEFAULT_TOOL = pathlib.Path(__file__).resolve().parents[1] / "build" / "core" / "detect_images"
+DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
 SAME_IOU = 0.7
 
 

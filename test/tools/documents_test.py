@@ -1,5 +1,7 @@
 """Documents: every link leads somewhere, every command can be pasted and those of the README run, Doxygen has nothing to say."""
 import functools
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import re
@@ -61,7 +63,7 @@ def files_named(cell, *folders):
 
 
 def test_each_part_of_the_paper_names_files_and_tests_that_are_there():
-    rows = re.findall(r"^\| P(\d+) \|[^|]*\|([^|]*)\|([^|]*)\|$", (ROOT / "doc/paper_coverage.md").read_text(), flags=re.M)
+    rows = re.findall(r"^\| P(\d+) \|[^|]*\|([^|]*)\|([^|]*)\|$", (ROOT / "doc/architecture.md").read_text(), flags=re.M)
     assert [int(row[0]) for row in rows] == list(range(1, 25))
     for number, file, test in rows:
         files = [*files_named(file, ".", "include/window_ingress", "src")]
@@ -102,6 +104,14 @@ def readme_commands():
     return printed_commands(ROOT / "README.md")
 
 
+def load_ingress():
+    loader = importlib.machinery.SourceFileLoader("ingress", str(ROOT / "scripts/ingress"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("ingress", loader))
+    loader.exec_module(module)
+    return module
+
+
+INGRESS = load_ingress()
 ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun plotjuggler) "  # of other packages
 ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 
@@ -124,9 +134,12 @@ def test_printed_commands_can_be_pasted(document):
         if re.match(ELSEWHERE, command):
             continue
         first, *words = command.split()
-        assert re.match(r"(\./)?scripts/", first), f"{command}: begins with neither ./scripts/ nor ./scripts/run"
+        assert re.match(r"(\./)?scripts/", first), f"{command}: does not begin with ./scripts/"
         assert (ROOT / first).is_file(), command
-        tool = words.pop(0) if first.endswith("/run") else pathlib.Path(first).name
+        if first.endswith("/ingress"):
+            tool, words = INGRESS.parse(words)
+        else:
+            tool = words.pop(0) if first.endswith("/run") else pathlib.Path(first).name
         if tool == "roslaunch":
             assert words[0] == "window_ingress" and {word.split(":=")[0] for word in words[2:]} <= arguments_of(words[1]), command
         elif tool not in ROS:
@@ -134,8 +147,20 @@ def test_printed_commands_can_be_pasted(document):
             assert explained(tool), f"{command}: no such tool"
             assert all(re.search(rf"{option}\b", explained(tool)) for option in options), command
         if tool == "rosservice":
-            assert f"~{words[1].split('/')[-1]}`" in (ROOT / "README.md").read_text(encoding="utf-8"), command
+            assert f"~{words[1].split('/')[-1]}`" in (ROOT / "doc/ros_api.md").read_text(encoding="utf-8"), command
         assert all((ROOT / word).exists() for word in words if word.startswith("config/") and "*" not in word), command
+
+
+OVERLAYS = [(file.name, block) for file in DOCUMENTS
+            for block in re.findall(r"^```yaml\n(.*?)^```", file.read_text(encoding="utf-8"), flags=re.M | re.S)
+            if re.match(r"(#.*\n)*(vehicle|window_detector|homography_pose|ingress_navigator|setpoint_guard):", block)]
+
+
+@pytest.mark.parametrize("document, text", OVERLAYS, ids=[document for document, _ in OVERLAYS])
+def test_printed_parameter_files_can_be_given(document, text, tmp_path):
+    (tmp_path / document).with_suffix(".yaml").write_text(text)
+    done = run("scripts/run", "check_overlay", (tmp_path / document).with_suffix(".yaml"))
+    assert done.returncode == 0, done.stderr
 
 
 def checked_elsewhere(command, _):
@@ -187,7 +212,7 @@ def calls_a_service(command, folder):
 CHECKS = [(r"\./scripts/(demo|test|bench|build|build_deb|check_deb|check_install)\b", checked_elsewhere),
           (r"\./scripts/run roslaunch window_ingress", launches),
           (r"\./scripts/run rosservice call", calls_a_service),
-          (r"\./scripts/run \w+", runs_a_tool)]
+          (r"\./scripts/(run|ingress) \w+", runs_a_tool)]
 
 
 @pytest.mark.parametrize("command", readme_commands())

@@ -1,0 +1,137 @@
+"""The command ingress: every sub-command leads to a tool that is there, in a clone, in a workspace and installed."""
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
+INGRESS = SCRIPTS / "ingress"
+LOADER = importlib.machinery.SourceFileLoader("ingress", str(INGRESS))
+ingress = importlib.util.module_from_spec(importlib.util.spec_from_loader("ingress", LOADER))
+LOADER.exec_module(ingress)
+
+
+def run(*command, **options):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=120, check=False, **options)
+
+
+def complete(*words):
+    return run(INGRESS, "--complete", *words).stdout.split()
+
+
+@pytest.mark.parametrize("words", ingress.COMMANDS)
+def test_the_target_is_part_of_the_package_and_installed(words):
+    tool = ingress.COMMANDS[words][0]
+    if (SCRIPTS / tool).is_file():
+        assert os.access(SCRIPTS / tool, os.X_OK)
+        assert re.search(rf"PROGRAMS [^)]*scripts/{re.escape(tool)}\s", (ROOT / "cmake/ros.cmake").read_text())
+    else:
+        assert (ROOT / "src/tools" / f"{tool}.cpp").is_file()
+
+
+@pytest.mark.parametrize("words", ingress.COMMANDS)
+def test_help_is_that_of_the_tool(words):
+    tool = ingress.COMMANDS[words][0]
+    done = run(INGRESS, *words.split(), "--help")
+    assert done.returncode == 0 and tool.replace(".py", "") in done.stdout, done.stdout + done.stderr
+
+
+def test_every_tool_has_a_command():
+    tools = {file.stem for file in (ROOT / "src/tools").glob("*.cpp")}
+    assert len(tools) > 10 and tools <= {tool for tool, _ in ingress.COMMANDS.values()}
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"], ["help"]])
+def test_alone_it_lists_all_commands_a_line_each(arguments):
+    done = run(INGRESS, *arguments)
+    assert done.returncode == 0
+    for words, (_, text) in ingress.COMMANDS.items():
+        if " " in words:
+            group, member = words.split()
+            assert re.search(rf"^  {group} .*\b{member}\b", done.stdout, flags=re.M), words
+            assert re.search(rf"^  {member} +{re.escape(text)}$", run(INGRESS, group, "--help").stdout, flags=re.M), words
+        else:
+            assert re.search(rf"^  {words} +{re.escape(text)}$", done.stdout, flags=re.M), words
+
+
+@pytest.mark.parametrize("words, nearest", [("flyy", "fly"), ("campain", "campaign"), ("plot fligt", "plot flight"), ("evaluate foto", "evaluate photos")])
+def test_an_unknown_command_is_refused_with_the_nearest(words, nearest):
+    done = run(INGRESS, *words.split())
+    assert done.returncode == 2 and not done.stdout
+    assert f"no command '{words}'; the nearest is '{nearest}'" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_a_group_alone_says_what_it_has():
+    done = run(INGRESS, "plot")
+    assert done.returncode == 2 and "flight, flights, gusts" in done.stderr
+
+
+def test_completion_lists_everything():
+    assert complete("") == [*[words for words in ingress.COMMANDS if " " not in words], *ingress.GROUPS]
+    assert complete("p") == ["plot"]
+    for group in ingress.GROUPS:
+        assert complete(group, "") == [words.split()[1] for words in ingress.COMMANDS if words.startswith(f"{group} ")]
+    assert "--sshloginfile" in complete("campaign", "--ss")
+    assert not complete("campaign", "config/")  # files are bash's
+
+
+def test_completion_in_bash():
+    script = (f"source {SCRIPTS}/ingress_completion.bash; complete -p ingress >&2; COMP_WORDS=({INGRESS} plot mi); COMP_CWORD=2; "
+              '_window_ingress_complete; echo "${COMPREPLY[@]}"; COMP_WORDS=(ingress_that_is_not_there x); COMP_CWORD=1; '
+              '_window_ingress_complete; echo "${#COMPREPLY[@]}"')
+    assert run("bash", "-c", script).stdout.split("\n")[:2] == ["miss", "0"]
+
+
+def pretend(file, text):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+    file.chmod(0o755)
+
+
+FLY = '#!/bin/sh\necho "$0 flies $*"\nexit 7\n'
+
+
+def flies(program, fly, **environment):
+    done = run(program, "fly", "--seeds", "1..2", env={"PATH": os.environ["PATH"], **environment})
+    assert (done.returncode, done.stdout) == (7, f"{fly} flies --seeds 1..2\n"), done.stderr
+
+
+def test_installed_it_runs_the_tools_beside_it(tmp_path):
+    library = tmp_path / "lib/window_ingress"
+    pretend(library / "fly", FLY)
+    for name in ("ingress", "package_paths.py"):
+        shutil.copy(SCRIPTS / name, library)
+    flies(library / "ingress", library / "fly")
+    (tmp_path / "bin").mkdir()
+    shutil.copy(INGRESS, tmp_path / "bin")
+    flies(tmp_path / "bin/ingress", library / "fly")
+
+
+def test_in_a_workspace_it_runs_the_tools_of_the_workspace(tmp_path):
+    relay = (f"#!/usr/bin/env python3\nfile = {str(INGRESS)!r}\n"
+             "exec(compile(open(file).read(), file, 'exec'), {'__file__': file, '__name__': '__main__'})\n")  # as catkin writes it
+    library = tmp_path / "devel/lib/window_ingress"
+    pretend(library / "fly", FLY)
+    for folder in (tmp_path / "devel/bin", library):
+        pretend(folder / "ingress", relay)
+        flies(folder / "ingress", library / "fly")
+    source = tmp_path / "src/window_ingress/scripts"
+    source.mkdir(parents=True)
+    for name in ("ingress", "package_paths.py", "run", "env.sh"):
+        shutil.copy(SCRIPTS / name, source)
+    flies(source / "ingress", library / "fly", CMAKE_PREFIX_PATH=f"{tmp_path}/other:{tmp_path}/devel")
+    done = run(source / "run", "fly", "--seeds", "3", env={"PATH": os.environ["PATH"], "CMAKE_PREFIX_PATH": f"{tmp_path}/devel"})
+    assert (done.returncode, done.stdout) == (7, f"{library}/fly flies --seeds 3\n")
+
+
+def test_what_is_not_built_is_named(tmp_path):
+    for name in ("ingress", "package_paths.py"):
+        shutil.copy(SCRIPTS / name, tmp_path)
+    done = run(tmp_path / "ingress", "fly", env={"PATH": os.environ["PATH"]})
+    assert done.returncode == 2 and "'fly' is not installed" in done.stderr
