@@ -24,7 +24,6 @@
 
 namespace window_ingress::navigation {
 constexpr double kBeyondFenceM = 1.0;
-constexpr double kUnknownBrakingMps2 = 0.6;  // until the vehicle has shown what it can
 
 struct Navigator::Impl {
   explicit Impl(const NavigatorParams& given)
@@ -88,9 +87,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
     params.vehicle.response_sec = observer.response().responseSec();
-    params.vehicle.braking_mps2 = std::min(
-        told_braking_mps2,
-        observer.response().isMeasured() ? observer.response().accelerationMps2() : kUnknownBrakingMps2);
+    params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
     memory.odometry_bias_known = monitor.odometry().isBiasKnown();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace window_ingress::navigation {
@@ -12,6 +13,7 @@ constexpr std::array<double, 7> kResponsesSec{0.12, 0.17, 0.24, 0.33, 0.46, 0.64
 constexpr std::array<double, 5> kAccelerationsMps2{std::numeric_limits<double>::infinity(), 1.4, 1.0, 0.7, 0.5};
 constexpr double kDeadTimeSec = 0.1, kLeastLagSec = 0.02;
 constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
+constexpr double kExplains = 0.7;       // of the mean square that a vehicle which stands would leave
 constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
 
 double share(double dt_sec, double time_constant_sec) { return 1.0 - std::exp(-dt_sec / time_constant_sec); }
@@ -26,6 +28,7 @@ void ResponseEstimator::reset() {
     models_.push_back({assumed_sec_, acceleration_mps2});
     for (const double response_sec : kResponsesSec) models_.push_back({response_sec, acceleration_mps2});
   }
+  models_.push_back({assumed_sec_, 0.0});  // stands, whatever it is told
   best_ = 0;
   excitation_ = 0.0;
   is_started_ = false;
@@ -48,7 +51,8 @@ void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen:
     const double lag_sec = std::max(kLeastLagSec, model.response_sec - kDeadTimeSec);
     Eigen::Vector3d change_mps = share(dt_sec, lag_sec) * (asked_mps - model.velocity_mps);
     const double most_mps = model.acceleration_mps2 * dt_sec;
-    if (change_mps.norm() > most_mps) change_mps *= most_mps / change_mps.norm();
+    const double size_mps = change_mps.norm();
+    if (size_mps > most_mps) change_mps *= most_mps / size_mps;
     model.velocity_mps += change_mps;
     const Eigen::Vector3d remains_mps = measured_mps - model.velocity_mps - model.offset_mps;
     model.offset_mps += share(dt_sec, kOffsetSec) * remains_mps;
@@ -68,8 +72,9 @@ Eigen::Vector3d ResponseEstimator::delayed(const Eigen::Vector3d& commanded_mps,
 void ResponseEstimator::choose() {
   if (!isMeasured()) return;
   const auto better = [](const Model& a, const Model& b) { return a.error < b.error; };
-  const auto least = std::min_element(models_.begin(), models_.end(), better);
-  if (least->error < kClearlyBetter * models_[best_].error)
+  const Model& standing = models_.back();
+  const auto least = std::min_element(models_.begin(), std::prev(models_.end()), better);
+  if (least->error < kExplains * standing.error && least->error < kClearlyBetter * models_[best_].error)
     best_ = static_cast<std::size_t>(least - models_.begin());
 }
 

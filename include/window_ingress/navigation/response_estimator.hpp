@@ -9,7 +9,8 @@ namespace window_ingress::navigation {
 /// How the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
 /// different time constants and limits of acceleration, all fed with the setpoints that were sent, the one
 /// whose velocity is most like the measured one. A steady difference (wind, a biased velocity) counts for
-/// nothing: each model learns its own and is judged by what remains.
+/// nothing: each model learns its own and is judged by what remains. Where none explains the motion (turned
+/// axes, a vehicle that is held), what was assumed stays.
 class ResponseEstimator {
  public:
   /// \param assumed_sec is believed until the vehicle has been asked to change its velocity often enough to
@@ -40,7 +41,7 @@ class ResponseEstimator {
         Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from it
     double error = 0.0;           ///< mean square of what remains, fading [m^2/s^2]
   };
-  static constexpr double kEnoughExcitation = 0.15;  ///< [m^2/s]
+  static constexpr double kEnoughExcitation = 0.12;  ///< [m^2/s]
 
   Eigen::Vector3d delayed(const Eigen::Vector3d& commanded_mps, double dt_sec);
   void choose();

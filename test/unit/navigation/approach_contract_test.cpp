@@ -101,6 +101,10 @@ TEST(Contract, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
   EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
 
+  input.drift_m_per_sqrt_sec = 0.05;
+  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, 0.05 * std::sqrt(blind_sec)), 1e-12);
+  input.drift_m_per_sqrt_sec = 0.0;
+
   input.gust_lateral_mps = 0.05;
   const double gust_m = 0.05 * params.approach.gust_carry_sec;
   const auto gusty = evaluateContract(input, params);

@@ -208,6 +208,25 @@ TEST(ContinuousOdometry, WhatIsNotSteadyYetIsUnexplained) {
   EXPECT_EQ(continuous.unbiased(last), last.velocity_odom_mps);
 }
 
+TEST(ContinuousOdometry, HowItsPositionWalksBesideItsVelocityIsMeasured) {
+  for (const double walk_m_per_sqrt_sec : {0.0, 0.03, 0.07}) {
+    double sum = 0.0;
+    constexpr int kCurves = 20;
+    for (unsigned seed = 1; seed <= kCurves; ++seed) {
+      Curve curve;
+      curve.random.seed(seed);
+      ContinuousOdometry continuous;
+      std::normal_distribution<double> step_m(0.0, walk_m_per_sqrt_sec * std::sqrt(kStep));
+      for (int i = 0; i < 450; ++i) {
+        if (walk_m_per_sqrt_sec > 0.0) curve.shift += Eigen::Vector3d(step_m(curve.random), step_m(curve.random), 0);
+        continuous.add(curve.step());
+      }
+      sum += continuous.driftMPerSqrtSec() / kCurves;
+    }
+    EXPECT_NEAR(sum, walk_m_per_sqrt_sec, 0.01 + 0.15 * walk_m_per_sqrt_sec);
+  }
+}
+
 TEST(ContinuousOdometry, ASteadyBiasOfTheVelocityIsLearntAndASlideBesideItIsSeen) {
   Curve curve;
   curve.bias_base = {0.15, -0.2, 0.0};
