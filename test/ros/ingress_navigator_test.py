@@ -80,6 +80,18 @@ class IngressNavigatorTest(unittest.TestCase):
     def test_start_says_what_will_be_asked(self):
         self.assertIn("will ask for ~confirm_opening at the line: glass is not excluded", self.start().message)
 
+    def test_start_without_a_calibration_says_so(self):
+        self.feed()
+        missing = "no calibration: no camera_info on /camera/camera_info so far"
+        self.streams["window_pose"].make = support.changed(no_window, camera__fault=missing)
+        support.wait_for(lambda: self.call("start").message == f"not started: {missing}", "a start that names the calibration alone")
+        support.Diagnostics().wait("ingress_navigator: camera", missing)
+        self.assertEqual(self.states.wait(what="a state").state_name, "IDLE")
+        self.streams["window_pose"].make = support.changed(no_window, camera__known=True, camera__forward=0.3, camera__horizontal_fov=1.1,
+                                                           camera__vertical_fov=0.9, camera__pixel_angle=0.002)
+        support.Diagnostics().wait("ingress_navigator: camera", "0.30 m ahead, sees 1.10 x 0.90 rad", "as camera_info and tf say")
+        support.wait_for(lambda: self.call("start").success, "a start with a calibration")
+
     def test_start_twice_is_answered_twice(self):
         self.start()
         again = self.call("start")
