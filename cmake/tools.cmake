@@ -1,5 +1,5 @@
 # One command-line tool per src/tools/<name>.cpp; those that read bags or topics need ROS.
-set(ros_tools make_reference replay_bag tune_detector tune_from_bag)
+set(ros_tools check_overlay make_reference replay_bag tune_detector tune_from_bag)
 file(GLOB tool_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cpp)
 foreach(source ${tool_sources})
   get_filename_component(tool ${source} NAME_WE)

@@ -1,6 +1,7 @@
 #include "adapters/run_node.hpp"
 
 #include <ros/callback_queue.h>
+#include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
 
@@ -50,7 +51,7 @@ int runNode(int argc, char** argv, const std::string& name, const MakeNode& make
     spinUntilStopped();
     if (ros::ok()) node->stop();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+    ROS_FATAL("%s: %s", name.c_str(), error.what());
     ros::shutdown();
     return 2;
   }
