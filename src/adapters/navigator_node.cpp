@@ -176,7 +176,10 @@ navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
 // Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
 void NavigatorNode::forgetSilentInputs() {
   if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
-  if (pose_health_.silentSec() > params_.max_pose_silence_sec) input_.target.reset();
+  if (pose_health_.silentSec() > params_.max_pose_silence_sec) {
+    input_.target.reset();
+    input_.camera_fault.clear();
+  }
   input_.engaged = engagement_.holds(steadyNowSec());
   input_.passed_on = guard_.passesOn();
 }

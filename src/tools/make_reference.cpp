@@ -217,8 +217,8 @@ class Clicking {
     write("green: inner border of the opening", kBorder);
     write("yellow: its corners; drag to correct", kCorner);
     y += kLine / 2;
-    for (const char* key : {"f      fit the corners to the edges", "u      take the last corner back",
-                            "Enter  save", "q      quit, nothing is written"})
+    for (const char* key : {"f: fit the corners to the edges", "u: take the last corner back", "Enter: save",
+                            "q: quit, nothing is written"})
       write(key, kText);
     y += kLine / 2;
     write(said_.empty() ? kNext[points_.size()] : said_, cv::Scalar(60, 220, 255));
@@ -227,7 +227,6 @@ class Clicking {
   static std::vector<std::string> wrapped(const std::string& text) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);
-    if (text.find("  ") != std::string::npos) return {text};  // a table
     for (std::string word; words >> word;) {
       if (lines.back().size() + word.size() > kLetters) lines.emplace_back();
       lines.back() += (lines.back().empty() ? "" : " ") + word;

@@ -4,6 +4,7 @@
 #include <window_ingress/WindowDetectorConfig.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
@@ -27,11 +28,18 @@ inline std::string unitOf(const std::string& field) {
   return "";
 }
 
+inline std::string valueOf(const parameters::NamedField& field) {
+  if (field.kind != parameters::NamedField::kNumber) return parameters::toText(field);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", field.get());
+  return text;
+}
+
 /// "edges/floor = 4.5 grey levels a pixel", with the default behind it where it is another one.
 inline std::string valueText(const parameters::NamedField& field, const parameters::NamedField& as_default) {
-  std::string text = field.name + " = " + parameters::toText(field);
+  std::string text = field.name + " = " + valueOf(field);
   if (const std::string unit = unitOf(field.name); !unit.empty()) text += " " + unit;
-  if (field.get() != as_default.get()) text += "  (default " + parameters::toText(as_default) + ")";
+  if (field.get() != as_default.get()) text += "  (default " + valueOf(as_default) + ")";
   return text;
 }
 

@@ -12,7 +12,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Imu
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
-from window_ingress.msg import Facade, WindowDetection, WindowPose
+from window_ingress.msg import Facade, WindowDetection, WindowInPicture, WindowPose
 
 import support
 
@@ -35,6 +35,8 @@ def detection(stamp, frame_id="camera_optical_frame"):
     message.edge_visible = [True] * 4
     message.edge_sigma_px = [0.1] * 4
     message.edge_sigma_rad = [0.001] * 4
+    message.target_id = 1
+    message.windows = [WindowInPicture(corner_x=message.corner_x, corner_y=message.corner_y, score=0.9, is_target=True, may_be_target=True)]
     return message
 
 
@@ -109,10 +111,11 @@ class HomographyPoseTest(unittest.TestCase):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, support.camera_info)
         windows = self.stream("window", WindowDetection, detection)
-        before = self.poses.wait(lambda p: p.filtered_updates > 20 and p.window_id > 0, "a window that is known")
+        before = self.poses.wait(lambda p: p.filtered_updates > 20, "a window that is followed")
+        facades.wait(lambda f: len(f.windows) == 1, "a window that is known")
         self.assertTrue(before.filtered_valid)
         windows.make = support.changed(detection, detected=False, reject_reason="gone")
-        self.poses.wait(lambda p: p.reject_reason == "gone", "the view without it")
+        self.poses.wait(lambda p: "gone" in p.reject_reason, "the view without it")
         begin = time.monotonic()
         reply = rospy.ServiceProxy("homography_pose/reset", Trigger)()
         self.assertTrue(reply.success)

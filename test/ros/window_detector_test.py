@@ -152,9 +152,12 @@ class WindowDetectorTest(unittest.TestCase):
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         self.windows.wait(lambda w: w.detected, "a window")
         console, begin = support.Listener("/rosout", Log), time.monotonic()
-        refused = client.update_configuration({"min_score": 7.0, "min_correlation": 1.0})
-        self.assertEqual([refused[name] for name in ("min_score", "min_correlation")], [before[name] for name in ("min_score", "min_correlation")])
-        console.wait(lambda m: "change refused, old values kept" in m.msg and "min_score = 7 is not within" in m.msg, "the refusal", begin=begin)
+
+        def refused_aloud():  # who has just begun to listen may miss a line
+            after = client.update_configuration({"min_score": 7.0, "min_correlation": 1.0})
+            self.assertEqual([after[name] for name in ("min_score", "min_correlation")], [before[name] for name in ("min_score", "min_correlation")])
+            return any("change refused, old values kept" in m.msg and "min_score = 7 is not within" in m.msg for m in console.since(begin))
+        support.wait_for(refused_aloud, "the refusal")
         console.stop()
         self.assertEqual(client.update_configuration(
             {"min_score": 1.0, "min_score_reference": 1.0, "min_correlation": 1.0})["min_score"], 1.0)
