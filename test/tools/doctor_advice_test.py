@@ -122,6 +122,12 @@ def test_where_time_stands_still_everything_follows_from_that(doctor, capsys):
     assert out.count("mend: ") == 1 and "1 finding(s) to mend, 2 follow from them" in out
 
 
+def test_who_is_not_heard_by_a_node_that_died_has_nothing_to_mend(doctor, capsys):
+    said_by(doctor, alive=("window_detector", "ingress_navigator", "setpoint_guard"), window_detector__window=(1, "nobody subscribes to /window"))
+    out = capsys.readouterr().out
+    assert "ERROR  homography_pose is not running" in out and "follows: window_detector: window: nobody" in out and out.count("mend: ") == 1
+
+
 def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys):
     said_by(doctor, alive=("window_detector", "homography_pose", "ingress_navigator"),
             ingress_navigator__passed_on=(2, "nothing on /setpoint_guard/passed_on from setpoint_guard"))
