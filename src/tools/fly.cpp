@@ -71,6 +71,11 @@ void stopAfterTheseFlights(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+// Not where it is ignored: in the background of a script.
+void stopAt(int signal) {
+  if (std::signal(signal, stopAfterTheseFlights) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 struct Stopped {};
 
 options::options_description describe() {
@@ -343,8 +348,8 @@ int join(const Job& job) {
 int run(const Job& job) {
   if (!job.join_folders.empty()) return join(job);
   const auto before = flownBefore(job);
-  std::signal(SIGINT, stopAfterTheseFlights);
-  std::signal(SIGTERM, stopAfterTheseFlights);
+  stopAt(SIGINT);
+  stopAt(SIGTERM);
   Results results(job);
   for (const auto& flight : before) results.add(flight);
   const std::size_t flown = before.size() + flyJob(job, without(job.seeds, before), results);

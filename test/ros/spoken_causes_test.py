@@ -2,6 +2,7 @@
 """Whatever is the matter with an input or an output is said on /diagnostics within two seconds, in one line that names the
 topic, and no longer once it is mended."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -292,7 +293,7 @@ class SpokenCausesTest(unittest.TestCase):
                 return [line for line in console if all(word in line for word in words)]
 
             def stamp(line):
-                return float(line.split("[")[-1].split("]")[0])
+                return float(re.search(r"\] \[(\d+\.\d+)\]", line).group(1))
             try:
                 first = support.wait_for(lambda: said("[ INFO]", "waiting for odom: no odom on /early/odom (0 publishers)"), "what is waited for")[0]
                 later = support.wait_for(lambda: said("[ERROR]", "no odom on /early/odom (0 publishers)"), "the complaint")[0]

@@ -72,7 +72,8 @@ def test_a_campaign_is_overwritten_only_where_asked_for(tmp_path):
 def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
     scenario, out, total = scenario_in(tmp_path), tmp_path / "out", 3000
     command = [ROOT / "scripts/run", "fly", "--scenario", scenario, "--no-pictures", "--seeds", f"1..{total}", "--jobs", "2", "--output", out]
-    process = subprocess.Popen([str(part) for part in command], stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([str(part) for part in command], stderr=subprocess.PIPE, text=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # which a script's background ignores
     assert f" of {total} flights" in process.stderr.readline()
     process.send_signal(signal.SIGINT)
     last = process.communicate(timeout=60)[1].splitlines()[-1]
