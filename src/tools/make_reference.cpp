@@ -108,7 +108,8 @@ Fit fitted(const cv::Mat& picture, const std::vector<double>& corners) {
   char text[160];
   std::snprintf(text, sizeof text, "only %.0f %% of one side lie on a straight edge near it",
                 100.0 * on_edge);
-  if (!borders || on_edge < kLeastOnEdge) return refused(text);
+  if (on_edge < kLeastOnEdge) return refused(text);
+  if (!borders) return refused("the straight edge near one side leads away from its corners");
   const double most_px = std::min(kMostMovedPx * scale, kMostMovedPart * shortestSide(*clicked));
   Fit fit{{}, "moved by the fit:"};
   for (std::size_t side = 0; side < 4; ++side) {
