@@ -1,5 +1,5 @@
 # One command-line tool per src/tools/<name>.cpp; those that read bags or topics need ROS.
-set(ros_tools make_reference replay_bag tune_detector tune_from_bag)
+set(ros_tools check_overlay make_reference replay_bag tune_detector tune_from_bag)
 file(GLOB tool_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/tools/*.cpp)
 foreach(source ${tool_sources})
   get_filename_component(tool ${source} NAME_WE)
@@ -11,6 +11,9 @@ foreach(source ${tool_sources})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${tool} PREFIX "")
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_evaluation Boost::program_options nlohmann_json::nlohmann_json
                         yaml-cpp opencv_highgui opencv_imgcodecs)
+  if(tool STREQUAL fly)
+    target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_VERSION="${PROJECT_VERSION}")
+  endif()
   if(tool IN_LIST ros_tools)
     target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters)
     target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

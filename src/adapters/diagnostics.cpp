@@ -17,6 +17,8 @@ namespace {
 constexpr double kPeriodSec = 1.0;  // of messages while nothing changes
 constexpr double kLookSec = 0.2;
 constexpr double kFrozenClockSec = 1.0;
+constexpr double kGraceSec =
+    3.0;  // after the start, in which neighbours come up: nothing is said to be wrong
 constexpr double kQuietSec = 5.0;   // between two warnings about one topic
 constexpr double kSmoothing = 0.1;  // of the period of messages
 
@@ -95,15 +97,23 @@ bool Diagnostics::lookAt(const std::string& name, Item& item) {
   const Health::Level before = item.now.level;
   item.now = item.check();
   const Health& now = item.now;
-  if (before != now.level) {
-    if (now.level == Health::kError) ROS_ERROR("%s: %s", name.c_str(), now.text.c_str());
-    if (now.level == Health::kWarn) ROS_WARN("%s: %s", name.c_str(), now.text.c_str());
-    if (now.level == Health::kOk) ROS_INFO("%s: %s", name.c_str(), now.text.c_str());
-  }
+  sayOnConsole(name, item);
   const std::string said = parameters::withoutNumbers(now.text);
   const bool news = before != now.level || (now.level != Health::kOk && said != item.said);
   item.said = said;
   return news;
+}
+
+void Diagnostics::sayOnConsole(const std::string& name, Item& item) const {
+  const Health& now = item.now;
+  const bool starts = runningSec() < kGraceSec && now.level != Health::kOk;
+  const int level = starts ? kAwaited : now.level;
+  if (item.on_console == level) return;
+  item.on_console = level;
+  if (level == kAwaited) ROS_INFO("waiting for %s: %s", name.c_str(), now.text.c_str());
+  if (level == Health::kError) ROS_ERROR("%s: %s", name.c_str(), now.text.c_str());
+  if (level == Health::kWarn) ROS_WARN("%s: %s", name.c_str(), now.text.c_str());
+  if (level == Health::kOk) ROS_INFO("%s: %s", name.c_str(), now.text.c_str());
 }
 
 bool FailureCount::failed(const std::string& callback, const std::string& what) {

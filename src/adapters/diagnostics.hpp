@@ -48,7 +48,7 @@ class FailureCount {
 };
 
 /// Collects what is wrong, publishes it once a second and as soon as something else is the matter, and says
-/// on the console what has changed.
+/// on the console what has changed; in the first seconds, in which neighbours come up, as what is waited for.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh);
@@ -68,10 +68,13 @@ class Diagnostics {
   struct Item {
     std::function<Health()> check;
     Health now;
-    std::string said = "ok";  // without numbers
+    std::string said = "ok";       // without numbers
+    int on_console = Health::kOk;  // what was said there last
   };
+  static constexpr int kAwaited = 3;  // beside the levels
   void look();
   bool lookAt(const std::string& name, Item& item);
+  void sayOnConsole(const std::string& name, Item& item) const;
   Health clockHealth();
 
   diagnostic_updater::Updater updater_;

@@ -1,7 +1,5 @@
 #include "adapters/facade_link.hpp"
 
-#include <window_ingress/Facade.h>
-
 #include "adapters/attitude_source.hpp"
 #include "adapters/guarded.hpp"
 #include "adapters/markers.hpp"
@@ -57,13 +55,23 @@ void FacadeLink::publish(const ros::Time& stamp, ros::Publisher& markers) {
   const double now_sec = steadyNowSec();
   const std::uint32_t target = tracker_.facade().targetId();
   if (now_sec - published_sec_ < kPeriodSec && target == published_target_) return;
-  published_sec_ = now_sec;
-  published_target_ = target;
+  const window_ingress::Facade message = tell(stamp);
+  if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
+}
+
+void FacadeLink::tellAnew(const ros::Time& stamp) {
+  last_click_.clear();
+  tell(stamp);
+}
+
+window_ingress::Facade FacadeLink::tell(const ros::Time& stamp) {
+  published_sec_ = steadyNowSec();
+  published_target_ = tracker_.facade().targetId();
   window_ingress::Facade message = toMsg(tracker_.facade(), stamp.toSec());
   message.header.stamp = stamp;
   message.header.frame_id = odom_frame_;
   publisher_.publish(message);
-  if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
+  return message;
 }
 
 Health FacadeLink::health() const {

@@ -3,6 +3,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
+#include <window_ingress/Facade.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/SelectWindow.h>
 
@@ -25,8 +26,11 @@ class FacadeLink {
 
   /// After a picture; sends a few times a second. \param markers where rviz looks
   void publish(const ros::Time& stamp, ros::Publisher& markers);
+  /// At once, to who hears of windows only now and then: after all have been forgotten.
+  void tellAnew(const ros::Time& stamp);
 
  private:
+  window_ingress::Facade tell(const ros::Time& stamp);
   bool select(window_ingress::SelectWindow::Request& request, window_ingress::SelectWindow::Response& reply);
   void receiveClick(const geometry_msgs::PointStamped& message);
   void receiveState(const window_ingress::IngressState& message);

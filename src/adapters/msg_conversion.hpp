@@ -94,6 +94,10 @@ void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& 
 void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target);
 /// \param expected where the target must be in the picture
 void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected);
+void fill(window_ingress::WindowPose& message, const navigation::CameraInBody& camera);
+/// Nothing where the message does not know, or says why no image can give a pose. Its numbers are judged by
+/// the navigator.
+std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::CameraInBody& message);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
 

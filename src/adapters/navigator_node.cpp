@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/TwistStamped.h>
 
+#include <cstdio>
 #include <stdexcept>
 
 #include "adapters/guarded.hpp"
@@ -18,6 +19,7 @@ constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
 constexpr double kRounding = 1e-6;
+constexpr std::size_t kMostReason = 400;  // characters of what others say
 
 // What the navigator keeps to already, asked once more of what is sent.
 GuardParams lastGate(const navigation::LimitParams& limits) {
@@ -65,6 +67,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   pose_health_.watch(pose_subscriber_);
   diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
   diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("camera", [this] { return cameraHealth(); });
   diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
   start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
       "start", &NavigatorNode::start, this);
@@ -132,11 +135,21 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   input_.image_stamp_sec = stampSec(message->header.stamp);
   pose_health_.stamped(*input_.image_stamp_sec);
   input_.remembered_odom_m = rememberedFrom(*message, params_.frames.odom);
+  takeCamera(message->camera);
   if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
   const auto target = targetFromMsg(*message, params_.frames.odom);
   if (!target) return pose_health_.refused(target.reason);
   pose_health_.accepted();
   input_.target = target.value;
+}
+
+// In lockstep the vehicle's parameters count: the world is told the same, and flights repeat to the bit.
+void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
+  input_.camera_fault = message.fault.substr(0, kMostReason);
+  if (lockstep_) return;
+  input_.camera = cameraFromMsg(message);
+  if (!input_.camera || !navigation::faultOf(*input_.camera).empty()) return;
+  params_.navigator.vehicle = navigation::withCamera(params_.navigator.vehicle, *input_.camera);  // as drawn
 }
 
 void NavigatorNode::step() {
@@ -165,7 +178,10 @@ navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
 // Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
 void NavigatorNode::forgetSilentInputs() {
   if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
-  if (pose_health_.silentSec() > params_.max_pose_silence_sec) input_.target.reset();
+  if (pose_health_.silentSec() > params_.max_pose_silence_sec) {
+    input_.target.reset();
+    input_.camera_fault.clear();
+  }
   input_.engaged = engagement_.holds(steadyNowSec());
   input_.passed_on = guard_.passesOn();
 }
@@ -282,6 +298,17 @@ Health NavigatorNode::missionHealth() const {
   const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
   const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
   return {bad ? Health::kWarn : Health::kOk, text};
+}
+
+Health NavigatorNode::cameraHealth() const {
+  if (!input_.camera_fault.empty()) return {Health::kWarn, input_.camera_fault};
+  const navigation::VehicleParams& vehicle = params_.navigator.vehicle;
+  char text[160];
+  std::snprintf(text, sizeof text, "%.2f m ahead, sees %.2f x %.2f rad, %.2g rad a pixel: as %s",
+                vehicle.camera_forward_m, vehicle.horizontal_fov_rad, vehicle.vertical_fov_rad,
+                vehicle.pixel_rad,
+                input_.camera ? "camera_info and tf say" : "the parameters vehicle/... say");
+  return {Health::kOk, text};
 }
 
 Health NavigatorNode::lastGateHealth() const {

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
+#include <window_ingress/CameraInBody.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/WindowPose.h>
 
@@ -43,6 +44,7 @@ class NavigatorNode : public Node {
   void receivePose(const window_ingress::WindowPoseConstPtr& message);
   void takeOdometry(const nav_msgs::OdometryConstPtr& message);
   void takePose(const window_ingress::WindowPoseConstPtr& message);
+  void takeCamera(const window_ingress::CameraInBody& message);
   void step();
   bool isComplete(const Lockstep::Step& step) const;
   void stepInStep(const Lockstep::Step& step);
@@ -61,6 +63,7 @@ class NavigatorNode : public Node {
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
   Health missionHealth() const;
+  Health cameraHealth() const;
   Health lastGateHealth() const;
 
   NavigatorNodeParams params_;

@@ -154,6 +154,20 @@ void fill(PoseMsg& message, const openness::OpennessVerdict& verdict) {
   message.openness_reason = verdict.reason;
 }
 
+void fill(PoseMsg& message, const navigation::CameraInBody& camera) {
+  message.camera.known = true;
+  message.camera.forward = camera.forward_m;
+  message.camera.horizontal_fov = camera.horizontal_fov_rad;
+  message.camera.vertical_fov = camera.vertical_fov_rad;
+  message.camera.pixel_angle = camera.pixel_rad;
+}
+
+std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::CameraInBody& message) {
+  if (!message.known || !message.fault.empty()) return std::nullopt;
+  return navigation::CameraInBody{message.forward, message.horizontal_fov, message.vertical_fov,
+                                  message.pixel_angle};
+}
+
 // What is not a verdict is none.
 openness::OpennessVerdict opennessFromMsg(const PoseMsg& message) {
   openness::OpennessVerdict verdict;

@@ -47,6 +47,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       nh, "window", 1, diagnostics_, [this](const auto& message) { receiveWindow(message); });
   odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
       nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+  reset_ = pnh.advertiseService("reset", &PoseNode::reset, this);
   window_health_.watch(window_subscriber_);
   odom_health_.watch(odom_subscriber_);
   if (params_.gravity_source == "imu") {
@@ -100,6 +101,7 @@ void PoseNode::receiveWindow(const window_ingress::WindowDetectionConstPtr& mess
   window_health_.arrived();
   const auto late = window_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return window_health_.refused(*late);
+  if (isFromBeforeReset(message->header)) return;
   window_health_.accepted();
   window_health_.stamped(message->header.stamp.toSec());
   if (!lockstep_) processPending(true);
@@ -119,6 +121,7 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.arrived();
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return odom_health_.refused(*late);
+  if (isFromBeforeReset(message->header)) return;
   auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
@@ -203,6 +206,10 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
     out.reject = window_ingress::WindowPose::NO_CALIBRATION;
     out.reject_reason = out.filtered_reason = camera.reason;
   }
+  if (camera && T_base_camera_)
+    fill(out, navigation::cameraInBody(*camera.value, *T_base_camera_.value));
+  else
+    out.camera.fault = camera ? T_base_camera_.reason : "no calibration: " + camera.reason;
   if (!camera || !stamp_sec) return;
   if (tf_attitude_)
     if (const auto R_odom_base = tf_attitude_->at(*stamp_sec)) tracker_.addAttitude(*stamp_sec, *R_odom_base);
@@ -257,12 +264,28 @@ void PoseNode::publishFiltered(const window_ingress::WindowPose& message,
 void PoseNode::restartIfClockJumpedBack() {
   if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
   ROS_WARN("the clock jumped back: odometry, transforms and filter forgotten");
+  forgotten_ = ros::Time();
+  forget();
+  tf_.clear();
+}
+
+void PoseNode::forget() {
   odometry_stamp_sec_ = -1.0;
   odom_clock_.clear();
   pending_.reset();
   tracker_.reset();
-  tf_.clear();
+  consistency_ = pose::Consistency();
   marker_publisher_.publish(allGone(ros::Time::now(), params_.frames.odom));
+  facade_.tellAnew(ros::Time::now());
+}
+
+bool PoseNode::reset(Trigger::Request&, Trigger::Response& response) {
+  forgotten_ = ros::Time::now();
+  forget();
+  response.success = true;
+  response.message = "the track and the memory of all windows are forgotten";
+  ROS_INFO("reset: %s", response.message.c_str());
+  return true;
 }
 
 Health PoseNode::mountingHealth() const {

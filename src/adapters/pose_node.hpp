@@ -3,6 +3,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/Imu.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
@@ -35,6 +36,8 @@ class PoseNode : public Node {
   PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
 
  private:
+  using Trigger = std_srvs::Trigger;
+
   void receiveWindow(const window_ingress::WindowDetectionConstPtr& message);
   void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
   void receiveImu(const sensor_msgs::ImuConstPtr& message);
@@ -51,6 +54,11 @@ class PoseNode : public Node {
   void publishFiltered(const window_ingress::WindowPose& message, const pose::FilteredWindow& window);
 
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
+  bool reset(Trigger::Request& request, Trigger::Response& response);
+  void forget();
+  bool isFromBeforeReset(const std_msgs::Header& header) const {
+    return !lockstep_ && header.stamp <= forgotten_;
+  }
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
 
@@ -67,6 +75,7 @@ class PoseNode : public Node {
   navigation::TargetTracker tracker_;
   pose::Consistency consistency_;
   double odometry_stamp_sec_ = -1.0;
+  ros::Time forgotten_;  // what is no younger tells of a world that is gone
   window_ingress::WindowDetectionConstPtr pending_;
   double pending_since_sec_ = 0.0;  // on the steady clock
   Converted<Eigen::Isometry3d> T_base_camera_;
@@ -78,6 +87,7 @@ class PoseNode : public Node {
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Subscriber window_subscriber_, odom_subscriber_, imu_subscriber_;
   ros::Publisher pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_;
+  ros::ServiceServer reset_;
   ros::SteadyTimer timer_;
 };
 

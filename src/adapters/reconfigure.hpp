@@ -96,6 +96,15 @@ Params fromConfigMsg(const dynamic_reconfigure::Config& message, Params params) 
   return params;
 }
 
+/// A generated configuration that is not cut to its ranges before anybody sees it: what is out of range is
+/// then refused, and said, by whoever has to live by it.
+template <typename Config>
+struct Unclamped : Config {
+  Unclamped() = default;
+  Unclamped(const Config& config) : Config(config) {}
+  void __clamp__() const {}
+};
+
 /// Serves `Params` below the private name `tuning`. A change is taken whole or not at all.
 template <typename Config, typename Params>
 class Reconfigure {
@@ -104,7 +113,7 @@ class Reconfigure {
   Reconfigure(const ros::NodeHandle& pnh, const Params& initial, std::function<void(const Params&)> apply)
       : params_(initial), apply_(std::move(apply)), server_(mutex_, ros::NodeHandle(pnh, "tuning")) {
     server_.updateConfig(toConfig(params_, Config::__getDefault__()));
-    server_.setCallback([this](Config& config, std::uint32_t) { change(config); });
+    server_.setCallback([this](Unclamped<Config>& config, std::uint32_t) { change(config); });
   }
 
   static Config toConfig(const Params& params, Config config) {
@@ -130,7 +139,7 @@ class Reconfigure {
   Params params_;
   std::function<void(const Params&)> apply_;
   boost::recursive_mutex mutex_;
-  dynamic_reconfigure::Server<Config> server_;
+  dynamic_reconfigure::Server<Unclamped<Config>> server_;
 };
 
 }  // namespace window_ingress::adapters

@@ -1,6 +1,7 @@
 #include "adapters/run_node.hpp"
 
 #include <ros/callback_queue.h>
+#include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
 
@@ -37,25 +38,38 @@ void spinUntilStopped() {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLongestWaitSec));
 }
 
+// What keeps a node from starting has to stand out among the lines of all others: roslaunch goes on without
+// it.
+std::unique_ptr<Node> makeOrSayWhyNot(const std::string& name, const MakeNode& make, ros::NodeHandle& nh,
+                                      ros::NodeHandle& pnh) {
+  try {
+    return make(nh, pnh);
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s: %s", name.c_str(), error.what());
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 int runNode(int argc, char** argv, const std::string& name, const MakeNode& make) {
   decoupleConsole();
+  bool refused = false;
   try {
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     catchSignals();
     if (!waitForMaster()) return 0;
     ros::NodeHandle nh, pnh("~");
-    const std::unique_ptr<Node> node = make(nh, pnh);
-    spinUntilStopped();
-    if (ros::ok()) node->stop();
+    const std::unique_ptr<Node> node = makeOrSayWhyNot(name, make, nh, pnh);
+    refused = !node;
+    if (node) spinUntilStopped();
+    if (node && ros::ok()) node->stop();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
-    ros::shutdown();
-    return 2;
+    refused = true;
   }
   ros::shutdown();
-  return 0;
+  return refused ? 2 : 0;
 }
 
 }  // namespace window_ingress::adapters

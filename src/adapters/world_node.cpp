@@ -44,6 +44,8 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   subscribe(nh);
   diagnostics_.add("speed", [this] { return speedHealth(); });
   reset_ = pnh.advertiseService("reset", &WorldNode::reset, this);
+  detector_reset_ = nh.serviceClient<Trigger>("window_detector/reset");
+  pose_reset_ = nh.serviceClient<Trigger>("homography_pose/reset");
   inject_ = pnh.advertiseService("inject", &WorldNode::inject, this);
   timer_ = createGuardedTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
 }
@@ -231,9 +233,21 @@ bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
   if (isExternal()) running_ = false;  // until the vehicle is heard of again
   restart();
   response.success = true;
-  response.message =
-      "scenario '" + params_.scenario + "', seed " + std::to_string(params_.seed) + " from its start";
+  response.message = "scenario '" + params_.scenario + "', seed " + std::to_string(params_.seed) +
+                     " from its start" + makeOthersForget();
+  ROS_INFO("reset: %s", response.message.c_str());
   return true;
+}
+
+// What was seen in the world before is not there any more. \return what to add to the answer
+std::string WorldNode::makeOthersForget() {
+  std::string said;
+  for (ros::ServiceClient* client : {&detector_reset_, &pose_reset_}) {
+    Trigger call;
+    const bool done = client->exists() && client->call(call) && call.response.success;
+    said += "; " + client->getService() + (done ? ": " + call.response.message : " does not answer");
+  }
+  return said;
 }
 
 bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {

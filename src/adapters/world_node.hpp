@@ -57,6 +57,7 @@ class WorldNode : public Node {
   void begin(const navigation::VehicleState& vehicle);
   void follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& angular_velocity_radps);
   bool reset(Trigger::Request& request, Trigger::Response& response);
+  std::string makeOthersForget();
   bool inject(Inject::Request& request, Inject::Response& response);
 
   void tellTime();
@@ -90,6 +91,7 @@ class WorldNode : public Node {
   std::optional<simulation::Periodic> truth_due_, pictures_;  // the latter for lockstep
   ros::Subscriber command_subscriber_, state_subscriber_, vehicle_subscriber_;
   ros::ServiceServer reset_, inject_;
+  ros::ServiceClient detector_reset_, pose_reset_;
   ros::SteadyTimer timer_;
 };
 

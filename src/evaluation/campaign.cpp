@@ -86,6 +86,18 @@ std::optional<std::vector<std::uint32_t>> shardOf(const std::vector<std::uint32_
   return shard;
 }
 
+std::string seedsText(const std::vector<std::uint32_t>& seeds) {
+  std::string text;
+  for (std::size_t i = 0; i < seeds.size();) {
+    std::size_t last = i;
+    while (last + 1 < seeds.size() && seeds[last + 1] == seeds[last] + 1) ++last;
+    text += (i == 0 ? "" : ", ") + std::to_string(seeds[i]);
+    if (last > i) text += ".." + std::to_string(seeds[last]);
+    i = last + 1;
+  }
+  return text;
+}
+
 void flyAll(const std::vector<std::uint32_t>& seeds, int jobs, const Fly& fly, const Report& report) {
   Queue queue(seeds, fly, report);
   const int workers = std::max(1, std::min(jobs, static_cast<int>(seeds.size())));

@@ -36,8 +36,14 @@ FlightSummary summarise(const std::vector<FlightResult>& flights) {
   return summary;
 }
 
-std::string toJson(const FlightSummary& summary) {
+std::string toJson(const FlightSummary& summary, const CampaignFacts& facts) {
   nlohmann::json json;
+  json["scenario"] = facts.scenario;
+  json["seeds"] = facts.seeds;
+  json["draws"] = facts.draws;
+  json["params"] = facts.params;
+  json["pictures"] = facts.with_pictures;
+  json["version"] = facts.version;
   json["flights"] = summary.flights;
   json["passed"] = summary.passed;
   json["pass_rate"] = summary.flights > 0 ? static_cast<double>(summary.passed) / summary.flights : 0.0;

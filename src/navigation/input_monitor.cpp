@@ -111,6 +111,8 @@ Situation InputMonitor::judge(const NavigatorInput& input, double now_sec) {
   judgeVehicle(input, situation);
   judgeTarget(input, situation);
   judgeImage(input, situation);
+  situation.camera_fault = input.camera_fault;
+  if (input.camera && input.camera_fault.empty()) situation.camera_fault = faultOf(*input.camera);
   if (!input.passed_on) situation.setpoint_fault = "nobody passes the setpoints on: the guard is silent";
   return situation;
 }

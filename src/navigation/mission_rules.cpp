@@ -76,6 +76,7 @@ std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
   if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
   if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
   if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
+  if (!situation.camera_fault.empty()) faults.push_back(situation.camera_fault);
   if (!situation.setpoint_fault.empty()) faults.push_back(situation.setpoint_fault);
   if (!engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
   if (!situation.vehicle) return faults;

@@ -64,6 +64,7 @@ struct Navigator::Impl {
   bool isInOpening(const Situation& situation) const;
   bool isLive() const { return isMoving(state) || state == State::kHold; }
   void keepToWindow(Situation& situation) const;
+  void useCamera(const std::optional<CameraInBody>& camera);
   void remember(const Situation& situation, const NavigatorInput& input);
   Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
@@ -74,6 +75,11 @@ struct Navigator::Impl {
   Setpoint output(const Decision& decision, const Situation& situation);
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
 };
+
+// One that cannot be flown by changes nothing: no mission starts with it.
+void Navigator::Impl::useCamera(const std::optional<CameraInBody>& camera) {
+  if (camera && faultOf(*camera).empty()) params.vehicle = withCamera(params.vehicle, *camera);
+}
 
 void Navigator::Impl::remember(const Situation& situation, const NavigatorInput& input) {
   if (situation.vehicle_jumped) {
@@ -283,6 +289,7 @@ void Navigator::sentZero() { impl_->last_setpoint = impl_->limiter.stop(); }
 
 NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   auto& self = *impl_;
+  self.useCamera(input.camera);
   Situation situation = self.monitor.judge(input, now_sec);
   const std::string elsewhere = whySentElsewhere(situation, self.state, self.memory);
   if (!elsewhere.empty()) self.memory.leaveWindow();

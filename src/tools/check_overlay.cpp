@@ -1,34 +1,96 @@
 /// Whether a file may be laid over the defaults; see --help. Launch files ask before they start anything.
 #include <boost/program_options.hpp>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
+#include "adapters/camera_mounting.hpp"
+#include "adapters/parameters.hpp"
+#include "adapters/reference_source.hpp"
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
 
 namespace po = boost::program_options;
+using namespace window_ingress;
+using tools::UsageError;
 
 struct Options {
-  std::string file;
+  std::string file, reference, corners, window_size, camera_pose;
 };
 
 po::options_description describe(Options& o) {
   po::options_description description(
-      "Usage: check_overlay FILE.yaml\n"
+      "Usage: check_overlay [FILE.yaml] [OPTION...]\n"
       "Whether the file can be given as config:= to launch files and as --params to tools: prints its name "
       "if each\n"
-      "key is read by somebody and each value may be; else says which is not.\n"
+      "key is read by somebody and each value may be; else says which is not. The options are arguments of "
+      "launch "
+      "files,\n"
+      "and are asked likewise; 'none' is as good as nothing.\n"
       "Exit code: 0 it can, 2 it cannot.\n\nOptions");
-  description.add_options()("help,h", "this text")("file", po::value(&o.file), "the same as FILE.yaml");
+  description.add_options()("help,h", "this text")("file", po::value(&o.file), "the same as FILE.yaml")  //
+      ("reference", po::value(&o.reference), "picture of the target")                                    //
+      ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
+      ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
+      ("camera-pose", po::value(&o.camera_pose), "x,y,z,yaw,pitch,roll in base_link [m, rad]");
   return description;
 }
 
+// As in launch files: brackets and blanks may stand round it.
+std::string given(std::string text) {
+  const std::size_t begin = text.find_first_not_of(" []");
+  if (begin == std::string::npos) return "";
+  text = text.substr(begin, text.find_last_not_of(" []") + 1 - begin);
+  return text == "none" ? "" : text;
+}
+
+void checkReference(const Options& o, const configuration::DetectorNodeParams& detector) {
+  configuration::ReferenceParams reference = detector.reference;
+  const std::string picture = given(o.reference), corners = given(o.corners);
+  if (!picture.empty()) reference.picture = picture, reference.corners.clear();
+  if (!corners.empty()) reference.corners = tools::numbers("reference_corners", corners, 8);
+  if (reference.picture.empty()) return;
+  if (!std::filesystem::path(reference.picture).is_absolute())
+    throw UsageError("reference '" + reference.picture +
+                     "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
+  try {
+    adapters::loadReference(reference, detector.detector);
+  } catch (const adapters::ParameterError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void checkWindowSize(const std::string& text, pose::PoseParams pose) {
+  if (text.empty()) return;
+  const auto size = tools::numbers("window_size", text, 2);
+  pose.opening_width_m = size[0];
+  pose.opening_height_m = size[1];
+  const auto faults = parameters::outOfRange(pose);
+  if (!faults.empty()) throw UsageError("window_size " + text + ": " + parameters::joined(faults));
+}
+
+void checkCameraPose(const std::string& text) {
+  if (text.empty()) return;
+  try {
+    adapters::T_base_cameraOf(tools::numbers("camera_pose", text, 6));
+  } catch (const adapters::ParameterError& error) {
+    throw UsageError("camera_pose " + text + ": " + error.what());
+  }
+}
+
 int check(const Options& o) {
-  if (o.file.empty()) throw window_ingress::tools::UsageError("no file given; see --help");
-  window_ingress::configuration::readOverlay(o.file);
-  std::cout << o.file;
+  const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
+                            o.window_size.empty() && o.camera_pose.empty();
+  if (asks_nothing) throw UsageError("no file given; see --help");
+  const std::string file = given(o.file);
+  const auto overlay = configuration::readOverlay(file);
+  checkReference(o, overlay.window_detector);
+  checkWindowSize(given(o.window_size), overlay.homography_pose.pose);
+  checkCameraPose(given(o.camera_pose));
+  std::cout << file;
   return 0;
 }
 
@@ -37,5 +99,5 @@ int check(const Options& o) {
 int main(int argc, char** argv) {
   po::positional_options_description positional;
   positional.add("file", 1);
-  return window_ingress::tools::runTool("check_overlay", argc, argv, describe, check, positional);
+  return tools::runTool("check_overlay", argc, argv, describe, check, positional);
 }

@@ -1,8 +1,10 @@
 /// Flies a scenario many times in one process and sums up: flights.csv, tracks.csv, tracks.png, summary.json.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -42,12 +44,14 @@ struct Job {
                                     draw == draws.end() ? simulation::Quantiles() : draw->second);
   }
 
-  std::string scenario_file, output_folder, log_folder, failures_folder;
+  bool holdsFlights() const { return fs::exists(output_folder + "/flights.csv"); }
+
+  std::string scenario_file, params_file, draws_file, output_folder, log_folder, failures_folder;
   std::vector<std::string> join_folders;
   std::vector<std::uint32_t> seeds;
   evaluation::FlightDraws draws;
   int jobs = 1;
-  bool with_timing = false;
+  bool resumes = false, with_timing = false;
   evaluation::FlightParams params;
 };
 
@@ -59,8 +63,27 @@ Observer bagRecorder(const std::string&) { return nullptr; }
 constexpr bool kCanRecordBags = false;
 #endif
 
+/// Ctrl-C. The second one ends the program at once.
+volatile std::sig_atomic_t told_to_stop = 0;
+
+void stopAfterTheseFlights(int signal) {
+  told_to_stop = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+// Not where it is ignored: in the background of a script.
+void stopAt(int signal) {
+  if (std::signal(signal, stopAfterTheseFlights) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+struct Stopped {};
+
 options::options_description describe() {
-  options::options_description description("fly --scenario FILE.yaml --output DIR [OPTION...]");
+  options::options_description description(
+      "fly --scenario FILE.yaml --output DIR [OPTION...]\n"
+      "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
+      "flights "
+      "under way end (--resume goes on with the others); 2: wrong usage");
   auto add = description.add_options();
   add("help", "print this text");
   add("scenario", options::value<std::string>(), "scenario file, e.g. config/scenarios/nominal.yaml");
@@ -69,6 +92,8 @@ options::options_description describe() {
   add("draws", options::value<std::string>(),
       "csv file in place of --seeds: a row a flight, its seed and where in its range each named key lies, 0 "
       "to 1");
+  add("resume", "goes on with the flights in DIR: same scenario, parameters and build, or it is refused");
+  add("overwrite", "replaces the flights in DIR");
   add("jobs", options::value<int>()->default_value(1), "flights at the same time");
   add("shard", options::value<std::string>(), "I/N: only every N-th seed, from the I-th on (1 to N)");
   add("join", options::value<std::vector<std::string>>()->multitoken(),
@@ -106,6 +131,17 @@ std::vector<std::uint32_t> seedsOf(const options::variables_map& given,
   return *shard;
 }
 
+// Flights that somebody has waited for are not lost to a folder given twice.
+void checkOutput(const options::variables_map& given, const Job& job) {
+  const bool overwrites = given.count("overwrite") != 0;
+  if (job.resumes && overwrites) throw UsageError("--resume and --overwrite: give one of them");
+  if (job.holdsFlights() && !job.resumes && !overwrites)
+    throw UsageError(
+        job.output_folder +
+        " holds the flights of an earlier campaign: --resume goes on with it, --overwrite replaces "
+        "it, or give another folder");
+}
+
 Job parse(int argc, char** argv, const options::options_description& description) {
   options::variables_map given;
   options::store(options::parse_command_line(argc, argv, description), given);
@@ -116,14 +152,17 @@ Job parse(int argc, char** argv, const options::options_description& description
   }
   job.scenario_file = required(given, "scenario");
   job.output_folder = required(given, "output");
-  if (given.count("draws") != 0) job.draws = evaluation::readDraws(given["draws"].as<std::string>());
+  job.resumes = given.count("resume") != 0;
+  checkOutput(given, job);
+  if (given.count("draws") != 0)
+    job.draws = evaluation::readDraws(job.draws_file = given["draws"].as<std::string>());
   job.seeds = seedsOf(given, job.draws);
   job.jobs = given["jobs"].as<int>();
   if (job.jobs < 1 || job.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
   job.with_timing = given.count("timing") != 0;
   if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
   if (given.count("params") != 0)
-    job.params = evaluation::readFlightParams(given["params"].as<std::string>());
+    job.params = evaluation::readFlightParams(job.params_file = given["params"].as<std::string>());
   if (given.count("no-pictures") != 0) job.params.without_pictures = true;
   for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(job.output_folder);
@@ -183,6 +222,8 @@ class Results {
  public:
   explicit Results(const Job& job)
       : job_(job), rows_(job.output_folder + "/flights.csv"), tracks_(job.output_folder + "/tracks.csv") {
+    for (const char* of_the_whole : {"/summary.json", "/tracks.png"})
+      fs::remove(job.output_folder + of_the_whole);
     rows_ << evaluation::csvHeader() << "\n";
     tracks_ << evaluation::trackHeader() << "\n";
   }
@@ -200,7 +241,7 @@ class Results {
     // Of the numbers as they stand in the table: joined shards give the same bytes.
     const auto flights = evaluation::readFlights(job_.output_folder);
     std::ofstream summary(job_.output_folder + "/summary.json");
-    summary << evaluation::toJson(evaluation::summarise(flights));
+    summary << evaluation::toJson(evaluation::summarise(flights), factsOf(flights));
     summary.close();
     const auto scenario = job_.scenario(seedOf(flights));
     const std::string title =
@@ -213,6 +254,12 @@ class Results {
  private:
   void check(bool written) const {
     if (!written) throw std::runtime_error(job_.output_folder + ": cannot write; is the disk full?");
+  }
+  evaluation::CampaignFacts factsOf(const std::vector<evaluation::FlightResult>& flights) const {
+    std::vector<std::uint32_t> seeds;
+    for (const auto& flight : flights) seeds.push_back(flight.seed);
+    return {job_.scenario_file, evaluation::seedsText(seeds),  job_.draws_file,
+            job_.params_file,   !job_.params.without_pictures, WINDOW_INGRESS_VERSION};
   }
   // Of a flight whose scenario stands for all in the picture; there may be none in a shard.
   std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
@@ -237,32 +284,78 @@ void printTiming(const evaluation::FlightTiming& timing) {
                timing.frames(), timing.simulatedSec(), usage.ru_maxrss / 1024.0);
 }
 
-void flyJob(const Job& job, Results& results) {
+// The last of the flights there is flown again: that it ends as it did shows that the others would.
+std::vector<evaluation::FlightResult> flownBefore(const Job& job) {
+  if (!job.resumes || !job.holdsFlights()) return {};
+  auto flights = evaluation::readFlights(job.output_folder);
+  for (const auto& flight : flights)
+    if (std::find(job.seeds.begin(), job.seeds.end(), flight.seed) == job.seeds.end())
+      throw UsageError("--resume: " + job.output_folder + " holds seed " + std::to_string(flight.seed) +
+                       ", which is not among those asked for");
+  if (flights.empty()) return flights;
+  const std::uint32_t seed = flights.back().seed;
+  const auto again = evaluation::flyOnce(job.scenario(seed), seed, job.params, {});
+  if (evaluation::csvRow(again) != evaluation::csvRow(flights.back()))
+    throw UsageError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +
+                     job.output_folder + "/flights.csv: another scenario, other parameters or another build");
+  flights.back() = again;
+  return flights;
+}
+
+std::vector<std::uint32_t> without(std::vector<std::uint32_t> seeds,
+                                   const std::vector<evaluation::FlightResult>& flown) {
+  for (const auto& flight : flown)
+    seeds.erase(std::remove(seeds.begin(), seeds.end(), flight.seed), seeds.end());
+  return seeds;
+}
+
+// \return how many were flown
+int flyJob(const Job& job, const std::vector<std::uint32_t>& seeds, Results& results) {
   std::mutex mutex;
   evaluation::FlightTiming all;
   const auto flyTimed = [&](std::uint32_t seed) {
+    if (told_to_stop != 0) throw Stopped();
     evaluation::FlightTiming timing;
     auto flight = fly(job, seed, timing);
     const std::lock_guard<std::mutex> lock(mutex);
     all.add(timing);
     return flight;
   };
+  int flown = 0;
   const auto began = std::chrono::steady_clock::now();
   const auto report = [&](const evaluation::FlightResult& flight, int done, int total) {
     results.add(flight);
+    flown = done;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
     printProgress(done, total, results.passed(), spent.count());
   };
-  evaluation::flyAll(job.seeds, job.jobs, flyTimed, report);
+  try {
+    evaluation::flyAll(seeds, job.jobs, flyTimed, report);
+  } catch (const Stopped&) {
+  }
   if (job.with_timing) printTiming(all);
+  return flown;
+}
+
+int join(const Job& job) {
+  const auto flights = evaluation::joinFlights(job.join_folders);
+  Results results(job);
+  for (const auto& flight : flights) results.add(flight);
+  results.finish();
+  return 0;
 }
 
 int run(const Job& job) {
-  std::vector<evaluation::FlightResult> joined;
-  if (!job.join_folders.empty()) joined = evaluation::joinFlights(job.join_folders);
+  if (!job.join_folders.empty()) return join(job);
+  const auto before = flownBefore(job);
+  stopAt(SIGINT);
+  stopAt(SIGTERM);
   Results results(job);
-  if (job.join_folders.empty()) flyJob(job, results);
-  for (const auto& flight : joined) results.add(flight);
+  for (const auto& flight : before) results.add(flight);
+  const std::size_t flown = before.size() + flyJob(job, without(job.seeds, before), results);
+  if (flown < job.seeds.size())
+    throw std::runtime_error(std::to_string(flown) + " of " + std::to_string(job.seeds.size()) +
+                             " flown, continue with --resume");
   results.finish();
   return 0;
 }

@@ -19,6 +19,7 @@
 #include "params_file.hpp"
 #include "tuning_bench.hpp"
 #include "tuning_source.hpp"
+#include "value_table.hpp"
 #include "window_ingress/evaluation/statistics.hpp"
 #include "window_ingress/parameters/slider.hpp"
 
@@ -139,7 +140,9 @@ class Desk {
     const Bar& bar = *static_cast<const Bar*>(at);
     if (bar.slider.positionOf(bar.field->get()) == position) return;
     bar.field->set(bar.slider.valueAt(position));
-    std::cout << bar.field->name << ": " << parameters::toText(*bar.field) << std::endl;
+    const auto unit = tools::unitOf(bar.field->name);
+    std::cout << bar.field->name << ": " << parameters::toText(*bar.field) << (unit.empty() ? "" : " " + unit)
+              << std::endl;
     bar.desk->dirty_ = true;
     bar.desk->bench_.changed();
   }
@@ -187,6 +190,9 @@ class Desk {
     cv::copyMakeBorder(sheet, sheet, 0, 26, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
     cv::putText(sheet, line, {8, sheet.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(255), 1,
                 cv::LINE_AA);
+    std::vector<const NamedField*> shown;
+    for (const Bar& bar : bars_) shown.push_back(bar.field);
+    cv::vconcat(sheet, tools::valueTable(shown, sheet.cols), sheet);
     cv::imshow(kStages, sheet);
     cv::setWindowTitle(kStages, source_.name());
   }

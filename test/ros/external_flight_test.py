@@ -160,7 +160,10 @@ class ExternalFlightTest(unittest.TestCase):
     def test_3_a_reset_puts_the_house_before_the_vehicle_again(self):
         self.states.wait(lambda s: s.state_name in ("PASSED", "ABORTED"), "the end of the mission", begin=0.0)
         rospy.ServiceProxy("/ingress_navigator/reset", Trigger)()
-        self.assertTrue(rospy.ServiceProxy("/world/reset", Trigger)().success)
+        reply = rospy.ServiceProxy("/world/reset", Trigger)()
+        self.assertTrue(reply.success)
+        self.assertIn("/homography_pose/reset: the track and the memory of all windows are forgotten", reply.message)
+        self.assertIn("/window_detector/reset: the track is forgotten", reply.message)
         self.window_ahead()
 
 

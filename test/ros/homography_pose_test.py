@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Corners in, pose out; what is missing is named, and nothing is made up for it."""
+import math
 import sys
+import time
 import unittest
 
 import rospy
@@ -8,7 +10,9 @@ import rostest
 from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Imu
-from window_ingress.msg import WindowDetection, WindowPose
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import Marker, MarkerArray
+from window_ingress.msg import Facade, WindowDetection, WindowInPicture, WindowPose
 
 import support
 
@@ -31,6 +35,8 @@ def detection(stamp, frame_id="camera_optical_frame"):
     message.edge_visible = [True] * 4
     message.edge_sigma_px = [0.1] * 4
     message.edge_sigma_rad = [0.001] * 4
+    message.target_id = 1
+    message.windows = [WindowInPicture(corner_x=message.corner_x, corner_y=message.corner_y, score=0.9, is_target=True, may_be_target=True)]
     return message
 
 
@@ -100,6 +106,32 @@ class HomographyPoseTest(unittest.TestCase):
         self.assertEqual({m._connection_header["callerid"] for m in transforms.since(0.0)}, {"/second/homography_pose"})
         transforms.stop()
 
+    def test_a_reset_forgets_the_track_and_all_windows(self):
+        markers, facades = support.Listener("markers", MarkerArray), support.Listener("facade", Facade)
+        self.start_vehicle()
+        self.stream("camera_info", CameraInfo, support.camera_info)
+        windows = self.stream("window", WindowDetection, detection)
+        before = self.poses.wait(lambda p: p.filtered_updates > 20, "a window that is followed")
+        facades.wait(lambda f: len(f.windows) == 1, "a window that is known")
+        self.assertTrue(before.filtered_valid)
+        windows.make = support.changed(detection, detected=False, reject_reason="gone")
+        self.poses.wait(lambda p: "gone" in p.reject_reason, "the view without it")
+        begin = time.monotonic()
+        reply = rospy.ServiceProxy("homography_pose/reset", Trigger)()
+        self.assertTrue(reply.success)
+        self.assertIn("forgotten", reply.message)
+        gone = markers.wait(lambda m: any(marker.action == Marker.DELETEALL for marker in m.markers), "markers taken away", begin=begin)
+        self.assertEqual(gone.markers[0].header.frame_id, "odom")
+        self.assertEqual(len(facades.wait(what="the windows known now", begin=begin).windows), 0)
+        after = self.poses.wait(lambda p: p.header.stamp > before.header.stamp + rospy.Duration(0.5), "a pose after the reset", begin=begin)
+        self.assertFalse(after.filtered_valid)
+        self.assertEqual((after.window_id, after.filtered_updates), (0, 0))
+        windows.make = detection
+        again = self.poses.wait(lambda p: p.filtered_valid, "a window found anew")
+        self.assertLess(again.filtered_updates, before.filtered_updates)
+        for listener in (markers, facades):
+            listener.stop()
+
     def test_two_sides_near_the_window_update_the_filter(self):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, support.camera_info)
@@ -132,6 +164,28 @@ class HomographyPoseTest(unittest.TestCase):
         self.poses.wait(lambda p: p.reject == WindowPose.NO_CALIBRATION and "uncalibrated" in p.reject_reason,
                         "a refusal that names the calibration")
         support.Diagnostics().wait("homography_pose: camera_info", "uncalibrated")
+
+    def test_the_camera_is_told_beside_every_pose_and_what_is_missing_of_it_with_no_window_either(self):
+        def nothing(stamp):
+            return detection(stamp, "camera_that_nobody_mounted") if self.unmounted else \
+                support.changed(detection, detected=False, reject_reason="nothing with four sides")(stamp)
+        self.unmounted = False
+        self.start_vehicle()
+        calibration = self.stream("camera_info", CameraInfo, lambda stamp: support.camera_info(stamp, focal=0.0))
+        self.stream("window", WindowDetection, nothing)
+        self.poses.wait(lambda p: p.camera.fault.startswith("no calibration: ") and "uncalibrated" in p.camera.fault and not p.camera.known,
+                        "the missing calibration")
+        calibration.make = support.camera_info
+        camera = self.poses.wait(lambda p: p.camera.known, "the camera").camera
+        self.assertEqual(camera.fault, "")
+        self.assertAlmostEqual(camera.forward, CAMERA_X)
+        self.assertAlmostEqual(camera.horizontal_fov, 2.0 * math.atan(support.WIDTH / 2 / support.FOCAL))
+        self.assertAlmostEqual(camera.vertical_fov, 2.0 * math.atan(support.HEIGHT / 2 / support.FOCAL))
+        self.assertAlmostEqual(camera.pixel_angle, 1.0 / support.FOCAL)
+        calibration.make = lambda stamp: support.camera_info(stamp, "camera_that_nobody_mounted")
+        self.unmounted = True
+        self.poses.wait(lambda p: "camera mounting base_link <- 'camera_that_nobody_mounted'" in p.camera.fault and not p.camera.known,
+                        "the missing mounting")
 
     def test_calibration_of_another_size_is_named(self):
         def other(stamp):

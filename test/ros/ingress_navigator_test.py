@@ -54,9 +54,9 @@ class IngressNavigatorTest(unittest.TestCase):
         begin = time.monotonic() - 0.5
         return self.states.wait(lambda s: s.state_name in names, f"state {names}", begin=begin)
 
-    def feed(self):
+    def feed(self, pose=no_window):
         self.streams["odom"] = support.Stream("odom", Odometry, support.odometry, 50.0)
-        self.streams["window_pose"] = support.Stream("window_pose", WindowPose, no_window, 30.0)
+        self.streams["window_pose"] = support.Stream("window_pose", WindowPose, pose, 30.0)
 
     def start(self):
         def started():
@@ -67,18 +67,30 @@ class IngressNavigatorTest(unittest.TestCase):
         self.wait_for_state("SEARCH")
         return reply
 
+    def refused(self):
+        """The answer, or None: what the test before has sent may still be fresh."""
+        reply = self.call("start")
+        if not reply.success:
+            return reply.message
+        self.call("abort")
+        self.call("reset")
+        return None
+
     def test_start_without_data_lists_what_is_missing(self):
-        def refused():  # what the test before has sent may still be fresh
-            reply = self.call("start")
-            if not reply.success:
-                return reply
-            self.call("abort")
-            self.call("reset")
-            return None
-        self.assertIn("odom", support.wait_for(refused, "a start without data that is refused").message)
+        self.assertIn("odom", support.wait_for(self.refused, "a start without data that is refused"))
 
     def test_start_says_what_will_be_asked(self):
         self.assertIn("will ask for ~confirm_opening at the line: glass is not excluded", self.start().message)
+
+    def test_start_without_a_calibration_says_so(self):
+        missing = "no calibration: no camera_info on /camera/camera_info so far"
+        self.feed(support.changed(no_window, camera__fault=missing))
+        support.wait_for(lambda: self.refused() == f"not started: {missing}", "a start that names the calibration alone")
+        support.Diagnostics().wait("ingress_navigator: camera", missing)
+        self.streams["window_pose"].make = support.changed(no_window, camera__known=True, camera__forward=0.3, camera__horizontal_fov=1.1,
+                                                           camera__vertical_fov=0.9, camera__pixel_angle=0.002)
+        support.Diagnostics().wait("ingress_navigator: camera", "0.30 m ahead, sees 1.10 x 0.90 rad", "as camera_info and tf say")
+        support.wait_for(lambda: self.call("start").success, "a start with a calibration")
 
     def test_start_twice_is_answered_twice(self):
         self.start()

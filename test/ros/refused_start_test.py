@@ -33,7 +33,7 @@ class RefusedStartTest(unittest.TestCase):
         self.assertEqual(process.returncode, 2, errors)
         lines = [line for line in errors.splitlines() if line.strip()]
         self.assertEqual(len(lines), 1, errors)
-        for word in (f"{node}: ", f"/{node}/{name}", *words):
+        for word in ("[FATAL]", f"{node}: ", f"/{node}/{name}", *words):
             self.assertIn(word, lines[0])
 
     def test_unknown_names_are_refused_by_every_node(self):

@@ -2,8 +2,10 @@
 """Whatever is the matter with an input or an output is said on /diagnostics within two seconds, in one line that names the
 topic, and no longer once it is mended."""
 import os
+import re
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -279,6 +281,28 @@ class SpokenCausesTest(unittest.TestCase):
             for name in inputs:
                 topic = f"/lonely_{node}/{'image_raw' if name == 'image' else name}"
                 self.assert_said(begin, f"lonely_{node}/node: {name}", f"no {name} on {topic} (0 publishers); check the remapping")
+
+    def test_a_node_that_has_just_started_waits_before_it_complains(self):
+        with tempfile.NamedTemporaryFile("r") as console:
+            with open(console.name, "w", encoding="utf-8") as sink:
+                process = subprocess.Popen([find_node("window_ingress", "ingress_navigator")[0], "__name:=node"], stderr=sink, stdout=sink,
+                                           env={**os.environ, "ROS_NAMESPACE": "early"})
+
+            def said(*words):
+                console.seek(0)
+                return [line for line in console if all(word in line for word in words)]
+
+            def stamp(line):
+                return float(re.search(r"\] \[(\d+\.\d+)\]", line).group(1))
+            try:
+                first = support.wait_for(lambda: said("[ INFO]", "waiting for odom: no odom on /early/odom (0 publishers)"), "what is waited for")[0]
+                later = support.wait_for(lambda: said("[ERROR]", "no odom on /early/odom (0 publishers)"), "the complaint")[0]
+                self.assertEqual(said("[ERROR]")[0].count("waiting"), 0)
+                self.assertGreater(stamp(later) - stamp(first), 1.0)
+                self.assertEqual(len(said("no odom on")), 2)
+            finally:
+                process.terminate()
+                process.wait(timeout=support.DEADLINE_S)
 
     def test_simulated_time_without_a_clock_and_with_the_wrong_one(self):
         rospy.set_param("/use_sim_time", True)

@@ -10,6 +10,7 @@ import rospy
 import rostest
 import yaml
 from dynamic_reconfigure.client import Client
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from std_srvs.srv import Trigger
 from window_ingress.msg import WindowDetection
@@ -144,14 +145,22 @@ class WindowDetectorTest(unittest.TestCase):
             self.assertAlmostEqual(x, wanted[0], delta=1.5)
             self.assertAlmostEqual(y, wanted[1], delta=1.5)
 
-    def test_tuning_is_taken_or_clamped_and_reaches_the_detector(self):
+    def test_tuning_is_taken_or_refused_aloud_and_reaches_the_detector(self):
         client = Client("window_detector/tuning", timeout=support.DEADLINE_S)
         before = client.get_configuration(timeout=support.DEADLINE_S)
         pixels = support.picture()
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         self.windows.wait(lambda w: w.detected, "a window")
+        console, begin = support.Listener("/rosout", Log), time.monotonic()
+
+        def refused_aloud():  # who has just begun to listen may miss a line
+            after = client.update_configuration({"min_score": 7.0, "min_correlation": 1.0})
+            self.assertEqual([after[name] for name in ("min_score", "min_correlation")], [before[name] for name in ("min_score", "min_correlation")])
+            return any("change refused, old values kept" in m.msg and "min_score = 7 is not within" in m.msg for m in console.since(begin))
+        support.wait_for(refused_aloud, "the refusal")
+        console.stop()
         self.assertEqual(client.update_configuration(
-            {"min_score": 7.0, "min_score_reference": 1.0, "min_correlation": 1.0})["min_score"], 1.0)
+            {"min_score": 1.0, "min_score_reference": 1.0, "min_correlation": 1.0})["min_score"], 1.0)
         begin = time.monotonic()
         self.windows.wait(lambda w: not w.detected, "a window that is no longer good enough", begin=begin)
         self.assertEqual(client.update_configuration(

@@ -52,7 +52,7 @@ def test_a_full_disk_ends_the_flights_with_one_line(tmp_path):
     (tmp_path / "flights.csv").symlink_to("/dev/full")
     scenario = tmp_path / "short.yaml"
     scenario.write_text("time_limit_sec: 1\ncamera: {width_px: 64, height_px: 48}\n")
-    assert_refused(run("fly", "--scenario", scenario, "--seeds", "1..3", "--output", tmp_path), 1, "is the disk full?")
+    assert_refused(run("fly", "--scenario", scenario, "--seeds", "1..3", "--output", tmp_path, "--overwrite"), 1, "is the disk full?")
 
 
 def test_a_log_that_cannot_be_written_is_a_failed_job(tmp_path):

@@ -2,6 +2,8 @@
 import json
 import os
 import pathlib
+import re
+import signal
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -30,6 +32,72 @@ def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
     for name in FILES:
         assert (tmp_path / "campaign/short" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
     assert json.loads((tmp_path / "whole/summary.json").read_text())["flights"] == 5
+
+
+def fly(scenario, folder, *arguments):
+    return run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--no-pictures", "--output", folder, *arguments)
+
+
+def test_the_summary_says_what_was_flown(tmp_path):
+    params = tmp_path / "params.yaml"
+    params.write_text("vehicle: {half_width_m: 0.3}\n")
+    scenario = scenario_in(tmp_path)
+    assert fly(scenario, tmp_path / "out", "--seeds", "4..6", "--params", params).returncode == 0
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    version = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1]).group(1)
+    assert {key: summary[key] for key in ("scenario", "seeds", "draws", "params", "pictures", "version")} == {
+        "scenario": str(scenario), "seeds": "4..6", "draws": "", "params": str(params), "pictures": False, "version": version}
+
+
+def test_flights_are_overwritten_only_where_asked_for(tmp_path):
+    scenario, out = scenario_in(tmp_path), tmp_path / "out"
+    assert fly(scenario, out, "--seeds", "1..3").returncode == 0
+    before = {name: (out / name).read_bytes() for name in FILES}
+    again = fly(scenario, out, "--seeds", "1..2")
+    assert again.returncode == 2 and "--resume" in again.stderr and "--overwrite" in again.stderr and str(out) in again.stderr
+    assert fly(scenario, out, "--seeds", "1..2", "--overwrite", "--resume").returncode == 2
+    assert {name: (out / name).read_bytes() for name in FILES} == before
+    assert fly(scenario, out, "--seeds", "1..2", "--overwrite").returncode == 0
+    assert json.loads((out / "summary.json").read_text())["seeds"] == "1..2"
+
+
+def test_a_campaign_is_overwritten_only_where_asked_for(tmp_path):
+    command = [ROOT / "scripts/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "1", "--no-pictures", scenario_in(tmp_path)]
+    assert run(*command).returncode == 0
+    again = run(*command)
+    assert again.returncode == 2 and "--overwrite" in again.stderr and "short" in again.stderr
+    assert run(*command, "--overwrite").returncode == 0
+
+
+def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
+    scenario, out, total = scenario_in(tmp_path), tmp_path / "out", 3000
+    command = [ROOT / "scripts/run", "fly", "--scenario", scenario, "--no-pictures", "--seeds", f"1..{total}", "--jobs", "2", "--output", out]
+    process = subprocess.Popen([str(part) for part in command], stderr=subprocess.PIPE, text=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # which a script's background ignores
+    assert f" of {total} flights" in process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    last = process.communicate(timeout=60)[1].splitlines()[-1]
+    said = re.fullmatch(rf"fly: (\d+) of {total} flown, continue with --resume", last)
+    assert process.returncode == 1 and said, last
+    flown = len((out / "flights.csv").read_text().splitlines()) - 1
+    assert flown == int(said.group(1)) and not (out / "summary.json").exists()
+    wanted = ["--seeds", f"1..{flown + 5}"]
+    assert fly(scenario, out, *wanted, "--resume").returncode == 0
+    assert fly(scenario, tmp_path / "whole", *wanted).returncode == 0
+    for name in FILES:
+        assert (out / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
+
+
+def test_flights_of_something_else_are_not_gone_on_with(tmp_path):
+    scenario, out = scenario_in(tmp_path), tmp_path / "out"
+    assert fly(scenario, out, "--seeds", "1..3").returncode == 0
+    before = {name: (out / name).read_bytes() for name in FILES}
+    fewer = fly(scenario, out, "--seeds", "1..2", "--resume")
+    assert fewer.returncode == 2 and "seed 3" in fewer.stderr
+    scenario.write_text(SCENARIO.replace("[2, 3]", "[3, 4]").replace("limit_sec: 1.0", "limit_sec: 1.1"))
+    other = fly(scenario, out, "--seeds", "1..5", "--resume")
+    assert other.returncode == 2 and "seed 3 flown again ends otherwise" in other.stderr
+    assert {name: (out / name).read_bytes() for name in FILES} == before
 
 
 def test_a_campaign_that_was_broken_off_goes_on(tmp_path):

@@ -68,8 +68,79 @@ def test_time_is_that_of_a_clock_which_runs_and_is_heeded(doctor, monkeypatch, c
     system = object.__new__(doctor.System)
     system.graph = types.SimpleNamespace(publishers={"/clock": clocks} if clocks else {})
     system.clock = types.SimpleNamespace(times=[0.0] * heard)
-    doctor.check_clock(system, doctor.Report())
+    report = doctor.Report()
+    doctor.check_clock(system, report)
+    report.say()
     assert capsys.readouterr().out.startswith(said)
+
+
+def said_by(doctor, *, alive=("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"), simulated_without_clock=False, **said):
+    """What doctor prints of a system in which these nodes are there and say {item: (level, message)}, `node__item` in all."""
+    system = object.__new__(doctor.System)
+    system.nodes = system.alive = {name: f"/{name}" for name in alive}
+    system.graph = types.SimpleNamespace(publishers={}, nodes=lambda: [f"/{name}" for name in alive])
+    system.said = {name.replace("__", ": "): types.SimpleNamespace(level=level, message=message) for name, (level, message) in said.items()}
+    report = doctor.Report()
+    doctor.check_nodes(system, report)
+    if simulated_without_clock:
+        report.error("time stands still", "a clock", ["/clock"])
+    doctor.check_what_nodes_say(system, report)
+    report.say()
+
+
+def test_a_cause_comes_first_and_what_follows_from_it_stands_below_it(doctor, capsys):
+    said_by(doctor, homography_pose__window=(2, "no more window on /window"), homography_pose__detection=(0, "ok"),
+            ingress_navigator__window_pose=(2, "no more window_pose on /window_pose"), ingress_navigator__mission=(1, "HOLD: no window seen"),
+            setpoint_guard__cmd_vel_in=(2, "/cmd_vel_in is silent"), window_detector__image=(2, "the picture does not change any more"))
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
+    assert lines[0] == "ERROR  window_detector: image: the picture does not change any more"
+    assert lines[1] == "       mend: restart the camera's driver"
+    assert [line.split(": ", 1)[1] for line in lines[2:-1]] == [
+        "homography_pose: window: no more window on /window", "ingress_navigator: window_pose: no more window_pose on /window_pose",
+        "setpoint_guard: cmd_vel_in: /cmd_vel_in is silent", "ingress_navigator: mission: HOLD: no window seen"]
+    assert all(line.startswith("       follows: ") for line in lines[2:-1])
+    assert lines[-1] == "1 finding(s) to mend, 4 follow from them"
+
+
+def test_a_symptom_with_nothing_wrong_before_it_is_a_finding(doctor, capsys):
+    said_by(doctor, setpoint_guard__cmd_vel_in=(2, "/cmd_vel_in is silent"))
+    assert "ERROR  setpoint_guard: cmd_vel_in: /cmd_vel_in is silent\n       mend: " in capsys.readouterr().out
+
+
+def test_two_causes_are_two_findings_the_nearest_takes_what_follows(doctor, capsys):
+    said_by(doctor, window_detector__image=(2, "refused, 7 so far"), homography_pose__imu=(2, "no more imu on /imu"),
+            ingress_navigator__window_pose=(2, "no more window_pose"), window_detector__time=(1, "the budget is 0.0 ms"))
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines() if not line.startswith("OK") and "mend: " not in line]
+    assert lines == ["ERROR  window_detector: image: refused, 7 so far", "ERROR  homography_pose: imu: no more imu on /imu",
+                     "follows: ingress_navigator: window_pose: no more window_pose", "WARN   window_detector: time: the budget is 0.0 ms",
+                     "3 finding(s) to mend, 1 follow from them"]
+
+
+def test_where_time_stands_still_everything_follows_from_that(doctor, capsys):
+    said_by(doctor, simulated_without_clock=True, window_detector__image=(2, "no image"), homography_pose__imu=(2, "no imu"))
+    out = capsys.readouterr().out
+    assert out.count("mend: ") == 1 and "1 finding(s) to mend, 2 follow from them" in out
+
+
+def test_who_is_not_heard_by_a_node_that_died_has_nothing_to_mend(doctor, capsys):
+    said_by(doctor, alive=("window_detector", "ingress_navigator", "setpoint_guard"), window_detector__window=(1, "nobody subscribes to /window"))
+    out = capsys.readouterr().out
+    assert "ERROR  homography_pose is not running" in out and "follows: window_detector: window: nobody" in out and out.count("mend: ") == 1
+
+
+def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys):
+    said_by(doctor, alive=("window_detector", "homography_pose", "ingress_navigator"),
+            ingress_navigator__passed_on=(2, "nothing on /setpoint_guard/passed_on from setpoint_guard"))
+    out = capsys.readouterr().out
+    assert "ERROR  setpoint_guard is not running" in out and out.count("mend: ") == 1
+
+
+@pytest.mark.parametrize("called, launch, wanted", [
+    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/run make_reference PICTURE"),
+    ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; rosrun window_ingress make_reference PICTURE")])
+def test_mends_are_commands_as_the_user_runs_them(doctor, monkeypatch, called, launch, wanted):
+    monkeypatch.setenv("WINDOW_INGRESS_RUN", called)
+    assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/run make_reference PICTURE", launch) == wanted
 
 
 @pytest.mark.parametrize("words", [["--seconds", "abc"], ["--seconds", "-1"], ["--seconds", "nan"], ["--nope"]])

@@ -180,6 +180,7 @@ def runs_a_tool(command, folder):
 
 def launches(command, folder):
     (folder / "my_drone.yaml").write_text("{}\n")
+    shutil.copy(ROOT / "doc/detection.png", folder / "window.jpg")
     words = command.replace("/home/me", str(folder)).split()
     done = run(*words[:2], "--nodes", *words[2:])
     assert done.returncode == 0 and "/setpoint_guard" in done.stdout, done.stderr

@@ -4,6 +4,8 @@ import pathlib
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
+import cv2
+import numpy
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -23,6 +25,15 @@ def dump(name, *arguments):
     launch = json.loads(done.stdout)
     assert launch["errors"] == []
     return launch
+
+
+def photograph(file):
+    """A frame on a wall. \return the file's name"""
+    image = numpy.full((240, 320, 3), 190, numpy.uint8)
+    cv2.rectangle(image, (50, 40), (270, 200), (20, 95, 225), -1)
+    cv2.rectangle(image, (60, 50), (260, 190), (60, 50, 45), -1)
+    cv2.imwrite(str(file), image)
+    return str(file)
 
 
 def remaps(launch, node):
@@ -85,6 +96,46 @@ def test_the_users_file_lies_over_the_frames_and_without_flying_nothing_commands
     assert {node for node in dump("px4", "fly:=false")["nodes"]} == {"/window_detector", "/homography_pose"}
 
 
+@pytest.mark.parametrize("file", LAUNCH_FILES, ids=lambda file: file.stem)
+def test_only_what_has_no_default_is_listed_as_required(file):
+    done = run("roslaunch", "--ros-args", file)
+    assert done.returncode == 0, done.stderr
+    listed = done.stdout.partition("Required Arguments:")[2].partition("Optional Arguments:")[0]
+    assert sorted(line.split(":")[0].strip() for line in listed.splitlines() if line.strip()) == sorted(
+        text.split(":=")[0] for text in NEEDED.get(file.stem, []))
+
+
+@pytest.mark.parametrize("name", ["ingress", "px4", "replay"])
+@pytest.mark.parametrize("argument, said", [
+    ("reference:=/nowhere/window.jpg", "reference/picture: cannot read '/nowhere/window.jpg' as an image"),
+    ("reference:=window.jpg", "reference 'window.jpg': give it with its whole path"),
+    ("reference_corners:=1,2,3", "reference_corners: '1,2,3' is not 8 numbers"),
+    ("window_size:=1.2", "window_size: '1.2' is not 2 numbers"), ("window_size:=0,1", "window_size 0,1: opening_width_m = 0 is not within"),
+    ("config:=/nowhere/drone.yaml", "/nowhere/drone.yaml")])
+def test_an_argument_that_cannot_be_ends_the_launch_before_anything_starts(name, argument, said):
+    done = run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), argument)
+    assert done.returncode == 1 and said in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers")])
+def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, said):
+    done = run("roslaunch", "--nodes", ROOT / "launch/px4.launch", f"camera_pose:={pose}")
+    assert done.returncode == 1 and "camera_pose" in done.stderr and said in done.stderr, done.stderr
+
+
+def test_nothing_that_dies_takes_the_guard_with_it():
+    for name in ("ingress", "px4", "ardupilot"):
+        assert not any(node["required"] for node in dump(name)["nodes"].values()), name
+    for arguments, required in (((), True), (("respawn:=true",), False)):
+        nodes = dump("ingress", "fly:=false", *arguments)["nodes"]  # without a guard
+        assert {node["required"] for node in nodes.values()} == {required}
+
+
+def test_what_is_empty_is_as_good_as_not_given():
+    names = "reference", "window_size", "config", "defaults", "launch_prefix"
+    assert dump("ingress", *(f"{name}:=" for name in names)) == dump("ingress")
+
+
 @pytest.mark.parametrize("name", ["ingress", "px4", "sim", "replay"])
 @pytest.mark.parametrize("text, meant", [
     ("navigator: {vehicle: {half_width_m: 0.45}}", "did you mean 'ingress_navigator: {navigator: ..}'?"),
@@ -100,16 +151,16 @@ def test_a_file_with_keys_that_nobody_reads_ends_the_launch_before_anything_star
 
 @pytest.mark.parametrize("name", ["ingress", "replay", "ardupilot"])
 def test_what_is_given_as_an_argument_counts_more_than_the_file(tmp_path, name):
-    config = tmp_path / "window.yaml"
+    config, in_file, given = tmp_path / "window.yaml", photograph(tmp_path / "file.png"), photograph(tmp_path / "given.png")
     config.write_text("homography_pose: {pose: {opening_width_m: 2.0, opening_height_m: 1.9}}\n"
-                      "window_detector: {reference: {picture: /of/the/file.png, corners: [1, 1, 2, 1, 2, 2, 1, 2]}}\n")
+                      f"window_detector: {{reference: {{picture: {in_file}, corners: [60, 50, 260, 50, 260, 190, 60, 190]}}}}\n")
     size, reference = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/{}"
     params = dump(name, f"config:={config}")["params"]
     assert (params[size.format("width")], params[size.format("height")]) == (2.0, 1.9)
-    assert params[reference.format("picture")] == "/of/the/file.png"
-    params = dump(name, f"config:={config}", "window_size:=1.3,1.1", "reference:=/given.png")["params"]
+    assert params[reference.format("picture")] == in_file
+    params = dump(name, f"config:={config}", "window_size:=1.3,1.1", f"reference:={given}")["params"]
     assert (params[size.format("width")], params[size.format("height")]) == (1.3, 1.1)
-    assert (params[reference.format("picture")], params[reference.format("corners")]) == ("/given.png", [])
+    assert (params[reference.format("picture")], params[reference.format("corners")]) == (given, [])
 
 
 def test_in_simulation_too_the_file_counts_more_than_the_defaults_and_the_argument_more_than_the_file(tmp_path):

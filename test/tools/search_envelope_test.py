@@ -53,7 +53,7 @@ def test_a_contact_is_found_shrunk_and_kept_as_a_scenario_that_repeats(tmp_path)
         assert isinstance(scenario["start"]["distance_m"], float)
         outcome = find.read_text().split(":", 1)[0].removeprefix("# ")
         again = subprocess.run([str(ROOT / "scripts/run"), "fly", "--scenario", str(find), "--seeds", find.stem, "--no-pictures",
-                                "--output", str(tmp_path / "fly")], capture_output=True, text=True, timeout=120, check=False)
+                                "--output", str(tmp_path / "fly"), "--overwrite"], capture_output=True, text=True, timeout=120, check=False)
         assert again.returncode == 0, again.stderr
         assert (tmp_path / "fly/flights.csv").read_text().splitlines()[1].split(",")[1] == outcome
 

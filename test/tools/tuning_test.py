@@ -2,6 +2,7 @@
 import csv
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import time
@@ -256,6 +257,34 @@ def test_corners_are_fitted_to_the_edges_near_them(labelled, tmp_path):
     assert code == 0, errors
     kept = yaml.safe_load((tmp_path / "a.yaml").read_text())["window_detector"]["reference"]["corners"]
     assert numpy.abs(numpy.array(kept) - numpy.round(numpy.array(true)).ravel()).max() < 1.0
+
+
+def test_a_fit_says_how_far_each_side_moved(labelled, tmp_path):
+    code, said, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
+    assert code == 0, errors
+    assert re.search(r"moved by the fit: top \d\.\d px, right \d\.\d px, bottom \d\.\d px, left \d\.\d px", said), said
+
+
+def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
+    """The inner edge on the right does not show; the frame's outer one, five pixels further, does."""
+    image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
+    image[60:181, 80:221] = (20, 95, 225)
+    image[69:172, 89:216] = (60, 50, 45)
+    image[69:172, 211:221] = (58, 49, 44)
+    cv2.imwrite(str(tmp_path / "frame.png"), image)
+    code, _, errors = run("make_reference", tmp_path / "frame.png", "--output", tmp_path / "a.png", "--fit", "--corners",
+                          "88.5,68.5,215.5,68.5,215.5,171.5,88.5,171.5")
+    assert code == 1 and "the right side would move by 5" in errors and "more than 4.0" in errors, errors
+    assert not (tmp_path / "a.png").exists()
+
+
+def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
+    image = cv2.imread(str(labelled / "a.png"))
+    (left, top), _, (right, bottom), _ = [(round(x), round(y)) for x, y in corners_at(*VIEWS[0])]
+    image[top + 20:bottom - 20, left - 12:left + 12] = (60, 50, 45)  # somebody stands before it
+    cv2.imwrite(str(tmp_path / "hidden.png"), image)
+    code, _, errors = run("make_reference", tmp_path / "hidden.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
+    assert code == 1 and "% of one side lie on a straight edge" in errors and "mend the corners" in errors, errors
 
 
 def test_corners_are_clicked(labelled, tmp_path, display):

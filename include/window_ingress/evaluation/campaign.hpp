@@ -17,6 +17,9 @@ std::optional<std::vector<std::uint32_t>> parseSeeds(const std::string& text);
 std::optional<std::vector<std::uint32_t>> shardOf(const std::vector<std::uint32_t>& seeds,
                                                   const std::string& text);
 
+/// The other way round: "1..20, 25".
+std::string seedsText(const std::vector<std::uint32_t>& seeds);
+
 /// One flight; may throw.
 using Fly = std::function<FlightResult(std::uint32_t seed)>;
 /// Called for each flight in the order of the seeds, as soon as all before it are done. Never from two

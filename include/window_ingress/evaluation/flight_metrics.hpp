@@ -51,7 +51,17 @@ struct FlightSummary {
 
 FlightSummary summarise(const std::vector<FlightResult>& flights);
 
+/// What was flown: enough to fly it again with the same build.
+struct CampaignFacts {
+  std::string scenario;  ///< file, as all of these were given
+  std::string seeds;     ///< e.g. "1..20"
+  std::string draws;     ///< file; empty: none was given
+  std::string params;    ///< file laid over the defaults; empty: none was given
+  bool with_pictures = true;
+  std::string version;  ///< of the package
+};
+
 /// The summary as json text, keys in a fixed order.
-std::string toJson(const FlightSummary& summary);
+std::string toJson(const FlightSummary& summary, const CampaignFacts& facts);
 
 }  // namespace window_ingress::evaluation

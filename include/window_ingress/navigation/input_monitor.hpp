@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "window_ingress/navigation/camera_in_body.hpp"
 #include "window_ingress/navigation/continuous_odometry.hpp"
 #include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
@@ -18,6 +19,11 @@ struct NavigatorInput {
   std::optional<Eigen::Vector3d> remembered_odom_m;
   /// Stamp of the last image that was searched, with or without a window in it.
   std::optional<double> image_stamp_sec;
+  /// The camera by calibration and mounting, in place of what the vehicle's parameters say of it; empty:
+  /// these count.
+  std::optional<CameraInBody> camera;
+  /// Why no image can give a pose, e.g. that there is no calibration; empty if there is no reason.
+  std::string camera_fault;
   /// Armed and in a mode that follows setpoints; true where that is not known.
   bool engaged = true;
   /// What the navigator says reaches the autopilot; true where that is not known.
@@ -31,12 +37,13 @@ struct Situation {
   double dt_sec = 0.0;                  ///< since the step before, 0 to 0.2 s
   std::optional<VehicleState> vehicle;  ///< predicted to now
   std::string vehicle_fault;
-  bool vehicle_jumped = false;             ///< what was known in the old odometry frame is void
+  bool vehicle_jumped = false;  ///< what was known in the old odometry frame is void
   std::optional<TargetEstimate> target;
   std::string target_fault;
   bool target_is_new = false;     ///< from another image than the target of the step before
   std::string setpoint_fault;     ///< why setpoints do not reach the autopilot; empty: they do
   std::string image_fault;        ///< empty: images come, or nobody says
+  std::string camera_fault;       ///< why no image can give a pose; empty: there is no reason
   double image_period_sec = 0.0;  ///< between the images searched, of late; 0: not known yet
 };
 

@@ -1,4 +1,5 @@
-/// What the vehicle is (config/vehicle.yaml), and what it may be told (`navigator/limits` in config/navigator.yaml).
+/// What the vehicle is (config/vehicle.yaml), and what it may be told (`navigator/limits` in
+/// config/navigator.yaml).
 #pragma once
 
 namespace window_ingress::navigation {
@@ -8,10 +9,11 @@ struct VehicleParams {
   double half_length_m = 0.25;       ///< of the body's box, propellers included, forward [m]
   double half_width_m = 0.25;        ///< likewise, sideways [m]
   double half_height_m = 0.12;       ///< likewise, upward [m]
-  double camera_forward_m = 0.1;     ///< camera ahead of the body's centre [m]
-  double horizontal_fov_rad = 1.39;  ///< of the camera [rad]
-  double vertical_fov_rad = 1.12;    ///< of the camera [rad]
-  double pixel_rad = 0.0018;    ///< angle that a pixel in the picture's middle covers: 1 / focal length [rad]
+  double camera_forward_m = 0.1;     ///< camera ahead of the body's centre; where tf says it, tf counts [m]
+  double horizontal_fov_rad = 1.39;  ///< of the camera; where camera_info says it, that counts [rad]
+  double vertical_fov_rad = 1.12;    ///< of the camera; where camera_info says it, that counts [rad]
+  double pixel_rad = 0.0018;  ///< angle that a pixel in the picture's middle covers, 1 / focal length; where
+                              ///< camera_info says it, that counts [rad]
   double exposure_sec = 0.004;  ///< of a picture, at the darkest [s]
   double response_sec = 0.3;    ///< from a setpoint to the velocity following it, latency included [s]
   double braking_mps2 = 1.2;    ///< deceleration that can be relied upon [m/s^2]

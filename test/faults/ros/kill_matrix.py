@@ -60,7 +60,6 @@ class KillMatrix:
     def take_off(self):
         call("ingress_navigator/abort")
         call("world/reset")
-        call("window_detector/reset")
         support.wait_for(lambda: call("ingress_navigator/reset").success, "a reset")
         support.wait_for(lambda: call("ingress_navigator/start").success, "a start", 30.0)
 

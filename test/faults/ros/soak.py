@@ -79,7 +79,6 @@ class Soak:
         """Everything as before the first flight; what was injected ends with the world's reset."""
         self.call("ingress_navigator/abort")
         self.call("world/reset")
-        self.call("window_detector/reset")
         support.wait_for(lambda: self.call("ingress_navigator/reset").success, "the navigator can be reset")
         support.wait_for(self.starts, "a mission that starts", START_S)
 

@@ -33,6 +33,20 @@ TEST(WindowPose, CarriesTheEstimate) {
   EXPECT_FALSE(message.has_alternative);
 }
 
+TEST(WindowPose, CarriesTheCameraThereAndBack) {
+  window_ingress::WindowPose message;
+  EXPECT_FALSE(cameraFromMsg(message.camera));
+  fill(message, navigation::CameraInBody{0.1, 1.2, 0.9, 0.002});
+  const auto back = cameraFromMsg(message.camera);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->forward_m, 0.1);
+  EXPECT_EQ(back->horizontal_fov_rad, 1.2);
+  EXPECT_EQ(back->vertical_fov_rad, 0.9);
+  EXPECT_EQ(back->pixel_rad, 0.002);
+  message.camera.fault = "no calibration";
+  EXPECT_FALSE(cameraFromMsg(message.camera));
+}
+
 TEST(WindowPose, CarriesTheReasonWhereThereIsNoPose) {
   pose::PoseResult result;
   result.reject = pose::PoseReject::kTilt;

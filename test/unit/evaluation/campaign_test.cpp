@@ -11,6 +11,13 @@ namespace {
 
 using Seeds = std::vector<std::uint32_t>;
 
+TEST(SeedsText, IsWhatParsesBack) {
+  EXPECT_EQ(seedsText({}), "");
+  EXPECT_EQ(seedsText({7}), "7");
+  EXPECT_EQ(seedsText(*parseSeeds("1..20")), "1..20");
+  EXPECT_EQ(seedsText({1, 2, 3, 9, 12, 13}), "1..3, 9, 12..13");
+}
+
 TEST(Seeds, AreARangeOrOneNumber) {
   EXPECT_EQ(parseSeeds("3..6"), (Seeds{3, 4, 5, 6}));
   EXPECT_EQ(parseSeeds("7"), (Seeds{7}));

@@ -5,7 +5,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-
 namespace window_ingress::evaluation {
 namespace {
 
@@ -33,7 +32,7 @@ TEST(FlightSummary, OfNothingSaysNothing) {
   EXPECT_EQ(summary.flights, 0);
   EXPECT_EQ(summary.pass_rate_95.low, 0.0);
   EXPECT_EQ(summary.pass_rate_95.high, 1.0);
-  EXPECT_EQ(nlohmann::json::parse(toJson(summary))["pass_rate"], 0.0);
+  EXPECT_EQ(nlohmann::json::parse(toJson(summary, {}))["pass_rate"], 0.0);
 }
 
 TEST(FlightSummary, CountsOutcomesAndLikeCausesTogether) {
@@ -41,7 +40,14 @@ TEST(FlightSummary, CountsOutcomesAndLikeCausesTogether) {
   for (std::uint32_t seed = 1; seed <= 8; ++seed) flights.push_back(passed(seed, seed, 0.01 * seed));
   flights.push_back(failed(Outcome::kAborted, "gave up at 12.30 s"));
   flights.push_back(failed(Outcome::kAborted, "gave up at 9.75 s"));
-  const auto json = nlohmann::json::parse(toJson(summarise(flights)));
+  const auto json =
+      nlohmann::json::parse(toJson(summarise(flights), {"a.yaml", "1..10", "", "b.yaml", false, "1.2.3"}));
+  EXPECT_EQ(json["scenario"], "a.yaml");
+  EXPECT_EQ(json["seeds"], "1..10");
+  EXPECT_EQ(json["draws"], "");
+  EXPECT_EQ(json["params"], "b.yaml");
+  EXPECT_EQ(json["pictures"], false);
+  EXPECT_EQ(json["version"], "1.2.3");
   EXPECT_EQ(json["flights"], 10);
   EXPECT_EQ(json["passed"], 8);
   EXPECT_EQ(json["outcomes"]["ABORTED"], 2);
@@ -54,7 +60,7 @@ TEST(FlightSummary, CountsOutcomesAndLikeCausesTogether) {
 TEST(FlightSummary, SurvivesNumbersThatAreNone) {
   auto flight = passed(1, std::numeric_limits<double>::infinity(), 0.0);
   flight.wrong_side_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NO_THROW(toJson(summarise({flight})));
+  EXPECT_NO_THROW(toJson(summarise({flight}), {}));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class NavigatorSteps : public testing::Test {
   }
 };
 
-const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kAside(-4.0, 3.8, 1.5);
+const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kBeforeLine(-1.2, 0.0, 1.5), kAside(-4.0, 3.8, 1.5);
 
 TEST_F(NavigatorSteps, IsSilentBeforeTheStart) {
   Navigator navigator(params_);
@@ -77,6 +77,39 @@ TEST_F(NavigatorSteps, StartListsEveryUnmetCondition) {
   EXPECT_EQ(navigator.start(blind, now_).message, "not started: no image searched so far");
   EXPECT_FALSE(navigator.start(inputAt(kFar, now_), std::numeric_limits<double>::quiet_NaN()).success);
   EXPECT_EQ(steps(navigator, kFar, 1).state, State::kIdle);
+}
+
+TEST_F(NavigatorSteps, StartIsRefusedWhereNoImageCanGiveAPose) {
+  Navigator navigator(params_);
+  NavigatorInput input = inputAt(kFar, now_);
+  input.camera_fault = "no calibration: no camera_info on /camera/camera_info so far";
+  const Reply reply = navigator.start(input, now_);
+  EXPECT_FALSE(reply.success);
+  EXPECT_EQ(reply.message, "not started: " + input.camera_fault);
+  input.camera_fault.clear();
+  input.camera = CameraInBody{0.1, 1.2, 0.1, 0.002};
+  EXPECT_NE(navigator.start(input, now_).message.find("vertical_fov_rad"), std::string::npos);
+  input.camera = CameraInBody{0.1, 1.2, 0.95, 0.002};
+  EXPECT_TRUE(navigator.start(input, now_).success);
+}
+
+TEST_F(NavigatorSteps, TheCommitLineIsThatOfTheCameraThereIsNotOfTheOneConfigured) {
+  const auto commitDistance = [&](const std::optional<CameraInBody>& camera) {
+    Navigator navigator(params_);
+    NavigatorInput input = inputAt(kFar, now_);
+    input.camera = camera;
+    return navigator.step(input, now_).report.commit_distance_m;
+  };
+  CameraInBody camera{params_.vehicle.camera_forward_m, params_.vehicle.horizontal_fov_rad,
+                      params_.vehicle.vertical_fov_rad, params_.vehicle.pixel_rad};
+  const double configured_m = commitDistance(std::nullopt);
+  EXPECT_DOUBLE_EQ(commitDistance(camera), configured_m);
+  camera.forward_m += 0.2;
+  EXPECT_NEAR(commitDistance(camera), configured_m + 0.2, 1e-9);
+  camera.horizontal_fov_rad = camera.vertical_fov_rad = 0.8;
+  EXPECT_GT(commitDistance(camera), configured_m + 0.3);
+  camera.forward_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_DOUBLE_EQ(commitDistance(camera), configured_m);
 }
 
 TEST_F(NavigatorSteps, StartSaysThatTheApproachIsForbiddenAlready) {
