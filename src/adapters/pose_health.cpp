@@ -13,7 +13,8 @@ Health framesHealth(const pose::FramesVerdict& frames) {
   return {Health::kOk, "camera mounting and velocity frame verified"};
 }
 
-Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset, const pose::SenderClock& odometry) {
+Health clocksHealth(const std::optional<pose::ClockCheck::Offset>& offset,
+                    const pose::SenderClock& odometry) {
   constexpr double kMostOffsetSec = 0.05, kSigmas = 3.0;
   char text[200] = "";
   if (odometry.aheadSec() > 0.0)

@@ -23,7 +23,8 @@ namespace {
 
 constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
-constexpr double kUsualOdometryMps = 0.06;  // between position and velocity over two seconds, where all is well
+constexpr double kUsualOdometryMps =
+    0.06;  // between position and velocity over two seconds, where all is well
 
 /// From here on the opening is larger than the picture. Nobody commits from further off the axis than half of
 /// the opening; there, yaw and height keep it in view.
@@ -69,7 +70,8 @@ double remaining(const RelativeState& relative, const NavigatorParams& params) {
   return std::exp(-params.align.lateral_gain_hz * std::max(0.0, steering_sec));
 }
 
-/// A velocity that is off by so much carries the vehicle past the axis: it is coasted by, and steered against.
+/// A velocity that is off by so much carries the vehicle past the axis: it is coasted by, and steered
+/// against.
 double missByOdometry(double odometry_mps, const NavigatorParams& params) {
   const double off_mps = std::max(0.0, odometry_mps - kUsualOdometryMps);
   return off_mps * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);

@@ -20,7 +20,8 @@ std::string whyNoOdometryToCommitBy(const MissionMemory& memory) {
     std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
                   memory.odometry_disagreement_mps);
   else if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
-    std::snprintf(text, sizeof text, "odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
+    std::snprintf(text, sizeof text,
+                  "odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
                   memory.odometry_unexplained_mps);
   return text;
 }
@@ -133,9 +134,8 @@ double velocityTowards(double error_m, double limit_mps, const NavigatorParams& 
   const double gain_hz = params.align.lateral_gain_hz, braking_mps2 = params.vehicle.braking_mps2;
   const double linear_m = braking_mps2 / (gain_hz * gain_hz);
   const double way_m = std::abs(error_m);
-  const double speed_mps = way_m <= linear_m
-                               ? gain_hz * way_m
-                               : std::sqrt(2.0 * braking_mps2 * (way_m - 0.5 * linear_m));
+  const double speed_mps =
+      way_m <= linear_m ? gain_hz * way_m : std::sqrt(2.0 * braking_mps2 * (way_m - 0.5 * linear_m));
   return std::copysign(std::min(speed_mps, limit_mps), error_m);
 }
 

@@ -27,13 +27,13 @@ bool isBroken(const Contract& contract, const NavigatorParams& params) {
          contract.miss_vertical_m > contract.clearance_vertical_m + given_m;
 }
 
-/// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take up.
+/// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
+/// up.
 bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionMemory& memory,
              const NavigatorParams& params) {
   const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
   const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
-  const double stop_m =
-      stoppingDistance(speed_mps, params.vehicle.braking_mps2, params.vehicle.response_sec);
+  const double stop_m = stoppingDistance(speed_mps, params.vehicle.braking_mps2, params.vehicle.response_sec);
   return relative.distance() - params.vehicle.half_length_m > stop_m;
 }
 
@@ -144,7 +144,8 @@ bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
   const TargetEstimate committed = ahead(*memory.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, committed);
   if (relative.distance() < -params.vehicle.half_length_m) return true;
-  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed, params)) return false;
+  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed, params))
+    return false;
   return !isBroken(contractWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
 }
 

@@ -7,9 +7,9 @@ namespace {
 
 constexpr double kStrongestGustMps = 3.0;
 constexpr double kUsualGustMps = 0.06, kUsualSec = 0.3;
-constexpr double kStoodSec = 1.0;  // as if it had stood without wind for so long before
+constexpr double kStoodSec = 1.0;    // as if it had stood without wind for so long before
 constexpr double kEnoughM2ps = 0.2;  // a second of acceleration to 0.8 m/s
-constexpr double kGustsM2ps = 0.9;       // three times what gusts of 0.3 m/s that last a second turn, squared
+constexpr double kGustsM2ps = 0.9;   // three times what gusts of 0.3 m/s that last a second turn, squared
 constexpr double kLeastShareGone = 0.6;
 constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
 

@@ -10,7 +10,8 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr std::array<double, 7> kResponsesSec{0.12, 0.17, 0.24, 0.33, 0.46, 0.64, 0.9};
-constexpr std::array<double, 5> kAccelerationsMps2{std::numeric_limits<double>::infinity(), 1.4, 1.0, 0.7, 0.5};
+constexpr std::array<double, 5> kAccelerationsMps2{std::numeric_limits<double>::infinity(), 1.4, 1.0, 0.7,
+                                                   0.5};
 constexpr double kDeadTimeSec = 0.1, kLeastLagSec = 0.02;
 constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
 constexpr double kExplains = 0.7;       // of the mean square that a vehicle which stands would leave

@@ -32,7 +32,8 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
 Eigen::Vector3d OdometrySensor::drawBias(std::uint32_t seed) const {
   RandomStream random(seed, "odometry velocity bias");
   const double towards_rad = random.uniform(-M_PI, M_PI);
-  const double size_mps = params_.velocity_bias_mps + params_.velocity_bias_spread_mps * random.uniform(-1.0, 1.0);
+  const double size_mps =
+      params_.velocity_bias_mps + params_.velocity_bias_spread_mps * random.uniform(-1.0, 1.0);
   return std::max(0.0, size_mps) * Eigen::Vector3d(std::cos(towards_rad), std::sin(towards_rad), 0.0);
 }
 
@@ -103,7 +104,8 @@ OdometrySample OdometrySensor::measure(double now_sec, const VehicleTruth& truth
   const Eigen::Vector3d bias_mps =
       geometry::yawRotation(geometry::yawOf(sample.T_odom_base.linear())) * velocity_bias_base_mps_;
   own_bias_mps_ = params_.own_bias_part * bias_mps;
-  sample.velocity_odom_mps = drift_.linear() * scaled(truth.velocity_odom_mps) + velocity_noise_mps_ + bias_mps;
+  sample.velocity_odom_mps =
+      drift_.linear() * scaled(truth.velocity_odom_mps) + velocity_noise_mps_ + bias_mps;
   sample.angular_velocity_base_radps = truth.angular_velocity_base_radps;
   return sample;
 }

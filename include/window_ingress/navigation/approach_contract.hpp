@@ -34,7 +34,8 @@ struct ContractInput {
   double gust_lateral_mps = 0.0;   ///< root mean square of the velocity that gusts bring
   double gust_vertical_mps = 0.0;  ///< likewise
   double odometry_mps = 0.0;       ///< by which the odometry's velocity may be off
-  double drift_m_per_sqrt_sec = 0.0;  ///< of the odometry, as measured; at least that of the parameters counts
+  double drift_m_per_sqrt_sec =
+      0.0;  ///< of the odometry, as measured; at least that of the parameters counts
 };
 
 /// The bargain with the wall, at this moment.

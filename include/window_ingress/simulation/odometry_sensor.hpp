@@ -21,8 +21,8 @@ struct OdometrySample {
 /// White noise on everything, over an error that comes and goes and a slow random walk of position and
 /// heading. Heading walks about the vehicle, so that it does not throw the position about. Horizontal
 /// movement may be reported too long or too short (`scale_error`), velocity be off by a constant that turns
-/// with the vehicle (`velocity_bias_mps`), which its positions do not show; horizontal errors grow with height and
-/// lack of texture, as those of optical flow do.
+/// with the vehicle (`velocity_bias_mps`), which its positions do not show; horizontal errors grow with
+/// height and lack of texture, as those of optical flow do.
 class OdometrySensor {
  public:
   OdometrySensor(const OdometryParams& params, std::uint32_t seed);

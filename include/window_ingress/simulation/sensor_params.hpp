@@ -17,8 +17,10 @@ struct OdometryParams {
   double estimate_delay_sec = 0.01;  ///< age of the velocity that the vehicle's own velocity loop acts on [s]
   double position_noise_m = 0.004;   ///< white noise, standard deviation of each axis [m]
   double velocity_noise_mps = 0.02;  ///< white noise, each axis [m/s]
-  double velocity_bias_mps = 0.0;  ///< steady horizontal error of the velocity, fixed in the body; where to: drawn
-  double velocity_bias_spread_mps = 0.0;  ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
+  double velocity_bias_mps =
+      0.0;  ///< steady horizontal error of the velocity, fixed in the body; where to: drawn
+  double velocity_bias_spread_mps =
+      0.0;                     ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
   double own_bias_part = 0.0;  ///< part of that error on which the vehicle's own velocity loop acts, too
   double attitude_noise_rad = 0.004;  ///< white noise, each axis [rad]
   double scale_error = 0.0;           ///< of horizontal movement: the part reported beyond the true one

@@ -102,7 +102,8 @@ TEST(Contract, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
 
   input.drift_m_per_sqrt_sec = 0.05;
-  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, 0.05 * std::sqrt(blind_sec)), 1e-12);
+  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m,
+              3.0 * std::hypot(0.01, 0.05 * std::sqrt(blind_sec)), 1e-12);
   input.drift_m_per_sqrt_sec = 0.0;
 
   input.gust_lateral_mps = 0.05;

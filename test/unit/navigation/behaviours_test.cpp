@@ -131,7 +131,7 @@ TEST(AlignBehaviour, MakesRoomOnlyToMoveSideways) {
     align.enter(0.0);
     const double forward_mps =
         align.step(situationAt({-1.5, lateral_m, 1.5}, 0.0, true), memory).wish.velocity_odom_mps.x();
-    EXPECT_EQ(forward_mps < -0.1, lateral_m > 0.0) << forward_mps;
+    EXPECT_EQ(forward_mps<-0.1, lateral_m> 0.0) << forward_mps;
   }
 }
 
@@ -321,7 +321,8 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
     return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
   };
   const auto& vehicle = kDefaults.vehicle;
-  const double needed_m = vehicle.half_length_m + stoppingDistance(0.95, vehicle.braking_mps2, vehicle.response_sec);
+  const double needed_m =
+      vehicle.half_length_m + stoppingDistance(0.95, vehicle.braking_mps2, vehicle.response_sec);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kContractUnmet);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.95), std::nullopt);
   EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);

@@ -218,7 +218,8 @@ TEST(ContinuousOdometry, HowItsPositionWalksBesideItsVelocityIsMeasured) {
       ContinuousOdometry continuous;
       std::normal_distribution<double> step_m(0.0, walk_m_per_sqrt_sec * std::sqrt(kStep));
       for (int i = 0; i < 450; ++i) {
-        if (walk_m_per_sqrt_sec > 0.0) curve.shift += Eigen::Vector3d(step_m(curve.random), step_m(curve.random), 0);
+        if (walk_m_per_sqrt_sec > 0.0)
+          curve.shift += Eigen::Vector3d(step_m(curve.random), step_m(curve.random), 0);
         continuous.add(curve.step());
       }
       sum += continuous.driftMPerSqrtSec() / kCurves;

@@ -99,7 +99,8 @@ TEST(DisturbanceObserver, TellsAVehicleThatGoesBesideWhatItIsToldFromOneInWind) 
   EXPECT_NEAR(turnedBy(0.0, wind_mps, 100), 0.0, 0.3);
   constexpr int kOneAndAHalfSec = 50;
   for (const double turn_rad : {0.5 * M_PI, -0.5 * M_PI, 3.0})
-    EXPECT_GT(std::abs(turnedBy(turn_rad, wind_mps, kOneAndAHalfSec)), params.input.max_turned_rad) << turn_rad;
+    EXPECT_GT(std::abs(turnedBy(turn_rad, wind_mps, kOneAndAHalfSec)), params.input.max_turned_rad)
+        << turn_rad;
   EXPECT_EQ(DisturbanceObserver(params.vehicle, params.approach).turnedRad(), 0.0);
 }
 

@@ -18,7 +18,8 @@ ResponseEstimator flown(double lag_sec, double acceleration_mps2, double seconds
   ResponseEstimator estimator(kAssumedSec);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (double t = 0.0; t < seconds; t += kStep) {
-    const Eigen::Vector3d command(std::fmod(t, 4.0) < 2.0 ? 0.8 : 0.0, std::fmod(t, 3.0) < 1.5 ? 0.3 : -0.3, 0.0);
+    const Eigen::Vector3d command(std::fmod(t, 4.0) < 2.0 ? 0.8 : 0.0, std::fmod(t, 3.0) < 1.5 ? 0.3 : -0.3,
+                                  0.0);
     Eigen::Vector3d change = (command - velocity) / lag_sec;
     if (change.norm() > acceleration_mps2) change *= acceleration_mps2 / change.norm();
     velocity += kStep * change;
@@ -43,7 +44,8 @@ TEST(ResponseEstimator, KnowsHowFarAVehicleOfLittleAccelerationGoes) {
   for (const double acceleration_mps2 : {0.5, 0.6, 1.0}) {
     const ResponseEstimator found = flown(0.2, acceleration_mps2, 12.0);
     EXPECT_LT(found.accelerationMps2(), 2.0) << acceleration_mps2;
-    EXPECT_NEAR(stop_m(found.accelerationMps2(), found.responseSec()) / stop_m(acceleration_mps2, 0.3), 1.0, 0.35)
+    EXPECT_NEAR(stop_m(found.accelerationMps2(), found.responseSec()) / stop_m(acceleration_mps2, 0.3), 1.0,
+                0.35)
         << acceleration_mps2;
   }
   EXPECT_GT(flown(0.3, 10.0, 12.0).accelerationMps2(), 1.2);
@@ -85,7 +87,8 @@ TEST(ResponseEstimator, StaysWithinBoundsWhateverComes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 3000; ++i) {
     const double wild = 5.0 * std::sin(7.0 * i * i);
-    estimator.update({i % 50 ? wild : nan, -wild, wild}, {-wild, i % 70 ? wild : nan, 0.0}, i % 90 ? kStep : -1.0);
+    estimator.update({i % 50 ? wild : nan, -wild, wild}, {-wild, i % 70 ? wild : nan, 0.0},
+                     i % 90 ? kStep : -1.0);
     ASSERT_GE(estimator.responseSec(), 0.12);
     ASSERT_LE(estimator.responseSec(), 0.9);
     ASSERT_GE(estimator.accelerationMps2(), 0.5);

@@ -260,8 +260,7 @@ Eigen::Vector3d velocityBias(Flyer& flyer) {
   while (flyer.now() < start_sec + 2.0) {
     flyer.step(0.3);
     while (const auto sample = flyer.take()) {
-      const Eigen::Matrix3d to_body =
-          geometry::yawRotation(-geometry::yawOf(sample->T_odom_base.linear()));
+      const Eigen::Matrix3d to_body = geometry::yawRotation(-geometry::yawOf(sample->T_odom_base.linear()));
       sum_mps += to_body * sample->velocity_odom_mps;
       ++count;
     }
@@ -329,8 +328,8 @@ TEST(VehicleProfiles, ChangeTheirVelocityAsSlowlyAsTheyMay) {
 }
 
 TEST(VehicleProfiles, AreWithinTheRangesAndUnknownOnesChangeNothing) {
-  for (const char* profile : {"default", "arducopter_4_0", "arducopter_4_0_default", "arducopter_4_3", "crisp",
-                              "px4_1_13_gps", "slow", "external"}) {
+  for (const char* profile : {"default", "arducopter_4_0", "arducopter_4_0_default", "arducopter_4_3",
+                              "crisp", "px4_1_13_gps", "slow", "external"}) {
     VehicleParams vehicle;
     OdometryParams odometry;
     applyProfile(profile, vehicle, odometry);
