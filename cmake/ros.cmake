@@ -34,7 +34,7 @@ install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/campaign scripts/check_frames scripts/doctor scripts/engaged_from_mavros.py
                       scripts/evaluate_candidates.py scripts/evaluate_detections.py scripts/evaluate_photos.py
-                      scripts/evaluate_sequence.py scripts/gust_table scripts/ingress scripts/look_at_board.py
+                      scripts/evaluate_sequence.py scripts/gust_table scripts/ingress scripts/learn_vehicle scripts/look_at_board.py
                       scripts/plot_filter scripts/plot_flight scripts/plot_flights.py scripts/plot_gusts scripts/plot_miss
                       scripts/plot_openness scripts/plot_pose.py scripts/plot_replay.py scripts/report_replay.py
                       scripts/report_flight scripts/search_envelope scripts/start_mission.py

@@ -67,6 +67,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   pose_health_.watch(pose_subscriber_);
   diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
   diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
   diagnostics_.add("camera", [this] { return cameraHealth(); });
   diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
   start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
@@ -286,7 +287,10 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
       message.state != said_.state || message.reason != said_.reason || message.enabled != said_.enabled;
   const double period_sec = output.enabled ? kStatePeriodEnabledSec : kStatePeriodIdleSec;
   if (!lockstep_ && !news && steadyNowSec() - said_sec_ < period_sec) return;
-  if (message.state != said_.state) ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
+  if (message.state != said_.state) {
+    ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
+    if (navigation::isEnd(output.state)) ROS_INFO("the vehicle %s", vehicleHealth().text.c_str());
+  }
   message.header.stamp = now;
   message.header.frame_id = params_.frames.odom;
   state_publisher_.publish(message);
@@ -298,6 +302,25 @@ Health NavigatorNode::missionHealth() const {
   const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
   const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
   return {bad ? Health::kWarn : Health::kOk, text};
+}
+
+Health NavigatorNode::vehicleHealth() const {
+  const navigation::MeasuredVehicle& vehicle = last_.report.vehicle;
+  char text[200];
+  std::snprintf(text, sizeof text, "answers in %.2f s, as %s", vehicle.response_sec,
+                vehicle.is_measured ? "measured in flight" : "assumed");
+  std::string said = text;
+  if (std::isfinite(vehicle.acceleration_mps2)) {
+    std::snprintf(text, sizeof text, "; changes its velocity by no more than %.1f m/s^2",
+                  vehicle.acceleration_mps2);
+    said += text;
+  }
+  if (const double bias_mps = vehicle.velocity_bias_base_mps.norm(); bias_mps > 0.0) {
+    std::snprintf(text, sizeof text, "; odometry's velocity is off by %.2f m/s, which is taken off",
+                  bias_mps);
+    said += text;
+  }
+  return {Health::kOk, said};
 }
 
 Health NavigatorNode::cameraHealth() const {

@@ -63,6 +63,7 @@ class NavigatorNode : public Node {
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
   Health missionHealth() const;
+  Health vehicleHealth() const;
   Health cameraHealth() const;
   Health lastGateHealth() const;
 

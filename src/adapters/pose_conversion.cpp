@@ -249,6 +249,11 @@ StateMsg toMsg(const navigation::NavigatorOutput& output) {
   message.window_id = report.window_id;
   message.given_up = report.given_up;
   message.next_window = report.next_window;
+  message.response_measured = report.vehicle.is_measured;
+  message.response = report.vehicle.response_sec;
+  const double limit_mps2 = report.vehicle.acceleration_mps2;
+  message.acceleration_limit = std::isfinite(limit_mps2) ? limit_mps2 : 0.0;
+  message.velocity_bias = toVectorMsg(report.vehicle.velocity_bias_base_mps);
   return message;
 }
 

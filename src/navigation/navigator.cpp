@@ -74,7 +74,14 @@ struct Navigator::Impl {
   void enter(State from);
   Setpoint output(const Decision& decision, const Situation& situation);
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
+  MeasuredVehicle measuredVehicle() const;
 };
+
+MeasuredVehicle Navigator::Impl::measuredVehicle() const {
+  const ResponseEstimator& response = observer.response();
+  return {response.isMeasured(), response.responseSec(), response.accelerationMps2(),
+          monitor.odometry().biasMps()};
+}
 
 // One that cannot be flown by changes nothing: no mission starts with it.
 void Navigator::Impl::useCamera(const std::optional<CameraInBody>& camera) {
@@ -313,6 +320,7 @@ NavigatorOutput Navigator::step(const NavigatorInput& input, double now_sec) {
   output.state = self.state;
   output.reason = self.reason;
   output.report = reportOn(situation, self.memory, self.params);
+  output.report.vehicle = self.measuredVehicle();
   const bool streams =
       self.state != State::kAborted || self.clock.inStateSec() <= self.params.timeouts.stream_sec;
   output.enabled = self.state != State::kIdle && streams;

@@ -39,6 +39,8 @@ class ContinuousOdometry {
   double headingErrorRad() const;
   /// The vehicle's velocity without its steady error, once that is known; axes of `smooth`.
   Eigen::Vector3d unbiased(const VehicleState& smooth) const;
+  /// That error: of the velocity, level axes with x along the nose [m/s]; zero until it is known.
+  Eigen::Vector3d biasMps() const { return -bias_base_mps_; }
   /// What position and velocity differ by, over the latest two seconds [m/s]: a bias of the velocity, an
   /// error of the position, or axes that are not those of the other.
   double disagreementMps() const { return latePiecesMps().norm(); }

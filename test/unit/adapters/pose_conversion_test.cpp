@@ -165,12 +165,19 @@ TEST(IngressState, SaysWhatTheNavigatorSays) {
   output.enabled = true;
   output.setpoint.velocity_odom_mps = {0.1, 0.2, 0.3};
   output.report.retries = 2;
+  output.report.vehicle = {true, 0.46, 1.0, {0.1, -0.2, 0.0}};
   const auto message = toMsg(output);
   EXPECT_EQ(message.state, window_ingress::IngressState::HOLD);
   EXPECT_EQ(message.state_name, "HOLD");
   EXPECT_EQ(message.reason, output.reason);
   EXPECT_EQ(message.velocity.z, 0.3);
   EXPECT_EQ(message.retries, 2u);
+  EXPECT_TRUE(message.response_measured);
+  EXPECT_EQ(message.response, 0.46);
+  EXPECT_EQ(message.acceleration_limit, 1.0);
+  EXPECT_EQ(message.velocity_bias.y, -0.2);
+  output.report.vehicle.acceleration_mps2 = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(toMsg(output).acceleration_limit, 0.0) << "none has shown";
 }
 
 }  // namespace
