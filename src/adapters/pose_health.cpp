@@ -42,7 +42,11 @@ Health consistencyHealth(const pose::Consistency& consistency, const pose::Filte
   std::snprintf(text, sizeof text,
                 "normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
                 consistency.mean_nis, consistency.images, params.consistency_images, params.max_consistency);
-  return {consistency.consistent ? Health::kOk : Health::kWarn, text};
+  const bool is_good = consistency.consistent && !consistency.contradicted;
+  return {
+      is_good ? Health::kOk : Health::kWarn,
+      text + std::string(consistency.contradicted ? "; most images contradict the window that was made out"
+                                                  : "")};
 }
 
 }  // namespace window_ingress::adapters

@@ -9,17 +9,29 @@ using Offset = pose::ClockCheck::Offset;
 
 bool says(const Health& health, const char* words) { return health.text.find(words) != std::string::npos; }
 
+const pose::SenderClock kInTime;
+
 TEST(ClocksHealth, WarnsFromFiftyMillisecondsOnIfThatIsCertain) {
-  EXPECT_EQ(clocksHealth(std::nullopt).level, Health::kOk);
-  EXPECT_EQ(clocksHealth(Offset{0.04, 0.005}).level, Health::kOk);
-  EXPECT_EQ(clocksHealth(Offset{0.09, 0.05}).level, Health::kOk);
-  EXPECT_EQ(clocksHealth(Offset{-0.09, 0.01}).level, Health::kWarn);
+  EXPECT_EQ(clocksHealth(std::nullopt, kInTime).level, Health::kOk);
+  EXPECT_EQ(clocksHealth(Offset{0.04, 0.005}, kInTime).level, Health::kOk);
+  EXPECT_EQ(clocksHealth(Offset{0.09, 0.05}, kInTime).level, Health::kOk);
+  EXPECT_EQ(clocksHealth(Offset{-0.09, 0.01}, kInTime).level, Health::kWarn);
+}
+
+TEST(ClocksHealth, SaysThatStampsAheadAreTakenBack) {
+  pose::SenderClock ahead;
+  ahead.atReceiver(10.15, 10.0);
+  for (const auto& offset : {std::optional<Offset>(), std::optional(Offset{0.01, 0.01})}) {
+    EXPECT_EQ(clocksHealth(offset, ahead).level, Health::kOk);
+    EXPECT_TRUE(says(clocksHealth(offset, ahead), "0.15 s ahead of its arrival"));
+    EXPECT_FALSE(says(clocksHealth(offset, kInTime), "ahead"));
+  }
 }
 
 TEST(ClocksHealth, SaysWhichIsLateAndWhatToDo) {
-  EXPECT_TRUE(says(clocksHealth(Offset{0.12, 0.01}), "0.12 +- 0.01 s late"));
-  EXPECT_TRUE(says(clocksHealth(Offset{-0.12, 0.01}), "0.12 +- 0.01 s early"));
-  EXPECT_TRUE(says(clocksHealth(Offset{-0.12, 0.01}), "correct"));
+  EXPECT_TRUE(says(clocksHealth(Offset{0.12, 0.01}, kInTime), "0.12 +- 0.01 s late"));
+  EXPECT_TRUE(says(clocksHealth(Offset{-0.12, 0.01}, kInTime), "0.12 +- 0.01 s early"));
+  EXPECT_TRUE(says(clocksHealth(Offset{-0.12, 0.01}, kInTime), "correct"));
 }
 
 TEST(FramesHealth, IsAnErrorOnlyWhereTheyAreWrong) {
@@ -41,6 +53,9 @@ TEST(OpennessHealth, SaysOfWhatLooksOpenWhatOneCameraCannotTell) {
 TEST(ConsistencyHealth, WarnsOfAFilterAtOddsWithItsImages) {
   EXPECT_EQ(consistencyHealth({40, 1.2, true}, {}).level, Health::kOk);
   EXPECT_EQ(consistencyHealth({40, 5.0, false}, {}).level, Health::kWarn);
+  pose::Consistency contradicted{40, 1.2, true};
+  contradicted.contradicted = true;
+  EXPECT_EQ(consistencyHealth(contradicted, {}).level, Health::kWarn);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -70,17 +71,31 @@ TEST(ClosedLoopFlight, UnderTheDefaultsNobodyEntersACleanPaneThatLooksOpen) {
   EXPECT_NE(wrong.reason.find("touched glass"), std::string::npos) << wrong.reason;
 }
 
+/// Of stamps of pictures beside those of odometry, as the flight found it, for odometry's stamps so much ahead.
+std::optional<double> lateSecFound(double odometry_ahead_sec) {
+  auto scenario = shortFlight();
+  scenario.start.heading_rad = 1.2;  // it has to turn towards the window
+  scenario.start.distance_m = 4.0;
+  scenario.odometry.stamp_offset_sec = odometry_ahead_sec;
+  FlightParams params;
+  params.without_pictures = true;
+  const auto flight = flyOnce(scenario, 3, params);
+  return flight.clock_offset ? std::optional(flight.clock_offset->late_sec) : std::nullopt;
+}
+
 TEST(ClosedLoopFlight, FindsOutByHowMuchTheClocksOfCameraAndOdometryDiffer) {
-  for (const double offset_sec : {-0.04, 0.0, 0.08, 0.15}) {
-    auto scenario = shortFlight();
-    scenario.start.heading_rad = 1.2;  // it has to turn towards the window
-    scenario.start.distance_m = 4.0;
-    scenario.odometry.stamp_offset_sec = offset_sec;  // late: pictures are early beside it
-    FlightParams params;
-    params.without_pictures = true;
-    const auto flight = flyOnce(scenario, 3, params);
-    ASSERT_TRUE(flight.clock_offset) << flight.reason;
-    EXPECT_NEAR(flight.clock_offset->late_sec, -offset_sec, 0.04) << flight.clock_offset->sigma_sec;
+  for (const double behind_sec : {0.0, 0.04, 0.08}) {
+    const auto late_sec = lateSecFound(-behind_sec);
+    ASSERT_TRUE(late_sec) << behind_sec;
+    EXPECT_NEAR(*late_sec, behind_sec, 0.04);
+  }
+}
+
+TEST(ClosedLoopFlight, StampsOfOdometryThatAreAheadOfTheirArrivalAreTakenBack) {
+  for (const double ahead_sec : {0.08, 0.15}) {
+    const auto late_sec = lateSecFound(ahead_sec);
+    ASSERT_TRUE(late_sec) << ahead_sec;
+    EXPECT_NEAR(*late_sec, 0.0, 0.04);
   }
 }
 
