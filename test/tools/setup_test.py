@@ -1,0 +1,65 @@
+"""scripts/setup on other systems: which it takes, and what it says where it cannot. apt and dpkg are stood in for."""
+import os
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+SETUP = pathlib.Path(__file__).resolve().parents[2] / "scripts/setup"
+LISTS = dict(re.findall(r'^(\w+)="\n([^"]*)"', SETUP.read_text(encoding="utf-8"), flags=re.M))
+UNSTABLE = 'PRETTY_NAME="Debian GNU/Linux sid"\nID=debian\n'
+
+
+def system(name, number):
+    return f'PRETTY_NAME="{name} {number}"\nID={name}\nVERSION_ID="{number}"\n'
+
+
+@pytest.fixture(name="setup")
+def fixture_setup(tmp_path):
+    """Calls it on a system where nothing is installed and packages named in `absent` do not exist: (done, what it installed)."""
+    def call(os_release, *more, absent=()):
+        tools = {"dpkg-query": "exit 1", "id": "echo 0", "apt-get": f'echo "$@" >>{tmp_path}/apt',
+                 "apt-cache": f'case " {" ".join(absent)} " in *" ${{!#}} "*) exit 100 ;; esac'}
+        for name, text in tools.items():
+            (tmp_path / name).write_text(f"#!/bin/bash\n{text}\n")
+            (tmp_path / name).chmod(0o755)
+        (tmp_path / "os-release").write_text(os_release)
+        done = subprocess.run([SETUP, *more], capture_output=True, text=True, check=False,
+                              env={**os.environ, "PATH": f"{tmp_path}:/usr/bin:/bin", "OS_RELEASE": str(tmp_path / "os-release")})
+        asked = (tmp_path / "apt").read_text().splitlines() if (tmp_path / "apt").exists() else []
+        installed = [word for line in asked if line.startswith("install ") for word in line.split()[1:] if word[0] != "-"]
+        return done, installed
+    return call
+
+
+@pytest.mark.parametrize("os_release, packages", [
+    (system("debian", "12"), "debian"), (system("debian", "13"), "debian"), (UNSTABLE, "debian"),
+    (system("ubuntu", "20.04"), "ubuntu_20_04")], ids=["12", "13", "unstable", "20.04"])
+def test_installs_its_list_and_what_is_asked_for(setup, os_release, packages):
+    done, installed = setup(os_release, "doxygen")
+    assert done.returncode == 0, done.stderr
+    assert "libosmesa6-dev" in installed and installed == [*LISTS[packages].split(), "doxygen"]
+
+
+@pytest.mark.parametrize("name, number, reason", [
+    ("fedora", "42", ""), ("debian", "11", ""), ("ubuntu", "22.04", "untried"), ("ubuntu", "24.04", "untried")])
+def test_refuses_another_system_in_one_line(setup, name, number, reason):
+    done, installed = setup(system(name, number))
+    assert done.returncode == 2 and not installed
+    assert done.stderr.count("\n") == 1 and done.stderr.startswith(f"setup: {name} {number} is not supported")
+    assert "Debian 12 and 13" in done.stderr and "Ubuntu 20.04" in done.stderr and reason in done.stderr
+
+
+def test_names_what_the_system_does_not_have_and_installs_nothing(setup):
+    done, installed = setup(UNSTABLE, absent=["libosmesa6-dev", "rviz"])
+    assert done.returncode == 2 and not installed
+    assert "no OSMesa" in done.stderr and "Debian GNU/Linux sid has no libosmesa6-dev rviz" in done.stderr
+    done, installed = setup(UNSTABLE, absent=["rviz"])
+    assert done.returncode == 2 and not installed and "OSMesa" not in done.stderr
+
+
+@pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])
+def test_check_platform_refuses_what_it_cannot_do(arguments):
+    done = subprocess.run([SETUP.parent / "check_platform", *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, demo" in done.stderr
