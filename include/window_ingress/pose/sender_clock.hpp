@@ -3,8 +3,8 @@
 namespace window_ingress::pose {
 
 /// Nothing is measured after it has arrived: stamps that are ahead of their arrival come from a clock that is
-/// ahead (MAVROS's estimate of PX4's was seen 84 to 164 ms ahead, with what the way took taken off). The most
-/// that was seen is taken off every stamp. It fades slowly, since clocks drift.
+/// ahead (PX4's behind MAVROS were seen 84 to 164 ms ahead of their arrival). The most that was seen is taken
+/// off every stamp. It fades slowly, since clocks drift.
 class SenderClock {
  public:
   /// \return the stamp by the receiver's clock; a stamp or arrival that is not finite changes nothing
