@@ -126,8 +126,8 @@ class BlockedOutputTest(unittest.TestCase):
         self.setpoints.stop()
         self.states.stop()
 
-    def fly(self, output, state, lines=LINES, **environment):
-        """Until the navigator is in that state; then what is written goes nowhere any more, and so many lines are written."""
+    def fly(self, output, lines=LINES, **environment):
+        """Until the vehicle approaches; then what is written goes nowhere any more, and so many lines are written."""
         self.output = output
         command = ["roslaunch", "window_ingress", "sim.launch"]
         self.flight = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output.end, stderr=output.end, start_new_session=True,
@@ -136,7 +136,7 @@ class BlockedOutputTest(unittest.TestCase):
         start, self.abort, confirm = (rospy.ServiceProxy(f"/ingress_navigator/{name}", Trigger, persistent=True)
                                       for name in ("start", "abort", "confirm_opening"))
         support.wait_for(lambda: start().success, "a mission that starts", UP_WITHIN_S)
-        self.states.wait(lambda s: s.state_name == state, state, UP_WITHIN_S, begin=0.0)
+        self.states.wait(lambda s: s.state_name == "APPROACH", "APPROACH", UP_WITHIN_S, begin=0.0)
         output.stop()
         asking = threading.Thread(target=lambda: [confirm() for _ in range(lines)], daemon=True)
         asking.start()
@@ -176,20 +176,20 @@ class BlockedOutputTest(unittest.TestCase):
         self.assertLess(zero_s, ZERO_WITHIN_S)
 
     def test_a_terminal_that_is_stopped(self):
-        self.fly(Terminal(), "ALIGN", MANY_LINES)
+        self.fly(Terminal(), MANY_LINES)
         support.Diagnostics().wait("ingress_navigator: console", "takes nothing more")
         self.assert_streams()
         self.assert_abort_acts()
 
     def test_a_pipe_that_nobody_reads(self):
-        self.fly(Pipe(), "APPROACH")
+        self.fly(Pipe())
         self.assert_the_guard_brakes()
         self.assert_streams()
 
     def test_a_disk_that_is_full(self):
         disk = Disk()
         folders = {name: str(disk.folder / name.lower()) for name in ("HOME", "ROS_HOME", "ROS_LOG_DIR")}
-        self.fly(disk, "APPROACH", **folders)
+        self.fly(disk, **folders)
         self.assert_abort_acts()
         self.assert_streams()
 
