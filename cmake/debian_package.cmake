@@ -1,4 +1,4 @@
-# Debian package of everything that is installed; scripts/build_deb configures with prefix /usr and runs cpack.
+# Debian package of everything that is installed; dev/build_deb configures with prefix /usr and runs cpack.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME window-ingress)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})

@@ -32,16 +32,11 @@ install(TARGETS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_nodelets
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.hpp")
 install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/campaign scripts/check_frames scripts/doctor scripts/engaged_from_mavros.py
-                      scripts/evaluate_candidates.py scripts/evaluate_detections.py scripts/evaluate_photos.py
-                      scripts/evaluate_sequence.py scripts/gust_table scripts/ingress scripts/learn_vehicle scripts/look_at_board.py
-                      scripts/plot_filter scripts/plot_flight scripts/plot_flights.py scripts/plot_gusts scripts/plot_miss
-                      scripts/plot_openness scripts/plot_pose.py scripts/plot_replay.py scripts/report_replay.py
-                      scripts/report_flight scripts/search_envelope scripts/start_mission.py
-                      DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(FILES scripts/campaign_data.py scripts/command_line.py scripts/flight_bag.py scripts/flight_data.py scripts/live_system.py
-              scripts/package_paths.py scripts/svg_chart.py
-        DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+# Programs in Python: tools for users, and nodes. Their common modules lie beside them.
+file(GLOB python_programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/* ${PROJECT_SOURCE_DIR}/nodes/*.py)
+list(FILTER python_programs EXCLUDE REGEX "/(ingress_tools|__pycache__)$")
+catkin_install_python(PROGRAMS ${python_programs} scripts/ingress DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY tools/ingress_tools DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN "*.py")
 # On PATH once the workspace's setup.bash is sourced.
 catkin_install_python(PROGRAMS scripts/ingress DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(FILES scripts/ingress_completion.bash DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -1,4 +1,4 @@
-# Fuzzers, and the unit tests under the same sanitizers: scripts/fuzz and scripts/sanitize configure with clang, the flags and
+# Fuzzers, and the unit tests under the same sanitizers: dev/fuzz and dev/sanitize configure with clang, the flags and
 # WINDOW_INGRESS_SANITIZED, and build fuzz_<target>, unit_<folder>, faults. Only what a target reaches is compiled.
 find_package(GTest REQUIRED)
 set(fuzz_folder ${PROJECT_SOURCE_DIR}/test/fuzz)

@@ -44,7 +44,7 @@ endif()
 
 if(WINDOW_INGRESS_CORE_ONLY)
   add_test(NAME core_is_free_of_ros
-           COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_core_is_free_of_ros.py
+           COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/dev/check_core_is_free_of_ros.py
                    ${PROJECT_BINARY_DIR}/compile_commands.json)
 else()
   include(${PROJECT_SOURCE_DIR}/cmake/ros_tests.cmake)

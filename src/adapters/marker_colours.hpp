@@ -10,7 +10,7 @@ namespace window_ingress::adapters {
 /// \param rgb 0xRRGGBB
 std_msgs::ColorRGBA colourOf(int rgb, double alpha = 1.0);
 
-/// A state of the navigator: the colours of plot_flight (scripts/flight_data.py).
+/// A state of the navigator: the colours of plot_flight (tools/ingress_tools/flight_data.py).
 std_msgs::ColorRGBA colourOf(navigation::State state, double alpha = 1.0);
 
 constexpr int kTrustedRgb = 0x2ecc40;   ///< the window, its normal being certain

@@ -102,12 +102,12 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-/// The script lies beside this program when installed, in scripts/ of the source tree when not. No shell in
+/// The script lies beside this program when installed, in tools/ of the source tree when not. No shell in
 /// between.
 void runScript(const std::string& name, const std::vector<std::string>& arguments) {
   const fs::path installed = fs::read_symlink("/proc/self/exe").parent_path() / name;
   const fs::path script =
-      fs::exists(installed) ? installed : fs::path(WINDOW_INGRESS_SOURCE_DIR "/scripts/" + name);
+      fs::exists(installed) ? installed : fs::path(WINDOW_INGRESS_SOURCE_DIR "/tools/" + name);
   std::vector<std::string> words{"python3", script.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> given;

@@ -1,5 +1,5 @@
 /// What is thrown at the package's inputs: each takes any bytes and must neither crash nor break its
-/// promises. Run by libFuzzer (`scripts/fuzz`), and over the kept inputs by the program `faults`.
+/// promises. Run by libFuzzer (`dev/fuzz`), and over the kept inputs by the program `faults`.
 #pragma once
 
 #include <cstddef>

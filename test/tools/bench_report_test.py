@@ -7,8 +7,8 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-REPORT = ROOT / "scripts" / "bench_report.py"
-sys.path.insert(0, str(ROOT / "scripts"))
+REPORT = ROOT / "dev" / "bench_report.py"
+sys.path.insert(0, str(ROOT / "dev"))
 import bench_report as report  # noqa: E402
 
 

@@ -1,4 +1,4 @@
-"""scripts/campaign: shards flown by GNU parallel and joined are the same bytes as one process."""
+"""tools/campaign: shards flown by GNU parallel and joined are the same bytes as one process."""
 import json
 import os
 import pathlib
@@ -23,7 +23,7 @@ def scenario_in(folder, name="short"):
 
 def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
     scenario = scenario_in(tmp_path)
-    done = run(ROOT / "scripts/campaign", "--output", tmp_path / "campaign", "--seeds", "1..5", "--shards", "2", scenario)
+    done = run(ROOT / "tools/campaign", "--output", tmp_path / "campaign", "--seeds", "1..5", "--shards", "2", scenario)
     assert done.returncode == 0, done.stderr
     assert "| short | 5 |" in done.stdout
     whole = run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--seeds", "1..5", "--jobs", "2", "--output",
@@ -62,7 +62,7 @@ def test_flights_are_overwritten_only_where_asked_for(tmp_path):
 
 
 def test_a_campaign_is_overwritten_only_where_asked_for(tmp_path):
-    command = [ROOT / "scripts/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "1", "--no-pictures", scenario_in(tmp_path)]
+    command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "1", "--no-pictures", scenario_in(tmp_path)]
     assert run(*command).returncode == 0
     again = run(*command)
     assert again.returncode == 2 and "--overwrite" in again.stderr and "short" in again.stderr
@@ -102,7 +102,7 @@ def test_flights_of_something_else_are_not_gone_on_with(tmp_path):
 
 def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     scenario = scenario_in(tmp_path)
-    command = [ROOT / "scripts/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "2", scenario]
+    command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "2", scenario]
     assert run(*command).returncode == 0
     kept, lost = (tmp_path / "short/shards" / name / "summary.json" for name in ("1_of_2", "2_of_2"))
     before = kept.stat().st_mtime_ns
@@ -117,7 +117,7 @@ def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
 def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
     bad = tmp_path / "bad.yaml"
     bad.write_text("start: {distance_m: 500}\n")
-    done = run(ROOT / "scripts/campaign", "--output", tmp_path / "out", "--seeds", "1..2", "--shards", "2", bad)
+    done = run(ROOT / "tools/campaign", "--output", tmp_path / "out", "--seeds", "1..2", "--shards", "2", bad)
     assert done.returncode == 1
     assert "distance_m = 500 is not within" in done.stderr
     assert not (tmp_path / "out/table.md").exists()
@@ -125,9 +125,9 @@ def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
 
 def test_scenarios_flown_elsewhere_are_left_out_with_a_line(tmp_path):
     external = ROOT / "config/scenarios/external.yaml"
-    done = run(ROOT / "scripts/campaign", "--output", tmp_path / "out", "--seeds", "1..1", "--shards", "1", external, scenario_in(tmp_path))
+    done = run(ROOT / "tools/campaign", "--output", tmp_path / "out", "--seeds", "1..1", "--shards", "1", external, scenario_in(tmp_path))
     assert done.returncode == 0 and "external.yaml left out" in done.stderr and "| short | 1 |" in done.stdout, done.stderr
-    assert run(ROOT / "scripts/campaign", "--output", tmp_path / "none", external).returncode == 2
+    assert run(ROOT / "tools/campaign", "--output", tmp_path / "none", external).returncode == 2
 
 
 def test_wrong_usage_says_what_to_do(tmp_path):
@@ -135,7 +135,7 @@ def test_wrong_usage_says_what_to_do(tmp_path):
     for arguments, text in [([tmp_path / "none.yaml"], "no such file"), ([scenario, "--shards", "0"], "--shards"),
                             ([scenario, scenario], "same name"),
                             ([scenario, "--sshloginfile", scenario], "must lie below")]:
-        done = run(ROOT / "scripts/campaign", "--output", tmp_path / "out", *arguments)
+        done = run(ROOT / "tools/campaign", "--output", tmp_path / "out", *arguments)
         assert done.returncode == 2 and text in done.stderr, arguments
 
 

@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 @pytest.fixture(scope="module")
 def tool():
-    loader = importlib.machinery.SourceFileLoader("check_frames", str(ROOT / "scripts/check_frames"))
+    loader = importlib.machinery.SourceFileLoader("check_frames", str(ROOT / "tools/check_frames"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_frames", loader))
     loader.exec_module(module)
     return module

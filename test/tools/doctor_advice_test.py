@@ -14,7 +14,7 @@ RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
 
 @pytest.fixture(name="doctor", scope="module")
 def fixture_doctor():
-    loader = importlib.machinery.SourceFileLoader("doctor", str(ROOT / "scripts/doctor"))
+    loader = importlib.machinery.SourceFileLoader("doctor", str(ROOT / "tools/doctor"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("doctor", loader))
     loader.exec_module(module)
     return module

@@ -38,7 +38,7 @@ def test_every_reason_of_refusal_is_explained():
     source = (ROOT / "src/detection/detection_trace.cpp").read_text(encoding="utf-8")
     names = set(re.findall(r'return \{"(\w+)"', source)) - {"none", "unknown"}
     table = dict(re.findall(r"^\| `(\w+)` \| (.+) \|$", (ROOT / "doc/detection.md").read_text(encoding="utf-8"), flags=re.M))
-    page = dict(re.findall(r'^    "(\w+)": "(.+)",$', (ROOT / "scripts/report_replay.py").read_text(encoding="utf-8"), flags=re.M))
+    page = dict(re.findall(r'^    "(\w+)": "(.+)",$', (ROOT / "tools/report_replay.py").read_text(encoding="utf-8"), flags=re.M))
     assert len(names) > 15 and names <= set(table)
     assert page == {name: table[name] for name in page} and names <= set(page)
 
@@ -112,6 +112,7 @@ def load_ingress():
 
 
 INGRESS = load_ingress()
+ROOMS = "scripts", "dev", "tools", "nodes"
 ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun plotjuggler) "  # of other packages
 ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 
@@ -119,8 +120,8 @@ ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 @functools.lru_cache(maxsize=None)
 def explained(tool):
     """All that is known of the tool's options: its own help, or the text of a script."""
-    script = ROOT / "scripts" / tool
-    return script.read_text(encoding="utf-8") if script.is_file() else run("scripts/run", tool, "--help").stdout
+    script = next((ROOT / folder / tool for folder in ROOMS if (ROOT / folder / tool).is_file()), None)
+    return script.read_text(encoding="utf-8") if script else run("scripts/run", tool, "--help").stdout
 
 
 def arguments_of(launch_file):
@@ -134,7 +135,7 @@ def test_printed_commands_can_be_pasted(document):
         if re.match(ELSEWHERE, command):
             continue
         first, *words = command.split()
-        assert re.match(r"(\./)?scripts/", first), f"{command}: does not begin with ./scripts/"
+        assert re.match(r"(\./)?(scripts|dev)/", first), f"{command}: does not begin with ./scripts/ or ./dev/"
         assert (ROOT / first).is_file(), command
         if first.endswith("/ingress"):
             tool, words = INGRESS.parse(words)
@@ -211,7 +212,7 @@ def calls_a_service(command, folder):
         launched.wait(30)
 
 
-CHECKS = [(r"\./scripts/(demo|test|bench|build|build_deb|check_deb|check_install)\b", checked_elsewhere),
+CHECKS = [(r"\./(scripts/(demo|test|bench|build)|dev/(build_deb|check_deb|check_install))\b", checked_elsewhere),
           (r"\./scripts/run roslaunch window_ingress", launches),
           (r"\./scripts/run rosservice call", calls_a_service),
           (r"\./scripts/(run|ingress) \w+", runs_a_tool)]

@@ -10,7 +10,7 @@ import numpy
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "tools"))
 import evaluate_candidates as candidates  # noqa: E402
 import evaluate_detections as rules  # noqa: E402
 import evaluate_photos as photos  # noqa: E402
@@ -138,7 +138,7 @@ def test_a_window_that_moves_is_followed(tmp_path):
             writer.writerow({"file": f"{i}.png", **corners})
     tool = next(path for path in (ROOT / "build/ros/devel/lib/window_ingress/detect_images",
                                   ROOT / "build/core/detect_images") if path.exists())
-    done = subprocess.run([sys.executable, ROOT / "scripts/evaluate_sequence.py", tmp_path, "--output", tmp_path / "out",
+    done = subprocess.run([sys.executable, ROOT / "tools/evaluate_sequence.py", tmp_path, "--output", tmp_path / "out",
                            "--tool", tool], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
     assert "6 frames, tracked in 6, lost in 0" in done.stdout

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-loader = importlib.machinery.SourceFileLoader("fault_matrix", str(ROOT / "scripts" / "fault_matrix"))
+loader = importlib.machinery.SourceFileLoader("fault_matrix", str(ROOT / "dev" / "fault_matrix"))
 matrix = importlib.util.module_from_spec(importlib.util.spec_from_loader("fault_matrix", loader))
 loader.exec_module(matrix)
 
@@ -28,7 +28,7 @@ def test_rows_name_tests_that_exist():
             if kind == "ros":
                 assert any((ROOT / "test" / folder / name).is_file() for folder in ("faults/ros", "ros")), row
             elif kind == "command":
-                assert (ROOT / "scripts" / name).is_file(), row
+                assert (ROOT / "dev" / name).is_file(), row
             elif kind == "world":
                 assert any((ROOT / folder / name).is_file() for folder in ("test/faults/world", "config/scenarios")), row
             else:

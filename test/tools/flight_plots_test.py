@@ -10,9 +10,8 @@ import numpy
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-import campaign_data  # noqa: E402
-import flight_data  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools"))
+from ingress_tools import campaign_data, flight_data  # noqa: E402
 
 COLUMNS = ("time_s", "state", *flight_data.LOG_COLUMNS[1:], "reason")
 BAG_WRITER = pathlib.Path(__file__).with_name("write_flight_bag.py")

@@ -1,4 +1,4 @@
-"""scripts/gust_table: a campaign for each wind, with and without the observer, a table and a picture."""
+"""tools/gust_table: a campaign for each wind, with and without the observer, a table and a picture."""
 import csv
 import pathlib
 import subprocess
@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def run(*arguments):
-    command = [ROOT / "scripts/gust_table", *arguments]
+    command = [ROOT / "tools/gust_table", *arguments]
     return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
 
 

@@ -28,9 +28,8 @@ def complete(*words):
 @pytest.mark.parametrize("words", ingress.COMMANDS)
 def test_the_target_is_part_of_the_package_and_installed(words):
     tool = ingress.COMMANDS[words][0]
-    if (SCRIPTS / tool).is_file():
-        assert os.access(SCRIPTS / tool, os.X_OK)
-        assert re.search(rf"PROGRAMS [^)]*scripts/{re.escape(tool)}\s", (ROOT / "cmake/ros.cmake").read_text())
+    if (ROOT / "tools" / tool).is_file():  # all of them are installed
+        assert os.access(ROOT / "tools" / tool, os.X_OK)
     else:
         assert (ROOT / "src/tools" / f"{tool}.cpp").is_file()
 
@@ -88,6 +87,10 @@ def test_completion_in_bash():
     assert run("bash", "-c", script).stdout.split("\n")[:2] == ["miss", "0"]
 
 
+def copy_of_the_modules(folder):
+    shutil.copytree(ROOT / "tools/ingress_tools", folder / "ingress_tools")
+
+
 def pretend(file, text):
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text)
@@ -105,8 +108,8 @@ def flies(program, fly, **environment):
 def test_installed_it_runs_the_tools_beside_it(tmp_path):
     library = tmp_path / "lib/window_ingress"
     pretend(library / "fly", FLY)
-    for name in ("ingress", "package_paths.py"):
-        shutil.copy(SCRIPTS / name, library)
+    shutil.copy(INGRESS, library)
+    copy_of_the_modules(library)
     flies(library / "ingress", library / "fly")
     (tmp_path / "bin").mkdir()
     shutil.copy(INGRESS, tmp_path / "bin")
@@ -123,15 +126,16 @@ def test_in_a_workspace_it_runs_the_tools_of_the_workspace(tmp_path):
         flies(folder / "ingress", library / "fly")
     source = tmp_path / "src/window_ingress/scripts"
     source.mkdir(parents=True)
-    for name in ("ingress", "package_paths.py", "run", "env.sh"):
+    for name in ("ingress", "run", "env.sh"):
         shutil.copy(SCRIPTS / name, source)
+    copy_of_the_modules(source.parent / "tools")
     flies(source / "ingress", library / "fly", CMAKE_PREFIX_PATH=f"{tmp_path}/other:{tmp_path}/devel")
     done = run(source / "run", "fly", "--seeds", "3", env={"PATH": os.environ["PATH"], "CMAKE_PREFIX_PATH": f"{tmp_path}/devel"})
     assert (done.returncode, done.stdout) == (7, f"{library}/fly flies --seeds 3\n")
 
 
 def test_what_is_not_built_is_named(tmp_path):
-    for name in ("ingress", "package_paths.py"):
-        shutil.copy(SCRIPTS / name, tmp_path)
+    shutil.copy(INGRESS, tmp_path)
+    copy_of_the_modules(tmp_path)
     done = run(tmp_path / "ingress", "fly", env={"PATH": os.environ["PATH"]})
     assert done.returncode == 2 and "'fly' is not installed" in done.stderr

@@ -10,7 +10,7 @@ rosbag = pytest.importorskip("rosbag")
 IngressState = pytest.importorskip("window_ingress.msg").IngressState
 rospy = pytest.importorskip("rospy")
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts/learn_vehicle"
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "tools/learn_vehicle"
 
 
 def bag_of(folder, states, topics=("/state",)):

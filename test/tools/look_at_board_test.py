@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("rospy")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SPEC = importlib.util.spec_from_file_location("look_at_board", ROOT / "scripts/look_at_board.py")
+SPEC = importlib.util.spec_from_file_location("look_at_board", ROOT / "nodes/look_at_board.py")
 look_at_board = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(look_at_board)
 

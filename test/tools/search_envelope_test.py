@@ -1,4 +1,4 @@
-"""scripts/search_envelope: it repeats, goes on, finds what is there to be found, shrinks it and keeps it."""
+"""tools/search_envelope: it repeats, goes on, finds what is there to be found, shrinks it and keeps it."""
 import csv
 import pathlib
 import re
@@ -14,7 +14,7 @@ DEADLY = CALM + "time_limit_sec: 30\nfaults: [{unit: cmd_vel, kind: garbage, at_
 
 
 def search(folder, *arguments):
-    command = [ROOT / "scripts/search_envelope", "--output", folder, "--jobs", "2", *arguments]
+    command = [ROOT / "tools/search_envelope", "--output", folder, "--jobs", "2", *arguments]
     return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
 
 

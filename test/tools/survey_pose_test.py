@@ -39,7 +39,7 @@ def test_plots_and_table(tmp_path):
     assert draw(tmp_path).returncode == 0
     page = tmp_path / "page.md"
     page.write_text("before\n<!-- methods: begin -->\nold\n<!-- methods: end -->\nafter\n")
-    plot = [str(ROOT / "scripts/plot_pose.py"), str(tmp_path)]
+    plot = [str(ROOT / "tools/plot_pose.py"), str(tmp_path)]
     done = subprocess.run(["/usr/bin/python3", *plot, "--doc", str(page)], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "pose_bound.png").stat().st_size > 1000

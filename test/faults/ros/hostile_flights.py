@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Missions in the simulated world beside a stranger who publishes garbage or lies; see scripts/hostile."""
+"""Missions in the simulated world beside a stranger who publishes garbage or lies; see dev/hostile."""
 import collections
 import copy
 import math

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""SIGKILL of each node in each state of a mission; see scripts/kill_matrix."""
+"""SIGKILL of each node in each state of a mission; see dev/kill_matrix."""
 import argparse
 import math
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Too many and too large pictures for too little time; see scripts/starve."""
+"""Too many and too large pictures for too little time; see dev/starve."""
 import argparse
 import os
 import pathlib

@@ -24,7 +24,7 @@ std::string hexOf(const std_msgs::ColorRGBA& colour) {
 }
 
 TEST(MarkerColours, StatesLookAsInThePlots) {
-  const std::string plots = textOf("scripts/flight_data.py");
+  const std::string plots = textOf("tools/ingress_tools/flight_data.py");
   ASSERT_FALSE(plots.empty());
   for (int i = 0; i <= static_cast<int>(navigation::State::kAborted); ++i) {
     const auto state = static_cast<navigation::State>(i);
