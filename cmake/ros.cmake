@@ -1,21 +1,33 @@
 # src/adapters is the only folder that sees ROS; each src/nodes/<name>.cpp is the main of one node.
-file(GLOB adapter_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/adapters/*.cpp)
-file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*.cpp)
-list(REMOVE_ITEM adapter_sources ${PROJECT_SOURCE_DIR}/src/adapters/nodelets.cpp)
+set(ros_headers <cv_bridge/cv_bridge.h> <geometry_msgs/PoseStamped.h> <nav_msgs/Odometry.h> <ros/console.h> <ros/node_handle.h>
+    <sensor_msgs/CameraInfo.h> <sensor_msgs/Image.h> <sensor_msgs/Imu.h> <tf2_ros/buffer.h> <visualization_msgs/MarkerArray.h>)
 
-add_library(${PROJECT_NAME}_adapters SHARED ${adapter_sources})
-target_include_directories(${PROJECT_NAME}_adapters PUBLIC ${PROJECT_SOURCE_DIR}/src)
-#catkin_lint: ignore_once external_directory external_interface_path
-target_include_directories(${PROJECT_NAME}_adapters SYSTEM PUBLIC
-                           ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
-target_link_libraries(${PROJECT_NAME}_adapters PUBLIC ${PROJECT_NAME}_evaluation ${PROJECT_NAME}_simulation
-                      ${PROJECT_NAME}_core opencv_imgcodecs ${catkin_LIBRARIES})
-add_dependencies(${PROJECT_NAME}_adapters ${${PROJECT_NAME}_EXPORTED_TARGETS})
+# add_adapters(name FOLDERS folders below src/adapters DEPENDS libs...)
+function(add_adapters name)
+  cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS" ${ARGN})
+  list(TRANSFORM ARG_FOLDERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/adapters/\\1/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${ARG_FOLDERS})
+  list(FILTER sources EXCLUDE REGEX "/nodelets.cpp$")
+  add_library(${name} SHARED ${sources})
+  target_compile_definitions(${name} PUBLIC ${ros_definitions})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  #catkin_lint: ignore_once external_directory external_interface_path
+  target_include_directories(${name} SYSTEM PUBLIC
+                             ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} opencv_imgcodecs ${catkin_LIBRARIES})
+  target_precompile_headers(${name} PRIVATE ${common_headers} ${ros_headers})
+  add_dependencies(${name} ${${PROJECT_NAME}_EXPORTED_TARGETS})
+endfunction()
+
+add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources world
+             DEPENDS ${PROJECT_NAME}_simulation ${PROJECT_NAME}_core)
+add_adapters(${PROJECT_NAME}_bags FOLDERS bags DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_evaluation)
 
 # Only the registration macros: a node that links the classes must not register plugins.
-add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodelets.cpp)
+add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodes/nodelets.cpp)
 target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_adapters -Wl,-z,defs)
 
+file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*.cpp)
 foreach(source ${node_sources})
   get_filename_component(node ${source} NAME_WE)
   set(target ${PROJECT_NAME}_${node})
@@ -25,7 +37,7 @@ foreach(source ${node_sources})
   install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()
 
-install(TARGETS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_nodelets
+install(TARGETS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_bags ${PROJECT_NAME}_nodelets
         ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
         LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
         RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})

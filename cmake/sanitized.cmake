@@ -19,7 +19,7 @@ function(add_sanitized_library name)
 endfunction()
 
 set(core_files "")
-foreach(stage geometry parameters detection openness pose facade navigation configuration)
+foreach(stage geometry parameters detection openness estimation facade perception navigation configuration)
   list(APPEND core_files ${source_root}/${stage}/*.cpp)
 endforeach()
 add_sanitized_library(fuzz_core FILES ${core_files}
@@ -29,20 +29,17 @@ add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
                       LIBRARIES fuzz_world nlohmann_json::nlohmann_json Threads::Threads)
 
 # Of the adapters only what has no node behind it.
-set(messages image_guard compressed_size msg_conversion camera_info_conversion detection_conversion facade_conversion
-    pose_conversion stamps
-    setpoint_gate)
-list(TRANSFORM messages PREPEND ${source_root}/adapters/)
-list(TRANSFORM messages APPEND .cpp)
-add_sanitized_library(fuzz_messages FILES ${messages} ${fuzz_folder}/pictures.cpp LIBRARIES fuzz_core ${catkin_LIBRARIES})
+add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp
+                      ${source_root}/adapters/nodes/setpoint_gate.cpp ${fuzz_folder}/pictures.cpp
+                      LIBRARIES fuzz_core ${catkin_LIBRARIES})
 target_include_directories(fuzz_messages PUBLIC ${source_root})
 target_include_directories(fuzz_messages SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}
                            ${catkin_INCLUDE_DIRS})
 add_dependencies(fuzz_messages ${${PROJECT_NAME}_EXPORTED_TARGETS})
-set(bags bag_check bag_topics replay replay_facts replay_tables recorded_transforms reference_source)
-list(TRANSFORM bags PREPEND ${source_root}/adapters/)
+set(bags bag_check bag_topics replay replay_facts replay_tables recorded_transforms)
+list(TRANSFORM bags PREPEND ${source_root}/adapters/bags/)
 list(TRANSFORM bags APPEND .cpp)
-add_sanitized_library(fuzz_bags FILES ${bags} LIBRARIES fuzz_messages fuzz_evaluation)
+add_sanitized_library(fuzz_bags FILES ${bags} ${source_root}/adapters/sources/reference_source.cpp LIBRARIES fuzz_messages fuzz_evaluation)
 
 # add_fuzzer(name libraries...)
 function(add_fuzzer name)
@@ -72,9 +69,9 @@ endfunction()
 foreach(stage geometry parameters detection facade navigation)
   add_sanitized_test(unit_${stage} FILES ${PROJECT_SOURCE_DIR}/test/unit/${stage}/*_test.cpp LIBRARIES fuzz_core)
 endforeach()
-foreach(stage openness pose simulation evaluation)
+foreach(stage openness estimation simulation evaluation)
   add_sanitized_test(unit_${stage} FILES ${PROJECT_SOURCE_DIR}/test/unit/${stage}/*_test.cpp LIBRARIES fuzz_evaluation)
 endforeach()
 add_sanitized_test(faults FILES ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${fuzz_folder}/*.cpp
                    ${PROJECT_SOURCE_DIR}/test/unit/navigation/invariants_test.cpp
-                   ${PROJECT_SOURCE_DIR}/test/unit/navigation/setpoint_limiter_test.cpp LIBRARIES fuzz_bags)
+                   ${PROJECT_SOURCE_DIR}/test/unit/navigation/motion/setpoint_limiter_test.cpp LIBRARIES fuzz_bags)

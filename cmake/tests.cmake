@@ -7,9 +7,6 @@ foreach(folder ${unit_folders})
   if(NOT sources OR (folder STREQUAL adapters AND WINDOW_INGRESS_CORE_ONLY))
     continue()
   endif()
-  if(WINDOW_INGRESS_ROS_TESTS_ONLY AND NOT folder STREQUAL adapters)
-    continue()
-  endif()
   set(target unit_${folder})
   if(WINDOW_INGRESS_CORE_ONLY)
     add_executable(${target} ${sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
@@ -23,7 +20,7 @@ foreach(folder ${unit_folders})
   target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                WINDOW_INGRESS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(folder STREQUAL adapters)
-    target_link_libraries(${target} ${PROJECT_NAME}_adapters)
+    target_link_libraries(${target} ${PROJECT_NAME}_bags)
   endif()
 endforeach()
 
@@ -31,11 +28,11 @@ endforeach()
 if(NOT WINDOW_INGRESS_CORE_ONLY)
   file(GLOB fault_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${PROJECT_SOURCE_DIR}/test/fuzz/*.cpp)
   list(FILTER fault_sources EXCLUDE REGEX libfuzzer_main)
-  foreach(shared invariants setpoint_limiter)  # rows that the navigator's own tests show
+  foreach(shared invariants motion/setpoint_limiter)  # rows that the navigator's own tests show
     list(APPEND fault_sources ${PROJECT_SOURCE_DIR}/test/unit/navigation/${shared}_test.cpp)
   endforeach()
   catkin_add_gtest(faults ${fault_sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp TIMEOUT 300)
-  target_link_libraries(faults ${PROJECT_NAME}_adapters yaml-cpp opencv_imgcodecs)
+  target_link_libraries(faults ${PROJECT_NAME}_bags yaml-cpp opencv_imgcodecs)
   target_include_directories(faults PRIVATE ${PROJECT_SOURCE_DIR}/test/support ${PROJECT_SOURCE_DIR}/test/fuzz)
   target_compile_definitions(faults PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                             WINDOW_INGRESS_COMPILER="${CMAKE_CXX_COMPILER}"

@@ -31,10 +31,12 @@ class Struct:
 
 def read_structs():
     structs = {}
-    headers = ROOT.glob("include/window_ingress/*/*.hpp")
-    for header in sorted(headers):
-        for name, struct in structs_of(header.read_text(), header.parent.name):
-            structs[struct.space, name] = struct
+    public = ROOT / "include/window_ingress", ROOT.glob("include/window_ingress/**/*.hpp")
+    private = ROOT / "src", ROOT.glob("src/**/*.hpp")
+    for root, headers in (public, private):
+        for header in sorted(headers):
+            for name, struct in structs_of(header.read_text(), header.relative_to(root).parts[0]):
+                structs[struct.space, name] = struct
     return structs
 
 

@@ -1,4 +1,4 @@
-#include "window_ingress/evaluation/statistics.hpp"
+#include "evaluation/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ FacadeParams checked(const FacadeParams& params) {
   return params;
 }
 
-WindowPlace placeFrom(const pose::FilteredWindow& filtered) {
+WindowPlace placeFrom(const estimation::FilteredWindow& filtered) {
   WindowPlace place;
   place.position_m = filtered.T_odom_window.translation();
   place.covariance = filtered.covariance.topLeftCorner<3, 3>() +
@@ -31,7 +31,7 @@ WindowPlace placeFrom(const pose::FilteredWindow& filtered) {
   return place;
 }
 
-Wall wallFrom(const pose::FilteredWindow& filtered) {
+Wall wallFrom(const estimation::FilteredWindow& filtered) {
   const Eigen::Vector3d through = filtered.T_odom_window.linear().col(0);
   Wall wall;
   wall.position_m = filtered.T_odom_window.translation();
@@ -74,7 +74,7 @@ void FacadeMemory::setNextBest() {
   is_next_ = next != nullptr;
 }
 
-void FacadeMemory::see(const FacadeView& view, const std::optional<pose::FilteredWindow>& filtered,
+void FacadeMemory::see(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
                        const geometry::OpeningSize& looked_for) {
   if (!params_.enabled) return;
   looked_for_ = looked_for;
@@ -86,7 +86,7 @@ void FacadeMemory::see(const FacadeView& view, const std::optional<pose::Filtere
   releaseIfGone(view);
 }
 
-void FacadeMemory::adopt(const pose::FilteredWindow& filtered, std::uint32_t track_id) {
+void FacadeMemory::adopt(const estimation::FilteredWindow& filtered, std::uint32_t track_id) {
   const auto followed = map_.followed();
   if (!followed) return;
   if (choice_is_lost_ && track_id != 0 && track_id == target_track_id_) setTarget(*followed, true);

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "window_ingress/navigation/moving_target.hpp"
+#include "navigation/motion/moving_target.hpp"
 
 namespace window_ingress::navigation {
 

@@ -41,4 +41,8 @@ RelativeState relate(const VehicleState& vehicle, const TargetEstimate& target) 
   return relative;
 }
 
+double pitchOf(const VehicleState& vehicle) {
+  return std::asin(std::clamp(-vehicle.T_odom_base.linear()(2, 0), -1.0, 1.0));
+}
+
 }  // namespace window_ingress::navigation

@@ -1,4 +1,4 @@
-#include "adapters/camera_mounting.hpp"
+#include "adapters/nodes/camera_mounting.hpp"
 
 int main(int argc, char** argv) {
   return window_ingress::adapters::runNode<window_ingress::adapters::CameraMountingNode>(argc, argv,

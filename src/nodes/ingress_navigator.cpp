@@ -1,4 +1,4 @@
-#include "adapters/navigator_node.hpp"
+#include "adapters/nodes/navigator_node.hpp"
 
 int main(int argc, char** argv) {
   return window_ingress::adapters::runNode<window_ingress::adapters::NavigatorNode>(argc, argv,

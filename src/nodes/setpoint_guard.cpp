@@ -1,4 +1,4 @@
-#include "adapters/guard_node.hpp"
+#include "adapters/nodes/guard_node.hpp"
 
 int main(int argc, char** argv) {
   return window_ingress::adapters::runNode<window_ingress::adapters::GuardNode>(argc, argv, "setpoint_guard");

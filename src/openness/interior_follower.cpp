@@ -6,8 +6,8 @@
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 
-#include "window_ingress/openness/edge_flow.hpp"
-#include "window_ingress/openness/smooth_regions.hpp"
+#include "openness/evidence/edge_flow.hpp"
+#include "openness/evidence/smooth_regions.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::openness {

@@ -1,4 +1,4 @@
-#include "window_ingress/simulation/random_stream.hpp"
+#include "simulation/random_stream.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "window_ingress/simulation/referee.hpp"
+#include "simulation/referee.hpp"
 
 #include <algorithm>
 #include <cmath>

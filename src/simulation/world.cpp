@@ -1,17 +1,17 @@
-#include "window_ingress/simulation/world.hpp"
+#include "simulation/world.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
-#include "window_ingress/simulation/camera_sensor.hpp"
-#include "window_ingress/simulation/faults.hpp"
-#include "window_ingress/simulation/followed_vehicle.hpp"
-#include "window_ingress/simulation/reference_picture.hpp"
-#include "window_ingress/simulation/scene.hpp"
-#include "window_ingress/simulation/sway.hpp"
-#include "window_ingress/simulation/wind.hpp"
+#include "simulation/camera/camera_sensor.hpp"
+#include "simulation/sensors/faults.hpp"
+#include "simulation/vehicle/followed_vehicle.hpp"
+#include "simulation/camera/reference_picture.hpp"
+#include "simulation/scene/scene.hpp"
+#include "simulation/vehicle/sway.hpp"
+#include "simulation/vehicle/wind.hpp"
 
 namespace window_ingress::simulation {
 namespace {

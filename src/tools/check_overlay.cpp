@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "adapters/camera_mounting.hpp"
-#include "adapters/parameters.hpp"
-#include "adapters/reference_source.hpp"
+#include "adapters/nodes/camera_mounting.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
@@ -63,7 +63,7 @@ void checkReference(const Options& o, const configuration::DetectorNodeParams& d
   }
 }
 
-void checkWindowSize(const std::string& text, pose::PoseParams pose) {
+void checkWindowSize(const std::string& text, estimation::PoseParams pose) {
   if (text.empty()) return;
   const auto size = tools::numbers("window_size", text, 2);
   pose.opening_width_m = size[0];

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/evaluation/flight_table.hpp"
+#include "evaluation/flights/flight_table.hpp"
 #include "window_ingress/parameters/yaml.hpp"
-#include "window_ingress/simulation/scenario.hpp"
+#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::tools {
 

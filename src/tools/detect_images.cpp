@@ -18,11 +18,11 @@
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
-#include "window_ingress/evaluation/detection_table.hpp"
+#include "evaluation/images/detection_table.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/yaml.hpp"
-#include "window_ingress/pose/window_pose_estimator.hpp"
-#include "window_ingress/pose/yaw_text.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/yaw_text.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
@@ -52,7 +52,7 @@ struct Job {
   detection::DetectorParams params;
   std::optional<geometry::PinholeCamera> camera;
   std::optional<detection::ReferenceAppearance> reference;
-  std::optional<pose::WindowPoseEstimator> estimator;
+  std::optional<estimation::WindowPoseEstimator> estimator;
   std::string overlay;
 };
 
@@ -154,7 +154,7 @@ Job prepare(const Options& o) {
   if (!o.camera.empty()) job.camera = parameters::readCalibrationFile(o.camera);
   if (!reference.empty()) job.reference = readReference(reference, corners, job.params);
   if (!o.size.empty()) {
-    pose::PoseParams params;
+    estimation::PoseParams params;
     const auto size = numbers("--window-size", o.size, 2);
     params.opening_width_m = size[0], params.opening_height_m = size[1];
     if (job.camera) job.estimator.emplace(params);
@@ -213,9 +213,9 @@ evaluation::DetectionRow process(const cv::Mat& picture, const Job& job, Finder&
   if (!row.window) row.reject_reason = detection::toString(finder.trace().outcome);
   if (row.window && row.window->whole() && job.estimator) {
     if (fits) {
-      const pose::PoseResult result = job.estimator->estimate(*row.window, *job.camera);
+      const estimation::PoseResult result = job.estimator->estimate(*row.window, *job.camera);
       row.pose = result.estimate;
-      if (!row.pose) row.reject_reason = std::string("pose_") + pose::toString(result.reject);
+      if (!row.pose) row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
     } else {
       row.reject_reason = "pose_camera_size";
     }
@@ -231,7 +231,7 @@ void writeOverlay(const std::string& file, const cv::Mat& picture, const Finder&
                            row.milliseconds);
   if (row.pose && row.window)
     detection::drawYaw(canvas, *row.window,
-                       pose::yawText(row.pose->yaw_rad, row.pose->yaw_sigma_rad, row.pose->sign_trusted));
+                       geometry::yawText(row.pose->yaw_rad, row.pose->yaw_sigma_rad, row.pose->sign_trusted));
   const fs::path target = fs::path(folder) / (fs::path(file).filename().string() + ".png");
   if (!cv::imwrite(target.string(), canvas))
     throw JobError(target.string() + ": cannot be written; is the disk full?");

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/simulation/world.hpp"
+#include "simulation/world.hpp"
 
 namespace {
 

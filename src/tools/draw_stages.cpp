@@ -8,8 +8,8 @@
 
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/evaluation/stage_sheet.hpp"
-#include "window_ingress/simulation/world.hpp"
+#include "evaluation/images/stage_sheet.hpp"
+#include "simulation/world.hpp"
 
 namespace {
 

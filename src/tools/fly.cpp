@@ -18,14 +18,14 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/evaluation/campaign.hpp"
-#include "window_ingress/evaluation/closed_loop_flight.hpp"
-#include "window_ingress/evaluation/flight_draws.hpp"
-#include "window_ingress/evaluation/flight_log.hpp"
-#include "window_ingress/evaluation/flight_picture.hpp"
-#include "window_ingress/evaluation/flight_table.hpp"
+#include "evaluation/flights/campaign.hpp"
+#include "evaluation/flights/closed_loop_flight.hpp"
+#include "evaluation/flights/flight_draws.hpp"
+#include "evaluation/flights/flight_log.hpp"
+#include "evaluation/flights/flight_picture.hpp"
+#include "evaluation/flights/flight_table.hpp"
 #ifdef WINDOW_INGRESS_WITH_ROS
-#include "adapters/flight_bag.hpp"
+#include "adapters/bags/flight_bag.hpp"
 #endif
 
 namespace {

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "adapters/detection_strip.hpp"
-#include "adapters/detector_node.hpp"
-#include "adapters/parameters.hpp"
-#include "adapters/replay.hpp"
-#include "adapters/replay_facts.hpp"
-#include "adapters/replay_tables.hpp"
+#include "adapters/bags/detection_strip.hpp"
+#include "adapters/nodes/detector_node.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "adapters/bags/replay.hpp"
+#include "adapters/bags/replay_facts.hpp"
+#include "adapters/bags/replay_tables.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
 

@@ -17,8 +17,8 @@
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "window_ingress/evaluation/detection_survey.hpp"
-#include "window_ingress/evaluation/survey_folder.hpp"
+#include "evaluation/images/detection_survey.hpp"
+#include "evaluation/images/survey_folder.hpp"
 
 namespace {
 

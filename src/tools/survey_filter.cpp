@@ -10,8 +10,8 @@
 
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/evaluation/filter_survey.hpp"
-#include "window_ingress/evaluation/statistics.hpp"
+#include "evaluation/poses/filter_survey.hpp"
+#include "evaluation/statistics.hpp"
 
 namespace {
 
@@ -113,8 +113,8 @@ int survey(const Options& o) {
   for (int run = 0; run < o.runs; ++run) {
     const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(run);
     const auto script = evaluation::drawApproach(seed, told);
-    evaluation::SyntheticApproach approach(seed, script, pose::FilterParams());
-    navigation::TargetTracker tracker(evaluation::poseParams(told), filter, {});
+    evaluation::SyntheticApproach approach(seed, script, estimation::FilterParams());
+    estimation::TargetEstimator tracker(evaluation::poseParams(told), filter, {});
     const auto samples = evaluation::follow(approach, tracker, script.opening);
     for (const FilterSample& sample : samples) write(table, run, sample);
     for (AtWay& way : ways)

@@ -11,8 +11,8 @@
 
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/evaluation/openness_survey.hpp"
-#include "window_ingress/simulation/random_stream.hpp"
+#include "evaluation/openness/openness_survey.hpp"
+#include "simulation/random_stream.hpp"
 
 namespace {
 

@@ -11,11 +11,11 @@
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "window_ingress/evaluation/pose_chain.hpp"
-#include "window_ingress/evaluation/pose_survey.hpp"
-#include "window_ingress/evaluation/survey_folder.hpp"
+#include "evaluation/poses/pose_chain.hpp"
+#include "evaluation/poses/pose_survey.hpp"
+#include "evaluation/images/survey_folder.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
-#include "window_ingress/pose/window_pose_estimator.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 
 namespace {
 
@@ -131,7 +131,7 @@ class Chain {
   std::vector<evaluation::PoseChainResult> results;
 
  private:
-  static pose::PoseParams poseParams(const Options& o) {
+  static estimation::PoseParams poseParams(const Options& o) {
     auto params = configuration::readOverlay(o.params).homography_pose.pose;
     const auto size = tools::numbers("--window-size", o.window_size, 2);
     params.opening_width_m = size[0];
@@ -139,7 +139,7 @@ class Chain {
     return params;
   }
 
-  std::optional<pose::GravityPrior> gravityOf(const evaluation::SurveyPicture& picture) {
+  std::optional<estimation::GravityPrior> gravityOf(const evaluation::SurveyPicture& picture) {
     if (!(options_.attitude_deg > 0.0)) return std::nullopt;
     const auto truth = evaluation::poseOfTrueCorners(
         picture.truth.inner, picture.camera,
@@ -148,12 +148,12 @@ class Chain {
     const double sigma = options_.attitude_deg * kRadPerDegree;
     std::normal_distribution<double> noise(0.0, sigma);
     const Eigen::Vector3d off(noise(random_), noise(random_), noise(random_));
-    return pose::GravityPrior{(truth->linear().col(2) + off).normalized(), sigma};
+    return estimation::GravityPrior{(truth->linear().col(2) + off).normalized(), sigma};
   }
 
   const Options& options_;
   detection::WindowDetector detector_;
-  pose::WindowPoseEstimator estimator_;
+  estimation::WindowPoseEstimator estimator_;
   std::mt19937 random_;
 };
 

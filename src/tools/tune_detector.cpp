@@ -12,15 +12,15 @@
 #include <string>
 #include <vector>
 
-#include "adapters/parameters.hpp"
-#include "adapters/reference_source.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "display.hpp"
 #include "params_file.hpp"
 #include "tuning_bench.hpp"
 #include "tuning_source.hpp"
 #include "value_table.hpp"
-#include "window_ingress/evaluation/statistics.hpp"
+#include "evaluation/statistics.hpp"
 #include "window_ingress/parameters/slider.hpp"
 
 namespace {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "adapters/labelled_bag.hpp"
-#include "adapters/parameters.hpp"
-#include "adapters/reference_source.hpp"
+#include "adapters/bags/labelled_bag.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
-#include "window_ingress/evaluation/detector_tuning.hpp"
+#include "evaluation/images/detector_tuning.hpp"
 #include "window_ingress/parameters/field_list.hpp"
 
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "adapters/diagnostics.hpp"
+#include "adapters/sources/diagnostics.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "window_ingress/evaluation/stage_sheet.hpp"
+#include "evaluation/images/stage_sheet.hpp"
 #include "window_ingress/parameters/field_list.hpp"
 
 namespace window_ingress::tools {

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "adapters/bag_topics.hpp"
-#include "adapters/image_guard.hpp"
-#include "adapters/labelled_bag.hpp"
+#include "adapters/bags/bag_topics.hpp"
+#include "adapters/conversions/image_guard.hpp"
+#include "adapters/bags/labelled_bag.hpp"
 #include "command_line.hpp"
 
 namespace window_ingress::tools {

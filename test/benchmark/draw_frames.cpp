@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "brick_wall.hpp"
-#include "window_ingress/simulation/world.hpp"
+#include "simulation/world.hpp"
 
 namespace {
 

@@ -7,11 +7,11 @@
 #include <random>
 #include <vector>
 
-#include "window_ingress/evaluation/noisy_borders.hpp"
-#include "window_ingress/evaluation/pose_methods.hpp"
-#include "window_ingress/evaluation/pose_survey.hpp"
+#include "evaluation/poses/noisy_borders.hpp"
+#include "evaluation/poses/pose_methods.hpp"
+#include "evaluation/poses/pose_survey.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/pose/window_pose_estimator.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 
 namespace {
 
@@ -44,13 +44,13 @@ class Pose : public benchmark::Fixture {
   }
 
   void runOurs(benchmark::State& state, double systematic_px, double aspect_sigma) const {
-    pose::PoseParams params;
+    estimation::PoseParams params;
     params.opening_width_m = setup.opening.width_m;
     params.opening_height_m = setup.opening.height_m;
     params.systematic_sigma_px = systematic_px;
     params.aspect_sigma = params.scale_sigma = aspect_sigma;
-    const pose::WindowPoseEstimator estimator(params);
-    const pose::GravityPrior gravity{{0.0, -1.0, 0.0}, 0.02};
+    const estimation::WindowPoseEstimator estimator(params);
+    const estimation::GravityPrior gravity{{0.0, -1.0, 0.0}, 0.02};
     run(state, [&](const auto& view) {
       return estimator.estimate(view, setup.camera, gravity).estimate.has_value();
     });

@@ -1,4 +1,4 @@
-#include "adapters/replay.hpp"
+#include "adapters/bags/replay.hpp"
 #include "memory_file.hpp"
 #include "targets.hpp"
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "adapters/msg_conversion.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
 #include "bytes.hpp"
 #include "targets.hpp"
 

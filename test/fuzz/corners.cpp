@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "adapters/msg_conversion.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
 #include "bytes.hpp"
 #include "targets.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::fuzz {
 namespace {
@@ -46,17 +46,17 @@ window_ingress::WindowDetection anyDetection(Bytes& bytes, double stamp_sec) {
   return message;
 }
 
-void check(const pose::PoseResult& result) {
-  require(result.estimate.has_value() == (result.reject == pose::PoseReject::kNone), "a pose or a reason");
+void check(const estimation::PoseResult& result) {
+  require(result.estimate.has_value() == (result.reject == estimation::PoseReject::kNone), "a pose or a reason");
   if (!result.estimate) return require(!result.detail.empty(), "a reason has words");
-  const pose::WindowPoseEstimate& pose = *result.estimate;
+  const estimation::WindowPoseEstimate& pose = *result.estimate;
   require(geometry::isValidPose(pose.best.T_camera_window), "a rotation and finite numbers");
   require(pose.best.covariance.allFinite(), "a finite covariance");
   require(std::isfinite(pose.yaw_rad + pose.yaw_sigma_rad + pose.sigma_u_rad + pose.log_likelihood_ratio),
           "a finite yaw");
 }
 
-void check(const std::optional<pose::FilteredWindow>& window) {
+void check(const std::optional<estimation::FilteredWindow>& window) {
   if (!window) return;
   require(geometry::isValidPose(window->T_odom_window), "the filtered pose is one");
   require(window->covariance.allFinite(), "the filtered covariance is finite");
@@ -71,9 +71,9 @@ geometry::PinholeCamera anyCamera(Bytes& bytes) {
   return camera;
 }
 
-std::optional<pose::GravityPrior> anyGravity(Bytes& bytes) {
+std::optional<estimation::GravityPrior> anyGravity(Bytes& bytes) {
   if (bytes.take<std::uint8_t>() % 2 == 0) return std::nullopt;
-  return pose::GravityPrior{{bytes.number(-0.2, 0.2), bytes.number(-1.0, 0.0), bytes.number(-0.2, 0.2)},
+  return estimation::GravityPrior{{bytes.number(-0.2, 0.2), bytes.number(-1.0, 0.0), bytes.number(-0.2, 0.2)},
                             bytes.number(0.0, 0.1)};
 }
 
@@ -82,9 +82,9 @@ std::optional<pose::GravityPrior> anyGravity(Bytes& bytes) {
 void corners(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
   const geometry::PinholeCamera camera = anyCamera(bytes);
-  static const pose::WindowPoseEstimator estimator{pose::PoseParams()};
+  static const estimation::WindowPoseEstimator estimator{estimation::PoseParams()};
   const bool filtered = bytes.take<std::uint8_t>() % 16 == 0;  // takes much longer
-  navigation::TargetTracker tracker({}, {}, {});
+  estimation::TargetEstimator tracker({}, {}, {});
   for (int i = 0; i < (filtered ? 3 : 1) && bytes.left() > 0; ++i) {
     const double stamp_sec = 100.0 + 0.05 * i;
     const auto window = adapters::fromMsg(anyDetection(bytes, stamp_sec));

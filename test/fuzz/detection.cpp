@@ -1,7 +1,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "adapters/image_guard.hpp"
+#include "adapters/conversions/image_guard.hpp"
 #include "pictures.hpp"
 #include "targets.hpp"
 #include "window_ingress/detection/window_tracker.hpp"

@@ -1,4 +1,4 @@
-#include "adapters/image_guard.hpp"
+#include "adapters/conversions/image_guard.hpp"
 #include "pictures.hpp"
 #include "targets.hpp"
 

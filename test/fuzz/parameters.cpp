@@ -5,7 +5,7 @@
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/navigation/navigator.hpp"
-#include "window_ingress/navigation/target_tracker.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
@@ -34,10 +34,10 @@ void detectWith(const detection::DetectorParams& params) {
 
 void use(const configuration::Overlay& overlay) {
   construct([&] { detectWith(overlay.window_detector.detector); });
-  construct([&] { pose::WindowPoseEstimator{overlay.homography_pose.pose}; });
+  construct([&] { estimation::WindowPoseEstimator{overlay.homography_pose.pose}; });
   construct([&] {
     const auto& params = overlay.homography_pose;
-    navigation::TargetTracker(params.pose, params.filter, params.tracker);
+    estimation::TargetEstimator(params.pose, params.filter, params.tracker);
   });
   construct([&] {
     navigation::Navigator navigator(overlay.ingress_navigator.navigator);

@@ -1,4 +1,4 @@
-#include "window_ingress/simulation/scenario.hpp"
+#include "simulation/scenario/scenario.hpp"
 
 #include "memory_file.hpp"
 #include "targets.hpp"

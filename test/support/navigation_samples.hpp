@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/navigation/input_monitor.hpp"
+#include "navigation/motion/input_monitor.hpp"
 #include "without_glass.hpp"
 
 namespace window_ingress::test {

@@ -9,7 +9,7 @@
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/facade/facade_map.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/pose/window_filter.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
 
 namespace window_ingress::test {
 
@@ -63,11 +63,11 @@ struct WindowRow {
   }
 
   /// What a filter that has settled knows of a window.
-  pose::FilteredWindow filtered(int i, double stamp_sec) const {
-    pose::FilteredWindow window;
+  estimation::FilteredWindow filtered(int i, double stamp_sec) const {
+    estimation::FilteredWindow window;
     window.stamp_sec = stamp_sec;
     window.T_odom_window = geometry::makePose(Eigen::Matrix3d::Identity(), centre(i));
-    window.covariance = 1e-4 * pose::Matrix6d::Identity();
+    window.covariance = 1e-4 * estimation::Matrix6d::Identity();
     window.sign_trusted = true;
     window.updates = 100;
     window.size.size = size;

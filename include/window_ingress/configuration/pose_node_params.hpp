@@ -3,9 +3,10 @@
 #include <string>
 
 #include "window_ingress/configuration/common_params.hpp"
-#include "window_ingress/navigation/target_tracker.hpp"
-#include "window_ingress/pose/filter_params.hpp"
-#include "window_ingress/pose/pose_params.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/estimation/filter_params.hpp"
+#include "window_ingress/estimation/pose_params.hpp"
+#include "window_ingress/navigation/vehicle_params.hpp"
 
 namespace window_ingress::configuration {
 
@@ -18,9 +19,9 @@ struct PoseNodeParams {
   std::string window_frame = "window";  ///< its name
   FrameNames frames;
   StampLimits stamps;
-  pose::PoseParams pose;
-  pose::FilterParams filter;
-  navigation::TrackerParams tracker;
+  estimation::PoseParams pose;
+  estimation::FilterParams filter;
+  estimation::TargetEstimatorParams tracker;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("image_is_rectified", self.image_is_rectified);
@@ -36,5 +37,9 @@ struct PoseNodeParams {
     field.group("tracker", self.tracker);
   }
 };
+
+/// The same for this vehicle: it is what must fit, and what the opening must be open for.
+estimation::TargetEstimatorParams forVehicle(estimation::TargetEstimatorParams params,
+                                             const navigation::VehicleParams& vehicle);
 
 }  // namespace window_ingress::configuration

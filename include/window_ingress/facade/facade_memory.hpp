@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "window_ingress/facade/facade_map.hpp"
-#include "window_ingress/pose/window_filter.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
 
 namespace window_ingress::facade {
 
@@ -34,7 +34,7 @@ class FacadeMemory {
   void forgetPlaces();
   /// \param filtered what the filter knows of the window that is the target in this picture, if it was used
   /// \param looked_for size of the target, known or believed
-  void see(const FacadeView& view, const std::optional<pose::FilteredWindow>& filtered,
+  void see(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
            const geometry::OpeningSize& looked_for);
 
   /// Why a window seen is not the target; empty if it may be. One that is not whole is not judged.
@@ -62,7 +62,7 @@ class FacadeMemory {
   const std::vector<KnownWindow>& windows() const { return map_.windows(); }
 
  private:
-  void adopt(const pose::FilteredWindow& filtered, std::uint32_t track_id);
+  void adopt(const estimation::FilteredWindow& filtered, std::uint32_t track_id);
   void yieldToBetterLook();
   void releaseIfGone(const FacadeView& view);
   void setTarget(std::uint32_t id, bool is_chosen);

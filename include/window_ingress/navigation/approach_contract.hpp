@@ -6,7 +6,7 @@
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/relative_state.hpp"
-#include "window_ingress/pose/target_motion.hpp"
+#include "window_ingress/estimation/target_motion.hpp"
 
 namespace window_ingress::navigation {
 
@@ -30,7 +30,7 @@ struct ContractInput {
   geometry::OpeningSize opening;
   double pitch_rad = 0.0;          ///< of the vehicle, nose down positive
   double unseen_sec = 0.0;         ///< the estimate is as of so long ago
-  pose::TargetMotion motion;       ///< of the window
+  estimation::TargetMotion motion;       ///< of the window
   double gust_lateral_mps = 0.0;   ///< root mean square of the velocity that gusts bring
   double gust_vertical_mps = 0.0;  ///< likewise
   double odometry_mps = 0.0;       ///< by which the odometry's velocity may be off

@@ -28,4 +28,7 @@ RelativeState relate(const VehicleState& vehicle, const TargetEstimate& target);
 /// Rotation from window to odom axes by the window's heading alone.
 Eigen::Matrix3d uprightRotation(const TargetEstimate& target);
 
+/// Nose-down pitch of the vehicle [rad].
+double pitchOf(const VehicleState& vehicle);
+
 }  // namespace window_ingress::navigation

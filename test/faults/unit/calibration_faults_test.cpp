@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "adapters/msg_conversion.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
 #include "drawn_window.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -164,7 +164,7 @@ TEST(Fault, M30_Fisheye) {
                           .detect(bent(picture.draw(), *camera.value), 1.0, &*camera.value);
   ASSERT_TRUE(window);
   EXPECT_LT(test::worstCorner(window->corners, *geometry::projectOpening(*camera.value, T, opening)), 1.0);
-  const auto pose = pose::WindowPoseEstimator(pose::PoseParams()).estimate(*window, *camera.value);
+  const auto pose = estimation::WindowPoseEstimator(estimation::PoseParams()).estimate(*window, *camera.value);
   ASSERT_TRUE(pose.estimate) << pose.detail;
   const double error_m = (pose.estimate->best.T_camera_window.translation() - T.translation()).norm();
   EXPECT_LT(error_m, 0.03);

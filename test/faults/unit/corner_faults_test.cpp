@@ -5,12 +5,12 @@
 #include <limits>
 #include <random>
 
-#include "adapters/msg_conversion.hpp"
-#include "adapters/reference_source.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/sources/reference_source.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/pose/window_pose_estimator.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 
-namespace window_ingress::pose {
+namespace window_ingress::estimation {
 namespace {
 
 using Eigen::Vector2d;
@@ -227,4 +227,4 @@ TEST(Fault, M53_TwoPosesThatExplainTheSameImage) {
 }
 
 }  // namespace
-}  // namespace window_ingress::pose
+}  // namespace window_ingress::estimation

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "adapters/msg_conversion.hpp"
-#include "adapters/setpoint_gate.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/nodes/setpoint_gate.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"
-#include "window_ingress/navigation/setpoint_limiter.hpp"
+#include "navigation/motion/setpoint_limiter.hpp"
 
 namespace window_ingress::adapters {
 namespace {

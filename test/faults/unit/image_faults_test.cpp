@@ -4,7 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
-#include "adapters/image_guard.hpp"
+#include "adapters/conversions/image_guard.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "adapters/image_guard.hpp"
+#include "adapters/conversions/image_guard.hpp"
 #include "drawn_window.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"

@@ -1,8 +1,8 @@
 /// M37, M39: stamps that are none, in every message that is stamped.
 #include <gtest/gtest.h>
 
-#include "adapters/msg_conversion.hpp"
-#include "adapters/stamps.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/conversions/stamps.hpp"
 
 namespace window_ingress::adapters {
 namespace {

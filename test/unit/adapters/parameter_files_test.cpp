@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "adapters/detector_node.hpp"
-#include "adapters/navigator_node.hpp"
-#include "adapters/pose_node.hpp"
-#include "adapters/setpoint_gate.hpp"
-#include "adapters/world_node.hpp"
+#include "adapters/nodes/detector_node.hpp"
+#include "adapters/nodes/navigator_node.hpp"
+#include "adapters/nodes/pose_node.hpp"
+#include "adapters/nodes/setpoint_gate.hpp"
+#include "adapters/world/world_node.hpp"
 
 namespace window_ingress::adapters {
 namespace {

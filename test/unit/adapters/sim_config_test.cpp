@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "window_ingress/simulation/scenario.hpp"
+#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::simulation {
 namespace {

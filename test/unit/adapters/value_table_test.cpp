@@ -1,5 +1,5 @@
 // What tune_detector shows beside its sliders.
-#include "tools/value_table.hpp"
+#include "value_table.hpp"
 
 #include <gtest/gtest.h>
 

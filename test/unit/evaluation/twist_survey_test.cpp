@@ -7,8 +7,8 @@
 #include <random>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/pose/twist_check.hpp"
-#include "window_ingress/simulation/odometry_sensor.hpp"
+#include "estimation/checks/twist_check.hpp"
+#include "simulation/sensors/odometry_sensor.hpp"
 
 namespace window_ingress {
 namespace {
@@ -72,14 +72,14 @@ class Wanderer {
 struct Flight {
   bool alarm = false;  ///< at any time
   double alarm_way_m = 0.0;
-  pose::FramesVerdict last;
+  estimation::FramesVerdict last;
 };
 
 Flight fly(const simulation::OdometryParams& params, unsigned seed, double heading_rad, bool turns,
            const Meaning& meaning) {
   simulation::OdometrySensor sensor(params, seed);
   Wanderer vehicle(seed, heading_rad, turns);
-  pose::TwistCheck check{pose::FramesParams()};
+  estimation::TwistCheck check{estimation::FramesParams()};
   Flight flight;
   double way_m = 0.0;
   for (int i = 0; i < 60 * 200; ++i) {
@@ -89,7 +89,7 @@ Flight fly(const simulation::OdometryParams& params, unsigned seed, double headi
     while (const auto sample = sensor.take(0.005 * i)) {
       const Eigen::Matrix3d R = sample->T_odom_base.linear();
       check.add(sample->stamp_sec, sample->T_odom_base, R * meaning(R, sample->velocity_odom_mps));
-      if (flight.alarm || check.verdict().state != pose::FramesVerdict::kWrong) continue;
+      if (flight.alarm || check.verdict().state != estimation::FramesVerdict::kWrong) continue;
       flight.alarm = true;
       flight.alarm_way_m = way_m;
     }
@@ -113,7 +113,7 @@ Count count(const Meaning& meaning, double heading_rad, bool turns, const char* 
     const double side = i % 2 == 0 ? 1.0 : -1.0;
     const Flight flight = fly(params, first_seed + i, side * heading_rad, turns, meaning);
     count.alarms += flight.alarm;
-    count.lasting += flight.last.state == pose::FramesVerdict::kWrong;
+    count.lasting += flight.last.state == estimation::FramesVerdict::kWrong;
     count.named += flight.last.what.find(name) != std::string::npos;
     count.latest_m = std::max(count.latest_m, flight.alarm_way_m);
   }

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "navigation_samples.hpp"
-#include "window_ingress/navigation/align.hpp"
-#include "window_ingress/navigation/approach.hpp"
-#include "window_ingress/navigation/back_off.hpp"
-#include "window_ingress/navigation/commit.hpp"
-#include "window_ingress/navigation/hold.hpp"
-#include "window_ingress/navigation/search.hpp"
+#include "navigation/behaviours/align.hpp"
+#include "navigation/behaviours/approach.hpp"
+#include "navigation/behaviours/back_off.hpp"
+#include "navigation/behaviours/commit.hpp"
+#include "navigation/behaviours/hold.hpp"
+#include "navigation/behaviours/search.hpp"
 
 namespace window_ingress::navigation {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "window_ingress/evaluation/openness_survey.hpp"
+#include "evaluation/openness/openness_survey.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::openness {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "view.hpp"
-#include "window_ingress/simulation/scenario.hpp"
-#include "window_ingress/simulation/scene.hpp"
+#include "simulation/scenario/scenario.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace window_ingress::simulation {
 namespace {

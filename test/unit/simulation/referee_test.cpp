@@ -1,4 +1,4 @@
-#include "window_ingress/simulation/referee.hpp"
+#include "simulation/referee.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/simulation/scene.hpp"
+#include "simulation/scene/scene.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -5,9 +5,9 @@
 #include "edge_fit.hpp"
 #include "view.hpp"
 #include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/simulation/random_stream.hpp"
-#include "window_ingress/simulation/scene.hpp"
-#include "window_ingress/simulation/world.hpp"
+#include "simulation/random_stream.hpp"
+#include "simulation/scene/scene.hpp"
+#include "simulation/world.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/simulation/imu_sensor.hpp"
-#include "window_ingress/simulation/odometry_sensor.hpp"
-#include "window_ingress/simulation/random_stream.hpp"
-#include "window_ingress/simulation/schedule.hpp"
+#include "simulation/sensors/imu_sensor.hpp"
+#include "simulation/sensors/odometry_sensor.hpp"
+#include "simulation/random_stream.hpp"
+#include "simulation/schedule.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "view.hpp"
 #include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/simulation/scenario.hpp"
-#include "window_ingress/simulation/world.hpp"
+#include "simulation/scenario/scenario.hpp"
+#include "simulation/world.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/simulation/quadrotor.hpp"
-#include "window_ingress/simulation/vehicle_profiles.hpp"
+#include "simulation/vehicle/quadrotor.hpp"
+#include "simulation/scenario/vehicle_profiles.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/simulation/renderer.hpp"
+#include "simulation/rendering/renderer.hpp"
 
 namespace window_ingress::simulation::views {
 

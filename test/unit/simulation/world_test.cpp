@@ -1,4 +1,4 @@
-#include "window_ingress/simulation/world.hpp"
+#include "simulation/world.hpp"
 
 #include <gtest/gtest.h>
 

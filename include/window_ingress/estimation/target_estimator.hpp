@@ -1,0 +1,162 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/openness/openness_judge.hpp"
+#include "window_ingress/estimation/clock_check.hpp"
+#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/opening_fit.hpp"
+#include "window_ingress/estimation/pose_buffer.hpp"
+#include "window_ingress/estimation/target_estimate.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
+
+namespace window_ingress::estimation {
+
+struct TargetEstimatorParams {
+  double max_pose_gap_sec = 0.05;   ///< odometry may end this much before the exposure [s]
+  double gravity_sigma_rad = 0.02;  ///< of the attitude, mounting included [rad]
+  double max_jump_m = 0.5;          ///< odometry moving more than this beyond 3 m/s is a jump [m]
+  double max_turn_jump_rad = 0.35;  ///< odometry turning more than this beyond 3 rad/s is a jump [rad]
+  FitParams fit;
+  FramesParams frames;
+  openness::OpennessParams openness;
+  facade::FacadeParams facade;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("max_pose_gap_sec", self.max_pose_gap_sec, 0.0, 0.5);
+    field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
+    field("max_jump_m", self.max_jump_m, 0.05, 10.0);
+    field("max_turn_jump_rad", self.max_turn_jump_rad, 0.05, 3.2);
+    field.group("fit", self.fit);
+    field.group("frames", self.frames);
+    field.group("openness", self.openness);
+    field.group("facade", self.facade);
+  }
+};
+
+/// What the detector says of one picture, and from where it was taken.
+struct SeenPicture {
+  double stamp_sec = 0.0;
+  geometry::PinholeCamera camera;
+  std::optional<Eigen::Isometry3d> T_base_camera;  ///< without it there is a pose, but nothing for the filter
+  std::optional<detection::WindowObservation> window;  ///< the target, if it was seen
+  std::vector<detection::SeenWindow> windows;          ///< all that were
+};
+
+/// What became of the last observation.
+struct TargetUpdate {
+  PoseResult pose;
+  bool used = false;    ///< it contributed to the target
+  std::string why_not;  ///< empty if it did
+};
+
+/// Observations, odometry and attitude to the target in odom: pose estimation at the attitude of the
+/// exposure, then the filter at the position of the exposure. Everything may arrive late; an observation
+/// waits until odometry has caught up with its exposure, at most until the next one comes. A jump of the
+/// odometry, in place or heading, starts anew, but for the size of the opening; a clock that goes back by
+/// more than `PoseBuffer::kLateSec` starts everything anew (less is a sample that comes late, and left out).
+///
+/// All windows seen are remembered (`FacadeMemory`): once the target is known, its neighbours are not taken
+/// for it, however like it they look.
+///
+/// What is said of the camera's mounting, of the velocity's frame and of a known size is verified on the way.
+class TargetEstimator {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  TargetEstimator(const PoseParams& pose, const FilterParams& filter, const TargetEstimatorParams& params);
+  ~TargetEstimator();
+
+  /// \param velocity_odom_mps if reported: turned to odom axes with the pose's attitude
+  void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
+                   const std::optional<Eigen::Vector3d>& velocity_odom_mps = std::nullopt);
+  void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
+  /// \param T_base_camera mounting of the camera; without it there is a pose, but nothing for the filter
+  void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+           const std::optional<Eigen::Isometry3d>& T_base_camera);
+  void see(
+      SeenPicture picture);  ///< the same with all windows of the picture, whether or not one is the target
+  /// An observation that still waits for odometry is processed with what there is.
+  void flush();
+  void reset();
+
+  facade::Answer selectWindow(std::uint32_t id);
+  facade::Answer selectWindowNear(const Eigen::Vector3d& point_odom_m);
+  /// What the navigator does: the window it flies at (0: none), those that it gave up, and whether it is to
+  /// get another one in place of the last of them.
+  void heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);
+  const facade::FacadeMemory& facade() const { return facade_; }
+  /// Where the target must be in a picture taken at that time, if that is known and in view (distorted
+  /// pixels).
+  std::optional<geometry::Quadrilateral> expected(double stamp_sec, const geometry::PinholeCamera& camera,
+                                                  const Eigen::Isometry3d& T_base_camera) const;
+
+  std::optional<TargetEstimate> target(double now_sec) const;
+  std::optional<FilteredWindow> filtered(double now_sec) const { return filter_.state(now_sec); }
+  const TargetUpdate& lastUpdate() const { return last_; }
+
+  /// Whether the vehicle fits through the opening, as far as its size is known.
+  FitVerdict fit(const FilteredWindow& window) const {
+    return fitVerdict(window.size, params_.fit);
+  }
+  /// Whether it is open, as far as the texture within its border has shown.
+  const openness::OpennessVerdict& openness() const { return judge_.verdict(); }
+  FramesVerdict frames() const;
+  /// The opening's size as measured on the way flown, whatever it is said to be.
+  const std::optional<SizeBelief>& measuredSize() const;
+  /// By how much the stamps of pictures and odometry differ, once a turn has shown it.
+  const std::optional<ClockCheck::Offset>& clockOffset() const { return clocks_.offset(); }
+  /// Why nobody should fly towards this window; empty if there is no reason.
+  std::string approachForbidden(const FilteredWindow& window) const;
+  /// The window seen is not the one looked for, but so many times as large.
+  std::optional<double> otherWindow() const;
+
+ private:
+  void process(const SeenPicture& picture);
+  void use(const SeenPicture& picture);
+  geometry::OpeningSize lookedFor() const;
+  std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
+                                            const std::optional<Eigen::Isometry3d>& T_base_camera) const;
+  void rememberWindows(const SeenPicture& picture);
+  void startAnewIfNot(std::uint32_t target_before);
+  std::string updateFilter(const SeenPicture& picture);  // empty, or why it was not used
+  void forgetPlaces();
+  void noticeTarget(std::uint32_t target_id);
+  void checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera);
+  void checkClocks(const SeenPicture& picture);
+  bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
+  std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
+  std::optional<GravityPrior> gravity(const SeenPicture& picture);
+  PoseResult estimate(const SeenPicture& picture);
+  void judgeOpenness(const SeenPicture& picture);
+
+  TargetEstimatorParams params_;
+  WindowPoseEstimator estimator_;
+  WindowFilter filter_;
+  struct Checks;
+  std::unique_ptr<Checks> checks_;  ///< of what is said about frames, mounting and size
+  ClockCheck clocks_;
+  openness::OpennessJudge judge_;
+  facade::FacadeMemory facade_;
+  std::size_t heeded_ = 0;  ///< how many of those given up are known
+  bool size_is_known_;
+  std::uint32_t target_id_ = 0;
+  PoseBuffer odometry_, attitude_;
+  std::optional<double> odometry_stamp_sec_;
+  Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
+  std::optional<SeenPicture> pending_;
+  TargetUpdate last_;
+};
+
+/// The filter's state in the navigator's words.
+TargetEstimate targetFrom(const FilteredWindow& window);
+
+}  // namespace window_ingress::estimation

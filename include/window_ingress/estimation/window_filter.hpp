@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/estimation/consistency_monitor.hpp"
+#include "window_ingress/estimation/filter_params.hpp"
+#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/target_motion.hpp"
+#include "window_ingress/estimation/window_pose_estimate.hpp"
+
+namespace window_ingress::estimation {
+
+/// Lasting error of the camera's attitude: rotation of the true camera against the one that odometry and
+/// mounting make, about its x (pitch), y (yaw) and z (roll) axes.
+struct CameraTurn {
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// The window in the odometry frame, upright: position and yaw, filtered over time.
+struct FilteredWindow {
+  double stamp_sec = 0.0;  ///< of the last image that contributed
+  double age_sec = 0.0;    ///< of that image, at the time asked for
+  Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< odom axes; x, y, z [m], rotations [rad]
+  bool sign_trusted = false;               ///< one planar hypothesis is left, or the other cannot matter
+  double hypothesis_weight = 1.0;          ///< of the reported hypothesis, 0.5 to 1
+  int updates = 0;                         ///< images that contributed since the last reset
+
+  /// The other planar solution while it lives; its weight is 1 - hypothesis_weight.
+  struct Alternative {
+    Eigen::Isometry3d T_odom_window = Eigen::Isometry3d::Identity();
+    Matrix6d covariance = Matrix6d::Zero();
+    CameraTurn camera_turn;
+  };
+  std::optional<Alternative> alternative;
+
+  /// The opening's size that goes with the pose. What is called known is as good as
+  /// `FilterParams::known_size_sigma` says; what is not is estimated.
+  SizeBelief size;
+
+  CameraTurn camera_turn;
+  Consistency consistency;
+  TargetMotion motion;  ///< of the window; stands still unless `FilterParams::target_speed_mps` says else
+};
+
+/// Carries both planar hypotheses until the images, seen from a moving vehicle, have killed one. A size of
+/// the opening that is not known is estimated along with them; it outlives a restart, but no other window.
+class WindowFilter {
+ public:
+  /// \param size what is known of the opening before any image; without it, the opening of each estimate is
+  ///        taken as known
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit WindowFilter(const FilterParams& params, const std::optional<SizeBelief>& size = std::nullopt);
+  ~WindowFilter();
+  WindowFilter(WindowFilter&&) noexcept;
+  WindowFilter& operator=(WindowFilter&&) noexcept;
+
+  /// A new `target_id`, a jump of the clock or a long silence starts anew.
+  /// \param estimate computed with the size of `sizeOf`
+  /// \param T_odom_camera from odometry, interpolated to the image's stamp
+  /// \return false if the observation was gated out or is older than the last one
+  bool update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
+              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera);
+
+  /// The same without a pose of its own, for a window of which only some borders are seen. Never starts a
+  /// filter.
+  bool update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+              const Eigen::Isometry3d& T_odom_camera);
+
+  /// What is known of the size of the window in this observation, for the estimator: what the filter was made
+  /// with, or what was found since; nothing if neither is there.
+  std::optional<SizeBelief> sizeOf(const detection::WindowObservation& window) const;
+
+  /// Where the window should be in an image taken now; nothing without a state or if it is not wholly in
+  /// front.
+  std::optional<geometry::Quadrilateral> predictedCorners(double now_sec,
+                                                          const geometry::PinholeCamera& camera,
+                                                          const Eigen::Isometry3d& T_odom_camera) const;
+
+  /// The state as of the last update, with its covariance grown by odometry drift until `now_sec`; nothing
+  /// before the first update or after `max_age_sec` without one.
+  std::optional<FilteredWindow> state(double now_sec) const;
+
+  void reset();
+  /// The odometry frame is another one: places are void, the size of the opening is not.
+  void forgetPlaces();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace window_ingress::estimation

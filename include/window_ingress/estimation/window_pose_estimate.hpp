@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/geometry/opening.hpp"
+
+namespace window_ingress::estimation {
+
+/// Covariance of a pose: x, y, z [m], then rotations about the fixed x, y, z axes of the parent frame [rad]
+/// (the order of geometry_msgs/PoseWithCovariance).
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// One of the two poses that explain a planar rectangle.
+struct PlanarSolution {
+  Eigen::Isometry3d T_camera_window = Eigen::Isometry3d::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< in the camera frame
+  /// Per coordinate, of the four corners; of a partial view: across, at the ends of the borders seen.
+  double reprojection_rms_px = 0.0;
+  /// Half the sum of squared, sigma-weighted residuals of the image and of the priors but gravity's.
+  double cost = 0.0;
+  geometry::OpeningSize opening;                                     ///< the size at which it fits best
+  Eigen::Matrix2d opening_log_covariance = Eigen::Matrix2d::Zero();  ///< of (log width, log height)
+};
+
+/// Width over height of the opening.
+struct MeasuredAspect {
+  double ratio = 0.0;
+  double sigma = 0.0;
+};
+
+/// Pose of the window relative to the camera, from one image.
+struct WindowPoseEstimate {
+  double stamp_sec = 0.0;
+  PlanarSolution best;                        ///< the likelier of the two
+  std::optional<PlanarSolution> alternative;  ///< the other local minimum, where there is one
+
+  /// Heading of the window's axis against the camera's, about the vertical (gravity's if known, else the
+  /// camera's own): 0 when square to it, positive when the window's axis points to the left of the camera's.
+  double yaw_rad = 0.0;
+  double yaw_sigma_rad = 0.0;  ///< with the opening's size known
+  /// The same against the horizontal line of sight to the window's centre: 0 on the window's axis. The two
+  /// planar solutions differ in its sign; on the way to the axis the vehicle moves to the side it says.
+  double yaw_from_sight_rad = 0.0;
+  /// Spread of the yaw with the opening's size unknown, i.e. from keystone alone. It decides about the sign.
+  double sigma_u_rad = 0.0;
+  double log_likelihood_ratio = 0.0;  ///< best over alternative, >= 0; infinite is written as 1e9
+  /// The signs of yaw_rad and of yaw_from_sight_rad are certain: sigma_u is less than a third of either, and
+  /// the image has indeed shown it (likelihood ratio).
+  bool sign_trusted = false;
+
+  geometry::OpeningSize opening;  ///< the size that the pose is for: known, or at which it fits best
+  Eigen::Matrix2d opening_log_covariance = Eigen::Matrix2d::Zero();  ///< of (log width, log height)
+
+  /// One border contradicts the opening's known size; its place was not used (`withoutStrayBorder`).
+  bool border_astray = false;
+
+  /// Width over height as measured in this image alone, whatever is known of it. Only of a whole view, else
+  /// nothing.
+  std::optional<MeasuredAspect> aspect;
+
+  geometry::EulerAngles euler;    ///< the paper's angles of R_camera_window, taken in forward-left-up axes
+  double opening_width_m = 0.0;   ///< apparent: as wide as seen from here, largest when square to it
+  double opening_height_m = 0.0;  ///< apparent, likewise
+  double left_side_px = 0.0;      ///< length of the left border in the undistorted image
+  double right_side_px = 0.0;     ///< length of the right border in the undistorted image
+};
+
+}  // namespace window_ingress::estimation

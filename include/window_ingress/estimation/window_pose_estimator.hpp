@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/estimation/pose_params.hpp"
+#include "window_ingress/estimation/pose_prior.hpp"
+#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/window_pose_estimate.hpp"
+
+namespace window_ingress::estimation {
+
+/// Why there is no pose.
+enum class PoseReject {
+  kNone,
+  kBadCamera,
+  kBadCorners,
+  kNotInFront,
+  kReprojection,
+  kRange,
+  kTilt,
+  kNotFinite
+};
+
+const char* toString(PoseReject reject);
+
+struct PoseResult {
+  std::optional<WindowPoseEstimate> estimate;
+  PoseReject reject = PoseReject::kNone;
+  std::string detail;  ///< with numbers, for people: "reprojection 4.2 px > 3.0 px"
+};
+
+/// What else may be known of the window when an image of it is taken. What is not usable is ignored.
+struct PoseHints {
+  std::optional<GravityPrior> gravity = std::nullopt;
+  /// Where it is expected; with it two or three visible sides give a pose. Its own errors must not come from
+  /// this image.
+  std::optional<PosePrior> prior = std::nullopt;
+  std::optional<SizeBelief> size = std::nullopt;  ///< instead of the parameters' size
+};
+
+/// One observation and a calibration to the relative pose (P11, P12). Stateless.
+class WindowPoseEstimator {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit WindowPoseEstimator(const PoseParams& params);
+
+  /// \param window its corners in any cyclic order (they are put upright: by gravity, without it by the
+  ///        camera's own up); or, of a partial view, four visible borders, or two with a prior pose
+  PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                      const PoseHints& hints) const;
+
+  /// \param gravity ignored if it is not usable (not finite, no direction, no spread)
+  PoseResult estimate(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                      const std::optional<GravityPrior>& gravity = std::nullopt) const;
+
+  const PoseParams& params() const { return params_; }
+
+ private:
+  PoseParams params_;
+};
+
+}  // namespace window_ingress::estimation

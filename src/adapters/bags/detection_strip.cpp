@@ -1,0 +1,64 @@
+#include "adapters/bags/detection_strip.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "adapters/bags/replay_tables.hpp"
+#include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/geometry/yaw_text.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr int kWidestPx = 640, kQuality = 80;
+
+std::string named(std::size_t number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "pictures/%05zu.jpg", number);
+  return text;
+}
+
+std::string captionOf(const ReplayedFrame& frame) {
+  if (!frame.row.window) return "no window: " + frame.row.reject_reason;
+  if (!frame.row.pose) return "window";
+  return geometry::yawText(frame.row.pose->yaw_rad, frame.row.pose->yaw_sigma_rad, frame.row.pose->sign_trusted);
+}
+
+}  // namespace
+
+DetectionStrip::DetectionStrip(const std::filesystem::path& folder, std::size_t images)
+    : folder_(folder), step_(std::max<std::size_t>(1, (images + kMost - 1) / kMost)) {
+  std::filesystem::remove_all(folder / "pictures");
+  std::filesystem::create_directories(folder / "pictures");
+  list_.open(folder / "strip.csv");
+  list_ << "stamp,file,shown,caption\n";
+}
+
+const char* DetectionStrip::whyShown(const ReplayedFrame& frame) {
+  const bool is_found = frame.row.window.has_value(), is_first = seen_ == 0;
+  const bool changed = !is_first && is_found != was_found_;
+  was_found_ = is_found;
+  const bool is_due = seen_++ % step_ == 0;
+  if (changed && changes_++ < kMostChanges) return is_found ? "found" : "lost";
+  return is_due ? "time" : nullptr;
+}
+
+void DetectionStrip::add(const ReplayedFrame& frame) {
+  const char* why = whyShown(frame);
+  if (!why || frame.picture.empty() || !frame.trace) return;
+  detection::drawDetection(frame.picture, *frame.trace, frame.row.window ? &*frame.row.window : nullptr,
+                           canvas_);
+  const double scale = std::min(1.0, static_cast<double>(kWidestPx) / canvas_.cols);
+  cv::Mat small;
+  cv::resize(canvas_, small, {}, scale, scale, cv::INTER_AREA);
+  const std::string file = named(seen_);
+  if (!cv::imwrite((folder_ / file).string(), small, {cv::IMWRITE_JPEG_QUALITY, kQuality}))
+    throw std::runtime_error((folder_ / file).string() + ": cannot be written");
+  list_ << exactText(frame.stamp) << "," << file << "," << why << ","
+        << evaluation::csvField(captionOf(frame)) << std::endl;
+}
+
+}  // namespace window_ingress::adapters

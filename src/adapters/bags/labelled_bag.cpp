@@ -1,0 +1,109 @@
+#include "adapters/bags/labelled_bag.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+/// Calls `each` with every picture that can be read, until it says false.
+void forEachPicture(const rosbag::Bag& bag, const std::string& topic, int every,
+                    const std::function<bool(const std_msgs::Header&, const cv::Mat&)>& each) {
+  int number = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    if (number++ % every != 0) continue;
+    GuardedImage picture;
+    std_msgs::Header header;
+    if (const auto image = message.instantiate<sensor_msgs::Image>()) {
+      header = image->header;
+      picture = decode(image, ImageLimits{});
+    } else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
+      header = compressed->header;
+      picture = decode(*compressed, ImageLimits{});
+    }
+    if (!picture.image.empty() && !each(header, picture.image)) return;
+  }
+}
+
+std::map<ros::Time, Eigen::Isometry3d> truthOf(const rosbag::Bag& bag, const std::string& topic) {
+  std::map<ros::Time, Eigen::Isometry3d> truth;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic)))
+    if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>())
+      if (const auto T_camera_window = fromMsg(pose->pose))
+        truth[pose->header.stamp] = *T_camera_window.value;
+  return truth;
+}
+
+geometry::PinholeCamera cameraOf(const rosbag::Bag& bag, const std::string& topic) {
+  std::string reason = "nothing on it";
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+    if (!info) continue;
+    const auto camera = cameraFromMsg(*info, false);
+    if (camera) return *camera.value;
+    reason = camera.reason;
+  }
+  throw BagError(bag.getFileName() + ": " + topic + ": " + reason);
+}
+
+// Pictures of one second look alike.
+std::string groupOf(const rosbag::Bag& bag, const ros::Time& stamp) {
+  return bag.getFileName() + "/" + std::to_string(stamp.sec);
+}
+
+template <typename Work>
+auto readingBag(const rosbag::Bag& bag, const Work& work) {
+  try {
+    return work();
+  } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
+    throw BagError(bag.getFileName() + ": damaged: " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<evaluation::LabelledPicture> labelledPictures(const rosbag::Bag& bag, const BagTopics& topics,
+                                                          const geometry::OpeningSize& opening, int every) {
+  return readingBag(bag, [&] {
+    const auto truth = truthOf(bag, topics.truth);
+    const geometry::PinholeCamera camera = cameraOf(bag, topics.camera_info);
+    std::vector<evaluation::LabelledPicture> pictures;
+    forEachPicture(bag, topics.image, every, [&](const std_msgs::Header& header, const cv::Mat& image) {
+      const auto pose = truth.find(header.stamp);
+      if (pose == truth.end() || image.cols != camera.width || image.rows != camera.height) return true;
+      auto picture = evaluation::labelled(image.clone(), pose->second, camera, opening);
+      if (!picture) return true;
+      picture->name = std::to_string(header.stamp.toSec());
+      picture->group = groupOf(bag, header.stamp);
+      pictures.push_back(*picture);
+      return true;
+    });
+    if (pictures.empty())
+      throw BagError(bag.getFileName() + ": no picture on " + topics.image + " with the stamp of a pose on " +
+                     topics.truth + " and the size of the calibration");
+    return pictures;
+  });
+}
+
+std::vector<cv::Mat> picturesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most) {
+  return readingBag(bag, [&] {
+    std::vector<cv::Mat> pictures;
+    forEachPicture(bag, topics.image, every, [&](const std_msgs::Header&, const cv::Mat& image) {
+      pictures.push_back(image.clone());
+      return static_cast<int>(pictures.size()) < most;
+    });
+    return pictures;
+  });
+}
+
+}  // namespace window_ingress::adapters

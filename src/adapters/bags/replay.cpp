@@ -1,0 +1,301 @@
+#include "adapters/bags/replay.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <rosbag/exceptions.h>
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+#include "adapters/bags/recorded_transforms.hpp"
+#include "adapters/bags/replay_facts.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/text.hpp"
+#include "window_ingress/estimation/pose_buffer.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kMaxAttitudeGapSec = 0.02;
+constexpr std::size_t kMostWaiting = 30;   // images that wait for odometry as new as themselves
+constexpr double kAttitudeWaitSec = 0.05;  // they wait as long for the attitude, in time of the bag
+
+double nowMs() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+class Replay {
+ public:
+  Replay(const ReplayParams& params, const std::function<void(const ReplayedFrame&)>& each,
+         const std::function<void(const std::string&)>& jumped)
+      : params_(params),
+        each_(each),
+        jumped_(jumped),
+        perception_(params.detector, params.interior),
+        tracker_(params.pose, params.filter, params.tracker) {
+    if (params.reference) perception_.setReference(*params.reference);
+  }
+
+  void prepare(const rosbag::Bag& bag);
+  void take(const rosbag::MessageInstance& message);
+  ReplaySummary finish() {
+    while (!waiting_.empty()) processFirst();
+    return summary_;
+  }
+
+ private:
+  struct Waiting {
+    std_msgs::Header header;
+    std::function<GuardedImage()> decode;
+  };
+
+  void takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode);
+  void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec);
+  void takeImu(const sensor_msgs::Imu& message);
+  void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
+  void noticeJump(const ros::Time& stamp);
+  void forgetAll();
+  void count(const ReplayedFrame& frame);
+  void processComplete();
+  bool isComplete(const Waiting& image) const;
+  void processFirst();
+  detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
+                                const Converted<geometry::PinholeCamera>& camera);
+  void locate(ReplayedFrame& frame, const std::string& camera_frame);
+  Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image) const;
+  Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
+  void refuse(const std::string& what, const std::string& why) {
+    ++summary_.refused;
+    ++summary_.reasons[what + ": " + parameters::withoutNumbers(why)];
+    summary_.refusal = what + ": " + why;
+  }
+
+  const ReplayParams& params_;
+  const std::function<void(const ReplayedFrame&)>& each_;
+  const std::function<void(const std::string&)>& jumped_;
+  perception::WindowPerception perception_;
+  estimation::PoseBuffer attitude_, odometry_;
+  estimation::SenderClock odometry_clock_;
+  estimation::TargetEstimator tracker_;
+  Converted<geometry::PinholeCamera> camera_;
+  RecordedTransforms transforms_;
+  std::map<ros::Time, Eigen::Isometry3d> truth_;
+  std::deque<Waiting> waiting_;
+  std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the picture before
+  double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
+  ReplaySummary summary_;
+};
+
+// What does not change in a flight is known before it: calibration and mounting. Truth is looked up by stamp.
+void Replay::prepare(const rosbag::Bag& bag) {
+  rosbag::View infos(bag, rosbag::TopicQuery(params_.topics.camera_info));
+  if (infos.begin() != infos.end())
+    if (const auto info = infos.begin()->instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/tf_static")))
+    if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) transforms_.take(*transforms);
+  if (params_.topics.truth.empty()) return;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(params_.topics.truth)))
+    if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>())
+      if (const auto pose = fromMsg(truth->pose)) truth_[truth->header.stamp] = *pose.value;
+}
+
+void Replay::take(const rosbag::MessageInstance& message) {
+  const std::string& topic = message.getTopic();
+  if (topic == params_.topics.image) {
+    if (const auto image = message.instantiate<sensor_msgs::Image>())
+      takeImage(image->header, [this, image] { return decode(image, params_.image); });
+    else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>())
+      takeImage(compressed->header, [this, compressed] { return decode(*compressed, params_.image); });
+  } else if (topic == params_.topics.camera_info) {
+    if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
+  } else if (topic == params_.topics.odom) {
+    if (const auto odometry = message.instantiate<nav_msgs::Odometry>())
+      takeOdometry(*odometry, message.getTime().toSec());
+  } else if (topic == params_.topics.imu) {
+    if (const auto imu = message.instantiate<sensor_msgs::Imu>()) takeImu(*imu);
+  }
+}
+
+void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode) {
+  if (!stampSec(header.stamp)) return refuse("image", "header.stamp is zero or not normalised");
+  noticeJump(header.stamp);
+  waiting_.push_back({header, std::move(decode)});
+  if (waiting_.size() > kMostWaiting) processFirst();
+  processComplete();
+}
+
+// An image waits for odometry as new as itself; for attitude not for ever, which may have stopped.
+bool Replay::isComplete(const Waiting& image) const {
+  const double sec = image.header.stamp.toSec();
+  const bool awaits_odometry = params_.with_pose && !params_.topics.odom.empty();
+  const bool awaits_attitude = !params_.topics.imu.empty() && newest_sec_ < sec + kAttitudeWaitSec;
+  return !(awaits_odometry && odometry_sec_ < sec) && !(awaits_attitude && attitude_sec_ < sec);
+}
+
+void Replay::processComplete() {
+  while (!waiting_.empty() && isComplete(waiting_.front())) processFirst();
+}
+
+void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
+  auto vehicle = fromMsg(message, params_.frames);
+  if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
+  noticeJump(message.header.stamp);
+  vehicle.value->stamp_sec = odometry_clock_.atReceiver(vehicle.value->stamp_sec, arrival_sec);
+  odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
+                       vehicle.value->velocity_odom_mps);
+  odometry_sec_ = vehicle.value->stamp_sec;
+  processComplete();
+}
+
+void Replay::takeImu(const sensor_msgs::Imu& message) {
+  const auto stamp_sec = stampSec(message.header.stamp);
+  const auto attitude = attitudeFromMsg(message);
+  if (!stamp_sec) return refuse(params_.topics.imu, "header.stamp is zero or not normalised");
+  if (!attitude) return refuse(params_.topics.imu, attitude.reason);
+  if (message.header.frame_id != params_.frames.base)
+    return refuse(params_.topics.imu,
+                  "frame_id is '" + message.header.frame_id + "', expected '" + params_.frames.base + "'");
+  noticeJump(message.header.stamp);
+  tracker_.addAttitude(*stamp_sec, *attitude.value);
+  attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+  attitude_sec_ = *stamp_sec;
+  processComplete();
+}
+
+void Replay::noticeJump(const ros::Time& stamp) {
+  const double sec = stamp.toSec(), back_sec = newest_sec_ - sec;
+  if (back_sec <= kJumpSec) {
+    newest_sec_ = std::max(newest_sec_, sec);
+    return;
+  }
+  while (!waiting_.empty()) processFirst();
+  forgetAll();
+  newest_sec_ = sec;
+  ++summary_.jumps;
+  char text[120];
+  std::snprintf(text, sizeof text, "time jumps back by %.1f s to %.3f: everything is forgotten", back_sec,
+                sec);
+  if (jumped_) jumped_(text);
+}
+
+void Replay::forgetAll() {
+  perception_.reset();
+  if (params_.reference) perception_.setReference(*params_.reference);
+  tracker_.reset();
+  attitude_.clear();
+  odometry_.clear();
+  odometry_clock_.clear();
+  expected_.reset();
+  odometry_sec_ = attitude_sec_ = -1.0;
+}
+
+Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
+  if (!camera_ || (camera_.value->width == image.cols && camera_.value->height == image.rows)) return camera_;
+  return {std::nullopt, "camera_info is for pictures of another size"};
+}
+
+Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) const {
+  return transforms_.between(params_.frames.base, camera_frame);
+}
+
+void Replay::processFirst() {
+  const Waiting waiting = std::move(waiting_.front());
+  waiting_.pop_front();
+  const GuardedImage picture = waiting.decode();
+  if (!picture.reason.empty()) return refuse("image", picture.reason);
+  ReplayedFrame frame;
+  frame.stamp = waiting.header.stamp;
+  frame.picture = picture.image;
+  const auto camera = cameraOf(picture.image);
+  if (!camera) refuse("camera_info", camera.reason);
+  frame.camera = camera.value;
+  frame.has_odometry = odometry_.at(frame.stamp.toSec(), params_.tracker.max_pose_gap_sec).has_value();
+  frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
+  const double begun_ms = nowMs();
+  frame.row.window = perception_.update(inputOf(picture.image, waiting.header, camera));
+  frame.trace = &perception_.trace();
+  frame.detector_ms = nowMs() - begun_ms;
+  if (!frame.row.window) frame.row.reject_reason = detection::toString(perception_.trace().outcome);
+  if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
+  frame.pose_ms = nowMs() - begun_ms - frame.detector_ms;
+  count(frame);
+  const auto truth = truth_.find(waiting.header.stamp);
+  if (truth != truth_.end()) frame.truth = truth->second;
+  each_(frame);
+}
+
+void Replay::count(const ReplayedFrame& frame) {
+  ++summary_.images;
+  summary_.calibrated += frame.camera.has_value();
+  summary_.with_odometry += frame.has_odometry;
+  summary_.with_attitude += frame.has_attitude;
+  summary_.milliseconds += frame.detector_ms + frame.pose_ms;
+}
+
+// Attitude where the bag has it near the exposure, and the mounting of the camera.
+detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Header& header,
+                                      const Converted<geometry::PinholeCamera>& camera) {
+  detection::TrackInput input;
+  input.image = image;
+  input.stamp_sec = header.stamp.toSec();
+  input.camera = camera ? &*camera.value : nullptr;
+  input.expected = expected_;
+  const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
+  if (!T_odom_base) return input;
+  if (const auto T_base_camera = mounting(header.frame_id).value)
+    input.R_world_camera = T_odom_base->linear() * T_base_camera->linear();
+  return input;
+}
+
+void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
+  frame.why_not_filtered = "no window";
+  const double stamp_sec = frame.stamp.toSec();
+  const auto mounted = mounting(camera_frame);
+  if (!mounted && frame.row.window) refuse("mounting of the camera", mounted.reason);
+  const std::optional<Eigen::Isometry3d>& T_base_camera = mounted.value;
+  tracker_.see({stamp_sec, *frame.camera, T_base_camera, frame.row.window, perception_.windows()});
+  tracker_.flush();
+  expected_ = T_base_camera ? tracker_.expected(stamp_sec, *frame.camera, *T_base_camera) : std::nullopt;
+  if (frame.row.window) {
+    const estimation::PoseResult& result = tracker_.lastUpdate().pose;
+    frame.row.pose = result.estimate;
+    frame.why_not_filtered = tracker_.lastUpdate().why_not;
+    if (!result.estimate) frame.row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
+  }
+  frame.filtered = tracker_.filtered(stamp_sec);
+  frame.openness = tracker_.openness();
+}
+
+}  // namespace
+
+ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
+                     const std::function<void(const ReplayedFrame&)>& each,
+                     const std::function<void(const std::string&)>& jumped) {
+  Replay run(params, each, jumped);
+  try {
+    run.prepare(bag);
+    const BagTopics& t = params.topics;
+    rosbag::View view(bag,
+                      rosbag::TopicQuery(std::vector<std::string>{t.image, t.camera_info, t.odom, t.imu}));
+    for (const rosbag::MessageInstance& message : view) run.take(message);
+  } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
+    throw BagError(bag.getFileName() + ": damaged: " + error.what());
+  } catch (const std::bad_alloc&) {  // lengths of a damaged message
+    throw BagError(bag.getFileName() + ": damaged: a message asks for more memory than there is");
+  } catch (const std::length_error&) {
+    throw BagError(bag.getFileName() + ": damaged: a message is longer than any can be");
+  }
+  return run.finish();
+}
+
+}  // namespace window_ingress::adapters

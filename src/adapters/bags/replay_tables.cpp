@@ -1,0 +1,137 @@
+#include "adapters/bags/replay_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr const char* kFilteredColumns =
+    ",filtered_qx,filtered_qy,filtered_qz,filtered_qw,filtered_tx,filtered_ty,filtered_tz,filtered_sigma_x,"
+    "filtered_sigma_y,filtered_sigma_z,filtered_sigma_roll,filtered_sigma_pitch,filtered_sigma_yaw";
+constexpr const char* kTruthColumns =
+    ",truth_whole,truth_iou,truth_distance_m,truth_yaw_rad,error_yaw_rad,error_distance_m,error_corner_px";
+constexpr const char* kOpennessColumns = ",openness,openness_log_odds,depth_behind_m";
+constexpr const char* kDetailColumns =
+    "stamp,has_calibration,has_odometry,has_attitude,sides_seen,yaw_rad,sigma_u_rad,sign_trusted,theta_rad,"
+    "phi_rad,"
+    "psi_rad,opening_width_m,opening_height_m,left_side_px,right_side_px,filtered_age_sec,filtered_sign_"
+    "trusted,"
+    "filtered_weight,window_width_m,window_height_m,why_not_filtered\n";
+constexpr int kPoseDetails = 10, kFilterDetails = 5;
+
+std::string text(const char* format, double value) {
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::string filteredValues(const std::optional<estimation::FilteredWindow>& filtered) {
+  if (!filtered) return std::string(13, ',');
+  const Eigen::Quaterniond q(filtered->T_odom_window.linear());
+  const Eigen::Vector3d t = filtered->T_odom_window.translation();
+  std::string values;
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) values += "," + text("%.9f", value);
+  for (const double value : {t.x(), t.y(), t.z()}) values += "," + text("%.6f", value);
+  for (int i = 0; i < 6; ++i)
+    values += "," + text("%.6f", std::sqrt(std::max(0.0, filtered->covariance(i, i))));
+  return values;
+}
+
+std::string truthValues(const evaluation::TruthErrors& errors) {
+  std::string values = errors.whole ? ",1" : ",0";
+  for (const double value : {errors.iou, errors.true_distance_m, errors.true_yaw_rad})
+    values += "," + text("%.6f", value);
+  for (const auto& value : {errors.yaw_rad, errors.distance_m})
+    values += value ? "," + text("%.6f", *value) : ",";
+  if (!errors.found || !errors.truth) return values + ",";
+  return values + "," + text("%.4f", evaluation::worstCornerDistance(*errors.found, *errors.truth));
+}
+
+std::string opennessValues(const openness::OpennessVerdict& verdict) {
+  return "," + std::string(openness::toString(verdict.openness)) + "," + text("%.4f", verdict.log_odds) +
+         "," + (verdict.has_depth ? text("%.4f", verdict.depth_behind_m) : "");
+}
+
+std::string poseDetails(const std::optional<estimation::WindowPoseEstimate>& pose) {
+  if (!pose) return std::string(kPoseDetails, ',');
+  std::string values = "," + text("%.6f", pose->yaw_rad) + "," + text("%.6f", pose->sigma_u_rad);
+  values += pose->sign_trusted ? ",1" : ",0";
+  for (const double value :
+       {pose->euler.theta_rad, pose->euler.phi_rad, pose->euler.psi_rad, pose->opening_width_m,
+        pose->opening_height_m, pose->left_side_px, pose->right_side_px})
+    values += "," + text("%.6f", value);
+  return values;
+}
+
+std::string filterDetails(const std::optional<estimation::FilteredWindow>& filtered) {
+  if (!filtered) return std::string(kFilterDetails, ',');
+  std::string values = "," + text("%.3f", filtered->age_sec) + (filtered->sign_trusted ? ",1" : ",0");
+  for (const double value :
+       {filtered->hypothesis_weight, filtered->size.size.width_m, filtered->size.size.height_m})
+    values += "," + text("%.6f", value);
+  return values;
+}
+
+/// The time that an image took is not of the bag: its column stays empty.
+std::string withoutMilliseconds(const std::string& values) { return values.substr(0, values.rfind(',') + 1); }
+
+std::ofstream opened(const std::filesystem::path& file) {
+  std::ofstream stream(file);
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  return stream;
+}
+
+}  // namespace
+
+std::string exactText(const ros::Time& stamp) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%u.%09u", stamp.sec, stamp.nsec);
+  return buffer;
+}
+
+ReplayTables::ReplayTables(const std::filesystem::path& folder, const ReplayParams& params)
+    : params_(params),
+      has_truth_(!params.topics.truth.empty()),
+      frames_(opened(folder / "frames.csv")),
+      details_(opened(folder / "details.csv")),
+      latency_(opened(folder / "latency.csv")) {
+  frames_ << "stamp," << evaluation::detectionColumns() << kFilteredColumns
+          << (has_truth_ ? kTruthColumns : "") << kOpennessColumns << "\n";
+  details_ << kDetailColumns;
+  latency_ << "stamp,detector_ms,pose_ms\n";
+}
+
+void ReplayTables::add(const ReplayedFrame& frame) {
+  const std::string stamp = exactText(frame.stamp);
+  frames_ << stamp << "," << withoutMilliseconds(evaluation::detectionValues(frame.row))
+          << filteredValues(frame.filtered) << (has_truth_ ? compare(frame) : "")
+          << opennessValues(frame.openness) << "\n";
+  details_ << stamp << "," << frame.camera.has_value() << "," << frame.has_odometry << ","
+           << frame.has_attitude << "," << (frame.row.window ? frame.row.window->visibleSides() : 0)
+           << poseDetails(frame.row.pose) << filterDetails(frame.filtered) << ","
+           << evaluation::csvField(frame.why_not_filtered) << "\n";
+  latency_ << stamp << "," << text("%.3f", frame.detector_ms) << "," << text("%.3f", frame.pose_ms) << "\n";
+}
+
+void ReplayTables::close() {
+  for (std::ofstream* file : {&frames_, &details_, &latency_}) {
+    file->close();
+    if (!*file) throw std::runtime_error("frames.csv and others: writing failed; is the disk full?");
+  }
+}
+
+std::string ReplayTables::compare(const ReplayedFrame& frame) {
+  if (!frame.truth || !frame.camera) return std::string(7, ',');
+  std::optional<Eigen::Isometry3d> estimate;
+  if (frame.row.pose) estimate = frame.row.pose->best.T_camera_window;
+  const auto errors =
+      evaluation::compareWithTruth(frame.row.window, estimate, *frame.truth, *frame.camera,
+                                   {params_.pose.opening_width_m, params_.pose.opening_height_m});
+  summary_.add(errors);
+  return truthValues(errors);
+}
+
+}  // namespace window_ingress::adapters

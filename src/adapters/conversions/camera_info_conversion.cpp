@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "adapters/conversions/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+using geometry::PinholeCamera;
+
+constexpr std::uint32_t kLargestSidePx = 20000;
+constexpr std::uint32_t kMostBinning = 16;
+constexpr const char* kPlumbBob = "plumb_bob";
+constexpr const char* kRational = "rational_polynomial";
+constexpr const char* kEquidistant = "equidistant";
+
+std::string text(std::uint64_t value) { return std::to_string(value); }
+
+template <typename Array>
+bool finite(const Array& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+}
+
+template <typename Array>
+bool zero(const Array& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0.0; });
+}
+
+std::string badSize(const sensor_msgs::CameraInfo& m) {
+  const bool sane = m.width > 0 && m.height > 0 && m.width <= kLargestSidePx && m.height <= kLargestSidePx;
+  return sane ? "" : "size " + text(m.width) + "x" + text(m.height) + " is not within 1..20000 pixels";
+}
+
+std::string badNumbers(const sensor_msgs::CameraInfo& m) {
+  if (!finite(m.K) || !finite(m.P) || !finite(m.R) || !finite(m.D))
+    return "K, D, R or P holds a number that is not finite";
+  if (zero(m.R) && !zero(m.P))
+    return "R is zero and so no rotation, though P is not: the identity belongs there where nothing is "
+           "rectified";
+  if (zero(m.K)) return "uncalibrated: K is zero; calibrate the camera or load its calibration in the driver";
+  return "";
+}
+
+std::size_t coefficientsOf(const std::string& model) {
+  return model == kPlumbBob ? 5 : model == kRational ? 8 : model == kEquidistant ? 4 : 0;
+}
+
+std::string badDistortion(const sensor_msgs::CameraInfo& m) {
+  const bool undistorted = m.D.empty() || (m.D.size() == 5 && zero(m.D));
+  if (undistorted && m.distortion_model.empty()) return "";
+  const std::size_t wanted = coefficientsOf(m.distortion_model);
+  if (wanted == 0)
+    return "distortion model '" + m.distortion_model.substr(0, 40) +
+           "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
+           "use "
+           "rectified pictures (image_proc) and set image_is_rectified";
+  if (m.D.empty() && m.distortion_model != kEquidistant) return "";
+  if (m.D.size() != wanted)
+    return "D holds " + text(m.D.size()) + " numbers, " + m.distortion_model + " has " + text(wanted);
+  if (m.distortion_model == kRational &&
+      std::any_of(m.D.begin() + 5, m.D.end(), [](double d) { return d != 0.0; }))
+    return "distortion model rational_polynomial is supported with k4 = k5 = k6 = 0 only; calibrate with "
+           "plumb_bob";
+  return "";
+}
+
+std::string badRegion(const sensor_msgs::CameraInfo& m, bool rectified) {
+  if (m.binning_x > kMostBinning || m.binning_y > kMostBinning)
+    return "binning " + text(m.binning_x) + "x" + text(m.binning_y) + " is above 16";
+  const bool full = m.roi.width == 0 && m.roi.height == 0;
+  const bool fits = std::uint64_t{m.roi.x_offset} + m.roi.width <= m.width &&
+                    std::uint64_t{m.roi.y_offset} + m.roi.height <= m.height;
+  if (!full && (!fits || m.roi.width == 0 || m.roi.height == 0))
+    return "region of interest lies outside the image";
+  const bool whole = full || (m.roi.width == m.width && m.roi.height == m.height);
+  if (rectified && !whole && !m.roi.do_rectify)
+    return "region of interest of the raw image (do_rectify false) cannot be applied to rectified pictures";
+  return "";
+}
+
+std::string badProjection(const sensor_msgs::CameraInfo& m, bool rectified) {
+  if (!rectified) return m.K[0] > 0.0 && m.K[4] > 0.0 ? "" : "focal length in K must be positive";
+  if (zero(m.P)) return "P is zero, but the pictures are said to be rectified (image_is_rectified)";
+  return m.P[0] > 0.0 && m.P[5] > 0.0 ? "" : "focal length in P must be positive";
+}
+
+std::string whyRefused(const sensor_msgs::CameraInfo& m, bool rectified) {
+  for (const std::string& fault :
+       {badSize(m), badNumbers(m), badRegion(m, rectified), badProjection(m, rectified)})
+    if (!fault.empty()) return fault;
+  return rectified ? "" : badDistortion(m);
+}
+
+PinholeCamera fullCamera(const sensor_msgs::CameraInfo& m, bool rectified) {
+  PinholeCamera camera;
+  camera.width = static_cast<int>(m.width);
+  camera.height = static_cast<int>(m.height);
+  camera.fx = rectified ? m.P[0] : m.K[0];
+  camera.fy = rectified ? m.P[5] : m.K[4];
+  camera.cx = rectified ? m.P[2] : m.K[2];
+  camera.cy = rectified ? m.P[6] : m.K[5];
+  if (!rectified && m.distortion_model == kEquidistant) camera.model = geometry::LensModel::kEquidistant;
+  const std::size_t known = rectified ? 0 : std::min(m.D.size(), camera.distortion.size());
+  std::copy(m.D.begin(), m.D.begin() + static_cast<std::ptrdiff_t>(known), camera.distortion.begin());
+  return camera;
+}
+
+// First the region, in unbinned pixels, then the binning. A binned pixel's centre is the mean of those it
+// holds.
+void cropAndBin(PinholeCamera& camera, const sensor_msgs::CameraInfo& m) {
+  const int bin_x = std::max(1, static_cast<int>(m.binning_x)),
+            bin_y = std::max(1, static_cast<int>(m.binning_y));
+  if (m.roi.width > 0) camera.width = static_cast<int>(m.roi.width);
+  if (m.roi.height > 0) camera.height = static_cast<int>(m.roi.height);
+  camera.cx = (camera.cx - m.roi.x_offset + 0.5) / bin_x - 0.5;
+  camera.cy = (camera.cy - m.roi.y_offset + 0.5) / bin_y - 0.5;
+  camera.fx /= bin_x;
+  camera.fy /= bin_y;
+  camera.width /= bin_x;
+  camera.height /= bin_y;
+}
+
+}  // namespace
+
+Converted<PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified) {
+  const std::string reason = whyRefused(message, rectified);
+  if (!reason.empty()) return {std::nullopt, reason};
+  PinholeCamera camera = fullCamera(message, rectified);
+  cropAndBin(camera, message);
+  const std::vector<std::string> faults = camera.validate();
+  if (!faults.empty()) return {std::nullopt, faults.front()};
+  return {camera, ""};
+}
+
+sensor_msgs::CameraInfo toMsg(const PinholeCamera& camera) {
+  sensor_msgs::CameraInfo message;
+  message.width = static_cast<std::uint32_t>(camera.width);
+  message.height = static_cast<std::uint32_t>(camera.height);
+  const bool fisheye = camera.model == geometry::LensModel::kEquidistant;
+  message.distortion_model = fisheye ? kEquidistant : kPlumbBob;
+  message.D.assign(camera.distortion.begin(), camera.distortion.end() - fisheye);
+  message.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  message.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return message;
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,188 @@
+#include "adapters/conversions/image_guard.hpp"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/make_shared.hpp>
+#include <cstdint>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "adapters/conversions/compressed_size.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+namespace enc = sensor_msgs::image_encodings;
+
+struct Encoding {
+  const char* name;
+  int bytes_per_pixel;
+  bool sixteen_bit;
+  const char* read_as;     // what cv_bridge is told it is
+  const char* convert_to;  // what it is converted to
+};
+
+constexpr const char* kMono = "mono8";
+constexpr const char* kColour = "bgr8";
+constexpr std::array<Encoding, 23> kEncodings{{
+    {"mono8", 1, false, "mono8", kMono},
+    {"8UC1", 1, false, "mono8", kMono},
+    {"bgr8", 3, false, "bgr8", kColour},
+    {"8UC3", 3, false, "bgr8", kColour},
+    {"rgb8", 3, false, "rgb8", kColour},
+    {"bgra8", 4, false, "bgra8", kColour},
+    {"8UC4", 4, false, "bgra8", kColour},
+    {"rgba8", 4, false, "rgba8", kColour},
+    {"mono16", 2, true, "mono16", kMono},
+    {"16UC1", 2, true, "mono16", kMono},
+    {"bgr16", 6, true, "bgr16", kColour},
+    {"rgb16", 6, true, "rgb16", kColour},
+    {"bgra16", 8, true, "bgra16", kColour},
+    {"rgba16", 8, true, "rgba16", kColour},
+    {"bayer_rggb8", 1, false, "bayer_rggb8", kColour},
+    {"bayer_bggr8", 1, false, "bayer_bggr8", kColour},
+    {"bayer_gbrg8", 1, false, "bayer_gbrg8", kColour},
+    {"bayer_grbg8", 1, false, "bayer_grbg8", kColour},
+    {"bayer_rggb16", 2, true, "bayer_rggb16", kColour},
+    {"bayer_bggr16", 2, true, "bayer_bggr16", kColour},
+    {"bayer_gbrg16", 2, true, "bayer_gbrg16", kColour},
+    {"bayer_grbg16", 2, true, "bayer_grbg16", kColour},
+    {"yuv422", 2, false, "yuv422", kColour},
+}};
+
+const Encoding* find(const std::string& name) {
+  const auto found =
+      std::find_if(kEncodings.begin(), kEncodings.end(), [&](const Encoding& e) { return name == e.name; });
+  return found == kEncodings.end() ? nullptr : &*found;
+}
+
+std::string unknownEncoding(const std::string& name) {
+  std::string text =
+      "encoding '" + name.substr(0, 40) + "' is not supported; set the camera driver to one of";
+  for (const Encoding& encoding : kEncodings) text += std::string(" ") + encoding.name;
+  return text;
+}
+
+std::string sizeText(std::uint64_t width, std::uint64_t height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+std::string tooLarge(std::uint64_t width, std::uint64_t height, const ImageLimits& limits) {
+  if (width > 0 && height > 0 && height <= static_cast<std::uint64_t>(limits.max_pixels) / width) return "";
+  return "image of " + sizeText(width, height) +
+         " pixels is empty or above max_pixels = " + std::to_string(limits.max_pixels);
+}
+
+std::string badLayout(const sensor_msgs::Image& message, const Encoding& encoding) {
+  const std::uint64_t row = std::uint64_t{message.width} * encoding.bytes_per_pixel;
+  const std::uint64_t bytes = std::uint64_t{message.height} * message.step;
+  if (message.step < row)
+    return "step of " + std::to_string(message.step) + " bytes is below the " + std::to_string(row) +
+           " of a row of " + std::to_string(message.width) + " " + encoding.name + " pixels";
+  if (message.data.size() != bytes)
+    return "data holds " + std::to_string(message.data.size()) + " bytes, step * height is " +
+           std::to_string(bytes);
+  if (encoding.sixteen_bit && message.step % 2 != 0) return "step of a 16-bit image is odd";
+  if (encoding.sixteen_bit && message.is_bigendian) return "big-endian 16-bit images are not supported";
+  if (std::string(encoding.name) == "yuv422" && message.width % 2 != 0) return "yuv422 needs an even width";
+  return "";
+}
+
+// The message under the name that cv_bridge knows; the bytes are shared.
+cv_bridge::CvImageConstPtr share(const sensor_msgs::ImageConstPtr& message, const Encoding& encoding) {
+  if (message->encoding == encoding.read_as) return cv_bridge::toCvShare(message, encoding.convert_to);
+  const int type = enc::numChannels(encoding.read_as) == 1
+                       ? (encoding.sixteen_bit ? CV_16UC1 : CV_8UC1)
+                       : CV_MAKETYPE(CV_8U, enc::numChannels(encoding.read_as));
+  const cv::Mat bytes(static_cast<int>(message->height), static_cast<int>(message->width), type,
+                      const_cast<unsigned char*>(message->data.data()), message->step);
+  auto named = boost::make_shared<cv_bridge::CvImage>(message->header, encoding.read_as, bytes);
+  if (std::string(encoding.read_as) == encoding.convert_to) return named;
+  return cv_bridge::cvtColor(named, encoding.convert_to);
+}
+
+std::string unusedRange(const sensor_msgs::Image& message, const Encoding& encoding) {
+  if (!encoding.sixteen_bit) return "";
+  std::uint16_t highest = 0;
+  for (std::size_t i = 1; i < message.data.size(); i += 2)
+    highest = std::max<std::uint16_t>(highest, message.data[i]);
+  return highest < 16
+             ? "16-bit image uses only its lower 12 bits: it reads as nearly black; scale it in the driver"
+             : "";
+}
+
+GuardedImage refusal(const std::string& reason) {
+  GuardedImage result;
+  result.reason = reason;
+  return result;
+}
+
+cv::Mat converted(const sensor_msgs::ImageConstPtr& message, const Encoding& encoding,
+                  std::shared_ptr<const void>& owner) {
+  const cv_bridge::CvImageConstPtr picture = share(message, encoding);
+  owner =
+      std::make_shared<std::pair<cv_bridge::CvImageConstPtr, sensor_msgs::ImageConstPtr>>(picture, message);
+  return picture->image;
+}
+
+}  // namespace
+
+// A prime stride: every row and every column is sampled, some ten thousand bytes of a usual picture.
+double StuckWatch::sameForSec(const cv::Mat& image, double now_sec) {
+  constexpr std::size_t kStride = 101;
+  std::uint64_t checksum = 1469598103934665603ULL;  // FNV-1a
+  const std::size_t row_bytes = image.cols * image.elemSize();
+  std::size_t offset = 0;
+  for (int row = 0; row < image.rows; ++row) {
+    const unsigned char* bytes = image.ptr(row);
+    for (; offset < row_bytes; offset += kStride) checksum = (checksum ^ bytes[offset]) * 1099511628211ULL;
+    offset -= row_bytes;
+  }
+  if (since_sec_ < 0.0 || checksum != checksum_) since_sec_ = now_sec;
+  checksum_ = checksum;
+  return now_sec - since_sec_;
+}
+
+std::string whyRefused(const sensor_msgs::Image& message, const ImageLimits& limits) {
+  const Encoding* encoding = find(message.encoding);
+  if (!encoding) return unknownEncoding(message.encoding);
+  const std::string large = tooLarge(message.width, message.height, limits);
+  return large.empty() ? badLayout(message, *encoding) : large;
+}
+
+GuardedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits) {
+  const std::string reason = whyRefused(*message, limits);
+  if (!reason.empty()) return refusal(reason);
+  const Encoding& encoding = *find(message->encoding);
+  try {
+    GuardedImage result;
+    result.image = converted(message, encoding, result.owner);
+    result.warning = unusedRange(*message, encoding);
+    if (result.image.type() == CV_8UC1 || result.image.type() == CV_8UC3) return result;
+    return refusal("cv_bridge made no 8-bit picture of encoding " + message->encoding);
+  } catch (const std::exception& error) {
+    return refusal(std::string("cannot be converted: ") + error.what());
+  }
+}
+
+GuardedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits) {
+  const auto size = compressedSize(message.data);
+  if (!size) return refusal("compressed image is neither JPEG nor PNG, or its header is broken");
+  const std::string large = tooLarge(size->width, size->height, limits);
+  if (!large.empty()) return refusal(large);
+  if (isCutOff(message.data)) return refusal("compressed image is cut off: it has no end mark");
+  try {
+    GuardedImage result;
+    result.image = cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    if (result.image.empty()) return refusal("compressed image cannot be decoded: truncated or damaged");
+    return result;
+  } catch (const std::exception& error) {
+    return refusal(std::string("compressed image cannot be decoded: ") + error.what());
+  }
+}
+
+}  // namespace window_ingress::adapters

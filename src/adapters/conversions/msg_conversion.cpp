@@ -1,0 +1,146 @@
+#include "adapters/conversions/msg_conversion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/conversions/stamps.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kUnitTolerance = 0.01;
+constexpr double kFarthestM = 1e5;  // beyond it a position is a fault, not a place
+constexpr double kFastestMps = 100.0;
+
+template <typename Value>
+Converted<Value> refused(const std::string& reason) {
+  return {std::nullopt, reason};
+}
+
+std::string frameFault(const char* field, const std::string& found, const std::string& wanted) {
+  if (found == wanted) return "";
+  return std::string(field) + " is '" + found.substr(0, 60) + "', expected '" + wanted + "'";
+}
+
+}  // namespace
+
+Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message) {
+  const Eigen::Quaterniond q(message.w, message.x, message.y, message.z);
+  const double norm = q.norm();
+  if (!std::isfinite(norm)) return refused<Eigen::Quaterniond>("quaternion is not finite");
+  if (std::abs(norm - 1.0) > kUnitTolerance)
+    return refused<Eigen::Quaterniond>("quaternion has length " + std::to_string(norm) + " instead of 1");
+  return {q.normalized(), ""};
+}
+
+Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message) {
+  const Eigen::Vector3d position(message.position.x, message.position.y, message.position.z);
+  if (!position.allFinite() || position.norm() > kFarthestM)
+    return refused<Eigen::Isometry3d>("position is not finite or beyond 100 km");
+  const auto rotation = fromMsg(message.orientation);
+  if (!rotation) return refused<Eigen::Isometry3d>(rotation.reason);
+  return {geometry::makePose(rotation.value->toRotationMatrix(), position), ""};
+}
+
+Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message) {
+  geometry_msgs::Pose pose;
+  pose.position.x = message.translation.x;
+  pose.position.y = message.translation.y;
+  pose.position.z = message.translation.z;
+  pose.orientation = message.rotation;
+  return fromMsg(pose);
+}
+
+geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond rotation(pose.linear());
+  geometry_msgs::Pose message;
+  message.position.x = pose.translation().x();
+  message.position.y = pose.translation().y();
+  message.position.z = pose.translation().z();
+  message.orientation.x = rotation.x();
+  message.orientation.y = rotation.y();
+  message.orientation.z = rotation.z();
+  message.orientation.w = rotation.w();
+  return message;
+}
+
+geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose) {
+  const geometry_msgs::Pose message = toPoseMsg(pose);
+  geometry_msgs::Transform transform;
+  transform.translation = toVectorMsg(pose.translation());
+  transform.rotation = message.orientation;
+  return transform;
+}
+
+geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose, const estimation::Matrix6d& covariance) {
+  geometry_msgs::PoseWithCovariance message;
+  message.pose = toPoseMsg(pose);
+  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = covariance;
+  std::copy(rows.data(), rows.data() + rows.size(), message.covariance.begin());
+  return message;
+}
+
+geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) { return {vector.x, vector.y, vector.z}; }
+
+Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames) {
+  using State = navigation::VehicleState;
+  const auto stamp_sec = stampSec(message.header.stamp);
+  if (!stamp_sec) return refused<State>("header.stamp is zero or not normalised");
+  std::string fault = frameFault("header.frame_id", message.header.frame_id, frames.odom);
+  if (fault.empty()) fault = frameFault("child_frame_id", message.child_frame_id, frames.base);
+  if (!fault.empty()) return refused<State>(fault);
+  const auto pose = fromMsg(message.pose.pose);
+  if (!pose) return refused<State>(pose.reason);
+  const Eigen::Vector3d velocity_base = toEigen(message.twist.twist.linear);
+  if (!velocity_base.allFinite() || velocity_base.norm() > kFastestMps)
+    return refused<State>("velocity is not finite or above 100 m/s");
+  State state;
+  state.stamp_sec = *stamp_sec;
+  state.T_odom_base = *pose.value;
+  state.velocity_odom_mps = pose.value->linear() * velocity_base;
+  return {state, ""};
+}
+
+Converted<Eigen::Quaterniond> attitudeFromMsg(const sensor_msgs::Imu& message) {
+  if (message.orientation_covariance[0] == -1.0)
+    return refused<Eigen::Quaterniond>("the IMU says that it has no orientation (covariance -1)");
+  return fromMsg(message.orientation);
+}
+
+geometry_msgs::TwistStamped toTwistMsg(const navigation::Setpoint& setpoint, const FrameNames& frames,
+                                       const std::optional<Eigen::Matrix3d>& R_odom_base) {
+  const Eigen::Matrix3d R_odom_frame = R_odom_base.value_or(Eigen::Matrix3d::Identity());
+  geometry_msgs::TwistStamped message;
+  message.header.frame_id = R_odom_base ? frames.base : frames.odom;
+  message.twist.linear = toVectorMsg(R_odom_frame.transpose() * setpoint.velocity_odom_mps);
+  message.twist.angular =
+      toVectorMsg(R_odom_frame.transpose() * Eigen::Vector3d(0.0, 0.0, setpoint.yaw_rate_radps));
+  return message;
+}
+
+Converted<navigation::Setpoint> fromMsg(const geometry_msgs::TwistStamped& message, const FrameNames& frames,
+                                        const Eigen::Matrix3d& R_odom_base) {
+  using navigation::Setpoint;
+  const bool in_base = message.header.frame_id == frames.base;
+  if (!in_base && message.header.frame_id != frames.odom)
+    return refused<Setpoint>("header.frame_id is '" + message.header.frame_id.substr(0, 60) +
+                             "', expected '" + frames.odom + "' or '" + frames.base + "'");
+  const Eigen::Vector3d linear = toEigen(message.twist.linear), angular = toEigen(message.twist.angular);
+  if (!linear.allFinite() || !angular.allFinite()) return refused<Setpoint>("velocity is not finite");
+  const Eigen::Matrix3d R_odom_frame = in_base ? R_odom_base : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  Setpoint setpoint;
+  setpoint.velocity_odom_mps = R_odom_frame * linear;
+  setpoint.yaw_rate_radps = (R_odom_frame * angular).z();
+  return {setpoint, ""};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,119 @@
+/// Messages to the types of the core and back: free functions, one direction each. What comes from outside is
+/// either converted whole or refused with a reason; nothing that is not finite gets in or out.
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseWithCovariance.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Imu.h>
+#include <window_ingress/Facade.h>
+#include <window_ingress/IngressState.h>
+#include <window_ingress/WindowDetection.h>
+#include <window_ingress/WindowPose.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window_ingress/configuration/common_params.hpp"
+#include "window_ingress/detection/seen_windows.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/openness/openness_verdict.hpp"
+#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/opening_fit.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
+
+namespace window_ingress::adapters {
+
+using configuration::FrameNames;
+
+/// A converted message, or why it cannot be used.
+template <typename Value>
+struct Converted {
+  std::optional<Value> value;
+  std::string reason;  ///< empty if there is a value
+  explicit operator bool() const { return value.has_value(); }
+};
+
+// --- geometry
+// ----------------------------------------------------------------------------------------------------
+
+/// Normalises; refuses what is not finite or further than 1 % from unit length.
+Converted<Eigen::Quaterniond> fromMsg(const geometry_msgs::Quaternion& message);
+Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message);
+Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message);
+
+geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose);
+geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose);
+geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose, const estimation::Matrix6d& covariance);
+geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector);
+Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector);
+
+// --- sensors
+// -----------------------------------------------------------------------------------------------------
+
+/// \param rectified the pictures are rectified: P is used instead of K and D
+/// Binning and region of interest are applied: the camera is that of the picture as it comes (REP 104).
+Converted<geometry::PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified);
+sensor_msgs::CameraInfo toMsg(const geometry::PinholeCamera& camera);  ///< without header
+
+/// The twist is taken in the child frame, as REP 147 and nav_msgs say, and rotated to odom.
+Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames);
+
+/// Attitude of the frame named in the header; refused where the message says that it has none (REP 145).
+Converted<Eigen::Quaterniond> attitudeFromMsg(const sensor_msgs::Imu& message);
+
+// --- window
+// ------------------------------------------------------------------------------------------------------
+
+window_ingress::WindowDetection toMsg(
+    const detection::WindowObservation& window);  ///< without header and picture
+/// Refuses `detected == false` with the message's own reason.
+Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDetection& message);
+window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window);
+/// Those of the message that are convex, finite quadrilaterals; at most `kMostSeenWindows`.
+std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowDetection& message);
+constexpr std::size_t kMostSeenWindows = 64;
+window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec);  ///< without header
+
+void fill(window_ingress::WindowPose& message, const estimation::PoseResult& result);
+void fill(window_ingress::WindowPose& message, const estimation::FilteredWindow& filtered);
+/// The size as measured on the way flown.
+void fill(window_ingress::WindowPose& message, const estimation::SizeBelief& measured);
+void fill(window_ingress::WindowPose& message, const estimation::FitVerdict& fit);
+void fill(window_ingress::WindowPose& message, const estimation::FramesVerdict& frames);
+void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);
+void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target);
+/// \param expected where the target must be in the picture
+void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected);
+void fill(window_ingress::WindowPose& message, const navigation::CameraInBody& camera);
+/// Nothing where the message does not know, or says why no image can give a pose. Its numbers are judged by
+/// the navigator.
+std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::CameraInBody& message);
+Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
+                                                    const std::string& odom_frame);
+
+/// Where the target is by the memory of all windows.
+std::optional<Eigen::Vector3d> rememberedFrom(const window_ingress::WindowPose& message,
+                                              const std::string& odom_frame);
+
+// --- flight
+// ------------------------------------------------------------------------------------------------------
+
+/// In odom axes, or rotated into `base_link` by `R_odom_base`; `header.frame_id` says which.
+geometry_msgs::TwistStamped toTwistMsg(const navigation::Setpoint& setpoint, const FrameNames& frames,
+                                       const std::optional<Eigen::Matrix3d>& R_odom_base);
+Converted<navigation::Setpoint> fromMsg(const geometry_msgs::TwistStamped& message, const FrameNames& frames,
+                                        const Eigen::Matrix3d& R_odom_base);
+
+window_ingress::IngressState toMsg(const navigation::NavigatorOutput& output);  ///< without header
+
+}  // namespace window_ingress::adapters

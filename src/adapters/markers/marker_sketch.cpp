@@ -1,0 +1,166 @@
+#include "adapters/markers/marker_sketch.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <sstream>
+
+#include "adapters/markers/marker_colours.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kLineWidthM = 0.025, kTextHeightM = 0.14;
+constexpr double kShaftM = 0.035, kHeadM = 0.08, kHeadLengthM = 0.14;
+constexpr double kThinnestM = 1e-3;  // rviz refuses a scale of zero
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
+
+bool areFinite(const Points& points) {
+  return std::all_of(points.begin(), points.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+void put(Marker& marker, const Points& points) {
+  for (const Eigen::Vector3d& point : points) marker.points.push_back(toPoint(point));
+}
+
+geometry_msgs::Vector3 scaleOf(const Eigen::Vector3d& size_m) {
+  return toVectorMsg(size_m.cwiseMax(kThinnestM));
+}
+
+}  // namespace
+
+MarkerSketch::MarkerSketch(const ros::Time& stamp, const std::string& frame_id) {
+  header_.stamp = stamp;
+  header_.frame_id = frame_id;
+}
+
+Marker& MarkerSketch::add(const std::string& name, int type) {
+  Marker& marker = markers_.markers.emplace_back();
+  marker.header = header_;
+  marker.ns = name;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = kLineWidthM;
+  marker.lifetime = ros::Duration(kLifetimeSec);
+  return marker;
+}
+
+bool MarkerSketch::draws(const std::string& name, const Points& points, std::size_t at_least) {
+  const bool drawable = points.size() >= at_least && areFinite(points);
+  if (!drawable) gone(name);
+  return drawable;
+}
+
+void MarkerSketch::line(const std::string& name, const Points& points, const std_msgs::ColorRGBA& colour) {
+  if (!draws(name, points, 2)) return;
+  Marker& marker = add(name, Marker::LINE_STRIP);
+  put(marker, points);
+  marker.color = colour;
+}
+
+void MarkerSketch::line(const std::string& name, const Points& points,
+                        std::vector<std_msgs::ColorRGBA> colours) {
+  if (!draws(name, points, 2) || colours.size() != points.size()) return;
+  line(name, points, colours.back());
+  markers_.markers.back().colors = std::move(colours);
+}
+
+void MarkerSketch::strokes(const std::string& name, const Points& ends, const std_msgs::ColorRGBA& colour) {
+  if (!draws(name, ends, 2)) return;
+  Marker& marker = add(name, Marker::LINE_LIST);
+  put(marker, ends);
+  marker.color = colour;
+}
+
+void MarkerSketch::surface(const std::string& name, const Points& corners,
+                           const std_msgs::ColorRGBA& colour) {
+  if (!draws(name, corners, 3)) return;
+  Marker& marker = add(name, Marker::TRIANGLE_LIST);
+  put(marker, corners);
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.color = colour;
+}
+
+void MarkerSketch::arrow(const std::string& name, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                         const std_msgs::ColorRGBA& colour) {
+  constexpr double kShortestM = 0.02;
+  if (!draws(name, {from, to}, 2)) return;
+  if ((to - from).norm() < kShortestM) return gone(name);
+  Marker& marker = add(name, Marker::ARROW);
+  put(marker, {from, to});
+  marker.scale = toVectorMsg({kShaftM, kHeadM, std::min(kHeadLengthM, 0.5 * (to - from).norm())});
+  marker.color = colour;
+}
+
+void MarkerSketch::box(const std::string& name, const Eigen::Isometry3d& T_frame_box,
+                       const Eigen::Vector3d& half_extents_m, const std_msgs::ColorRGBA& colour) {
+  if (!T_frame_box.matrix().allFinite() || !half_extents_m.allFinite()) return gone(name);
+  Marker& marker = add(name, Marker::CUBE);
+  marker.pose = toPoseMsg(T_frame_box);
+  marker.scale = scaleOf(2.0 * half_extents_m);
+  marker.color = colour;
+}
+
+void MarkerSketch::ellipsoid(const std::string& name, const Eigen::Vector3d& centre,
+                             const Eigen::Matrix3d& covariance, double sigmas,
+                             const std_msgs::ColorRGBA& colour) {
+  if (!covariance.allFinite() || !centre.allFinite()) return gone(name);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Eigen::Matrix3d axes = solver.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
+  Eigen::Isometry3d T_frame_ellipsoid = Eigen::Isometry3d::Identity();
+  T_frame_ellipsoid.linear() = axes;
+  T_frame_ellipsoid.translation() = centre;
+  Marker& marker = add(name, Marker::SPHERE);
+  marker.pose = toPoseMsg(T_frame_ellipsoid);
+  marker.scale = scaleOf(2.0 * sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt());
+  marker.color = colour;
+}
+
+void MarkerSketch::text(const std::string& name, const Eigen::Vector3d& centre, const std::string& text) {
+  if (text.empty() || !centre.allFinite()) return gone(name);
+  Marker& marker = add(name, Marker::TEXT_VIEW_FACING);
+  marker.pose.position = toPoint(centre);
+  marker.text = text;
+  marker.scale.z = kTextHeightM;
+  marker.color = colourOf(kTextRgb);
+}
+
+void MarkerSketch::gone(const std::string& name) { add(name, Marker::CUBE).action = Marker::DELETE; }
+
+visualization_msgs::MarkerArray allGone(const ros::Time& stamp, const std::string& frame_id) {
+  visualization_msgs::MarkerArray markers;
+  Marker& marker = markers.markers.emplace_back();
+  marker.header.stamp = stamp;
+  marker.header.frame_id = frame_id;
+  marker.action = Marker::DELETEALL;
+  return markers;
+}
+
+void appendFace(Points& triangles, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
+  for (const Eigen::Vector3d& corner : {a, b, c, a, c, d}) triangles.push_back(corner);
+}
+
+std::string wrapped(const std::string& text, std::size_t most) {
+  std::istringstream words(text);
+  std::string word, line, all;
+  while (words >> word) {
+    const bool fits = line.empty() || line.size() + 1 + word.size() <= most;
+    if (!fits) all += line + "\n";
+    line = fits && !line.empty() ? line + " " + word : word;
+  }
+  return all + line;
+}
+
+}  // namespace window_ingress::adapters

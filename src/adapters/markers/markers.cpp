@@ -1,0 +1,181 @@
+#include "adapters/markers/markers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "adapters/markers/marker_colours.hpp"
+#include "adapters/markers/marker_sketch.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kArrowM = 0.9, kFanM = 0.75;
+constexpr double kSigmas = 3.0;
+constexpr double kWallM = 1.2;                            // shown beyond the opening's border
+constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // the opening's upper border
+constexpr double kFaintest = 0.5;                         // of the less likely hypothesis
+constexpr double kHintM = 0.3, kHintScore = 0.5;          // smaller, or worse: no more than a hint
+constexpr double kHint = 0.25;                            // how faint that is
+constexpr int kFanParts = 12;
+
+Points cornersOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
+  Points corners;
+  for (const Eigen::Vector3d& corner : geometry::openingCorners(size)) corners.push_back(T * corner);
+  return corners;
+}
+
+Eigen::Vector3d above(const Eigen::Isometry3d& T, double height_m, double above_m) {
+  return T * Eigen::Vector3d(0.0, 0.0, 0.5 * height_m + above_m);
+}
+
+Points closed(Points corners) {
+  corners.push_back(corners.front());
+  return corners;
+}
+
+// Between the headings that lie `half_angle_rad` to both sides of the window's.
+Points fanOf(const Eigen::Isometry3d& T, double half_angle_rad) {
+  const auto at = [&](int part) -> Eigen::Vector3d {
+    const double angle_rad = half_angle_rad * (2.0 * part / kFanParts - 1.0);
+    return T * Eigen::Vector3d(kFanM * std::cos(angle_rad), kFanM * std::sin(angle_rad), 0.0);
+  };
+  Points triangles;
+  for (int part = 0; part < kFanParts; ++part)
+    for (const Eigen::Vector3d& corner : {Eigen::Vector3d(T.translation()), at(part), at(part + 1)})
+      triangles.push_back(corner);
+  return triangles;
+}
+
+// Four plates round the opening.
+Points wallOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
+  const Points inner = cornersOf(T, size);
+  const Points outer = cornersOf(T, {size.width_m + 2.0 * kWallM, size.height_m + 2.0 * kWallM});
+  Points triangles;
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    appendFace(triangles, inner[i], inner[next], outer[next], outer[i]);
+  }
+  return triangles;
+}
+
+double yawSpread(const estimation::Matrix6d& covariance) {
+  return std::min(kSigmas * std::sqrt(std::max(0.0, covariance(5, 5))), M_PI);
+}
+
+struct Look {
+  std::string name;
+  int rgb;
+  double alpha;
+};
+
+void drawHypothesis(MarkerSketch& sketch, const Look& look, const Eigen::Isometry3d& T,
+                    const estimation::Matrix6d& covariance, const geometry::OpeningSize& size) {
+  const auto colour = colourOf(look.rgb, look.alpha), faint = colourOf(look.rgb, 0.35 * look.alpha);
+  sketch.line(look.name, closed(cornersOf(T, size)), colour);
+  sketch.arrow(look.name + ": way through", T.translation(), T * Eigen::Vector3d(kArrowM, 0.0, 0.0), colour);
+  sketch.surface(look.name + ": heading, 3 sigma", fanOf(T, yawSpread(covariance)), faint);
+  sketch.ellipsoid(look.name + ": centre, 3 sigma", T.translation(), covariance.topLeftCorner<3, 3>(),
+                   kSigmas, faint);
+}
+
+void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
+  for (const char* part : {"", ": way through", ": heading, 3 sigma", ": centre, 3 sigma"})
+    sketch.gone(name + part);
+}
+
+// Nothing was found out about it, and nobody would fly at it.
+bool isHint(const window_ingress::KnownWindow& window) {
+  const bool is_candidate =
+      window.may_be_target && window.score >= kHintScore && std::min(window.width, window.height) >= kHintM;
+  return !is_candidate && window.openness == window_ingress::WindowPose::OPENNESS_UNKNOWN &&
+         window.failures == 0;
+}
+
+std::string chances(const estimation::FilteredWindow& window) {
+  char text[80];
+  std::snprintf(text, sizeof text, "\namber or violet: %.1f : %.1f %%", 100.0 * window.hypothesis_weight,
+                100.0 * (1.0 - window.hypothesis_weight));
+  return text;
+}
+
+}  // namespace
+
+geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_window,
+                                             const geometry::OpeningSize& opening, const ros::Time& stamp,
+                                             const std::string& frame_id) {
+  geometry_msgs::PolygonStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame_id;
+  for (const Eigen::Vector3d& corner : geometry::openingCorners(opening)) {
+    const Eigen::Vector3f point = (T_frame_window * corner).cast<float>();
+    geometry_msgs::Point32 vertex;
+    vertex.x = point.x();
+    vertex.y = point.y();
+    vertex.z = point.z();
+    message.polygon.points.push_back(vertex);
+  }
+  return message;
+}
+
+std::string windowLabel(const window_ingress::WindowPose& message) {
+  static const char* const kFits[] = {"fit?", "GO", "NO GO"};
+  constexpr double kDegrees = 180.0 / M_PI;
+  const bool is_seen = message.reject == window_ingress::WindowPose::OK;
+  char sight[80], text[240];
+  if (is_seen)
+    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", message.yaw * kDegrees,
+                  message.yaw_sigma * kDegrees);
+  else
+    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered_age);
+  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.window_width,
+                message.window_height, kFits[std::min<int>(message.fit, 2)],
+                message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
+  return text;
+}
+
+visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window, const std::string& text,
+                                              const ros::Time& stamp, const std::string& frame_id) {
+  MarkerSketch sketch(stamp, frame_id);
+  const geometry::OpeningSize& size = window.size.size;
+  const int rgb = window.sign_trusted ? kTrustedRgb : kOpenRgb;
+  drawHypothesis(sketch, {"window", rgb, 1.0}, window.T_odom_window, window.covariance, size);
+  const bool is_open = window.alternative && !window.sign_trusted;
+  if (is_open) {
+    const double alpha = kFaintest + (1.0 - kFaintest) * (1.0 - window.hypothesis_weight);
+    drawHypothesis(sketch, {"mirrored window", kMirroredRgb, alpha}, window.alternative->T_odom_window,
+                   window.alternative->covariance, size);
+  } else {
+    drawNoHypothesis(sketch, "mirrored window");
+  }
+  if (window.sign_trusted)
+    sketch.surface("wall", wallOf(window.T_odom_window, size), colourOf(kWallRgb, 0.45));
+  else
+    sketch.gone("wall");
+  sketch.text("window: text", above(window.T_odom_window, size.height_m, kTextAboveM),
+              is_open ? text + chances(window) : text);
+  return sketch.markers();
+}
+
+visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade) {
+  static const char* const kVerdicts[] = {"open?", "OPEN", "CLOSED"};
+  static const int kColours[] = {kKnownRgb, kTrustedRgb, kClosedRgb};
+  MarkerSketch sketch(facade.header.stamp, facade.header.frame_id);
+  for (const window_ingress::KnownWindow& window : facade.windows) {
+    const auto T = fromMsg(window.pose);
+    if (!T) continue;
+    const std::string name = "window " + std::to_string(window.id);
+    const int verdict = std::min<int>(window.openness, 2);
+    const bool is_target = window.id == facade.target_id;
+    const bool is_hint = !is_target && isHint(window);
+    const auto border = closed(cornersOf(*T.value, {window.width, window.height}));
+    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], is_hint ? kHint : 0.9));
+    std::string text = std::to_string(window.id) + (is_target ? ", target: " : ": ") + kVerdicts[verdict];
+    if (window.failures > 0) text += ", given up";
+    sketch.text(name + ": text", above(*T.value, window.height, kNumberAboveM), is_hint ? "" : text);
+  }
+  return sketch.markers();
+}
+
+}  // namespace window_ingress::adapters

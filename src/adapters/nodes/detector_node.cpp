@@ -1,0 +1,228 @@
+#include "adapters/nodes/detector_node.hpp"
+
+#include <sensor_msgs/Image.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/sources/guarded.hpp"
+#include "adapters/conversions/image_message.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/geometry/yaw_text.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+constexpr double kLateSec = 0.5;  // a pose so much older than a picture says nothing of it
+}
+
+DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(readParameters<DetectorNodeParams>(pnh, {"tuning"})),
+      diagnostics_(nh, pnh),
+      perception_(params_.detector, params_.interior),
+      camera_(nh, diagnostics_, params_.image_is_rectified),
+      images_(nh, diagnostics_, params_.image_transport, params_.image,
+              limitsFor(params_.lockstep, params_.stamps),
+              [this](const auto& header, const auto& picture) { receive(header, picture); }),
+      tuning_(pnh, params_.detector, [this](const auto& params) { perception_.setParams(params); }),
+      times_(params_.budget_ms, steadyNowSec) {
+  perception_.setWatch(&times_.watch());
+  if (params_.use_imu)
+    attitude_.emplace(nh, diagnostics_, params_.base_frame, queueFor(params_.lockstep, 100));
+  if (!params_.reference.picture.empty())
+    use(loadReference(params_.reference, params_.detector), "photograph " + params_.reference.picture);
+  window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);
+  debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
+  reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
+      nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
+  pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
+      nh, "window_pose", 1, diagnostics_, [this](const auto& message) { receivePose(message); });
+  capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
+  reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);
+  diagnostics_.addOutput("window", {window_publisher_});
+  diagnostics_.add("time", [this] { return times_.health(); });
+  diagnostics_.add("detection", [this] { return detectionHealth(); });
+  diagnostics_.add("reference", [this] { return referenceHealth(); });
+  if (!params_.lockstep) return;
+  lockstep_.emplace(
+      nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+      [this](const auto& step) { lookInStep(step); });
+  camera_.notify([this] { lockstep_->check(); });
+  if (attitude_) attitude_->notify([this] { lockstep_->check(); });
+}
+
+void DetectorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  last_pose_ = message;
+  if (lockstep_) lockstep_->check();
+}
+
+// The pose of the picture before says where the target is expected in this one.
+bool DetectorNode::hasPoseOfLastPicture() const {
+  if (pose_subscriber_.getNumPublishers() == 0 || looked_.isZero()) return true;
+  return last_pose_ && last_pose_->header.stamp >= looked_;
+}
+
+bool DetectorNode::isComplete(const Lockstep::Step& step) const {
+  const bool connected = images_.isConnected() && camera_.isConnected() &&
+                         (!attitude_ || attitude_->isConnected(step.header.frame_id));
+  return (step.has_image ? waiting_header_.stamp >= step.image : connected) &&
+         (!attitude_ || attitude_->lastStamp() >= step.imu) && camera_.lastStamp() >= step.camera_info &&
+         reference_stamp_ >= step.reference && hasPoseOfLastPicture();
+}
+
+// Before the first picture there is an answer, too: those who wait for it learn that this node is there.
+void DetectorNode::lookInStep(const Lockstep::Step& step) {
+  if (waiting_) look(waiting_header_, *waiting_);
+  waiting_.reset();
+  if (step.has_image || announced_ >= step.image) return;
+  announced_ = step.image;
+  window_ingress::WindowDetection message;
+  message.header = step.header;
+  message.header.stamp = step.image;
+  message.reject_reason = "no picture so far";
+  window_publisher_.publish(message);
+}
+
+void DetectorNode::receive(const std_msgs::Header& header, const GuardedImage& picture) {
+  if (!lockstep_) return look(header, picture);
+  waiting_header_ = header;
+  waiting_ = picture;
+  lockstep_->check();
+}
+
+void DetectorNode::restartIfClockJumpedBack() {
+  if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
+  ROS_WARN("the clock jumped back: the track is forgotten");
+  perception_.reset();
+  last_pose_.reset();
+}
+
+void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& picture) {
+  restartIfClockJumpedBack();
+  times_.begin(header, picture.decode_ms);
+  const cv::Mat& image = picture.image;
+  const auto camera = camera_.cameraOf(image.cols, image.rows, header);
+  detection::TrackInput seen;
+  seen.image = image;
+  seen.stamp_sec = header.stamp.toSec();
+  seen.camera = camera ? &*camera.value : nullptr;
+  if (attitude_) seen.R_world_camera = attitude_->R_world_camera(seen.stamp_sec, header.frame_id);
+  seen.expected = expectedAt(header);
+  const auto& window = perception_.update(seen);
+  searched_sec_ = steadyNowSec();
+  looked_ = header.stamp;
+  last_picture_ = picture;
+  window_ingress::WindowDetection message;
+  if (window)
+    message = toMsg(*window);
+  else
+    message.reject_reason = perception_.trace().detail;
+  for (const detection::SeenWindow& one : perception_.windows()) message.windows.push_back(toMsg(one));
+  message.header = header;
+  message.image_width = static_cast<std::uint32_t>(image.cols);
+  message.image_height = static_cast<std::uint32_t>(image.rows);
+  message.milliseconds = times_.sinceBegin();
+  window_publisher_.publish(message);
+  if (debug_publisher_.getNumSubscribers() > 0) publishDebugImage(header, image, message.milliseconds);
+  times_.end();
+}
+
+void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::Mat& image,
+                                     double milliseconds) {
+  const auto& window = perception_.window();
+  detection::drawDetection(image, perception_.trace(), window ? &*window : nullptr, canvas_,
+                           milliseconds);
+  const std::string yaw = yawAt(header.stamp);
+  if (window && !yaw.empty()) detection::drawYaw(canvas_, *window, yaw);
+  debug_publisher_.publish(toImageMsg(canvas_, header));
+}
+
+// Where the memory of all windows says the target is: as of the picture before.
+std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::Header& header) const {
+  if (!last_pose_ || last_pose_->has_expected == 0 || last_pose_->header.frame_id != header.frame_id ||
+      std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
+    return std::nullopt;
+  geometry::Quadrilateral expected;
+  for (std::size_t i = 0; i < 4; ++i) expected[i] = {last_pose_->expected_x[i], last_pose_->expected_y[i]};
+  return expected;
+}
+
+// That of the picture before: the pose of this one is not known yet. Empty if there is none of late.
+std::string DetectorNode::yawAt(const ros::Time& stamp) const {
+  if (!last_pose_ || last_pose_->reject != window_ingress::WindowPose::OK ||
+      std::abs(stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
+    return "";
+  return geometry::yawText(last_pose_->yaw, last_pose_->yaw_sigma, last_pose_->sign_trusted != 0);
+}
+
+void DetectorNode::receiveReference(const window_ingress::ReferencePicture& message) {
+  const GuardedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.picture), params_.image);
+  if (!picture.reason.empty()) throw ParameterError("reference picture: " + picture.reason);
+  std::vector<double> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
+  const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
+  use(makeReference(picture.image, whole ? std::vector<double>() : corners, params_.detector), "topic");
+  ROS_INFO("reference taken from %s", reference_subscriber_.getTopic().c_str());
+  reference_stamp_ = message.picture.header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void DetectorNode::use(const detection::ReferenceAppearance& reference, const std::string& source) {
+  perception_.setReference(reference);
+  reference_is_guess_ = !reference.openingIsKnown();
+  reference_from_ = source + (detection::isGrey(reference.picture()) ? ", which has no colour" : "") +
+                    (reference.openingIsKnown() ? "" : ", opening guessed: give reference/corners");
+}
+
+// Why there is nothing to capture, or nothing.
+std::string DetectorNode::captureFault() const {
+  if (last_picture_.image.empty()) return "no image so far";
+  if (!perception_.window()) return "no window in the last image: " + perception_.trace().detail;
+  if (!perception_.window()->whole()) return "the window is not whole in the last image";
+  return detection::isGrey(last_picture_.image) ? "the pictures have no colour" : "";
+}
+
+bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& response) {
+  response.message = captureFault();
+  response.success = response.message.empty();
+  if (!response.success) return true;
+  const detection::ReferenceAppearance reference(last_picture_.image, perception_.window()->corners);
+  use(reference, "live image");
+  response.message = "the window in the last image is the reference now";
+  if (params_.reference.capture_file.empty()) return true;
+  try {
+    saveReference(params_.reference.capture_file, reference, params_.detector);
+    response.message += "; written to " + params_.reference.capture_file;
+  } catch (const ParameterError& error) {
+    response.success = false;
+    response.message += std::string(", but it is not kept: ") + error.what();
+  }
+  return true;
+}
+
+bool DetectorNode::reset(Trigger::Request&, Trigger::Response& response) {
+  perception_.reset();
+  response.success = true;
+  response.message = "the track is forgotten; the next image is searched";
+  return true;
+}
+
+Health DetectorNode::detectionHealth() const {
+  if (last_picture_.image.empty()) return {Health::kOk, "no image so far"};
+  const double silent_sec = steadyNowSec() - searched_sec_;
+  if (silent_sec > kSilenceSec)
+    return {Health::kWarn, "no picture for " + std::to_string(static_cast<int>(silent_sec)) + " s"};
+  return {Health::kOk, perception_.window() ? "window in view" : "no window: " + perception_.trace().detail};
+}
+
+Health DetectorNode::referenceHealth() const {
+  if (reference_from_.empty()) return {Health::kOk, "none: windows are told by their geometry alone"};
+  std::string text = "from " + reference_from_;
+  if (perception_.window())
+    text += perception_.window()->has_appearance ? "; distance " + std::to_string(perception_.window()->bhattacharyya)
+                                         : "; not compared in the last image: geometry alone";
+  return {reference_is_guess_ ? Health::kWarn : Health::kOk, text};
+}
+
+}  // namespace window_ingress::adapters

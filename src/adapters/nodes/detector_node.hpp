@@ -1,0 +1,86 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+#include <window_ingress/ReferencePicture.h>
+#include <window_ingress/WindowDetection.h>
+#include <window_ingress/WindowDetectorConfig.h>
+#include <window_ingress/WindowPose.h>
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/sources/attitude_source.hpp"
+#include "adapters/sources/camera_source.hpp"
+#include "adapters/sources/diagnostics.hpp"
+#include "adapters/sources/image_source.hpp"
+#include "adapters/sources/lockstep.hpp"
+#include "adapters/nodes/picture_times.hpp"
+#include "adapters/sources/reconfigure.hpp"
+#include "adapters/sources/reference_source.hpp"
+#include "adapters/nodes/run_node.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/perception/window_perception.hpp"
+
+namespace window_ingress::adapters {
+
+using configuration::DetectorNodeParams;
+
+/// The detector between topics: images in, corners out, with or without calibration.
+class DetectorNode : public Node {
+ public:
+  DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+
+ private:
+  using Trigger = std_srvs::Trigger;
+  using Tuning = Reconfigure<window_ingress::WindowDetectorConfig, detection::DetectorParams>;
+
+  void receive(const std_msgs::Header& header, const GuardedImage& picture);
+  void restartIfClockJumpedBack();
+  void look(const std_msgs::Header& header, const GuardedImage& picture);
+  bool isComplete(const Lockstep::Step& step) const;
+  void lookInStep(const Lockstep::Step& step);
+  void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image, double milliseconds);
+  std::string yawAt(const ros::Time& stamp) const;
+  void receivePose(const window_ingress::WindowPose::ConstPtr& message);
+  bool hasPoseOfLastPicture() const;
+  std::optional<geometry::Quadrilateral> expectedAt(const std_msgs::Header& header) const;
+  void receiveReference(const window_ingress::ReferencePicture& message);
+  void use(const detection::ReferenceAppearance& reference, const std::string& source);
+  std::string captureFault() const;
+  bool captureReference(Trigger::Request& request, Trigger::Response& response);
+  bool reset(Trigger::Request& request, Trigger::Response& response);
+  Health detectionHealth() const;
+  Health referenceHealth() const;
+
+  DetectorNodeParams params_;
+  Diagnostics diagnostics_;
+  ClockWatch clock_;
+  perception::WindowPerception perception_;
+  CameraSource camera_;
+  std::optional<AttitudeSource> attitude_;
+  ImageSource images_;
+  Tuning tuning_;
+  cv::Mat canvas_;
+  GuardedImage last_picture_;
+  double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
+  bool reference_is_guess_ = false;
+  std::string reference_from_;  // empty: there is no reference
+  PictureTimes times_;
+  std::optional<Lockstep> lockstep_;
+  std_msgs::Header waiting_header_;  // in lockstep: of the picture that waits for its step
+  std::optional<GuardedImage> waiting_;
+  ros::Time reference_stamp_, announced_, looked_;
+
+  window_ingress::WindowPose::ConstPtr last_pose_;  // of a picture before the present one
+  ros::Subscriber reference_subscriber_, pose_subscriber_;
+  ros::Publisher window_publisher_, debug_publisher_;
+  ros::ServiceServer capture_, reset_;
+};
+
+}  // namespace window_ingress::adapters

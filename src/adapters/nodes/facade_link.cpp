@@ -1,0 +1,88 @@
+#include "adapters/nodes/facade_link.hpp"
+
+#include "adapters/sources/attitude_source.hpp"
+#include "adapters/sources/guarded.hpp"
+#include "adapters/markers/markers.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kPeriodSec = 0.5;
+
+}  // namespace
+
+FacadeLink::FacadeLink(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
+                       estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf,
+                       const std::string& odom_frame)
+    : tracker_(tracker), tf_(tf), odom_frame_(odom_frame) {
+  publisher_ = nh.advertise<window_ingress::Facade>("facade", 1, true);
+  click_ = subscribeGuarded<geometry_msgs::PointStamped>(
+      nh, "clicked_point", 1, diagnostics, [this](const auto& message) { receiveClick(*message); });
+  state_ = subscribeGuarded<window_ingress::IngressState>(
+      nh, "state", 1, diagnostics, [this](const auto& message) { receiveState(*message); });
+  select_ = pnh.advertiseService("select_window", &FacadeLink::select, this);
+  diagnostics.add("windows", [this] { return health(); });
+}
+
+bool FacadeLink::select(window_ingress::SelectWindow::Request& request,
+                        window_ingress::SelectWindow::Response& reply) {
+  const facade::Answer answer = tracker_.selectWindow(request.id);
+  reply.success = answer.success;
+  reply.message = answer.message;
+  return true;
+}
+
+void FacadeLink::receiveClick(const geometry_msgs::PointStamped& message) {
+  const Eigen::Vector3d point(message.point.x, message.point.y, message.point.z);
+  const auto T_odom_frame = message.header.frame_id == odom_frame_
+                                ? Converted<Eigen::Isometry3d>{Eigen::Isometry3d::Identity(), ""}
+                                : mountingOf(tf_, odom_frame_, message.header.frame_id);
+  if (!T_odom_frame)
+    last_click_ = T_odom_frame.reason;
+  else if (!point.allFinite())
+    last_click_ = "the point is not finite";
+  else
+    last_click_ = tracker_.selectWindowNear(*T_odom_frame.value * point).message;
+  ROS_INFO("clicked: %s", last_click_.c_str());
+}
+
+void FacadeLink::receiveState(const window_ingress::IngressState& message) {
+  tracker_.heed(message.window_id, message.given_up, message.next_window != 0);
+}
+
+void FacadeLink::publish(const ros::Time& stamp, ros::Publisher& markers) {
+  const double now_sec = steadyNowSec();
+  const std::uint32_t target = tracker_.facade().targetId();
+  if (now_sec - published_sec_ < kPeriodSec && target == published_target_) return;
+  const window_ingress::Facade message = tell(stamp);
+  if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
+}
+
+void FacadeLink::tellAnew(const ros::Time& stamp) {
+  last_click_.clear();
+  tell(stamp);
+}
+
+window_ingress::Facade FacadeLink::tell(const ros::Time& stamp) {
+  published_sec_ = steadyNowSec();
+  published_target_ = tracker_.facade().targetId();
+  window_ingress::Facade message = toMsg(tracker_.facade(), stamp.toSec());
+  message.header.stamp = stamp;
+  message.header.frame_id = odom_frame_;
+  publisher_.publish(message);
+  return message;
+}
+
+Health FacadeLink::health() const {
+  std::size_t shown = 0;
+  for (const auto& window : tracker_.facade().windows()) shown += tracker_.facade().isShown(window) ? 1 : 0;
+  const std::uint32_t target = tracker_.facade().targetId();
+  std::string text = std::to_string(shown) +
+                     " known, target: " + (target == 0 ? "none yet" : "window " + std::to_string(target));
+  if (tracker_.facade().isChosen()) text += " (chosen)";
+  if (!last_click_.empty()) text += "; last click: " + last_click_;
+  return {Health::kOk, text};
+}
+
+}  // namespace window_ingress::adapters

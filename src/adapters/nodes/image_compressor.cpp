@@ -1,0 +1,57 @@
+#include "adapters/nodes/image_compressor.hpp"
+
+#include <ros/master.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "adapters/sources/guarded.hpp"
+#include "adapters/sources/parameters.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+bool isPublished(const std::string& topic) {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  for (const ros::master::TopicInfo& info : topics)
+    if (info.name == topic) return true;
+  return false;
+}
+
+}  // namespace
+
+CompressedPicture compress(const sensor_msgs::ImageConstPtr& image, const ImageCompressorParams& params) {
+  const GuardedImage picture = decode(image, params.image);
+  if (!picture.reason.empty()) return {std::nullopt, picture.reason};
+  sensor_msgs::CompressedImage message;
+  message.header = image->header;
+  const std::string encoding = picture.image.channels() == 1 ? "mono8" : "bgr8";
+  message.format = encoding + "; jpeg compressed " + (encoding == "mono8" ? "" : encoding);
+  if (!cv::imencode(".jpg", picture.image, message.data, {cv::IMWRITE_JPEG_QUALITY, params.quality}))
+    return {std::nullopt, "cannot be written as JPEG"};
+  return {message, ""};
+}
+
+ImageCompressorNode::ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(readParameters<ImageCompressorParams>(pnh)), diagnostics_(nh, pnh) {
+  const std::string topic = nh.resolveName("compressed");
+  if (isPublished(topic)) {
+    ROS_WARN("%s is published already: nothing to do here (record.launch compress:=false)", topic.c_str());
+    return;
+  }
+  publisher_ = nh.advertise<sensor_msgs::CompressedImage>("compressed", 5);
+  subscriber_ = subscribeGuarded<sensor_msgs::Image>(nh, "image_raw", 5, diagnostics_,
+                                                     [this](const auto& image) { receive(image); });
+}
+
+void ImageCompressorNode::receive(const sensor_msgs::ImageConstPtr& image) {
+  if (publisher_.getNumSubscribers() == 0) return;
+  const CompressedPicture picture = compress(image, params_);
+  if (!picture.message) {
+    ROS_WARN_THROTTLE(10.0, "image not compressed: %s", picture.reason.c_str());
+    return;
+  }
+  publisher_.publish(*picture.message);
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <optional>
+#include <string>
+
+#include "adapters/sources/diagnostics.hpp"
+#include "adapters/conversions/image_guard.hpp"
+#include "adapters/nodes/run_node.hpp"
+
+namespace window_ingress::adapters {
+
+struct ImageCompressorParams {
+  int quality = 90;  ///< of the JPEG, 1 to 100
+  ImageLimits image;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("quality", self.quality, 1, 100);
+    field.group("image", self.image);
+  }
+};
+
+/// A picture as JPEG under the same header, or why there is none.
+struct CompressedPicture {
+  std::optional<sensor_msgs::CompressedImage> message;
+  std::string reason;  ///< empty if there is one
+};
+CompressedPicture compress(const sensor_msgs::ImageConstPtr& image, const ImageCompressorParams& params);
+
+/// Pictures as JPEG, for recordings of cameras whose driver does not compress: image_raw to compressed.
+/// Silent, saying so, where somebody publishes there already.
+class ImageCompressorNode : public Node {
+ public:
+  ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+
+ private:
+  void receive(const sensor_msgs::ImageConstPtr& image);
+
+  ImageCompressorParams params_;
+  Diagnostics diagnostics_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace window_ingress::adapters

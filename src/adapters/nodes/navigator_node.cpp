@@ -1,0 +1,351 @@
+#include "adapters/nodes/navigator_node.hpp"
+
+#include <geometry_msgs/TwistStamped.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "adapters/sources/guarded.hpp"
+#include "adapters/markers/marker_sketch.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+// Which axes, not which name: frame_id is filled from odom_frame and base_frame.
+constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
+constexpr double kFrozenClockSec = 0.2;
+constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
+constexpr double kMarkerPeriodSec = 0.095;
+constexpr double kRounding = 1e-6;
+constexpr std::size_t kMostReason = 400;  // characters of what others say
+
+// What the navigator keeps to already, asked once more of what is sent.
+GuardParams lastGate(const navigation::LimitParams& limits) {
+  GuardParams gate;
+  gate.max_speed_mps = limits.speed_mps + kRounding;
+  gate.max_yaw_rate_radps = limits.yaw_rate_radps + kRounding;
+  return gate;
+}
+
+NavigatorNodeParams checked(NavigatorNodeParams params, const navigation::VehicleParams& vehicle) {
+  params.navigator.vehicle = vehicle;
+  if (params.start_at_once && !params.lockstep)
+    throw ParameterError("start_at_once is for lockstep only: call ~start");
+  if (params.setpoint_frame == kOdomAxes || params.setpoint_frame == kBaseAxes) return params;
+  throw ParameterError("setpoint_frame is '" + params.setpoint_frame + "', must be 'odom' or 'base_link'");
+}
+
+}  // namespace
+
+NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(checked(readParameters<NavigatorNodeParams>(pnh), readVehicle(nh))),
+      diagnostics_(nh, pnh),
+      odom_health_(diagnostics_, "odom", kSilenceSec),
+      pose_health_(diagnostics_, "window_pose", kSilenceSec),
+      odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      engagement_(params_.engagement),
+      guard_(nh, diagnostics_, params_.guard),
+      navigator_(params_.navigator),
+      last_gate_(lastGate(params_.navigator.limits)) {
+  setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
+  state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
+  marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  const int queue = queueFor(params_.lockstep, 1);
+  odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+      nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+  pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
+      nh, "window_pose", queue, diagnostics_, [this](const auto& message) { receivePose(message); });
+  engaged_subscriber_ = subscribeGuarded<std_msgs::Bool>(
+      nh, "engaged", 1, diagnostics_,
+      [this](const auto& message) { engagement_.hear(message->data, steadyNowSec()); });
+  diagnostics_.add("engaged",
+                   [this] { return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec()); });
+  odom_health_.watch(odom_subscriber_);
+  pose_health_.watch(pose_subscriber_);
+  diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
+  diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
+  diagnostics_.add("camera", [this] { return cameraHealth(); });
+  diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
+  start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "start", &NavigatorNode::start, this);
+  abort_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "abort", &NavigatorNode::abort, this);
+  reset_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "reset", &NavigatorNode::reset, this);
+  confirm_opening_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
+      "confirm_opening", &NavigatorNode::confirmOpening, this);
+  if (params_.lockstep)
+    lockstep_.emplace(
+        nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+        [this](const auto& step) { stepInStep(step); });
+  else
+    timer_ = createGuardedTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
+}
+
+bool NavigatorNode::isComplete(const Lockstep::Step& step) const {
+  const bool connected =
+      odom_subscriber_.getNumPublishers() > 0 && setpoint_publisher_.getNumSubscribers() > 0;
+  if (!step.has_image && !connected) return false;
+  return odom_came_ >= step.odom && pose_came_ >= step.image;
+}
+
+void NavigatorNode::stepInStep(const Lockstep::Step& step) {
+  step_sec_ = step.header.stamp.toSec();
+  restartIfClockJumpedBack(step_sec_);
+  if (params_.start_at_once && last_.state == navigation::State::kIdle)
+    ROS_INFO("start at once: %s", navigator_.start(input_, step_sec_).message.c_str());
+  last_ = navigator_.step(input_, step_sec_);
+  publish(last_, step.header.stamp);
+}
+
+double NavigatorNode::nowSec() const { return lockstep_ ? step_sec_ : ros::Time::now().toSec(); }
+
+void NavigatorNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  takeOdometry(message);
+  odom_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  takePose(message);
+  pose_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
+  odom_health_.arrived();
+  const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return odom_health_.refused(*late);
+  auto vehicle = fromMsg(*message, params_.frames);
+  if (!vehicle) return odom_health_.refused(vehicle.reason);
+  odom_health_.accepted();
+  odom_health_.stamped(vehicle.value->stamp_sec);
+  if (!lockstep_)
+    vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
+  input_.vehicle = vehicle.value;
+}
+
+void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) {
+  pose_health_.arrived();
+  const auto late = pose_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return pose_health_.refused(*late);
+  input_.image_stamp_sec = stampSec(message->header.stamp);
+  pose_health_.stamped(*input_.image_stamp_sec);
+  input_.remembered_odom_m = rememberedFrom(*message, params_.frames.odom);
+  takeCamera(message->camera);
+  if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
+  const auto target = targetFromMsg(*message, params_.frames.odom);
+  if (!target) return pose_health_.refused(target.reason);
+  pose_health_.accepted();
+  input_.target = target.value;
+}
+
+// In lockstep the vehicle's parameters count: the world is told the same, and flights repeat to the bit.
+void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
+  input_.camera_fault = message.fault.substr(0, kMostReason);
+  if (lockstep_) return;
+  input_.camera = cameraFromMsg(message);
+  if (!input_.camera || !navigation::faultOf(*input_.camera).empty()) return;
+  params_.navigator.vehicle = navigation::withCamera(params_.navigator.vehicle, *input_.camera);  // as drawn
+}
+
+void NavigatorNode::step() {
+  const ros::Time now = ros::Time::now();
+  restartIfClockJumpedBack(now.toSec());
+  forgetSilentInputs();
+  const bool works = guarded(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
+  if (!works) {
+    last_.setpoint = navigation::Setpoint();
+    navigator_.sentZero();
+  }
+  if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany) navigator_.abort();
+  publish(last_, now);
+  if (last_.enabled) guard_.brakeIfNobodyDoes(now, params_.frames.odom);
+}
+
+navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
+  if (!clockStandsStill(now_sec)) return navigator_.step(input_, now_sec);
+  navigator_.sentZero();
+  navigation::NavigatorOutput output = last_;
+  output.setpoint = navigation::Setpoint();
+  output.reason = now_sec == 0.0 ? "waiting for /clock" : "/clock stands still";
+  return output;
+}
+
+// Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
+void NavigatorNode::forgetSilentInputs() {
+  if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
+  if (pose_health_.silentSec() > params_.max_pose_silence_sec) {
+    input_.target.reset();
+    input_.camera_fault.clear();
+  }
+  input_.engaged = engagement_.holds(steadyNowSec());
+  input_.passed_on = guard_.passesOn();
+}
+
+void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
+  if (!clock_.jumpedBack(now_sec)) return;
+  ROS_WARN("the clock jumped back: inputs forgotten%s", last_.enabled ? ", mission aborted" : "");
+  input_ = {};
+  odom_clock_.clear();
+  trail_.clear();
+  marker_publisher_.publish(allGone(toStamp(now_sec), params_.frames.odom));
+  if (last_.enabled) navigator_.abort();
+}
+
+bool NavigatorNode::clockStandsStill(double now_sec) {
+  const double steady_sec = steadyNowSec();
+  if (now_sec != last_now_sec_) clock_moved_sec_ = steady_sec;
+  last_now_sec_ = now_sec;
+  return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
+}
+
+bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
+  const double now_sec = nowSec();
+  if (!lockstep_) forgetSilentInputs();
+  if (!lockstep_ && clockStandsStill(now_sec))
+    return answer("start", {false, "the clock stands still: nothing on /clock"}, response);
+  if (params_.start_at_once && last_.state == navigation::State::kIdle)
+    return answer("start", {false, "starts by itself in the first step in which it may"}, response);
+  navigation::Reply reply = navigator_.start(input_, now_sec);
+  for (const TopicHealth* topic : {&odom_health_, &pose_health_}) {
+    const Health health = topic->health();
+    if (!reply.success && health.level == Health::kError) reply.message += "; " + health.text;
+  }
+  const Health engaged = engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
+  if (!reply.success && engaged.level == Health::kError) reply.message += "; " + engaged.text;
+  return answer("start", reply, response);
+}
+
+bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
+  const navigation::Reply reply = navigator_.abort();
+  if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
+  return answer("abort", reply, response);
+}
+
+bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
+  return answer("reset", navigator_.reset(), response);
+}
+
+bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& response) {
+  return answer("confirm_opening", navigator_.confirmOpening(), response);
+}
+
+bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Trigger::Response& response) {
+  ROS_INFO("%s: %s: %s", service, reply.success ? "done" : "refused", reply.message.c_str());
+  response.success = reply.success;
+  response.message = reply.message;
+  return true;
+}
+
+void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  const bool stands_by = output.state == navigation::State::kIdle && !lockstep_;
+  if (output.enabled || was_enabled_ || stands_by)
+    publishSetpoint(output.enabled ? output.setpoint : navigation::Setpoint(), now);
+  was_enabled_ = output.enabled;
+  publishState(output, now);
+  publishMarkers(output, now);
+}
+
+// The way flown is noted all the time, so that who looks later sees it, too.
+void NavigatorNode::publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  if (!input_.vehicle) return;
+  trail_.add(input_.vehicle->T_odom_base.translation(), output.state);
+  const double since_sec = now.toSec() - drawn_sec_;
+  if (marker_publisher_.getNumSubscribers() == 0 || (since_sec >= 0.0 && since_sec < kMarkerPeriodSec))
+    return;
+  drawn_sec_ = now.toSec();
+  marker_publisher_.publish(
+      flightMarkers(output, input_, trail_, params_.navigator, now, params_.frames.odom));
+}
+
+void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {
+  std::optional<Eigen::Matrix3d> R_odom_base;
+  const bool known = input_.vehicle.has_value();
+  if (params_.setpoint_frame == kBaseAxes)
+    R_odom_base = known ? Eigen::Matrix3d(geometry::yawRotation(-setpoint.heading_error_rad) *
+                                          input_.vehicle->T_odom_base.linear())
+                        : Eigen::Matrix3d::Identity();
+  const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
+  geometry_msgs::TwistStamped message =
+      toTwistMsg(directionless ? navigation::Setpoint() : setpoint, params_.frames, R_odom_base);
+  message.header.stamp = now;
+  const GatedTwist passed = gated(message.twist, last_gate_);
+  message.twist = passed.twist;
+  gate_fault_ = passed.fault;
+  setpoint_publisher_.publish(message);
+  guard_.sent();
+}
+
+void NavigatorNode::publishState(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  window_ingress::IngressState message = toMsg(output);
+  const bool news =
+      message.state != said_.state || message.reason != said_.reason || message.enabled != said_.enabled;
+  const double period_sec = output.enabled ? kStatePeriodEnabledSec : kStatePeriodIdleSec;
+  if (!lockstep_ && !news && steadyNowSec() - said_sec_ < period_sec) return;
+  if (message.state != said_.state) {
+    ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
+    if (navigation::isEnd(output.state)) ROS_INFO("the vehicle %s", vehicleHealth().text.c_str());
+  }
+  message.header.stamp = now;
+  message.header.frame_id = params_.frames.odom;
+  state_publisher_.publish(message);
+  said_ = message;
+  said_sec_ = steadyNowSec();
+}
+
+Health NavigatorNode::missionHealth() const {
+  const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
+  const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
+  return {bad ? Health::kWarn : Health::kOk, text};
+}
+
+Health NavigatorNode::vehicleHealth() const {
+  const navigation::MeasuredVehicle& vehicle = last_.report.vehicle;
+  char text[200];
+  std::snprintf(text, sizeof text, "answers in %.2f s, as %s", vehicle.response_sec,
+                vehicle.is_measured ? "measured in flight" : "assumed");
+  std::string said = text;
+  if (std::isfinite(vehicle.acceleration_mps2)) {
+    std::snprintf(text, sizeof text, "; changes its velocity by no more than %.1f m/s^2",
+                  vehicle.acceleration_mps2);
+    said += text;
+  }
+  if (const double bias_mps = vehicle.velocity_bias_base_mps.norm(); bias_mps > 0.0) {
+    std::snprintf(text, sizeof text, "; odometry's velocity is off by %.2f m/s, which is taken off",
+                  bias_mps);
+    said += text;
+  }
+  return {Health::kOk, said};
+}
+
+Health NavigatorNode::cameraHealth() const {
+  if (!input_.camera_fault.empty()) return {Health::kWarn, input_.camera_fault};
+  const navigation::VehicleParams& vehicle = params_.navigator.vehicle;
+  char text[160];
+  std::snprintf(text, sizeof text, "%.2f m ahead, sees %.2f x %.2f rad, %.2g rad a pixel: as %s",
+                vehicle.camera_forward_m, vehicle.horizontal_fov_rad, vehicle.vertical_fov_rad,
+                vehicle.pixel_rad,
+                input_.camera ? "camera_info and tf say" : "the parameters vehicle/... say");
+  return {Health::kOk, text};
+}
+
+Health NavigatorNode::lastGateHealth() const {
+  if (gate_fault_.empty()) return {};
+  return {Health::kError, "zero is sent in place of a setpoint that must not be: " + gate_fault_};
+}
+
+void NavigatorNode::stop() {
+  timer_.stop();
+  navigator_.abort();
+  for (int i = 0; i < 5; ++i) {
+    publishSetpoint(navigation::Setpoint(), ros::Time::now());
+    ros::WallDuration(0.05).sleep();
+  }
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <std_msgs/Bool.h>
+#include <std_srvs/Trigger.h>
+#include <window_ingress/CameraInBody.h>
+#include <window_ingress/IngressState.h>
+#include <window_ingress/WindowPose.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "adapters/sources/diagnostics.hpp"
+#include "adapters/nodes/engagement.hpp"
+#include "adapters/markers/flight_markers.hpp"
+#include "adapters/sources/lockstep.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/nodes/run_node.hpp"
+#include "adapters/nodes/setpoint_gate.hpp"
+#include "adapters/nodes/setpoint_watch.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
+
+namespace window_ingress::adapters {
+
+using configuration::NavigatorNodeParams;
+
+/// `navigation::Navigator` between topics and services: pose and odometry in, velocity out. In IDLE it sends
+/// zeros, so that an autopilot accepts the switch to the mode that follows them; after an abort it falls
+/// silent, so that the autopilot's own failsafe acts. In lockstep it is silent in IDLE, too.
+class NavigatorNode : public Node {
+ public:
+  NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+  void stop() override;
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
+  void receivePose(const window_ingress::WindowPoseConstPtr& message);
+  void takeOdometry(const nav_msgs::OdometryConstPtr& message);
+  void takePose(const window_ingress::WindowPoseConstPtr& message);
+  void takeCamera(const window_ingress::CameraInBody& message);
+  void step();
+  bool isComplete(const Lockstep::Step& step) const;
+  void stepInStep(const Lockstep::Step& step);
+  double nowSec() const;
+  void forgetSilentInputs();
+  void restartIfClockJumpedBack(double now_sec);
+  bool clockStandsStill(double now_sec);
+  navigation::NavigatorOutput decide(double now_sec);
+  bool start(Trigger::Request& request, Trigger::Response& response);
+  bool abort(Trigger::Request& request, Trigger::Response& response);
+  bool reset(Trigger::Request& request, Trigger::Response& response);
+  bool confirmOpening(Trigger::Request& request, Trigger::Response& response);
+  static bool answer(const char* service, const navigation::Reply& reply, Trigger::Response& response);
+  void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
+  void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
+  Health missionHealth() const;
+  Health vehicleHealth() const;
+  Health cameraHealth() const;
+  Health lastGateHealth() const;
+
+  NavigatorNodeParams params_;
+  Diagnostics diagnostics_;
+  TopicHealth odom_health_, pose_health_;
+  StampGate odom_gate_, pose_gate_;
+  estimation::SenderClock odom_clock_;
+  Engagement engagement_;
+  SetpointWatch guard_;
+  ClockWatch clock_;
+  navigation::Navigator navigator_;
+  navigation::NavigatorInput input_;
+  navigation::NavigatorOutput last_;
+  FlightTrail trail_;
+  double drawn_sec_ = 0.0;
+  window_ingress::IngressState said_;
+  double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
+  bool was_enabled_ = false;
+  GuardParams last_gate_;
+  std::string gate_fault_;  // of the setpoint last sent
+  std::optional<Lockstep> lockstep_;
+  ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
+  double step_sec_ = 0.0;            // in lockstep: the time that the world has
+
+  ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
+  ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
+  ros::ServiceServer start_, abort_, reset_, confirm_opening_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <std_msgs/Header.h>
+
+#include <array>
+#include <optional>
+
+#include "adapters/sources/diagnostics.hpp"
+#include "window_ingress/detection/stage_watch.hpp"
+
+namespace window_ingress::adapters {
+
+/// What the detector's pictures cost, stage by stage, beside what they may cost.
+class PictureTimes {
+ public:
+  /// \param budget_ms for one picture; 0: the time between two pictures of the camera
+  /// \param clock seconds that never go back
+  PictureTimes(double budget_ms, detection::StageWatch::Clock clock)
+      : watch_(clock), clock_(clock), budget_ms_(budget_ms) {}
+
+  detection::StageWatch& watch() { return watch_; }
+
+  /// A picture has come. \param decode_ms spent on it before
+  void begin(const std_msgs::Header& header, double decode_ms);
+  /// \return milliseconds since `begin`
+  double sinceBegin() const { return 1e3 * (clock_() - begun_sec_); }
+  /// The picture is done, drawing it for people included.
+  void end();
+
+  Health health() const;
+
+ private:
+  double budgetMs() const { return budget_ms_ > 0.0 ? budget_ms_ : period_ms_; }
+  void notePeriod(const std_msgs::Header& header);
+
+  detection::StageWatch watch_;
+  detection::StageWatch::Clock clock_;
+  double budget_ms_, begun_sec_ = 0.0, decode_ms_ = 0.0;
+  double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // but for the last: means of late
+  double period_ms_ = 0.0;
+  std::array<double, detection::kStages> stage_ms_{};  // means of late
+  std::optional<std_msgs::Header> before_;
+  long pictures_ = 0;
+};
+
+}  // namespace window_ingress::adapters

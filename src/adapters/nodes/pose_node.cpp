@@ -1,0 +1,297 @@
+#include "adapters/nodes/pose_node.hpp"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+
+#include <cstdio>
+
+#include "adapters/sources/attitude_source.hpp"
+#include "adapters/sources/guarded.hpp"
+#include "adapters/markers/marker_sketch.hpp"
+#include "adapters/markers/markers.hpp"
+#include "adapters/sources/parameters.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kPendingPeriodSec = 0.01;
+constexpr double kOdometryGoneSec = 0.3;
+
+PoseNodeParams checked(PoseNodeParams params) {
+  if (params.lockstep && params.gravity_source == "tf")
+    throw ParameterError("gravity_source is 'tf', must be imu or odom in lockstep");
+  for (const char* known : {"imu", "odom", "tf"})
+    if (params.gravity_source == known) return params;
+  throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom or tf");
+}
+
+}  // namespace
+
+PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(checked(readParameters<PoseNodeParams>(pnh))),
+      diagnostics_(nh, pnh),
+      window_health_(diagnostics_, "window", kSilenceSec),
+      odom_health_(diagnostics_, "odom", kSilenceSec),
+      window_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      camera_(nh, diagnostics_, params_.image_is_rectified),
+      tracker_(params_.pose, params_.filter, configuration::forVehicle(params_.tracker, readVehicle(nh))),
+      T_base_camera_{std::nullopt, "no image so far"},
+      tf_listener_(tf_),
+      facade_(nh, pnh, diagnostics_, tracker_, tf_, params_.frames.odom) {
+  pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1, params_.lockstep);
+  covariance_publisher_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
+  polygon_publisher_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
+  marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  const int queue = queueFor(params_.lockstep, 10);
+  window_subscriber_ = subscribeGuarded<window_ingress::WindowDetection>(
+      nh, "window", 1, diagnostics_, [this](const auto& message) { receiveWindow(message); });
+  odom_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+      nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+  reset_ = pnh.advertiseService("reset", &PoseNode::reset, this);
+  window_health_.watch(window_subscriber_);
+  odom_health_.watch(odom_subscriber_);
+  if (params_.gravity_source == "imu") {
+    imu_health_.emplace(diagnostics_, "imu", kSilenceSec);
+    imu_subscriber_ = subscribeGuarded<sensor_msgs::Imu>(
+        nh, "imu", queue, diagnostics_, [this](const auto& message) { receiveImu(message); });
+    imu_health_->watch(imu_subscriber_);
+  }
+  if (params_.gravity_source == "tf") {
+    tf_attitude_.emplace(tf_, params_.frames.odom, params_.frames.base);
+    diagnostics_.add("attitude", [this] { return tf_attitude_->health(); });
+  }
+  if (!params_.publish_tf)
+    diagnostics_.addOutput("window_pose",
+                           {pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_});
+  diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
+  diagnostics_.add("frames check", [this] { return framesHealth(tracker_.frames()); });
+  diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset(), odom_clock_); });
+  diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_, params_.filter); });
+  diagnostics_.add("openness", [this] { return opennessHealth(tracker_.openness()); });
+  if (params_.lockstep) {
+    lockstep_.emplace(
+        nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+        [this](const auto&) { processInStep(); });
+    camera_.notify([this] { lockstep_->check(); });
+  } else {
+    timer_ = createGuardedTimer(nh, kPendingPeriodSec, "pending image", diagnostics_,
+                                [this] { processPending(false); });
+  }
+}
+
+bool PoseNode::isComplete(const Lockstep::Step& step) const {
+  const bool first = !step.has_image, with_imu = imu_health_.has_value();
+  const bool connected = camera_.isConnected() && odom_subscriber_.getNumPublishers() > 0 &&
+                         (!with_imu || imu_subscriber_.getNumPublishers() > 0);
+  if (first && !(connected && mounting(step.header.frame_id))) return false;
+  return window_came_ >= step.image && odom_came_ >= step.odom && (!with_imu || imu_came_ >= step.imu) &&
+         camera_.lastStamp() >= step.camera_info;
+}
+
+void PoseNode::processInStep() {
+  if (!pending_) return;
+  const window_ingress::WindowDetectionConstPtr message = pending_;
+  pending_.reset();
+  process(*message);
+}
+
+void PoseNode::receiveWindow(const window_ingress::WindowDetectionConstPtr& message) {
+  restartIfClockJumpedBack();
+  window_came_ = message->header.stamp;
+  window_health_.arrived();
+  const auto late = window_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return window_health_.refused(*late);
+  if (isFromBeforeReset(message->header)) return;
+  window_health_.accepted();
+  window_health_.stamped(message->header.stamp.toSec());
+  if (!lockstep_) processPending(true);
+  pending_ = message;
+  pending_since_sec_ = steadyNowSec();
+  lockstep_ ? lockstep_->check() : processPending(false);
+}
+
+void PoseNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  takeOdometry(message);
+  odom_came_ = message->header.stamp;
+  lockstep_ ? lockstep_->check() : processPending(false);
+}
+
+void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
+  restartIfClockJumpedBack();
+  odom_health_.arrived();
+  const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return odom_health_.refused(*late);
+  if (isFromBeforeReset(message->header)) return;
+  auto vehicle = fromMsg(*message, params_.frames);
+  if (!vehicle) return odom_health_.refused(vehicle.reason);
+  odom_health_.accepted();
+  odom_health_.stamped(vehicle.value->stamp_sec);
+  if (!lockstep_)
+    vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
+                       vehicle.value->velocity_odom_mps);
+  odometry_stamp_sec_ = vehicle.value->stamp_sec;
+}
+
+void PoseNode::receiveImu(const sensor_msgs::ImuConstPtr& message) {
+  takeImu(message);
+  imu_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
+  imu_health_->arrived();
+  const auto stamp_sec = stampSec(message->header.stamp);
+  if (!stamp_sec) return imu_health_->refused("header.stamp is zero or not normalised");
+  if (message->header.frame_id != params_.frames.base)
+    return imu_health_->refused("header.frame_id is '" + message->header.frame_id + "', expected '" +
+                                params_.frames.base + "'");
+  const auto rotation = attitudeFromMsg(*message);
+  if (!rotation) return imu_health_->refused(rotation.reason);
+  imu_health_->accepted();
+  imu_health_->stamped(*stamp_sec);
+  tracker_.addAttitude(*stamp_sec, *rotation.value);
+}
+
+// An image waits until odometry has caught up with its exposure: poses are interpolated, not guessed.
+void PoseNode::processPending(bool however_old) {
+  if (!pending_) return;
+  const bool caught_up = odometry_stamp_sec_ >= pending_->header.stamp.toSec();
+  const bool waited = steadyNowSec() - pending_since_sec_ >= params_.odom_wait_sec;
+  const bool hopeless = odom_health_.silentSec() > kOdometryGoneSec;
+  if (!(caught_up || waited || hopeless || however_old)) return;
+  const window_ingress::WindowDetectionConstPtr message = pending_;
+  pending_.reset();
+  process(*message);
+}
+
+void PoseNode::process(const window_ingress::WindowDetection& message) {
+  window_ingress::WindowPose out;
+  out.header = message.header;
+  out.filtered_frame_id = params_.frames.odom;
+  out.window_width = params_.pose.opening_width_m;
+  out.window_height = params_.pose.opening_height_m;
+  estimate(message, out);
+  fill(out, tracker_.frames());
+  fill(out, tracker_.openness());
+  if (const auto& measured = tracker_.measuredSize()) fill(out, *measured);
+  const auto state = tracker_.filtered(message.header.stamp.toSec());
+  if (state) {
+    fill(out, *state);
+    fill(out, tracker_.fit(*state));
+    out.approach_forbidden = tracker_.approachForbidden(*state);
+    out.is_other_window = tracker_.otherWindow().has_value();
+    out.other_window_factor = tracker_.otherWindow().value_or(0.0);
+  } else if (out.filtered_reason.empty()) {
+    out.filtered_reason = "no image has contributed lately";
+  }
+  consistency_ = state ? state->consistency : estimation::Consistency();
+  publish(out);
+  if (state) publishFiltered(out, *state);
+  facade_.publish(message.header.stamp, marker_publisher_);
+}
+
+void PoseNode::estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out) {
+  T_base_camera_ = mounting(message.header.frame_id);
+  const auto window = fromMsg(message);
+  if (!window) {
+    out.reject = window_ingress::WindowPose::NO_WINDOW;
+    out.reject_reason = out.filtered_reason = window.reason;
+  }
+  if (message.image_width == 0) return;  // there was no picture
+  const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
+                                       static_cast<int>(message.image_height), message.header);
+  const auto stamp_sec = stampSec(message.header.stamp);
+  if (!camera && window) {
+    out.reject = window_ingress::WindowPose::NO_CALIBRATION;
+    out.reject_reason = out.filtered_reason = camera.reason;
+  }
+  if (camera && T_base_camera_)
+    fill(out, navigation::cameraInBody(*camera.value, *T_base_camera_.value));
+  else
+    out.camera.fault = camera ? T_base_camera_.reason : "no calibration: " + camera.reason;
+  if (!camera || !stamp_sec) return;
+  if (tf_attitude_)
+    if (const auto R_odom_base = tf_attitude_->at(*stamp_sec)) tracker_.addAttitude(*stamp_sec, *R_odom_base);
+  tracker_.see({*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
+  tracker_.flush();
+  expectTarget(*stamp_sec, *camera.value, out);
+  if (!window) return;
+  fill(out, tracker_.lastUpdate().pose);
+  out.filtered_reason = T_base_camera_ ? tracker_.lastUpdate().why_not : T_base_camera_.reason;
+}
+
+void PoseNode::expectTarget(double stamp_sec, const geometry::PinholeCamera& camera,
+                            window_ingress::WindowPose& out) const {
+  if (const facade::KnownWindow* target = tracker_.facade().target()) fill(out, *target);
+  if (!T_base_camera_) return;
+  if (const auto expected = tracker_.expected(stamp_sec, camera, *T_base_camera_.value)) fill(out, *expected);
+}
+
+Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
+  return mountingOf(tf_, params_.frames.base, camera_frame);
+}
+
+void PoseNode::publish(const window_ingress::WindowPose& message) {
+  pose_publisher_.publish(message);
+  if (message.reject == window_ingress::WindowPose::OK) {
+    geometry_msgs::PoseWithCovarianceStamped stamped;
+    stamped.header = message.header;
+    stamped.pose = message.pose;
+    covariance_publisher_.publish(stamped);
+    const auto T_camera_window = fromMsg(message.pose.pose);
+    if (T_camera_window)
+      polygon_publisher_.publish(openingPolygon(*T_camera_window.value,
+                                                {message.window_width, message.window_height},
+                                                message.header.stamp, message.header.frame_id));
+  }
+}
+
+void PoseNode::publishFiltered(const window_ingress::WindowPose& message,
+                               const estimation::FilteredWindow& window) {
+  if (marker_publisher_.getNumSubscribers() > 0)
+    marker_publisher_.publish(
+        windowMarkers(window, windowLabel(message), message.header.stamp, params_.frames.odom));
+  if (!params_.publish_tf) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = message.header.stamp;
+  transform.header.frame_id = params_.frames.odom;
+  transform.child_frame_id = params_.window_frame;
+  transform.transform = toTransformMsg(window.T_odom_window);
+  tf_broadcaster_.sendTransform(transform);
+}
+
+void PoseNode::restartIfClockJumpedBack() {
+  if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
+  ROS_WARN("the clock jumped back: odometry, transforms and filter forgotten");
+  forgotten_ = ros::Time();
+  forget();
+  tf_.clear();
+}
+
+void PoseNode::forget() {
+  odometry_stamp_sec_ = -1.0;
+  odom_clock_.clear();
+  pending_.reset();
+  tracker_.reset();
+  consistency_ = estimation::Consistency();
+  marker_publisher_.publish(allGone(ros::Time::now(), params_.frames.odom));
+  facade_.tellAnew(ros::Time::now());
+}
+
+bool PoseNode::reset(Trigger::Request&, Trigger::Response& response) {
+  forgotten_ = ros::Time::now();
+  forget();
+  response.success = true;
+  response.message = "the track and the memory of all windows are forgotten";
+  ROS_INFO("reset: %s", response.message.c_str());
+  return true;
+}
+
+Health PoseNode::mountingHealth() const {
+  if (T_base_camera_) return {};
+  const bool no_image_yet = window_health_.silentSec() > kSilenceSec;
+  return {no_image_yet ? Health::kOk : Health::kError, T_base_camera_.reason};
+}
+
+}  // namespace window_ingress::adapters

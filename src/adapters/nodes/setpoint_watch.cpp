@@ -1,0 +1,55 @@
+#include "adapters/nodes/setpoint_watch.hpp"
+
+#include <cmath>
+
+#include "adapters/sources/guarded.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+using Setpoint = geometry_msgs::TwistStamped;
+constexpr const char* kTopic = "passed_on";
+
+}  // namespace
+
+SetpointWatch::SetpointWatch(ros::NodeHandle& nh, Diagnostics& diagnostics,
+                             const configuration::SetpointWatchParams& params)
+    : nh_(nh), params_(params), started_sec_(steadyNowSec()) {
+  subscriber_ = subscribeGuarded<Setpoint>(nh_, kTopic, 1, diagnostics, [this](const auto&) { hear(); });
+  diagnostics.add(kTopic, [this] { return health(); });
+}
+
+void SetpointWatch::hear() {
+  heard_sec_ = steadyNowSec();
+  if (brake_) brake_.shutdown();
+  brake_ = ros::Publisher();
+}
+
+bool SetpointWatch::passesOn() const {
+  if (std::isinf(heard_sec_)) return !params_.required;
+  return steadyNowSec() - heard_sec_ <= params_.max_silence_sec;
+}
+
+void SetpointWatch::brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
+  if (passesOn()) return;
+  if (!brake_) brake_ = nh_.advertise<Setpoint>("brake", 1);
+  Setpoint zero;
+  zero.header.stamp = now;
+  zero.header.frame_id = frame;
+  brake_.publish(zero);
+}
+
+Health SetpointWatch::health() const {
+  const std::string topic = subscriber_.getTopic();
+  if (passesOn() && std::isinf(heard_sec_))
+    return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};
+  if (passesOn()) return {};
+  if (steadyNowSec() - sent_sec_ > params_.max_silence_sec)
+    return {Health::kOk, "no setpoints are sent: nothing to pass on"};
+  if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= Engagement::kGraceSec)
+    return {Health::kOk, "waiting for " + topic};
+  return {Health::kError,
+          "nothing on " + topic + " from setpoint_guard: no mission flies, zeros are sent past it"};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,75 @@
+#include "adapters/sources/attitude_source.hpp"
+
+#include "adapters/sources/guarded.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kMaxGapSec = 0.02;  // a turn is told by the difference of two attitudes
+
+}  // namespace
+
+Converted<Eigen::Isometry3d> mountingOf(const tf2_ros::Buffer& tf, const std::string& base_frame,
+                                        const std::string& camera_frame) {
+  const std::string which = "camera mounting " + base_frame + " <- '" + camera_frame + "': ";
+  if (camera_frame.empty()) return {std::nullopt, which + "the image has no frame_id"};
+  try {
+    const auto pose = fromMsg(tf.lookupTransform(base_frame, camera_frame, ros::Time(0)).transform);
+    return pose ? pose : Converted<Eigen::Isometry3d>{std::nullopt, which + pose.reason};
+  } catch (const tf2::TransformException& error) {
+    return {std::nullopt, which + "not in tf: " + error.what()};
+  }
+}
+
+AttitudeSource::AttitudeSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& base_frame,
+                               int queue)
+    : base_frame_(base_frame), tf_listener_(tf_) {
+  subscriber_ = subscribeGuarded<sensor_msgs::Imu>(nh, "imu", queue, diagnostics,
+                                                   [this](const auto& message) { receive(*message); });
+  diagnostics.add("attitude", [this] { return health(); });
+}
+
+void AttitudeSource::receive(const sensor_msgs::Imu& message) {
+  refusal_ = faultOf(message);
+  stamp_ = message.header.stamp;
+  if (came_) came_();
+}
+
+// Takes it if there is none.
+std::string AttitudeSource::faultOf(const sensor_msgs::Imu& message) {
+  const auto stamp_sec = stampSec(message.header.stamp);
+  if (!stamp_sec) return "header.stamp is zero or not normalised";
+  if (message.header.frame_id != base_frame_)
+    return "header.frame_id is '" + message.header.frame_id.substr(0, 60) + "', expected '" + base_frame_ +
+           "'";
+  const auto rotation = attitudeFromMsg(message);
+  if (!rotation) return rotation.reason;
+  attitudes_.add(*stamp_sec, geometry::makePose(rotation.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
+  return "";
+}
+
+std::optional<Eigen::Matrix3d> AttitudeSource::R_world_camera(double stamp_sec,
+                                                              const std::string& camera_frame) {
+  missing_ = refusal_;
+  const auto T_world_base = attitudes_.at(stamp_sec, kMaxGapSec);
+  if (!T_world_base && missing_.empty())
+    missing_ = "nothing on " + subscriber_.getTopic() + " near the exposure";
+  if (!T_world_base) return std::nullopt;
+  const auto T_base_camera = mountingOf(tf_, base_frame_, camera_frame);
+  missing_ = T_base_camera.reason;
+  if (!T_base_camera) return std::nullopt;
+  return T_world_base->linear() * T_base_camera.value->linear();
+}
+
+bool AttitudeSource::isConnected(const std::string& camera_frame) const {
+  return subscriber_.getNumPublishers() > 0 && mountingOf(tf_, base_frame_, camera_frame);
+}
+
+Health AttitudeSource::health() const {
+  if (missing_.empty()) return {Health::kOk, "known at the last picture"};
+  return {Health::kOk, "not known at the last picture, tracks go by the image alone: " + missing_};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,79 @@
+#include "adapters/sources/image_source.hpp"
+
+#include <image_transport/exception.h>
+#include <sensor_msgs/CompressedImage.h>
+
+#include <utility>
+
+#include "adapters/sources/guarded.hpp"
+#include "adapters/sources/parameters.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kStuckSec = 1.0;
+
+std::string available(const image_transport::ImageTransport& transport) {
+  std::string names = "compressed";
+  for (const std::string& name : transport.getLoadableTransports()) names += ", " + name;
+  return names;
+}
+
+}  // namespace
+
+ImageSource::ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
+                         const ImageLimits& limits, const StampLimits& stamps, Callback callback)
+    : limits_(limits),
+      gate_(stamps),
+      callback_(std::move(callback)),
+      diagnostics_(diagnostics),
+      health_(diagnostics, "image", kSilenceSec),
+      transport_(nh) {
+  if (transport == "compressed")
+    subscribeCompressed(nh);
+  else
+    subscribePlugin(transport);
+}
+
+void ImageSource::subscribeCompressed(ros::NodeHandle& nh) {
+  compressed_subscriber_ = subscribeGuarded<sensor_msgs::CompressedImage>(
+      nh, nh.resolveName("image_raw") + "/compressed", 1, diagnostics_,
+      [this](const sensor_msgs::CompressedImageConstPtr& message) {
+        receive(message->header, [&] { return decode(*message, limits_); });
+      });
+  health_.watch(compressed_subscriber_);
+}
+
+void ImageSource::subscribePlugin(const std::string& transport) {
+  const boost::function<void(const sensor_msgs::ImageConstPtr&)> callback =
+      [this](const sensor_msgs::ImageConstPtr& message) {
+        guarded(diagnostics_, "image",
+                [&] { receive(message->header, [&] { return decode(message, limits_); }); });
+      };
+  try {
+    plugin_subscriber_ =
+        transport_.subscribe("image_raw", 1, callback, ros::VoidPtr(),
+                             image_transport::TransportHints(transport, ros::TransportHints().tcpNoDelay()));
+  } catch (const image_transport::Exception&) {
+    throw ParameterError("image_transport is '" + transport + "', available are: " + available(transport_));
+  }
+  health_.watch([this] { return plugin_subscriber_.getTopic(); },
+                [this] { return static_cast<int>(plugin_subscriber_.getNumPublishers()); });
+}
+
+void ImageSource::receive(const std_msgs::Header& header, const std::function<GuardedImage()>& decode) {
+  health_.arrived();
+  const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
+  if (late) return health_.refused(*late);
+  const double begun_sec = steadyNowSec();
+  GuardedImage picture = decode();
+  picture.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
+  if (!picture.reason.empty()) return health_.refused(picture.reason);
+  if (stuck_.sameForSec(picture.image, steadyNowSec()) > kStuckSec)
+    picture.warning = "the picture does not change any more: is the camera stuck?";
+  health_.accepted(picture.warning);
+  health_.stamped(header.stamp.toSec());
+  callback_(header, picture);
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,75 @@
+#include "adapters/sources/reference_source.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "adapters/sources/parameters.hpp"
+#include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+bool writePicture(const std::string& file, const cv::Mat& picture) {
+  try {
+    return cv::imwrite(file, picture);
+  } catch (const cv::Exception&) {  // no such format
+    return false;
+  }
+}
+
+// A text in YAML's single quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace
+
+detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+                                             const detection::DetectorParams& params) {
+  if (corners.empty()) return detection::referenceFromPicture(picture, params);
+  if (corners.size() != 8)
+    throw ParameterError("reference/corners holds " + std::to_string(corners.size()) +
+                         " numbers instead of 8");
+  geometry::Quadrilateral quad;
+  for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
+  const auto canonical = geometry::canonical(quad);
+  if (!canonical) throw ParameterError("reference/corners are no convex quadrilateral in cyclic order");
+  if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *canonical); !fault.empty())
+    throw ParameterError("reference/corners: " + fault);
+  return {picture, *canonical};
+}
+
+detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
+                                             const detection::DetectorParams& params) {
+  const cv::Mat picture = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (picture.empty())
+    throw ParameterError("reference/picture: cannot read '" + reference.picture + "' as an image");
+  return makeReference(picture, reference.corners, params);
+}
+
+void saveReference(const std::string& file, const detection::ReferenceAppearance& reference,
+                   const detection::DetectorParams& params) {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::absolute(file);
+  const geometry::Quadrilateral& opening = reference.opening();
+  std::error_code ignored;
+  fs::create_directories(path.parent_path(), ignored);
+  const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
+  if (!writePicture(path.string(), reference.picture()) ||
+      !writePicture(understood.string(), detection::drawReference(reference, params.appearance)))
+    throw ParameterError("reference: cannot write '" + path.string() +
+                         "' as a picture, or what is beside it");
+  const fs::path text = fs::path(path).replace_extension(".yaml");
+  std::ofstream output(text);
+  output << "window_detector:\n  reference:\n    picture: " << quoted(path.string()) << "\n    corners: [";
+  for (int i = 0; i < 4; ++i) output << (i ? ", " : "") << opening[i].x() << ", " << opening[i].y();
+  output << "]\n";
+  output.close();
+  if (!output) throw ParameterError("reference: cannot write '" + text.string() + "'");
+}
+
+}  // namespace window_ingress::adapters

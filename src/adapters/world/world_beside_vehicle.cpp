@@ -1,0 +1,68 @@
+// The world beside a vehicle that is simulated elsewhere, by whose odometry time runs.
+#include <deque>
+
+#include "adapters/world/world_node.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kStepSec = simulation::World::kStepSec;
+constexpr double kMostSilenceSec = 5.0;   // after a longer one it is another flight
+constexpr double kMostLateSec = 0.5;      // a stamp that goes back further begins another flight
+constexpr std::size_t kMostPictures = 2;  // that are drawn of those which fall due at once
+constexpr long kForgivenPictures = 30;    // while the house is built, the vehicle flies on
+
+}  // namespace
+
+void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
+  vehicle_health_->arrived();
+  const auto vehicle = fromMsg(*message, params_.frames);
+  if (!vehicle) return vehicle_health_->refused(vehicle.reason);
+  const double back_sec = followed_sec_ - vehicle.value->stamp_sec;
+  if (running_ && back_sec >= 0.0 && back_sec <= kMostLateSec)
+    return vehicle_health_->refused("stamp is " + std::to_string(back_sec) +
+                                    " s before the latest: late samples are left out");
+  const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
+  if (!turning.allFinite()) return vehicle_health_->refused("angular velocity is not finite");
+  vehicle_health_->accepted();
+  follow(*vehicle.value, turning);
+}
+
+void WorldNode::begin(const navigation::VehicleState& vehicle) {
+  if (params_.start_at == "vehicle" && !T_odom_start_) T_odom_start_ = vehicle.T_odom_base;
+  epoch_sec_ = vehicle.stamp_sec;
+  restart();
+  running_ = true;
+}
+
+// Time is that of the stamps; where none come it stands still, and no picture shows what nobody said.
+void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
+  const double passed_sec = vehicle.stamp_sec - followed_sec_;
+  const bool leaps = running_ && (passed_sec <= 0.0 || passed_sec > kMostSilenceSec);
+  if (leaps) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
+  if (leaps || !running_) begin(vehicle);
+  followed_sec_ = vehicle.stamp_sec;
+  const double until_sec = vehicle.stamp_sec - epoch_sec_;
+  world_->follow({vehicle.T_odom_base, vehicle.velocity_odom_mps, turning_radps}, until_sec);
+  while (world_->timeSec() + kStepSec <= until_sec + 1e-9) stepOnce();
+}
+
+// An external vehicle waits for nobody: what a slow machine cannot draw in time is lost, not late.
+void WorldNode::deliverNewestPictures() {
+  while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
+  std::deque<simulation::Exposure> due;
+  while (const auto exposure = world_->takeExposure()) due.push_back(*exposure);
+  pictures_due_ += static_cast<long>(due.size());
+  for (; due.size() > kMostPictures; due.pop_front()) ++pictures_lost_;
+  for (const simulation::Exposure& exposure : due) deliver(world_->draw(exposure));
+}
+
+Health WorldNode::externalHealth() const {
+  if (!running_) return {Health::kOk, "no vehicle_odom so far"};
+  if (pictures_lost_ * 10 <= pictures_due_ || pictures_lost_ <= kForgivenPictures)
+    return {Health::kOk, "time is that of vehicle_odom"};
+  return {Health::kWarn, std::to_string(pictures_lost_) + " of " + std::to_string(pictures_due_) +
+                             " pictures are lost: this machine draws too slowly"};
+}
+
+}  // namespace window_ingress::adapters

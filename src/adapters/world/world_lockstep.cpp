@@ -1,0 +1,59 @@
+#include "adapters/world/world_lockstep.hpp"
+
+#include <ros/console.h>
+
+#include "adapters/sources/parameters.hpp"
+
+namespace window_ingress::adapters {
+
+void refuseInLockstep(const simulation::Scenario& scenario) {
+  if (scenario.vehicle.profile == "external")
+    throw ParameterError("lockstep: the time of an external vehicle is its own; set lockstep to false");
+  for (const auto& fault : scenario.faults)
+    if (fault.unit == "clock" || fault.unit == "tf")
+      throw ParameterError("lockstep: nobody looks at " + fault.unit +
+                           " there, its fault would do nothing; set lockstep to false");
+}
+
+WorldLockstep::WorldLockstep(ros::NodeHandle& nh, const std::string& camera_frame, double timeout_sec)
+    : timeout_sec_(timeout_sec) {
+  publisher_ = nh.advertise<window_ingress::LockstepStep>("lockstep", 10, true);
+  step_.header.frame_id = camera_frame;
+}
+
+void WorldLockstep::ask(const ros::Time& now) {
+  step_.header.stamp = now;
+  asked_sec_ = steadyNowSec();
+  asking_ = true;
+  ++steps_;
+  publisher_.publish(step_);
+}
+
+bool WorldLockstep::answered(bool states_are_published) const {
+  const ros::Time& now = step_.header.stamp;
+  if (!states_are_published) return setpoint_stamp_ >= now;
+  return state_.header.stamp >= now && (!state_.enabled || setpoint_stamp_ >= now);
+}
+
+bool WorldLockstep::goesOn(bool states_are_published, bool may_give_up) {
+  if (!asking_) return false;
+  const bool done = answered(states_are_published);
+  ever_answered_ = ever_answered_ || done;
+  const bool too_late = (ever_answered_ || may_give_up) && steadyNowSec() - asked_sec_ > timeout_sec_;
+  if (!done && !too_late) return false;
+  if (!done) {
+    ++timeouts_;
+    ROS_WARN("lockstep: no answer to the step at %.4f s within %.1f s, going on; %ld so far",
+             step_.header.stamp.toSec(), timeout_sec_, timeouts_);
+  }
+  asking_ = false;
+  return true;
+}
+
+Health WorldLockstep::health() const {
+  if (timeouts_ == 0) return {Health::kOk, std::to_string(steps_) + " steps, all answered"};
+  return {Health::kWarn, std::to_string(timeouts_) + " of " + std::to_string(steps_) +
+                             " steps were not answered in time: this run cannot be repeated exactly"};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,108 @@
+#include "adapters/world/world_messages.hpp"
+
+#include "adapters/conversions/image_message.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+nav_msgs::Odometry odometryMsg(const Eigen::Isometry3d& T_odom_base, const Eigen::Vector3d& velocity_odom_mps,
+                               const Eigen::Vector3d& angular_velocity_base_radps) {
+  nav_msgs::Odometry message;
+  message.pose.pose = toPoseMsg(T_odom_base);
+  message.twist.twist.linear = toVectorMsg(T_odom_base.linear().transpose() * velocity_odom_mps);
+  message.twist.twist.angular = toVectorMsg(angular_velocity_base_radps);
+  return message;
+}
+
+}  // namespace
+
+std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame_id;
+  return header;
+}
+
+nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const ros::Time& stamp,
+                                 const FrameNames& frames, bool twist_in_odom) {
+  nav_msgs::Odometry message =
+      odometryMsg(sample.T_odom_base, sample.velocity_odom_mps, sample.angular_velocity_base_radps);
+  if (twist_in_odom) message.twist.twist.linear = toVectorMsg(sample.velocity_odom_mps);
+  message.header = headerOf(stamp, frames.odom);
+  message.child_frame_id = frames.base;
+  return message;
+}
+
+nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ros::Time& stamp,
+                                 const FrameNames& frames) {
+  nav_msgs::Odometry message =
+      odometryMsg(truth.T_odom_base, truth.velocity_odom_mps, truth.angular_velocity_base_radps);
+  message.header = headerOf(stamp, frames.odom);
+  message.child_frame_id = frames.base;
+  return message;
+}
+
+window_ingress::ReferencePicture toReferenceMsg(const simulation::World& world,
+                                                const std_msgs::Header& header) {
+  geometry::Quadrilateral corners;
+  window_ingress::ReferencePicture message;
+  message.picture = *toImageMsg(world.referencePicture(&corners), header);
+  for (std::size_t i = 0; i < 4; ++i) {
+    message.corner_x[i] = corners[i].x();
+    message.corner_y[i] = corners[i].y();
+  }
+  return message;
+}
+
+sensor_msgs::Imu toImuMsg(const simulation::ImuSample& sample, const ros::Time& stamp,
+                          const FrameNames& frames) {
+  sensor_msgs::Imu message;
+  message.header = headerOf(stamp, frames.base);
+  message.orientation =
+      toPoseMsg(geometry::makePose(sample.R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()))
+          .orientation;
+  message.angular_velocity = toVectorMsg(sample.angular_velocity_base_radps);
+  message.linear_acceleration = toVectorMsg(sample.specific_force_base_mps2);
+  return message;
+}
+
+geometry_msgs::PoseStamped toPoseStampedMsg(const Eigen::Isometry3d& pose, const std_msgs::Header& header) {
+  geometry_msgs::PoseStamped message;
+  message.header = header;
+  message.pose = toPoseMsg(pose);
+  return message;
+}
+
+geometry_msgs::TransformStamped toTransformStampedMsg(const Eigen::Isometry3d& pose,
+                                                      const std_msgs::Header& header,
+                                                      const std::string& child) {
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = child;
+  message.transform = toTransformMsg(pose);
+  return message;
+}
+
+std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d& T_base_camera,
+                                                        const ros::Time& stamp, const FrameNames& frames,
+                                                        const std::string& camera_frame) {
+  const Eigen::Matrix3d R_optical_flu = geometry::R_optical_flu();
+  const Eigen::Isometry3d T_base_link =
+      geometry::makePose(T_base_camera.linear() * R_optical_flu, T_base_camera.translation());
+  const Eigen::Isometry3d T_link_optical =
+      geometry::makePose(R_optical_flu.transpose(), Eigen::Vector3d::Zero());
+  return {toTransformStampedMsg(T_base_link, headerOf(stamp, frames.base), "camera_link"),
+          toTransformStampedMsg(T_link_optical, headerOf(stamp, "camera_link"), camera_frame)};
+}
+
+std::string checkedUrl(const std::string& url) {
+  for (const char* scheme : {"file:///", "package://"})
+    if (url.rfind(scheme, 0) == 0) return url;
+  if (!url.empty())
+    throw ParameterError("camera_info_url is '" + url + "', must begin with file:/// or package://");
+  return url;
+}
+
+}  // namespace window_ingress::adapters

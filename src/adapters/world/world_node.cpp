@@ -1,0 +1,283 @@
+#include "adapters/world/world_node.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "adapters/sources/guarded.hpp"
+#include "adapters/sources/parameters.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "adapters/world/world_messages.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kTickSec = 0.005;
+constexpr double kMostDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
+constexpr double kVehicleSilenceSec = 0.5;
+constexpr double kStepSec = simulation::World::kStepSec;
+
+simulation::Scenario load(const WorldNodeParams& params) {
+  if (params.scenario.empty()) return {};
+  return simulation::loadScenario(params.scenario, static_cast<std::uint32_t>(params.seed));
+}
+
+}  // namespace
+
+WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(readParameters<WorldNodeParams>(pnh)),
+      diagnostics_(nh, pnh),
+      epoch_sec_(params_.start_time_sec),
+      created_sec_(steadyNowSec()),
+      ticked_sec_(created_sec_),
+      camera_info_(nh, "world", checkedUrl(params_.camera_info_url)),
+      publishers_(nh, params_.frames, params_.camera_frame, params_.lockstep),
+      referee_(nh, params_.verdict_file) {
+  const simulation::Scenario scenario = load(params_);
+  if (scenario.vehicle.profile != "external") publishers_.advertiseVehicle(nh);
+  if (params_.lockstep) {
+    refuseInLockstep(scenario);
+    lockstep_.emplace(nh, params_.camera_frame, params_.lockstep_timeout_sec);
+    diagnostics_.add("lockstep", [this] { return lockstep_->health(); });
+  }
+  calibrate(scenario);
+  restart();
+  subscribe(nh);
+  diagnostics_.add("speed", [this] { return speedHealth(); });
+  reset_ = pnh.advertiseService("reset", &WorldNode::reset, this);
+  detector_reset_ = nh.serviceClient<Trigger>("window_detector/reset");
+  pose_reset_ = nh.serviceClient<Trigger>("homography_pose/reset");
+  inject_ = pnh.advertiseService("inject", &WorldNode::inject, this);
+  timer_ = createGuardedTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
+}
+
+// What somebody has found out about this camera, or else the truth.
+void WorldNode::calibrate(const simulation::Scenario& scenario) {
+  if (!params_.camera_info_url.empty() && camera_info_.isCalibrated()) return;
+  camera_info_.setCameraInfo(toMsg(scenario.camera.model()));
+}
+
+void WorldNode::subscribe(ros::NodeHandle& nh) {
+  state_subscriber_ = subscribeGuarded<window_ingress::IngressState>(
+      nh, "state", 10, diagnostics_, [this](const auto& message) { receiveState(message); });
+  if (isExternal()) {
+    vehicle_health_.emplace(diagnostics_, "vehicle_odom", kVehicleSilenceSec);
+    vehicle_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+        nh, "vehicle_odom", 10, diagnostics_, [this](const auto& message) { receiveVehicle(message); });
+    vehicle_health_->watch(vehicle_subscriber_);
+    return;
+  }
+  command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
+  command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
+      nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
+  command_health_->watch(command_subscriber_);
+}
+
+void WorldNode::restart() {
+  simulation::Scenario scenario = load(params_);
+  if (T_odom_start_) scenario.startAt(*T_odom_start_);
+  if (world_ && !isExternal()) epoch_sec_ += world_->timeSec();  // stamps never go back
+  world_.reset();
+  world_ = std::make_unique<simulation::World>(scenario, static_cast<std::uint32_t>(params_.seed));
+  R_odom_base_ = world_->truth().T_odom_base.linear();
+  answer_.reset();
+  followed_sec_ = -1.0;
+  clock_due_sec_ = debt_sec_ = 0.0;
+  pictures_due_ = pictures_lost_ = 0;
+  began_sec_ = steadyNowSec();
+  pictures_.emplace(world_->scenario().camera.rate_hz);
+  truth_due_.emplace(world_->scenario().odometry.rate_hz);
+  referee_.restart();
+  publishers_.facts(*world_, now());
+  if (!lockstep_) return;
+  lockstep_->sent().reference = lockstep_->sent().image = now();
+  lockstep_->sent().has_image = false;
+  if (running_) lockstep_->ask(now());
+}
+
+// --- time --------------------------------------------------------------------------------------------------
+
+void WorldNode::tick() {
+  if (isExternal()) return deliverNewestPictures();
+  if (lockstep_) return tickLockstep();
+  const double now_sec = steadyNowSec();
+  debt_sec_ += running_ ? (now_sec - ticked_sec_) * params_.real_time_factor : 0.0;
+  ticked_sec_ = now_sec;
+  running_ = running_ || mayRun();
+  lost_sec_ += std::max(0.0, debt_sec_ - kMostDebtSec);
+  debt_sec_ = std::min(debt_sec_, kMostDebtSec);
+  for (; debt_sec_ >= kStepSec; debt_sec_ -= kStepSec) {
+    stepOnce();
+    deliverPictures();
+  }
+}
+
+// The first step asks at time zero: once it is answered, all nodes are there and hear each other.
+void WorldNode::tickLockstep() {
+  if (!running_ && mayRun()) {
+    running_ = true;
+    tellTime();
+    lockstep_->ask(now());
+  }
+  const bool early = (steadyNowSec() - began_sec_) * params_.real_time_factor < world_->timeSec();
+  if (!running_ || (params_.realtime && early)) return;
+  const bool may_give_up = steadyNowSec() - created_sec_ >= params_.wait_sec;
+  if (lockstep_->goesOn(state_subscriber_.getNumPublishers() > 0, may_give_up)) advanceToNextStep();
+}
+
+// Pictures leave when the vehicle has answered to all that came before them.
+void WorldNode::advanceToNextStep() {
+  if (answer_) world_->command(*answer_);
+  answer_.reset();
+  deliverPictures();
+  do stepOnce();
+  while (!pictureIsDue());
+  tellTime();
+  lockstep_->ask(now());
+}
+
+// The shutter opens for the first time at the end of the first step.
+bool WorldNode::pictureIsDue() {
+  const double exposed_sec = world_->timeSec() - world_->scenario().camera.latency_sec;
+  return exposed_sec + 1e-9 >= kStepSec && pictures_->due(exposed_sec);
+}
+
+bool WorldNode::mayRun() {
+  const bool awaited = publishers_.imagesAreAwaited() && publishers_.odometryIsAwaited() &&
+                       (!lockstep_ || lockstep_->hasListeners());
+  return awaited || steadyNowSec() - created_sec_ >= params_.wait_sec;
+}
+
+void WorldNode::stepOnce() {
+  world_->advance();
+  if (!isExternal() && world_->timeSec() >= clock_due_sec_) tellTime();
+  while (const auto sample = world_->takeImu()) sendImu(*sample);
+  while (const auto sample = world_->takeOdometry()) sendOdometry(*sample);
+  while (const auto sample = world_->takeTransform())
+    publishers_.transform(*sample, stampOf(sample->stamp_sec));
+  if (truth_due_->due(world_->timeSec())) publishers_.truth(*world_, now());
+  referee_.judge(*world_, now());
+}
+
+void WorldNode::tellTime() {
+  if (const auto reading_sec = world_->readClock()) publishers_.clock(stampOf(*reading_sec));
+  clock_due_sec_ = world_->timeSec() + 1.0 / params_.clock_rate_hz - 0.5 * kStepSec;
+}
+
+ros::Time WorldNode::stampOf(double world_sec) const { return toStamp(epoch_sec_ + world_sec); }
+
+// --- what leaves -------------------------------------------------------------------------------------------
+
+void WorldNode::deliverPictures() {
+  while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
+  while (const auto frame = world_->takeFrame()) deliver(*frame);
+}
+
+void WorldNode::deliver(const simulation::CameraFrame& frame) {
+  const ros::Time stamp = stampOf(frame.stamp_sec);
+  const bool sent = publishers_.frame(frame, stamp);
+  if (!sent || !lockstep_) return;
+  lockstep_->sent().image = stamp;
+  lockstep_->sent().has_image = true;
+}
+
+// What set_camera_info has set, spoilt as the world's own calibration is.
+void WorldNode::sendCalibration(const simulation::CalibrationSample& sample) {
+  sensor_msgs::CameraInfo info = camera_info_.getCameraInfo();
+  const double zoom = sample.camera.fx / world_->camera().fx;
+  for (double* focal : {&info.K[0], &info.K[4], &info.P[0], &info.P[5]}) *focal *= zoom;
+  const ros::Time stamp = stampOf(sample.stamp_sec);
+  publishers_.cameraInfo(info, stamp);
+  if (lockstep_) lockstep_->sent().camera_info = stamp;
+}
+
+void WorldNode::sendOdometry(const simulation::OdometrySample& sample) {
+  const ros::Time stamp = stampOf(sample.stamp_sec);
+  publishers_.odometry(sample, stamp);
+  if (sample.T_odom_base.matrix().allFinite()) R_odom_base_ = sample.T_odom_base.linear();
+  if (lockstep_) lockstep_->sent().odom = stamp;
+}
+
+void WorldNode::sendImu(const simulation::ImuSample& sample) {
+  const ros::Time stamp = stampOf(sample.stamp_sec);
+  publishers_.imu(sample, stamp);
+  if (lockstep_) lockstep_->sent().imu = stamp;
+}
+
+// --- what comes --------------------------------------------------------------------------------------------
+
+void WorldNode::receiveCommand(const geometry_msgs::TwistStampedConstPtr& message) {
+  command_health_->arrived();
+  if (lockstep_) lockstep_->hearSetpoint(message->header.stamp);
+  const auto setpoint = fromMsg(*message, params_.frames, R_odom_base_);
+  if (setpoint) {
+    command_health_->accepted();
+    const simulation::VelocityCommand command{setpoint.value->velocity_odom_mps,
+                                              setpoint.value->yaw_rate_radps};
+    lockstep_ ? void(answer_ = command) : world_->command(command);
+  } else {
+    command_health_->refused(setpoint.reason);
+  }
+  if (lockstep_) tickLockstep();
+}
+
+void WorldNode::receiveState(const window_ingress::IngressStateConstPtr& message) {
+  referee_.hear(*message, *world_);
+  if (!lockstep_) return;
+  lockstep_->hearState(*message);
+  tickLockstep();
+}
+
+bool WorldNode::reset(Trigger::Request&, Trigger::Response& response) {
+  if (params_.next_seed_at_reset && params_.seed < std::numeric_limits<int>::max()) ++params_.seed;
+  T_odom_start_.reset();
+  if (isExternal()) running_ = false;  // until the vehicle is heard of again
+  restart();
+  response.success = true;
+  response.message = "scenario '" + params_.scenario + "', seed " + std::to_string(params_.seed) +
+                     " from its start" + makeOthersForget();
+  ROS_INFO("reset: %s", response.message.c_str());
+  return true;
+}
+
+// What was seen in the world before is not there any more. \return what to add to the answer
+std::string WorldNode::makeOthersForget() {
+  std::string said;
+  for (ros::ServiceClient* client : {&detector_reset_, &pose_reset_}) {
+    Trigger call;
+    const bool done = client->exists() && client->call(call) && call.response.success;
+    said += "; " + client->getService() + (done ? ": " + call.response.message : " does not answer");
+  }
+  return said;
+}
+
+bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
+  simulation::FaultParams fault;
+  fault.unit = request.unit;
+  fault.kind = request.kind;
+  fault.duration_sec = request.duration_sec;
+  const bool unheard = lockstep_ && (fault.unit == "clock" || fault.unit == "tf");
+  try {
+    if (unheard) throw simulation::ScenarioError("fault: in lockstep nobody looks at " + fault.unit);
+    world_->inject(fault);
+    response.success = true;
+    response.message = fault.unit + " " + fault.kind + " from " + std::to_string(now().toSec()) + " s for " +
+                       std::to_string(fault.duration_sec) + " s";
+  } catch (const simulation::ScenarioError& error) {
+    response.message = error.what();
+  }
+  ROS_INFO("inject: %s", response.message.c_str());
+  return true;
+}
+
+Health WorldNode::speedHealth() const {
+  if (isExternal()) return externalHealth();
+  if (!ros::Time::isSimTime())
+    return {Health::kError, "use_sim_time is not set: nodes will take the stamps for old"};
+  if (!running_) return {Health::kWarn, "waiting for subscribers of image_raw and odom"};
+  const double part = lost_sec_ / std::max(1e-3, lost_sec_ + world_->timeSec());
+  if (part > 0.1)
+    return {Health::kWarn, "slower than asked: " + std::to_string(part * 100.0) + " % of the time lost"};
+  return {};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <camera_info_manager/camera_info_manager.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+#include <window_ingress/IngressState.h>
+#include <window_ingress/Inject.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "adapters/sources/diagnostics.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/nodes/run_node.hpp"
+#include "adapters/world/world_lockstep.hpp"
+#include "adapters/world/world_publishers.hpp"
+#include "adapters/world/world_referee.hpp"
+#include "window_ingress/configuration/world_node_params.hpp"
+#include "simulation/schedule.hpp"
+#include "simulation/world.hpp"
+
+namespace window_ingress::adapters {
+
+using configuration::WorldNodeParams;
+
+/// `simulation::World` on topics; stands in for vehicle, camera and Gazebo. Runs in one thread.
+///
+/// Its time runs by the steady clock, or step by step in lockstep with the vehicle, or, when the vehicle is
+/// external, by the stamps of `vehicle_odom`.
+class WorldNode : public Node {
+ public:
+  WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+  void stop() override { referee_.finish(); }
+
+ private:
+  using Trigger = std_srvs::Trigger;
+  using Inject = window_ingress::Inject;
+
+  void subscribe(ros::NodeHandle& nh);
+  void calibrate(const simulation::Scenario& scenario);
+  void restart();
+  void tick();
+  void tickLockstep();
+  void advanceToNextStep();
+  bool mayRun();
+  bool pictureIsDue();
+  void stepOnce();
+  void deliverPictures();
+  void deliverNewestPictures();
+  void deliver(const simulation::CameraFrame& frame);
+  void receiveCommand(const geometry_msgs::TwistStampedConstPtr& message);
+  void receiveState(const window_ingress::IngressStateConstPtr& message);
+  void receiveVehicle(const nav_msgs::OdometryConstPtr& message);
+  void begin(const navigation::VehicleState& vehicle);
+  void follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& angular_velocity_radps);
+  bool reset(Trigger::Request& request, Trigger::Response& response);
+  std::string makeOthersForget();
+  bool inject(Inject::Request& request, Inject::Response& response);
+
+  void tellTime();
+  void sendCalibration(const simulation::CalibrationSample& sample);
+  void sendOdometry(const simulation::OdometrySample& sample);
+  void sendImu(const simulation::ImuSample& sample);
+  ros::Time stampOf(double world_sec) const;
+  ros::Time now() const { return stampOf(world_->timeSec()); }
+  bool isExternal() const { return world_->scenario().vehicle.profile == "external"; }
+  Health speedHealth() const;
+  Health externalHealth() const;
+
+  WorldNodeParams params_;
+  Diagnostics diagnostics_;
+  std::optional<TopicHealth> command_health_, vehicle_health_;
+  std::unique_ptr<simulation::World> world_;
+  Eigen::Matrix3d R_odom_base_ = Eigen::Matrix3d::Identity();  // as the odometry last said
+  std::optional<Eigen::Isometry3d> T_odom_start_;              // if the start lies where the vehicle was
+  std::optional<simulation::VelocityCommand> answer_;          // in lockstep: obeyed when time goes on
+  double epoch_sec_;                                           // stamp of the world's time zero
+  double clock_due_sec_ = 0.0;
+  double created_sec_, ticked_sec_, debt_sec_ = 0.0, lost_sec_ = 0.0;
+  double began_sec_ = 0.0, followed_sec_ = -1.0;
+  long pictures_due_ = 0, pictures_lost_ = 0;  // beside an external vehicle
+  bool running_ = false;
+
+  camera_info_manager::CameraInfoManager camera_info_;
+  WorldPublishers publishers_;
+  WorldReferee referee_;
+  std::optional<WorldLockstep> lockstep_;
+  std::optional<simulation::Periodic> truth_due_, pictures_;  // the latter for lockstep
+  ros::Subscriber command_subscriber_, state_subscriber_, vehicle_subscriber_;
+  ros::ServiceServer reset_, inject_;
+  ros::ServiceClient detector_reset_, pose_reset_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,29 @@
+#include "estimation/checks/attitude_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr int kEnough = 10;
+
+}  // namespace
+
+bool AttitudeCheck::see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Matrix3d& R_odom_base_odometry) {
+  const Eigen::RowVector3d up_imu = R_odom_base_imu.row(2), up_odometry = R_odom_base_odometry.row(2);
+  const double apart_rad = std::acos(std::clamp(up_imu.dot(up_odometry), -1.0, 1.0));
+  const bool agree = apart_rad <= params_.max_attitude_gap_rad;
+  in_a_row_ =
+      agree ? std::min(std::max(in_a_row_, 0) + 1, kEnough) : std::max(std::min(in_a_row_, 0) - 1, -kEnough);
+  if (in_a_row_ == kEnough) verdict_ = {FramesVerdict::kGood, ""};
+  if (in_a_row_ > -kEnough) return agree;
+  char text[160];
+  std::snprintf(text, sizeof text, "attitude of the imu is %.0f deg off that of the odometry: other axes?",
+                apart_rad * 180.0 / M_PI);
+  verdict_ = {FramesVerdict::kWrong, text};
+  return false;
+}
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "estimation/checks/attitude_check.hpp"
+#include "estimation/checks/mounting_check.hpp"
+#include "estimation/checks/twist_check.hpp"
+
+namespace window_ingress::estimation {
+
+/// Camera mounting, attitude and velocity frame, verified in the first metres of motion: what is predicted
+/// against what is seen and flown. A mismatch is named; with it nobody should fly towards anything.
+class FramesCheck {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
+              const SizeBelief& size);
+
+  TwistCheck& twist() { return twist_; }
+  AttitudeCheck& attitude() { return attitude_; }
+  MountingCheck& mounting() { return mounting_; }
+  const MountingCheck& mounting() const { return mounting_; }
+
+  /// Wrong if one of them is; good if mounting and velocity are (an imu need not be there).
+  FramesVerdict verdict() const;
+
+  void clear();
+  /// The odometry frame is another one; what was found out stays.
+  void forgetPlaces();
+
+ private:
+  TwistCheck twist_;
+  AttitudeCheck attitude_;
+  MountingCheck mounting_;
+};
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,268 @@
+#include "estimation/checks/mounting_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr char kNothingYet[] = "camera mounting: no way flown yet";
+constexpr double kLastingSec = 10000.0;  // a mounting does not change
+constexpr double kSpacingSec = 0.5, kGoodSpacingFactor = 3.0;
+constexpr std::size_t kMostImages = 16, kEnoughImages = 10;
+constexpr double kKeptSpacingM = 0.1;
+constexpr int kRefusedUntilRestart = 5, kLeastUpdates = 15;
+constexpr double kOpenScaleSigma = 0.5, kOpenAspectSigma = 0.2;
+constexpr double kMeasuredSigma = 0.2;  // a size less certain is not told
+constexpr double kMaxMisfit = 2.0, kMuchBetter = 0.3;
+constexpr double kUnexplained = 100.0, kMaxRefused = 0.3;
+constexpr int kSetupsAnImage = 4;
+
+FilterParams openParams(FilterParams filter, const FramesParams& params) {
+  filter.attitude_bias_sigma_rad = filter.mounting_yaw_sigma_rad = params.mounting_prior_rad;
+  filter.attitude_bias_time_sec = kLastingSec;
+  filter.trusted_yaw_sigma_rad = 0.5;
+  filter.outliers_until_restart = 1000;
+  return filter;
+}
+
+/// A turn of the camera about the body's axes; the axis furthest off, at least and at most.
+struct BodyTurn {
+  Eigen::Vector3d roll_pitch_yaw_rad;
+  double least_rad, most_rad;
+};
+
+BodyTurn bodyTurn(const CameraTurn& camera, double sigmas) {
+  const Eigen::Vector3d turn(camera.turn_rad.z(), -camera.turn_rad.x(), -camera.turn_rad.y());
+  const Eigen::Vector3d variance = camera.covariance.diagonal();
+  const Eigen::Vector3d sigma = Eigen::Vector3d(variance.z(), variance.x(), variance.y()).cwiseSqrt();
+  return {turn, (turn.cwiseAbs() - sigmas * sigma).maxCoeff(), (turn.cwiseAbs() + sigmas * sigma).maxCoeff()};
+}
+
+double degrees(double radians) { return radians * 180.0 / M_PI; }
+
+std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
+  static const char* const kAxes[] = {"roll", "pitch", "yaw"};
+  std::string text;
+  const double largest = roll_pitch_yaw_rad.cwiseAbs().maxCoeff();
+  for (int axis : {2, 1, 0}) {
+    if (std::abs(roll_pitch_yaw_rad(axis)) < 0.5 * largest) continue;
+    char part[60];
+    std::snprintf(part, sizeof part, "%s%.0f deg in %s", text.empty() ? "" : " and ",
+                  degrees(roll_pitch_yaw_rad(axis)), kAxes[axis]);
+    text += part;
+  }
+  return "camera mounting turned by about " + text;
+}
+
+// All ways to lay right-handed axes on others.
+std::vector<Eigen::Matrix3d> rightAngles() {
+  std::vector<Eigen::Matrix3d> all;
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y) {
+      if (x / 2 == y / 2) continue;
+      Eigen::Matrix3d R;
+      R.col(0) = (x % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(x / 2);
+      R.col(1) = (y % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(y / 2);
+      R.col(2) = R.col(0).cross(R.col(1));
+      all.push_back(R);
+    }
+  return all;
+}
+
+}  // namespace
+
+struct MountingCheck::Setup {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  bool exchanged = false;  // x and y of the position
+
+  Eigen::Isometry3d T_odom_camera(const Image& image) const {
+    Eigen::Isometry3d T_odom_base = image.T_odom_base;
+    if (exchanged) std::swap(T_odom_base.translation().x(), T_odom_base.translation().y());
+    Eigen::Isometry3d T = T_odom_base * image.T_base_camera;
+    T.linear() = T.linear() * turn;
+    return T;
+  }
+
+  std::string text(const Eigen::Matrix3d& R_base_camera) const {
+    if (exchanged) return "x and y of odometry's position look exchanged";
+    if (turn.isApprox(geometry::R_optical_flu().transpose(), 0.2))
+      return "camera frame looks like body axes (x forward), not optical ones (z forward)";
+    const auto euler = geometry::eulerFromRotation(R_base_camera * turn * R_base_camera.transpose());
+    return turnText({euler.theta_rad, euler.phi_rad, euler.psi_rad});
+  }
+};
+
+struct MountingCheck::Trial {
+  double misfit_as_said;
+  Setup best;
+  double misfit;
+  std::vector<Setup> left;
+};
+
+std::vector<MountingCheck::Setup> MountingCheck::setups() {
+  std::vector<Setup> all{{Eigen::Matrix3d::Identity(), true}};
+  for (const Eigen::Matrix3d& turn : rightAngles())
+    if (!turn.isIdentity()) all.push_back({turn, false});
+  return all;
+}
+
+MountingCheck::MountingCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
+                             const SizeBelief& size)
+    : params_(params),
+      estimator_(pose),
+      filter_params_(openParams(filter, params)),
+      said_(size),
+      open_(sizeBelief(size.size, kOpenScaleSigma, kOpenAspectSigma)),
+      filter_(filter_params_, open_) {}
+
+void MountingCheck::forgetPlaces() {
+  filter_.forgetPlaces();
+  images_.clear();
+  refused_ = 0;
+  trial_.reset();
+}
+
+void MountingCheck::clear() {
+  forgetPlaces();
+  filter_.reset();
+  measured_size_.reset();
+  size_is_fault_ = false;
+  verdict_ = {FramesVerdict::kOpen, kNothingYet};
+}
+
+// What was measured of a window does not hold for another; what was found of the mounting does.
+void MountingCheck::startAnewForAnotherTarget(std::uint32_t seen_id) {
+  if (seen_id == 0) return;
+  if (target_id_ != 0 && seen_id != target_id_) {
+    forgetPlaces();
+    filter_.reset();
+    measured_size_.reset();
+    if (size_is_fault_) verdict_ = {FramesVerdict::kOpen, kNothingYet};
+    size_is_fault_ = false;
+  }
+  target_id_ = seen_id;
+}
+
+bool MountingCheck::isFarFromLast(const Image& image) const {
+  if (images_.empty()) return true;
+  const Image& last = images_.back();
+  const double spacing_m =
+      params_.image_spacing_m * (verdict_.state == FramesVerdict::kGood ? kGoodSpacingFactor : 1.0);
+  const double elapsed_sec = image.window.stamp_sec - last.window.stamp_sec;
+  return elapsed_sec < 0.0 || elapsed_sec > kSpacingSec ||
+         (image.T_odom_base.translation() - last.T_odom_base.translation()).norm() >= spacing_m;
+}
+
+void MountingCheck::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera) {
+  if (!window.whole() || !geometry::isValidPose(T_odom_base) || !geometry::isValidPose(T_base_camera)) return;
+  startAnewForAnotherTarget(window.target_id);
+  const Image image{window, camera, T_odom_base, T_base_camera};
+  if (!isFarFromLast(image)) return;
+  keep(image);
+  if (feed(filter_, image, T_odom_base * T_base_camera)) {
+    refused_ = 0;
+    return judge();
+  }
+  if (++refused_ % kRefusedUntilRestart == 0) filter_.forgetPlaces();
+  if (trial_ || refused_ >= kRefusedUntilRestart) tryNextSetups();
+}
+
+// The last one is where the next spacing is measured from; those before it are thinned out.
+void MountingCheck::keep(const Image& image) {
+  if (images_.size() > 1) {
+    const Image& last = images_[images_.size() - 2];
+    if ((images_.back().T_odom_base.translation() - last.T_odom_base.translation()).norm() < kKeptSpacingM)
+      images_.pop_back();
+  }
+  images_.push_back(image);
+  if (images_.size() > kMostImages) images_.pop_front();
+}
+
+bool MountingCheck::feed(WindowFilter& filter, const Image& image,
+                         const Eigen::Isometry3d& T_odom_camera) const {
+  if (filter.state(image.window.stamp_sec)) return filter.update(image.window, image.camera, T_odom_camera);
+  PoseHints hints;
+  hints.size = open_;
+  const auto start = estimator_.estimate(image.window, image.camera, hints).estimate;
+  return start && filter.update(*start, image.window, image.camera, T_odom_camera);
+}
+
+void MountingCheck::judge() {
+  const auto found = filter_.state(images_.back().window.stamp_sec);
+  if (!found || found->updates < kLeastUpdates) return;
+  trial_.reset();
+  if (found->size.log_covariance(1, 1) < kMeasuredSigma * kMeasuredSigma) measured_size_ = found->size;
+  judgeTurn(*found);
+}
+
+// Both planar hypotheses must agree: a turned camera and a turned window look alike for a while.
+void MountingCheck::judgeTurn(const FilteredWindow& found) {
+  BodyTurn turn = bodyTurn(found.camera_turn, params_.certain_sigmas);
+  if (found.alternative) {
+    const BodyTurn other = bodyTurn(found.alternative->camera_turn, params_.certain_sigmas);
+    turn.least_rad = std::min(turn.least_rad, other.least_rad);
+    turn.most_rad = std::max(turn.most_rad, other.most_rad);
+  }
+  const std::string size_fault = faultOfSize(found.size);
+  const FramesVerdict before = verdict_;
+  if (turn.least_rad > params_.max_mounting_rad)
+    verdict_ = {FramesVerdict::kWrong, turnText(turn.roll_pitch_yaw_rad)};
+  else if (!size_fault.empty())
+    verdict_ = {FramesVerdict::kWrong, size_fault};
+  else if (turn.most_rad < 2.0 * params_.max_mounting_rad)
+    verdict_ = {FramesVerdict::kGood, ""};
+  if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
+}
+
+// Empty if the size is as it was said to be, or was not said to be known.
+std::string MountingCheck::faultOfSize(const SizeBelief& found) const {
+  if (!said_.log_covariance.isZero(0.0)) return "";
+  const Eigen::Vector2d grown(std::log(found.size.width_m / said_.size.width_m),
+                              std::log(found.size.height_m / said_.size.height_m));
+  const Eigen::Vector2d sigma = found.log_covariance.diagonal().cwiseSqrt();
+  const double least = (grown.cwiseAbs() - params_.certain_sigmas * sigma).maxCoeff();
+  if (!(least > params_.max_size_error)) return "";
+  char text[120];
+  std::snprintf(text, sizeof text, "opening looks like %.2f x %.2f m, said to be %.2f x %.2f m",
+                found.size.width_m, found.size.height_m, said_.size.width_m, said_.size.height_m);
+  return text;
+}
+
+// Mean of the images' normalised squares; those that do not fit at all count much.
+double MountingCheck::misfitOf(const Setup& setup) const {
+  WindowFilter filter(filter_params_, open_);
+  const double images = static_cast<double>(images_.size());
+  int refused = 0;
+  for (const Image& image : images_) {
+    refused += !feed(filter, image, setup.T_odom_camera(image));
+    if (refused > kMaxRefused * images) return kUnexplained;
+  }
+  const auto found = filter.state(images_.back().window.stamp_sec);
+  return found ? found->consistency.mean_nis + kUnexplained * refused / images : kUnexplained;
+}
+
+void MountingCheck::tryNextSetups() {
+  if (images_.size() < kEnoughImages) return;
+  if (!trial_) trial_ = std::make_shared<Trial>(Trial{misfitOf(Setup{}), {}, kUnexplained, setups()});
+  for (int i = 0; i < kSetupsAnImage && !trial_->left.empty(); ++i) {
+    const Setup setup = trial_->left.back();
+    trial_->left.pop_back();
+    const double misfit = misfitOf(setup);
+    if (misfit >= trial_->misfit) continue;
+    trial_->best = setup;
+    trial_->misfit = misfit;
+  }
+  if (!trial_->left.empty()) return;
+  if (trial_->misfit < kMaxMisfit && trial_->misfit < kMuchBetter * trial_->misfit_as_said)
+    verdict_ = {FramesVerdict::kWrong, trial_->best.text(images_.back().T_base_camera.linear())};
+  trial_.reset();
+}
+
+}  // namespace window_ingress::estimation

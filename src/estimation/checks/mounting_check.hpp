@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
+
+namespace window_ingress::estimation {
+
+/// Whether the camera looks where its mounting says, and the opening has the size it is said to have: a
+/// filter of its own that knows neither, fed with images a little apart. What moves past the camera while
+/// odometry flies a known way tells both.
+///
+/// Where that filter explains nothing, the mounting may be wrong by a right angle or more, or odometry's axes
+/// exchanged: these are tried on the last images, and the one that explains them is named.
+class MountingCheck {
+ public:
+  /// \param size what the opening is said to be; zero covariance: known, and so to be verified
+  MountingCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
+                const SizeBelief& size);
+
+  /// Only whole windows say something.
+  void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+           const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera);
+  void clear();
+  void forgetPlaces();  ///< the odometry frame is another one; what was found out stays
+  FramesVerdict verdict() const { return verdict_; }
+
+  /// The size as measured on the way flown, whatever it is said to be; nothing before there is one.
+  const std::optional<SizeBelief>& measuredSize() const { return measured_size_; }
+
+ private:
+  struct Image {
+    detection::WindowObservation window;
+    geometry::PinholeCamera camera;
+    Eigen::Isometry3d T_odom_base, T_base_camera;
+  };
+  struct Setup;
+  struct Trial;
+  static std::vector<Setup> setups();
+  void startAnewForAnotherTarget(std::uint32_t seen_id);
+  bool isFarFromLast(const Image& image) const;
+  bool feed(WindowFilter& filter, const Image& image, const Eigen::Isometry3d& T_odom_camera) const;
+  void keep(const Image& image);
+  void judge();
+  void judgeTurn(const FilteredWindow& found);
+  std::string faultOfSize(const SizeBelief& found) const;
+  void tryNextSetups();
+  double misfitOf(const Setup& setup) const;
+
+  FramesParams params_;
+  WindowPoseEstimator estimator_;
+  FilterParams filter_params_;
+  SizeBelief said_, open_;
+  WindowFilter filter_;
+  std::deque<Image> images_;
+  int refused_ = 0;
+  std::uint32_t target_id_ = 0;
+  bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
+  std::shared_ptr<Trial> trial_;  ///< other setups, a few with each image; nothing while all is well
+  std::optional<SizeBelief> measured_size_;
+  FramesVerdict verdict_{FramesVerdict::kOpen, "camera mounting: no way flown yet"};
+};
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,42 @@
+#include "estimation/checks/smooth_path.hpp"
+
+#include <cmath>
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr std::size_t kLeastSamples = 5, kMostSamples = 400;
+constexpr double kLeastSpan = 1.0 / 3.0;
+
+}  // namespace
+
+void SmoothPath::add(double stamp_sec, const Eigen::Vector3d& position_m) {
+  if (!std::isfinite(stamp_sec) || !position_m.allFinite()) return;
+  if (!samples_.empty() && stamp_sec <= samples_.back().stamp_sec) samples_.clear();
+  samples_.push_back({stamp_sec, position_m});
+  while (samples_.size() > kMostSamples || samples_.front().stamp_sec < stamp_sec - span_sec_)
+    samples_.pop_front();
+}
+
+std::optional<SmoothPath::Motion> SmoothPath::motion() const {
+  if (samples_.size() < kLeastSamples) return std::nullopt;
+  const Sample& last = samples_.back();
+  if (last.stamp_sec - samples_.front().stamp_sec < kLeastSpan * span_sec_) return std::nullopt;
+  double mean_sec = 0.0;
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  for (const Sample& sample : samples_) {
+    mean_sec += (sample.stamp_sec - last.stamp_sec) / samples_.size();
+    mean_m += (sample.position_m - last.position_m) / samples_.size();
+  }
+  double square_sec = 0.0;
+  Eigen::Vector3d product = Eigen::Vector3d::Zero();
+  for (const Sample& sample : samples_) {
+    const double dt_sec = sample.stamp_sec - last.stamp_sec - mean_sec;
+    square_sec += dt_sec * dt_sec;
+    product += dt_sec * (sample.position_m - last.position_m - mean_m);
+  }
+  const Eigen::Vector3d velocity = product / square_sec;
+  return Motion{last.position_m + mean_m - mean_sec * velocity, velocity};
+}
+
+}  // namespace window_ingress::estimation

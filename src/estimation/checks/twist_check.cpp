@@ -1,0 +1,150 @@
+#include "estimation/checks/twist_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/median.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr double kLongestGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
+constexpr std::size_t kMostPieces = 24;
+constexpr std::size_t kLeastPieces =
+    14;  // for a bias: positions that slide for three seconds are a minority of them
+constexpr double kMostBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
+// Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
+constexpr double kJitterM = 0.02, kDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
+constexpr double kMostSquares = 9.0;     // of one piece: mad numbers and slides are no frame
+constexpr double kMaxMeanSquares = 2.0;  // of its errors, normalised; 1 is expected
+constexpr double kMuchBetter = 0.5;      // of the other meaning's squares
+constexpr double kLeastEvidence = 10.0;  // for it [nats]
+
+const std::array<const char*, TwistCheck::kMeanings> kNames{
+    "",
+    "twist looks like world frame, not body frame",
+    "twist looks turned to body frame twice",
+    "twist looks like x and y exchanged",
+    "twist looks like y and z of opposite sign (forward-right-down)",
+    "twist looks like the opposite sign"};
+
+// What the velocity in odom would be, were the numbers of the twist meant like this.
+std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3d& R,
+                                                            const Eigen::Vector3d& velocity) {
+  const Eigen::Vector3d twist = R.transpose() * velocity;
+  return {velocity,
+          twist,
+          R * velocity,
+          R * Eigen::Vector3d(twist.y(), twist.x(), twist.z()),
+          R * Eigen::Vector3d(twist.x(), -twist.y(), -twist.z()),
+          -velocity};
+}
+
+double square(double value) { return value * value; }
+
+double normalised(double length_m, double variance) {
+  return std::min(square(length_m) / variance, kMostSquares);
+}
+
+}  // namespace
+
+void TwistCheck::add(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
+                     const Eigen::Vector3d& velocity_odom_mps) {
+  if (!std::isfinite(stamp_sec) || !geometry::isValidPose(T_odom_base) || !velocity_odom_mps.allFinite())
+    return;
+  const Eigen::Matrix3d R = T_odom_base.linear();
+  const Sample now{stamp_sec, R, T_odom_base.translation(), meanings(R, velocity_odom_mps)};
+  const double dt_sec = last_ ? stamp_sec - last_->stamp_sec : -1.0;
+  if (dt_sec == 0.0) return;
+  const bool continues = dt_sec > 0.0 && dt_sec <= kLongestGapSec;
+  if (!continues || last_->stamp_sec - first_->stamp_sec > kLongestPieceSec) return startAt(now);
+  for (int k = 0; k < kMeanings; ++k)
+    integrated_m_[k] += 0.5 * dt_sec * (last_->velocity_mps[k] + now.velocity_mps[k]);
+  last_ = now;
+  const Eigen::Vector3d moved = now.position_m - first_->position_m;
+  const bool is_long = std::max(moved.norm(), integrated_m_[0].norm()) >= params_.way_segment_m;
+  if (is_long && now.stamp_sec - first_->stamp_sec >= kShortestPieceSec) closePiece(moved);
+}
+
+void TwistCheck::startAt(const Sample& now) {
+  first_ = last_ = now;
+  integrated_m_.fill(Eigen::Vector3d::Zero());
+}
+
+void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
+  const double sec = last_->stamp_sec - first_->stamp_sec;
+  const double changed_mps = (last_->velocity_mps[0] - first_->velocity_mps[0]).norm();
+  Piece piece;
+  piece.way_m = std::max(moved_m.norm(), integrated_m_[0].norm());
+  piece.variance = 2.0 * square(kJitterM) + square(kDriftMPerSqrtSec) * sec + square(kScale * piece.way_m) +
+                   square(kLateSec * changed_mps);
+  piece.sec = sec;
+  for (int k = 0; k < kMeanings; ++k)
+    piece.error_base_m[k] = first_->R_odom_base.transpose() * (integrated_m_[k] - moved_m);
+  pieces_.push_back(piece);
+  if (pieces_.size() > kMostPieces) pieces_.pop_front();
+  startAt(*last_);
+  judge();
+}
+
+double TwistCheck::Sums::misfit() const { return std::sqrt(misfits[0] / squares); }
+
+// Of a velocity that is always off by the same, fixed in the body: no fault of its frame.
+Eigen::Vector3d TwistCheck::biasMps(int meaning) const {
+  if (pieces_.size() < kLeastPieces) return Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> errors_mps;
+  for (const Piece& piece : pieces_) errors_mps.push_back(piece.error_base_m[meaning] / piece.sec);
+  return geometry::componentwiseMedian(errors_mps);
+}
+
+TwistCheck::Sums TwistCheck::sums() const {
+  Sums sums;
+  Way bias_mps;
+  for (int k = 0; k < kMeanings; ++k) {
+    bias_mps[k] = biasMps(k);
+    const double norm = bias_mps[k].norm();
+    if (k == 0) sums.bias_mps = norm;
+    if (norm > kMostBiasMps) bias_mps[k] *= kMostBiasMps / norm;
+  }
+  for (const Piece& piece : pieces_) {
+    sums.way_m += piece.way_m;
+    sums.squares += square(piece.way_m) / piece.variance;
+    for (int k = 0; k < kMeanings; ++k)
+      sums.misfits[k] += normalised((piece.error_base_m[k] - piece.sec * bias_mps[k]).norm(), piece.variance);
+  }
+  return sums;
+}
+
+// Zero if there is none.
+std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
+  const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
+  const double evidence = 1.5 * static_cast<double>(pieces_.size()) * std::log(sums.misfits[0] / *least);
+  const bool is_better = *least < kMuchBetter * sums.misfits[0] && evidence > kLeastEvidence;
+  return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
+}
+
+void TwistCheck::judge() {
+  const Sums all = sums();
+  if (all.way_m < params_.least_way_m) return;
+  const bool is_biased = all.bias_mps > kMostBiasMps;
+  if (!is_biased && all.misfit() <= params_.max_velocity_error) {
+    verdict_ = {FramesVerdict::kGood, ""};
+    return;
+  }
+  const std::size_t better = betterMeaning(all);
+  const double mean_squares = all.misfits[0] / (3.0 * static_cast<double>(pieces_.size()));
+  if (better > 0) {
+    verdict_ = {FramesVerdict::kWrong, kNames[better]};
+  } else if (is_biased || (pieces_.size() >= kLeastPieces && mean_squares > kMaxMeanSquares)) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "twist does not fit the way flown: off by %.0f %% and by %.2f m/s throughout",
+                  100.0 * all.misfit(), all.bias_mps);
+    verdict_ = {FramesVerdict::kWrong, text};
+  }
+}
+
+}  // namespace window_ingress::estimation

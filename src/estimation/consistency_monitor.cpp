@@ -1,0 +1,40 @@
+#include "window_ingress/estimation/consistency_monitor.hpp"
+
+#include <cmath>
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr double kMostRefused = 0.4;
+
+}  // namespace
+
+void ConsistencyMonitor::add(double squares, int degrees_of_freedom) {
+  if (!std::isfinite(squares) || squares < 0.0 || degrees_of_freedom < 1) return;
+  note({squares, degrees_of_freedom});
+}
+
+void ConsistencyMonitor::refuse() { note({0.0, 0}); }
+
+void ConsistencyMonitor::note(const Sample& sample) {
+  samples_.push_back(sample);
+  if (samples_.size() > images_) samples_.pop_front();
+}
+
+Consistency ConsistencyMonitor::consistency() const {
+  Consistency out;
+  double squares = 0.0, degrees_of_freedom = 0.0;
+  for (const Sample& sample : samples_) {
+    squares += sample.squares;
+    degrees_of_freedom += sample.degrees_of_freedom;
+    out.refused += sample.degrees_of_freedom == 0;
+  }
+  out.images = static_cast<int>(samples_.size()) - out.refused;
+  if (degrees_of_freedom > 0.0) out.mean_nis = squares / degrees_of_freedom;
+  const bool few = 2 * samples_.size() < images_;
+  out.consistent = few || out.mean_nis <= limit_;
+  out.contradicted = !few && out.refused > kMostRefused * static_cast<double>(samples_.size());
+  return out;
+}
+
+}  // namespace window_ingress::estimation

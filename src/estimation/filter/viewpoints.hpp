@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace window_ingress::estimation {
+
+/// Counts the images taken from each place, so that the systematic error they share is not averaged away.
+class Viewpoints {
+ public:
+  /// Places nearer to each other than `spacing_m` are one.
+  explicit Viewpoints(double spacing_m) : spacing_m_(spacing_m) {}
+
+  /// How many images were taken from here, one more included.
+  double looksWith(const Eigen::Vector3d& position) const;
+  void add(const Eigen::Vector3d& position);
+  void clear() { places_.clear(); }
+
+ private:
+  struct Place {
+    Eigen::Vector3d position;
+    double looks;
+  };
+  static constexpr std::size_t kMaxPlaces = 256;  ///< the oldest is forgotten
+  double spacing_m_;
+  std::vector<Place> places_;
+};
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,126 @@
+#include "estimation/filter/window_beliefs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr double kMergeDistance = 0.5;  // squared Mahalanobis
+constexpr double kSplitSigmas = 1.0;    // from here on a mirror image is a mode of its own
+constexpr double kImpossible = -1e300;
+
+double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)); }
+
+}  // namespace
+
+bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size,
+                          const FilterView& view) {
+  const Eigen::Vector3d position = view.T_odom_camera.translation();
+  WindowHypothesis window(params_, T_odom_window, size, position);
+  auto outcome = window.update(params_, view);
+  if (!outcome || outcome->squares > params_.gate_squares) {
+    window = WindowHypothesis(params_, window.mirrored(position).T_odom_window(), size, position);
+    outcome = window.update(params_, view);
+  }
+  if (!outcome || outcome->squares > params_.gate_squares) return false;
+  hypotheses_.assign(1, {window, 0.0});
+  may_split_ = true;
+  addMirrorImage(view, size, outcome->squares);
+  settle(position);
+  return true;
+}
+
+// The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
+// Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
+// belief.
+void WindowBeliefs::addMirrorImage(const FilterView& view, const SizeBelief& size, double squares) {
+  const WindowHypothesis& window = hypotheses_.front().window;
+  const Eigen::Vector3d position = view.T_odom_camera.translation();
+  const Eigen::Isometry3d image = window.mirrored(position).T_odom_window();
+  WindowHypothesis other(params_, image, size, position);
+  auto outcome = other.update(params_, view);
+  if (!outcome || window.distanceTo(other) < kMergeDistance) {
+    if (std::abs(window.yawFromSight(position)) < kSplitSigmas * window.yawSigma()) return;
+    other = WindowHypothesis(params_, image, size, position, window.yawSigma());
+    outcome = other.update(params_, view);
+  }
+  if (!outcome) return;
+  const double evidence = 0.5 * (squares - outcome->squares);
+  hypotheses_.push_back({other, std::clamp(evidence, -params_.max_evidence, params_.max_evidence)});
+}
+
+std::optional<WindowHypothesis::Outcome> WindowBeliefs::apply(const FilterView& view, double elapsed_sec,
+                                                              double way_m) {
+  std::vector<Weighted> tried = hypotheses_;
+  std::array<double, 2> evidence{kImpossible, kImpossible};
+  std::optional<WindowHypothesis::Outcome> closest;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    WindowHypothesis& window = tried[i].window;
+    window.predict(params_, elapsed_sec, way_m, view.T_odom_camera.translation());
+    WindowHypothesis updated = window;
+    const auto outcome = updated.update(params_, view);
+    if (!outcome || outcome->squares > params_.gate_squares) continue;
+    evidence[i] = outcome->log_evidence;
+    window = updated;
+    if (!closest || outcome->squares < closest->squares) closest = outcome;
+  }
+  if (!closest) return std::nullopt;
+  const double best = std::max(evidence[0], evidence[1]);
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    tried[i].log_weight += std::max(evidence[i] - best, -params_.max_evidence);
+  hypotheses_ = std::move(tried);
+  settle(view.T_odom_camera.translation());
+  return closest;
+}
+
+bool WindowBeliefs::areUnambiguous() const {
+  if (hypotheses_.size() < 2) return true;
+  const auto yaw = [](const Weighted& h) { return h.window.state().yaw(); };
+  return std::abs(geometry::wrapAngle(yaw(hypotheses_[0]) - yaw(hypotheses_[1]))) < params_.harmless_yaw_rad;
+}
+
+void WindowBeliefs::settle(const Eigen::Vector3d& camera_position) {
+  normalise();
+  mergeOrDrop();
+  split(camera_position);
+  normalise();
+}
+
+void WindowBeliefs::normalise() {
+  std::sort(hypotheses_.begin(), hypotheses_.end(),
+            [](const Weighted& a, const Weighted& b) { return a.log_weight > b.log_weight; });
+  const double heaviest = hypotheses_.front().log_weight;
+  double sum = 0.0;
+  for (const auto& h : hypotheses_) sum += std::exp(h.log_weight - heaviest);
+  for (auto& h : hypotheses_) h.log_weight -= heaviest + std::log(sum);
+}
+
+void WindowBeliefs::mergeOrDrop() {
+  if (hypotheses_.size() < 2) return;
+  const double share = std::exp(hypotheses_[1].log_weight);
+  if (hypotheses_[0].window.distanceTo(hypotheses_[1].window) < kMergeDistance) {
+    hypotheses_[0].window = hypotheses_[0].window.mergedWith(hypotheses_[1].window, share);
+    hypotheses_.pop_back();
+    may_split_ = true;
+  } else if (share < params_.dead_weight) {
+    hypotheses_.pop_back();
+    may_split_ = false;
+  }
+}
+
+// A single belief that lies between both mirror images holds some of the other one's mass: it becomes two.
+void WindowBeliefs::split(const Eigen::Vector3d& camera_position) {
+  if (hypotheses_.size() != 1 || !may_split_) return;
+  const WindowHypothesis window = hypotheses_.front().window;
+  const double angle = std::abs(window.yawFromSight(camera_position)), sigmas = angle / window.yawSigma();
+  if (2.0 * angle < params_.harmless_yaw_rad || sigmas < kSplitSigmas) return;
+  const double other = upperTail(sigmas);
+  if (other < params_.dead_weight) return;
+  hypotheses_ = {{window, std::log(1.0 - other)}, {window.mirrored(camera_position), std::log(other)}};
+}
+
+}  // namespace window_ingress::estimation

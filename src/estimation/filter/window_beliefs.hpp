@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "window_ingress/estimation/filter_params.hpp"
+#include "estimation/filter/window_hypothesis.hpp"
+
+namespace window_ingress::estimation {
+
+/// The window and its mirror image: one or two hypotheses with weights that sum to 1, the heavier first.
+class WindowBeliefs {
+ public:
+  explicit WindowBeliefs(const FilterParams& params) : params_(params) {}
+
+  struct Weighted {
+    WindowHypothesis window;
+    double log_weight;
+  };
+
+  bool empty() const { return hypotheses_.empty(); }
+  void clear() { hypotheses_.clear(); }
+  const std::vector<Weighted>& hypotheses() const { return hypotheses_; }
+
+  /// Begins anew with a pose from one image, and with its mirror image.
+  /// \return false, and nothing changed, if no upright window next to that pose, or to its mirror image,
+  /// explains the image
+  bool start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size, const FilterView& view);
+
+  /// Time passes, the camera flies a way, and an image is applied to all hypotheses.
+  /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
+  /// an
+  ///         outlier to all
+  std::optional<WindowHypothesis::Outcome> apply(const FilterView& view, double elapsed_sec, double way_m);
+
+  /// True if the mirror image is dead, or too near to matter.
+  bool areUnambiguous() const;
+
+ private:
+  void addMirrorImage(const FilterView& view, const SizeBelief& size, double squares);
+  void settle(const Eigen::Vector3d& camera_position);
+  void normalise();
+  void mergeOrDrop();
+  void split(const Eigen::Vector3d& camera_position);
+
+  FilterParams params_;
+  std::vector<Weighted> hypotheses_;
+  bool may_split_ = false;  ///< no evidence has killed the mirror image yet
+};
+
+}  // namespace window_ingress::estimation

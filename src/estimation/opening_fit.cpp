@@ -1,0 +1,52 @@
+#include "window_ingress/estimation/opening_fit.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace window_ingress::estimation {
+namespace {
+
+struct Side {
+  const char* name;
+  double size_m, sigma_m, needed_m;
+  double excess() const { return size_m - needed_m; }
+};
+
+std::string text(const Side& side, const char* relation) {
+  char buffer[120];
+  std::snprintf(buffer, sizeof buffer, "%s %.3f m +- %.3f %s %.3f m that are needed", side.name, side.size_m,
+                side.sigma_m, relation, side.needed_m);
+  return buffer;
+}
+
+}  // namespace
+
+const char* toString(Fit fit) {
+  switch (fit) {
+    case Fit::kUnknown:
+      return "UNKNOWN";
+    case Fit::kGo:
+      return "GO";
+    case Fit::kNoGo:
+      return "NO_GO";
+  }
+  return "UNKNOWN";
+}
+
+FitVerdict fitVerdict(const SizeBelief& opening, const FitParams& params) {
+  if (!isUsable(opening)) return {Fit::kUnknown, "the size of the opening is not known"};
+  const auto& [size, covariance] = opening;
+  const Side width{"width", size.width_m, size.width_m * std::sqrt(covariance(0, 0)),
+                   params.vehicle_width_m + 2.0 * params.margin_m};
+  const Side height{"height", size.height_m, size.height_m * std::sqrt(covariance(1, 1)),
+                    params.vehicle_height_m + 2.0 * params.margin_m};
+  const Side& tighter = width.excess() < height.excess() ? width : height;
+  for (const Side& side : {tighter, width, height})
+    if (side.excess() < -params.sigmas * side.sigma_m) return {Fit::kNoGo, text(side, "is less than the")};
+  for (const Side& side : {tighter, width, height})
+    if (!(side.excess() > params.sigmas * side.sigma_m))
+      return {Fit::kUnknown, text(side, "is not certain to be more or less than the")};
+  return {Fit::kGo, text(tighter, "is more than the")};
+}
+
+}  // namespace window_ingress::estimation

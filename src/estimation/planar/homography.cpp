@@ -1,0 +1,69 @@
+#include "estimation/planar/homography.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::estimation {
+
+std::optional<Eigen::Matrix3d> windowHomography(const geometry::Quadrilateral& corners_normalised,
+                                                const geometry::OpeningSize& size) {
+  if (!geometry::isFinite(corners_normalised)) return std::nullopt;
+  // Plane in half sizes and image about its centroid: without that the equations are ill-conditioned far
+  // away.
+  const Eigen::Vector2d centre = geometry::centroid(corners_normalised);
+  double spread = 0.0;
+  for (const auto& corner : corners_normalised) spread += 0.25 * (corner - centre).norm();
+  if (!(spread > 1e-12)) return std::nullopt;
+
+  const double plane_x[] = {-1, 1, 1, -1}, plane_y[] = {-1, -1, 1, 1};
+  Eigen::Matrix<double, 8, 8> equations;
+  Eigen::Matrix<double, 8, 1> image;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d p = (corners_normalised[i] - centre) / spread;
+    const double x = plane_x[i], y = plane_y[i];
+    equations.row(2 * i) << x, y, 1, 0, 0, 0, -p.x() * x, -p.x() * y;
+    equations.row(2 * i + 1) << 0, 0, 0, x, y, 1, -p.y() * x, -p.y() * y;
+    image.segment<2>(2 * i) = p;
+  }
+  const Eigen::FullPivLU<Eigen::Matrix<double, 8, 8>> lu(equations);
+  if (lu.rcond() < 1e-9) return std::nullopt;
+  const Eigen::Matrix<double, 8, 1> h = lu.solve(image);
+
+  Eigen::Matrix3d local, to_image = Eigen::Matrix3d::Identity();
+  local << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1.0;
+  to_image.diagonal() << spread, spread, 1.0;
+  to_image.topRightCorner<2, 1>() = centre;
+  const Eigen::Vector3d to_half_sizes(2.0 / size.width_m, 2.0 / size.height_m, 1.0);
+  const Eigen::Matrix3d homography = to_image * local * to_half_sizes.asDiagonal();
+  const Eigen::Matrix3d unit = homography / homography.norm();
+  if (!unit.allFinite() || std::abs(local.determinant()) < 1e-9) return std::nullopt;
+  return homography;
+}
+
+Eigen::Matrix3d rotationFromHomography(const Eigen::Matrix3d& homography) {
+  const double scale =
+      (homography(2, 2) < 0.0 ? -2.0 : 2.0) / (homography.col(0).norm() + homography.col(1).norm());
+  Eigen::Matrix3d columns;
+  columns.leftCols<2>() = scale * homography.leftCols<2>();
+  columns.col(2) = columns.col(0).cross(columns.col(1));
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(columns, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d product = svd.matrixU() * svd.matrixV().transpose();
+  const Eigen::Vector3d handedness(1, 1, product.determinant() < 0.0 ? -1 : 1);
+  return svd.matrixU() * handedness.asDiagonal() * svd.matrixV().transpose();
+}
+
+std::optional<Eigen::Isometry3d> poseFromHomography(const Eigen::Matrix3d& homography) {
+  const double length = 0.5 * (homography.col(0).norm() + homography.col(1).norm());
+  if (!homography.allFinite() || !(length > 1e-12) || std::abs(homography(2, 2)) < 1e-12) return std::nullopt;
+  const Eigen::Vector3d t = homography.col(2) * ((homography(2, 2) < 0.0 ? -1.0 : 1.0) / length);
+  // R_optical_flu turns the window's axes into the plane's (right, down, away), seen from the window.
+  const Eigen::Matrix3d R = rotationFromHomography(homography) * geometry::R_optical_flu();
+  const Eigen::Isometry3d pose = geometry::makePose(R, t);
+  if (!geometry::isValidPose(pose)) return std::nullopt;
+  return pose;
+}
+
+}  // namespace window_ingress::estimation

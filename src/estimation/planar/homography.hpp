@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::estimation {
+
+/// Homography of the window plane (P11, eq. 5-6): s (u, v, 1) = H (X, Y, 1), with (u, v) on the image plane
+/// at distance 1, free of K and of distortion, and (X, Y) [m] on the opening: X right, Y down, origin at its
+/// centre. Its scale has H(2, 2) > 0 where the centre lies in front of the camera. Nothing if the corners are
+/// not finite or determine no homography (three on a line).
+std::optional<Eigen::Matrix3d> windowHomography(const geometry::Quadrilateral& corners_normalised,
+                                                const geometry::OpeningSize& size);
+
+/// Rotation whose first two columns come closest to r1, r2 of H = s [r1 r2 t] (P12), in the plane's axes: x
+/// right, y down, z away from the viewer. r1 and r2 are not orthonormal under noise: projected onto SO(3) by
+/// SVD.
+Eigen::Matrix3d rotationFromHomography(const Eigen::Matrix3d& homography);
+
+/// Pose of the window frame (x into the opening, y left, z up) from its homography; t_z > 0 decides the sign
+/// of s. Nothing if H is singular, not finite or puts the centre into the camera's plane.
+std::optional<Eigen::Isometry3d> poseFromHomography(const Eigen::Matrix3d& homography);
+
+}  // namespace window_ingress::estimation

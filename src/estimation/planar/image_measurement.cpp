@@ -1,0 +1,185 @@
+#include "estimation/planar/image_measurement.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr double kMinWhiteSigmaPx = 0.0005;
+
+bool isUsable(double sigma) { return std::isfinite(sigma) && sigma > 0.0; }
+
+// Derivative of the undistorted by the distorted pixel.
+Eigen::Matrix2d undistortionSlope(const geometry::PinholeCamera& camera, const Eigen::Vector2d& ideal_px) {
+  if (!camera.hasDistortion()) return Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d distortion;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d h = 0.5 * Eigen::Vector2d::Unit(axis);
+    distortion.col(axis) = camera.distort(ideal_px + h) - camera.distort(ideal_px - h);
+  }
+  return distortion.inverse();
+}
+
+bool bordersAreUsable(const detection::WindowObservation& window) {
+  return std::all_of(window.edges.begin(), window.edges.end(), [](const detection::Edge& edge) {
+    return !edge.visible || (isUsable(edge.sigma_px) && isUsable(edge.sigma_rad));
+  });
+}
+
+long visibleCount(const detection::WindowObservation& window) {
+  return std::count_if(window.edges.begin(), window.edges.end(),
+                       [](const auto& edge) { return edge.visible; });
+}
+
+}  // namespace
+
+double marginalVariance(double white, double systematic, const ImageNoise& noise) {
+  const double marginal =
+      (white + noise.looks * systematic) * (white + (noise.looks - 1.0) * systematic) / white;
+  return std::max(white + systematic, std::min(marginal, noise.max_looks_variance * systematic));
+}
+
+std::optional<ImageMeasurement> ImageMeasurement::make(const detection::WindowObservation& window,
+                                                       const geometry::PinholeCamera& camera,
+                                                       const ImageNoise& noise) {
+  if (!window.whole()) return ofPartial(window, camera, noise);
+  ImageMeasurement measurement;
+  std::array<Eigen::Matrix2d, 4> slopes;
+  for (int i = 0; i < 4; ++i) {
+    measurement.corners_px_.segment<2>(2 * i) = camera.undistort(window.corners[i]);
+    slopes[i] = undistortionSlope(camera, measurement.corners_px_.segment<2>(2 * i));
+    if (!measurement.corners_px_.segment<2>(2 * i).allFinite() || !slopes[i].allFinite()) return std::nullopt;
+  }
+  const long visible = visibleCount(window);
+  if (visible > 0 && (visible < 4 || bordersAreUsable(window))) {
+    for (int i = 0; i < 4; ++i) {
+      const double scale =
+          std::sqrt(std::sqrt(std::abs(slopes[i].determinant() * slopes[(i + 1) % 4].determinant())));
+      const Eigen::Vector2d from = measurement.corners_px_.segment<2>(2 * i),
+                            to = measurement.corners_px_.segment<2>(2 * ((i + 1) % 4));
+      if (window.edges[i].visible && !measurement.addBorder(window.edges[i], i, from, to, scale, noise))
+        return std::nullopt;
+    }
+    return measurement;
+  }
+  for (int i = 0; i < 4; ++i)
+    measurement.addCorner(slopes[i] * window.corner_covariance[i] * slopes[i].transpose(), i, noise);
+  return measurement;
+}
+
+std::optional<ImageMeasurement> ImageMeasurement::ofPartial(const detection::WindowObservation& window,
+                                                            const geometry::PinholeCamera& camera,
+                                                            const ImageNoise& noise) {
+  ImageMeasurement measurement;
+  measurement.has_corners_ = false;
+  for (int i = 0; i < 4; ++i) {
+    const detection::Edge& edge = window.edges[i];
+    if (!edge.visible) continue;
+    const Eigen::Vector2d from = camera.undistort(edge.a), to = camera.undistort(edge.b);
+    const double scale = std::sqrt(std::abs(undistortionSlope(camera, 0.5 * (from + to)).determinant()));
+    if (!from.allFinite() || !to.allFinite() || !std::isfinite(scale) ||
+        !measurement.addBorder(edge, i, from, to, scale, noise))
+      return std::nullopt;
+  }
+  if (measurement.border_count_ == 0) return std::nullopt;
+  measurement.has_corners_ = measurement.border_count_ == 4 && measurement.cross();
+  return measurement;
+}
+
+bool ImageMeasurement::cross() {
+  for (int i = 0; i < 4; ++i) {
+    const Border &before = borders_[(i + 3) % 4], &after = borders_[i];
+    const double sine = before.across.dot(after.along);
+    if (std::abs(sine) < 1e-3) return false;
+    const double along = before.across.dot(before.middle - after.middle) / sine;
+    corners_px_.segment<2>(2 * i) = after.middle + along * after.along;
+  }
+  return corners_px_.allFinite();
+}
+
+bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Eigen::Vector2d& from,
+                                 const Eigen::Vector2d& to, double scale, const ImageNoise& noise) {
+  const double length = (to - from).norm();
+  if (!(length > 1e-3)) return false;
+  const double unknown = noise.unknown_corner_sigma_px, systematic = noise.systematic_sigma_px;
+  const double across = isUsable(edge.sigma_px) ? scale * edge.sigma_px : unknown / std::sqrt(2.0);
+  const double turn = isUsable(edge.sigma_rad) ? edge.sigma_rad : unknown * std::sqrt(2.0) / length;
+  const double white_px = std::max(across, kMinWhiteSigmaPx),
+               white_slope = std::max(turn, kMinWhiteSigmaPx / length);
+  Border& border = borders_[border_count_++];
+  border.side = side;
+  border.length_px = length;
+  border.middle = 0.5 * (from + to);
+  border.along = (to - from) / length;
+  border.across = {-border.along.y(), border.along.x()};
+  border.offset_sigma_px =
+      std::sqrt(marginalVariance(white_px * white_px, 0.5 * systematic * systematic, noise));
+  const double at_ends = noise.systematic_turn * systematic;
+  const double systematic_slope = 2.0 * at_ends * at_ends / (length * length);
+  border.slope_sigma = std::sqrt(marginalVariance(white_slope * white_slope, systematic_slope, noise));
+  return true;
+}
+
+void ImageMeasurement::addCorner(const Eigen::Matrix2d& covariance, int corner, const ImageNoise& noise) {
+  const double unknown = noise.unknown_corner_sigma_px * noise.unknown_corner_sigma_px;
+  Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d white = Eigen::Vector2d::Constant(unknown);
+  if (covariance.allFinite()) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(0.5 * (covariance + covariance.transpose()));
+    if (eigen.eigenvalues().minCoeff() > 0.0) {
+      axes = eigen.eigenvectors();
+      white = eigen.eigenvalues().cwiseMax(kMinWhiteSigmaPx * kMinWhiteSigmaPx);
+    }
+  }
+  const double systematic = noise.systematic_sigma_px * noise.systematic_sigma_px;
+  for (int axis = 0; axis < 2; ++axis)
+    corner_weights_[corner].row(axis) =
+        axes.col(axis).transpose() / std::sqrt(marginalVariance(white(axis), systematic, noise));
+}
+
+double ImageMeasurement::rmsPx(const CornerVector& predicted_px) const {
+  if (has_corners_) return (predicted_px - corners_px_).norm() / std::sqrt(8.0);
+  const LinearisedResidual weighted = evaluate(predicted_px);
+  double squares = 0.0;
+  for (int i = 0; i < border_count_; ++i) {
+    const double offset = weighted.residual(2 * i) * borders_[i].offset_sigma_px;
+    const double turn = 0.5 * borders_[i].length_px * weighted.residual(2 * i + 1) * borders_[i].slope_sigma;
+    squares += offset * offset + turn * turn;
+  }
+  return std::sqrt(squares / border_count_);
+}
+
+LinearisedResidual ImageMeasurement::evaluate(const CornerVector& predicted_px) const {
+  LinearisedResidual out{Residual::Zero(size()), ResidualJacobian<8>::Zero(size(), 8)};
+  for (int i = 0; i < border_count_; ++i) evaluateBorder(borders_[i], predicted_px, 2 * i, out);
+  for (int i = 0; i < 4 && border_count_ == 0; ++i) {
+    out.residual.segment<2>(2 * i) =
+        corner_weights_[i] * (predicted_px.segment<2>(2 * i) - corners_px_.segment<2>(2 * i));
+    out.by_corners.block<2, 2>(2 * i, 2 * i) = corner_weights_[i];
+  }
+  return out;
+}
+
+void ImageMeasurement::evaluateBorder(const Border& border, const CornerVector& predicted_px, int row,
+                                      LinearisedResidual& out) const {
+  const int a = 2 * border.side, b = 2 * ((border.side + 1) % 4);
+  const Eigen::Vector2d from = predicted_px.segment<2>(a) - border.middle;
+  const Eigen::Vector2d to = predicted_px.segment<2>(b) - border.middle;
+  const double from_along = from.dot(border.along), span = to.dot(border.along) - from_along;
+  const double length = std::copysign(std::max(std::abs(span), 1e-3), span);
+  const double slope = (to - from).dot(border.across) / length;
+
+  const Eigen::RowVector2d slope_by_to = (border.across - slope * border.along).transpose() / length;
+  const Eigen::RowVector2d offset_by_from =
+      (border.across - slope * border.along).transpose() + from_along * slope_by_to;
+  out.residual(row) = (from.dot(border.across) - from_along * slope) / border.offset_sigma_px;
+  out.residual(row + 1) = slope / border.slope_sigma;
+  out.by_corners.block<1, 2>(row, a) = offset_by_from / border.offset_sigma_px;
+  out.by_corners.block<1, 2>(row, b) = -from_along * slope_by_to / border.offset_sigma_px;
+  out.by_corners.block<1, 2>(row + 1, a) = -slope_by_to / border.slope_sigma;
+  out.by_corners.block<1, 2>(row + 1, b) = slope_by_to / border.slope_sigma;
+}
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,110 @@
+#include "estimation/planar/observation_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace window_ingress::estimation {
+namespace {
+
+using detection::WindowObservation;
+using geometry::Quadrilateral;
+
+std::string text(const char* format, double a, double b) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+bool isNearImage(const Quadrilateral& corners, const geometry::PinholeCamera& camera) {
+  const double margin = std::max(camera.width, camera.height);
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](const auto& p) { return camera.contains(p, -margin); });
+}
+
+WindowObservation reversed(const WindowObservation& window) {
+  WindowObservation out = window;
+  for (int i = 0; i < 4; ++i) {
+    out.corners[i] = window.corners[3 - i];
+    out.corner_covariance[i] = window.corner_covariance[3 - i];
+    out.edges[i] = window.edges[(6 - i) % 4];
+  }
+  return out;
+}
+
+WindowObservation startedAt(const WindowObservation& window, int first) {
+  WindowObservation out = window;
+  for (int i = 0; i < 4; ++i) {
+    const int from = (first + i) % 4;
+    out.corners[i] = window.corners[from];
+    out.corner_covariance[i] = window.corner_covariance[from];
+    out.edges[i] = window.edges[from];
+  }
+  return out;
+}
+
+std::string missingSides(const WindowObservation& window, int sides) {
+  static const char* const kNames[] = {"top", "right", "bottom", "left"};
+  std::string unseen;
+  for (int i = 0; i < 4; ++i)
+    if (!window.edges[i].visible) unseen += std::string(unseen.empty() ? "" : ", ") + kNames[i];
+  return std::to_string(window.visibleSides()) + " of 4 sides in view: " + unseen + " not seen; " +
+         (sides == 4 ? "no pose from this picture alone" : "too few even with a prior pose");
+}
+
+std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera,
+                           const PoseParams& params, int sides) {
+  if (window.visibleSides() < sides) return missingSides(window, sides);
+  const double margin = std::max(camera.width, camera.height);
+  for (const auto& edge : window.edges) {
+    if (!edge.visible) continue;
+    if (!edge.a.allFinite() || !edge.b.allFinite()) return "a border's end is not finite";
+    if (!camera.contains(edge.a, -margin) || !camera.contains(edge.b, -margin))
+      return "a border's end lies more than an image's size outside the image";
+    const double length = (edge.b - edge.a).norm();
+    if (length < params.min_side_px) return text("border of %.2f px < %.2f px", length, params.min_side_px);
+  }
+  return "";
+}
+
+}  // namespace
+
+bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera) {
+  if (window.whole()) return true;
+  return -up_camera.y() > up_camera.head<2>().norm() * std::sqrt(0.5);
+}
+
+std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera,
+                           const PoseParams& params, int sides) {
+  if (!window.whole()) return faultOfPartial(window, camera, params, sides);
+  if (!geometry::isFinite(window.corners)) return "a corner is not finite";
+  if (!isNearImage(window.corners, camera))
+    return "a corner lies more than an image's size outside the image";
+  if (!geometry::isConvex(window.corners)) return "corners coincide, cross or are not convex";
+  const auto lengths = geometry::sideLengths(window.corners);
+  const double shortest = *std::min_element(lengths.begin(), lengths.end());
+  if (shortest < params.min_side_px) return text("side of %.2f px < %.2f px", shortest, params.min_side_px);
+  for (const double angle : geometry::interiorAngles(window.corners))
+    if (angle < params.min_corner_angle_rad || angle > M_PI - params.min_corner_angle_rad)
+      return text("corner of %.3f rad is nearer than %.3f rad to flat", angle, params.min_corner_angle_rad);
+  const auto visible =
+      std::count_if(window.edges.begin(), window.edges.end(), [](auto& e) { return e.visible; });
+  if (visible > 0 && visible < 4) return text("only %.0f of %.0f borders are seen", double(visible), 4.0);
+  return "";
+}
+
+WindowObservation upright(const WindowObservation& window, const Eigen::Vector3d& up_camera) {
+  if (!window.whole()) return window;
+  const WindowObservation clockwise = geometry::signedArea(window.corners) < 0.0 ? reversed(window) : window;
+  const Eigen::Vector2d up = up_camera.head<2>();
+  const auto height = [&](int first) {
+    const auto& c = clockwise.corners;
+    return (c[first] + c[(first + 1) % 4] - c[(first + 2) % 4] - c[(first + 3) % 4]).dot(up);
+  };
+  int best = 0;
+  for (int first = 1; first < 4; ++first)
+    if (height(first) > height(best)) best = first;
+  return startedAt(clockwise, best);
+}
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/estimation/pose_params.hpp"
+
+namespace window_ingress::estimation {
+
+/// What is wrong with the corners of an observation, with numbers; empty if a pose can be tried. A partial
+/// observation with less than four borders has its reason, too: alone it gives no pose.
+/// \param sides least number of visible borders of a partial observation: 4, or 2 with a prior pose
+std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                           const PoseParams& params, int sides = 4);
+
+/// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
+/// ones are put upright.
+bool isUpright(const detection::WindowObservation& window, const Eigen::Vector3d& up_camera);
+
+/// The same observation with corners, covariances and edges in canonical order: clockwise, and started so
+/// that top and bottom borders are those that lie apart along `up_camera`. Corners must be strictly convex.
+/// A partial observation stays as it is.
+detection::WindowObservation upright(const detection::WindowObservation& window,
+                                     const Eigen::Vector3d& up_camera = Eigen::Vector3d(0, -1, 0));
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,51 @@
+#include "window_ingress/estimation/pose_buffer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+Eigen::Isometry3d between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double fraction) {
+  const Eigen::Quaterniond qa(a.linear()), qb(b.linear());
+  return geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
+                            a.translation() + fraction * (b.translation() - a.translation()));
+}
+
+}  // namespace
+
+PoseBuffer::PoseBuffer(double span_sec, std::size_t max_samples, double max_gap_sec)
+    : span_sec_(span_sec), max_samples_(std::max<std::size_t>(max_samples, 1)), max_gap_sec_(max_gap_sec) {}
+
+bool PoseBuffer::add(double stamp_sec, const Eigen::Isometry3d& pose) {
+  if (!std::isfinite(stamp_sec) || !geometry::isValidPose(pose)) return false;
+  const double newer_sec = samples_.empty() ? 1.0 : stamp_sec - samples_.back().stamp_sec;
+  if (newer_sec <= 0.0 && newer_sec > -kLateSec) return false;
+  if (newer_sec < 0.0) samples_.clear();
+  samples_.push_back({stamp_sec, pose});
+  while (samples_.size() > max_samples_ || samples_.front().stamp_sec < stamp_sec - span_sec_)
+    samples_.pop_front();
+  return true;
+}
+
+std::optional<Eigen::Isometry3d> PoseBuffer::at(double stamp_sec, double max_extrapolation_sec) const {
+  if (samples_.empty() || !std::isfinite(stamp_sec)) return std::nullopt;
+  const auto after =
+      std::lower_bound(samples_.begin(), samples_.end(), stamp_sec,
+                       [](const Sample& sample, double stamp) { return sample.stamp_sec < stamp; });
+  const bool is_outside = after == samples_.end() || after == samples_.begin();
+  const Sample &before = after == samples_.begin() ? *after : *(after - 1),
+               &next = after == samples_.end() ? before : *after;
+  if (is_outside || next.stamp_sec - before.stamp_sec > max_gap_sec_) {
+    const bool is_before = stamp_sec - before.stamp_sec < next.stamp_sec - stamp_sec;
+    const Sample& nearest = is_before ? before : next;
+    if (std::abs(stamp_sec - nearest.stamp_sec) > max_extrapolation_sec) return std::nullopt;
+    return nearest.pose;
+  }
+  return between(before.pose, next.pose,
+                 (stamp_sec - before.stamp_sec) / (next.stamp_sec - before.stamp_sec));
+}
+
+}  // namespace window_ingress::estimation

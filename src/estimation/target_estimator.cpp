@@ -1,0 +1,271 @@
+#include "window_ingress/estimation/target_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "estimation/target_checks.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+TargetEstimatorParams checked(const TargetEstimatorParams& params) {
+  const auto faults = parameters::outOfRange(params);
+  if (!faults.empty()) throw std::invalid_argument("tracker: " + parameters::joined(faults));
+  return params;
+}
+
+geometry::OpeningSize neededBy(const FitParams& fit) {
+  return {fit.vehicle_width_m + 2.0 * fit.margin_m, fit.vehicle_height_m + 2.0 * fit.margin_m};
+}
+
+SizeBelief sizeSaid(const PoseParams& pose) {
+  return sizeBelief({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
+}
+
+}  // namespace
+
+TargetEstimate targetFrom(const FilteredWindow& window) {
+  TargetEstimate target;
+  target.stamp_sec = window.stamp_sec;
+  target.T_odom_window = window.T_odom_window;
+  target.covariance = window.covariance;
+  target.sign_trusted = window.sign_trusted;
+  target.updates = window.updates;
+  target.opening = window.size.size;
+  target.motion = window.motion;
+  target.pose_stamp_sec = window.stamp_sec + window.age_sec;
+  return target;
+}
+
+TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& filter,
+                             const TargetEstimatorParams& params)
+    : params_(checked(params)),
+      estimator_(pose),
+      filter_(filter, sizeSaid(pose)),
+      checks_(new Checks{{pose, filter, params.frames, sizeSaid(pose)}, ParallaxCheck(filter.target_speed_mps)}),
+      judge_(params.openness, neededBy(params.fit)),
+      facade_(params.facade),
+      size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
+
+TargetEstimator::~TargetEstimator() = default;
+
+void TargetEstimator::forgetPlaces() {
+  filter_.forgetPlaces();
+  checks_->frames.forgetPlaces();
+  checks_->parallax.clear();
+  clocks_.forgetPlaces();
+  judge_.reset();
+  facade_.forgetPlaces();
+  odometry_.clear();
+  attitude_.clear();
+  odometry_stamp_sec_.reset();
+  pending_.reset();
+  last_ = TargetUpdate();
+}
+
+void TargetEstimator::reset() {
+  forgetPlaces();
+  filter_.reset();
+  checks_->frames.clear();
+  clocks_.clear();
+  facade_.reset();
+  heeded_ = 0;
+}
+
+void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
+                                const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
+  if (!geometry::isValidPose(T_odom_base) || !std::isfinite(stamp_sec)) return;
+  if (odometry_stamp_sec_) {
+    const double dt_sec = stamp_sec - *odometry_stamp_sec_;
+    if (dt_sec < 0.0 && dt_sec > -PoseBuffer::kLateSec) return;
+    if (dt_sec < 0.0) reset();
+    if (dt_sec >= 0.0 && isJump(dt_sec, T_odom_base)) forgetPlaces();
+  }
+  if (!odometry_.add(stamp_sec, T_odom_base)) return;
+  if (velocity_odom_mps) checks_->frames.twist().add(stamp_sec, T_odom_base, *velocity_odom_mps);
+  odometry_stamp_sec_ = stamp_sec;
+  last_T_odom_base_ = T_odom_base;
+  if (pending_ && pending_->stamp_sec <= stamp_sec) flush();
+}
+
+bool TargetEstimator::isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const {
+  constexpr double kFastestMps = 3.0, kFastestRadps = 3.0;
+  const double moved_m = (T_odom_base.translation() - last_T_odom_base_.translation()).norm();
+  const Eigen::Quaterniond before(last_T_odom_base_.linear()), now(T_odom_base.linear());
+  return moved_m > params_.max_jump_m + kFastestMps * dt_sec ||
+         before.angularDistance(now) > params_.max_turn_jump_rad + kFastestRadps * dt_sec;
+}
+
+void TargetEstimator::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base) {
+  attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
+}
+
+void TargetEstimator::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                        const std::optional<Eigen::Isometry3d>& T_base_camera) {
+  see({window.stamp_sec, camera, T_base_camera, window, {}});
+}
+
+void TargetEstimator::see(SeenPicture picture) {
+  flush();
+  pending_ = std::move(picture);
+  if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= pending_->stamp_sec) flush();
+}
+
+void TargetEstimator::flush() {
+  if (pending_) process(*pending_);
+  pending_.reset();
+}
+
+std::optional<Eigen::Isometry3d> TargetEstimator::cameraAt(
+    double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera) const {
+  const auto T_odom_base = odometry_.at(stamp_sec, params_.max_pose_gap_sec);
+  if (!T_odom_base || !T_base_camera) return std::nullopt;
+  return *T_odom_base * *T_base_camera;
+}
+
+PoseResult TargetEstimator::estimate(const SeenPicture& picture) {
+  PoseHints hints;
+  hints.gravity = gravity(picture);
+  hints.size = filter_.sizeOf(*picture.window);
+  return estimator_.estimate(*picture.window, picture.camera, hints);
+}
+
+// What was found out about the size belongs to the window it was found out of.
+void TargetEstimator::noticeTarget(std::uint32_t target_id) {
+  if (target_id == target_id_) return;
+  target_id_ = target_id;
+  checks_->parallax.clear();
+  clocks_.forgetPlaces();
+}
+
+void TargetEstimator::process(const SeenPicture& picture) {
+  if (picture.window) use(picture);
+  rememberWindows(picture);
+}
+
+void TargetEstimator::use(const SeenPicture& picture) {
+  noticeTarget(picture.window->target_id);
+  last_.pose = estimate(picture);
+  last_.why_not = updateFilter(picture);
+  last_.used = last_.why_not.empty();
+  if (last_.used) judgeOpenness(picture);
+  checkClocks(picture);
+}
+
+void TargetEstimator::rememberWindows(const SeenPicture& picture) {
+  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+  if (!T_odom_camera) return;
+  const bool is_used = picture.window && last_.used;
+  const auto filtered = is_used ? filter_.state(picture.stamp_sec) : std::nullopt;
+  facade_.see({picture.stamp_sec,
+               {picture.camera, *T_odom_camera},
+               picture.windows,
+               picture.window ? picture.window->target_id : 0},
+              filtered, filtered ? filtered->size.size : lookedFor());
+  if (filtered) facade_.judge(openness());
+}
+
+geometry::OpeningSize TargetEstimator::lookedFor() const {
+  const auto& pose = estimator_.params();
+  return {pose.opening_width_m, pose.opening_height_m};
+}
+
+std::optional<geometry::Quadrilateral> TargetEstimator::expected(double stamp_sec,
+                                                               const geometry::PinholeCamera& camera,
+                                                               const Eigen::Isometry3d& T_base_camera) const {
+  const auto T_odom_camera = cameraAt(stamp_sec, T_base_camera);
+  return T_odom_camera ? facade_.expected({camera, *T_odom_camera}) : std::nullopt;
+}
+
+// What was found out about the window before does not hold for another one.
+void TargetEstimator::startAnewIfNot(std::uint32_t target_before) {
+  if (facade_.targetId() == target_before) return;
+  filter_.reset();
+  checks_->parallax.clear();
+  judge_.reset();
+}
+
+facade::Answer TargetEstimator::selectWindow(std::uint32_t id) {
+  const std::uint32_t before = facade_.targetId();
+  auto answer = facade_.select(id);
+  startAnewIfNot(before);
+  return answer;
+}
+
+facade::Answer TargetEstimator::selectWindowNear(const Eigen::Vector3d& point_odom_m) {
+  const std::uint32_t before = facade_.targetId();
+  auto answer = facade_.selectNear(point_odom_m);
+  startAnewIfNot(before);
+  return answer;
+}
+
+void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one) {
+  facade_.noteFlownAt(flown_at);
+  heeded_ = std::min(heeded_, given_up.size());  // another mission began
+  const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(heeded_),
+                                        given_up.end());
+  heeded_ = given_up.size();
+  if (news.empty()) return;
+  const std::uint32_t before = facade_.targetId();
+  facade_.giveUp(news, next_one);
+  if (next_one) startAnewIfNot(before);
+}
+
+std::string TargetEstimator::updateFilter(const SeenPicture& picture) {
+  const detection::WindowObservation& window = *picture.window;
+  const int sides = window.visibleSides();  // none: only corners are known
+  const bool is_whole = window.whole() && (sides == 4 || sides == 0);
+  const auto T_odom_camera = cameraAt(window.stamp_sec, picture.T_base_camera);
+  if (T_odom_camera)
+    if (auto other = facade_.whyNotTarget(window, {picture.camera, *T_odom_camera}, lookedFor());
+        !other.empty())
+      return other;
+  // A camera that is not mounted as said may give no pose at all.
+  if (is_whole && T_odom_camera)
+    checks_->frames.mounting().see(window, picture.camera, *T_odom_camera * picture.T_base_camera->inverse(),
+                           *picture.T_base_camera);
+  if (!last_.pose.estimate && is_whole) return last_.pose.detail;
+  if (!picture.T_base_camera) return "mounting of the camera unknown";
+  if (!T_odom_camera) return "no odometry near the exposure";
+  checkSize(picture, *T_odom_camera);
+  const bool used = last_.pose.estimate
+                        ? filter_.update(*last_.pose.estimate, window, picture.camera, *T_odom_camera)
+                        : filter_.update(window, picture.camera, *T_odom_camera);
+  return used ? "" : "gated out by the filter";
+}
+
+// That of the IMU, unless it has none or is in other axes.
+std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
+  const auto imu = attitude_.at(stamp_sec, params_.max_pose_gap_sec);
+  const auto odometry = odometry_.at(stamp_sec, params_.max_pose_gap_sec);
+  const bool agree = !imu || !odometry || checks_->frames.attitude().see(imu->linear(), odometry->linear());
+  if (imu && agree) return imu->linear();
+  if (odometry) return odometry->linear();
+  return std::nullopt;
+}
+
+std::optional<GravityPrior> TargetEstimator::gravity(const SeenPicture& picture) {
+  if (!picture.T_base_camera) return std::nullopt;
+  const auto R_odom_base = attitudeAt(picture.stamp_sec);
+  if (!R_odom_base) return std::nullopt;
+  const Eigen::Matrix3d R_odom_camera = *R_odom_base * picture.T_base_camera->linear();
+  return GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
+}
+
+std::optional<TargetEstimate> TargetEstimator::target(double now_sec) const {
+  const auto state = filter_.state(now_sec);
+  if (!state) return std::nullopt;
+  TargetEstimate target = targetFrom(*state);
+  target.fit = fit(*state).fit;
+  target.approach_forbidden = approachForbidden(*state);
+  target.other_window = otherWindow();
+  target.openness = openness();
+  target.window_id = facade_.targetId();
+  return target;
+}
+
+}  // namespace window_ingress::estimation

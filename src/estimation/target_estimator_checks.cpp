@@ -1,0 +1,84 @@
+// What the tracker verifies on the way: size, clocks, openness, and what forbids the approach.
+#include <cmath>
+#include <cstdio>
+
+#include "estimation/target_checks.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+std::string otherWindowText(double factor) {
+  char text[100];
+  std::snprintf(text, sizeof text, "another window: about %.1f times as large as the one looked for", factor);
+  return text;
+}
+
+std::string contradictedText(const Consistency& consistency) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%d of %d pictures contradict the window that was made out: of another size than told?",
+                consistency.refused, consistency.refused + consistency.images);
+  return text;
+}
+
+}  // namespace
+
+void TargetEstimator::checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera) {
+  if (!size_is_known_ || !last_.pose.estimate || !picture.window->whole()) return;
+  checks_->parallax.see(picture.stamp_sec, T_odom_camera.translation(),
+                T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
+}
+
+// Pictures that the filter refuses count, too: that they come at the wrong time may be why.
+void TargetEstimator::checkClocks(const SeenPicture& picture) {
+  constexpr double kRateSec = 0.1;
+  const auto window = filter_.state(picture.stamp_sec);
+  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+  const auto before = cameraAt(picture.stamp_sec - kRateSec, picture.T_base_camera);
+  if (!window || !T_odom_camera || !before || !picture.window->whole()) return;
+  if (!window->motion.model.stands()) return;
+  const Eigen::Matrix3d turned = T_odom_camera->linear() * before->linear().transpose();
+  const Eigen::Vector3d sight =
+      T_odom_camera->linear() * picture.camera.ray(geometry::centroid(picture.window->corners));
+  clocks_.see({picture.stamp_sec, T_odom_camera->translation().head<2>(), std::atan2(sight.y(), sight.x()),
+               std::atan2(turned(1, 0), turned(0, 0)) / kRateSec},
+              window->T_odom_window.translation().head<2>());
+}
+
+void TargetEstimator::judgeOpenness(const SeenPicture& picture) {
+  const auto window = filter_.state(picture.stamp_sec);
+  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+  if (!window || !T_odom_camera) return;
+  // What lies behind a window that moves is taken to move along: all is seen from the window.
+  const Eigen::Vector3d moved =
+      window->motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window->T_odom_window.translation();
+  const Eigen::Translation3d back(-moved);
+  judge_.see({*picture.window, picture.camera, back * *T_odom_camera, back * window->T_odom_window,
+              window->size.size});
+}
+
+FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }
+
+const std::optional<SizeBelief>& TargetEstimator::measuredSize() const {
+  return checks_->frames.mounting().measuredSize();
+}
+
+// A factor out of all proportion speaks of the frames, not of the window.
+std::optional<double> TargetEstimator::otherWindow() const {
+  constexpr double kLargest = 5.0;
+  if (checks_->parallax.verdict() != ParallaxCheck::Verdict::kOther) return std::nullopt;
+  const double factor = checks_->parallax.factor();
+  return factor < kLargest && factor > 1.0 / kLargest ? std::optional(factor) : std::nullopt;
+}
+
+std::string TargetEstimator::approachForbidden(const FilteredWindow& window) const {
+  const FramesVerdict frames = checks_->frames.verdict();
+  if (frames.state == FramesVerdict::kWrong) return frames.what;
+  if (const auto factor = otherWindow()) return otherWindowText(*factor);
+  if (window.consistency.contradicted) return contradictedText(window.consistency);
+  const FitVerdict verdict = fit(window);
+  if (verdict.fit == Fit::kGo) return "";
+  return std::string("fit ") + toString(verdict.fit) + ": " + verdict.reason;
+}
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,297 @@
+#include "window_ingress/estimation/window_filter.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+#include "estimation/planar/observation_check.hpp"
+#include "estimation/checks/smooth_path.hpp"
+#include "estimation/filter/viewpoints.hpp"
+#include "estimation/filter/window_beliefs.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+constexpr double kExpectedSquares = 8.0;
+constexpr double kMeanOver = 30.0;        // images
+constexpr double kMaxHeldSigma = 0.1;     // a size that is worse than this is not worth being held
+constexpr double kSureOfHeight = 0.2;     // relative
+constexpr double kHeldSigmaGrowth = 1.5;  // the restart may have had a reason
+
+Eigen::Vector3d upInCamera(const Eigen::Isometry3d& T_odom_camera) {
+  return T_odom_camera.linear().transpose().col(2);
+}
+
+CameraTurn cameraTurn(const WindowHypothesis& window) {
+  return {-window.state().values.segment<3>(WindowState::kPitchBias),
+          window.covariance().block<3, 3>(WindowState::kPitchBias, WindowState::kPitchBias)};
+}
+
+}  // namespace
+
+struct WindowFilter::Impl {
+  Impl(const FilterParams& p, const std::optional<SizeBelief>& size)
+      : params(p),
+        nominal_size(size),
+        viewpoints(p.systematic_renewal_m),
+        beliefs(p),
+        consistency(p.consistency_images, p.max_consistency) {}
+
+  FilterParams params;
+  std::optional<SizeBelief> nominal_size, held_size;
+  Viewpoints viewpoints;
+  WindowBeliefs beliefs;
+  ConsistencyMonitor consistency;
+  SmoothPath path;
+  std::uint32_t target_id = 0;
+  double stamp_sec = 0.0;
+  double interval_sec = 1.0;
+  Eigen::Vector3d camera_position = Eigen::Vector3d::Zero();
+  int updates = 0;
+  int outliers = 0;
+  double mean_squares = kExpectedSquares;
+
+  bool sizeIsKnown() const { return !nominal_size || nominal_size->log_covariance.isZero(0.0); }
+  const WindowHypothesis& believed() const { return beliefs.hypotheses().front().window; }
+
+  void forgetImages() {
+    viewpoints.clear();
+    consistency.clear();
+    updates = outliers = 0;
+    mean_squares = kExpectedSquares;
+  }
+
+  void forgetPlaces() {
+    holdSize();
+    path.clear();
+    beliefs.clear();
+    forgetImages();
+  }
+
+  void reset() {
+    forgetPlaces();
+    held_size.reset();
+  }
+
+  // A filter that was at odds with its images has no size worth keeping.
+  void holdSize() {
+    if (beliefs.empty() || sizeIsKnown()) return;
+    held_size.reset();
+    if (!beliefs.areUnambiguous() || mean_squares > params.max_mean_squares) return;
+    SizeBelief found = believed().size();
+    if (found.log_covariance.trace() > kMaxHeldSigma * kMaxHeldSigma) return;
+    found.log_covariance *= kHeldSigmaGrowth * kHeldSigmaGrowth;
+    held_size = found;
+  }
+
+  SizeBelief priorSize(const geometry::OpeningSize& fitted) const {
+    if (held_size) return *held_size;
+    return {fitted, nominal_size ? nominal_size->log_covariance : Eigen::Matrix2d::Zero()};
+  }
+
+  // A scale that is still open may be anything for a while.
+  SizeBelief believedSize() const {
+    SizeBelief size = believed().size();
+    if (size.log_covariance(1, 1) < kSureOfHeight * kSureOfHeight) return size;
+    const double height_m = nominal_size->size.height_m;
+    size.size = {size.size.width_m * height_m / size.size.height_m, height_m};
+    return size;
+  }
+
+  std::optional<SizeBelief> sizeOf(const detection::WindowObservation& window) const {
+    const bool is_same = target_id == 0 || window.target_id == 0 || window.target_id == target_id;
+    if (sizeIsKnown() || !is_same) return nominal_size;
+    if (!beliefs.empty()) return believedSize();
+    return held_size ? held_size : nominal_size;
+  }
+
+  ImageNoise noise() const { return {params.systematic_sigma_px, params.unknown_corner_sigma_px, 1.0, 1.0}; }
+
+  ImageNoise noiseAt(const Eigen::Vector3d& position) const {
+    ImageNoise shared = noise();
+    shared.looks = viewpoints.looksWith(position);
+    shared.max_looks_variance = std::max(1.0, params.systematic_renewal_sec / interval_sec);
+    return shared;
+  }
+
+  void accept(double stamp, const FilterView& view) {
+    stamp_sec = stamp;
+    camera_position = view.T_odom_camera.translation();
+    viewpoints.add(camera_position);
+    outliers = 0;
+    ++updates;
+  }
+
+  // What was believed before is kept until a new start succeeds.
+  bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
+    if (!estimate) return false;
+    holdSize();
+    const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
+    const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
+    if (!beliefs.start(T_odom_window, priorSize(estimate->opening), alone)) return false;
+    forgetImages();
+    accept(stamp, alone);
+    return true;
+  }
+
+  bool isInOrder(double stamp) {
+    if (!std::isfinite(stamp)) return false;
+    if (beliefs.empty()) return true;
+    const double elapsed = stamp - stamp_sec;
+    if (elapsed < -params.time_jump_sec) reset();
+    if (elapsed > params.max_age_sec) forgetPlaces();
+    if (beliefs.empty()) return true;
+    if (elapsed > 0.0) interval_sec = std::clamp(elapsed, 0.005, 1.0);
+    return elapsed > 0.0;
+  }
+
+  void startAnewForAnotherTarget(std::uint32_t seen_id) {
+    if (seen_id == 0) return;
+    if (target_id != 0 && seen_id != target_id) reset();
+    target_id = seen_id;
+  }
+
+  bool update(const WindowPoseEstimate* estimate, const detection::WindowObservation& window,
+              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) {
+    if (!geometry::isValidPose(T_odom_camera) || !camera.validate().empty() || !isInOrder(window.stamp_sec) ||
+        (window.whole() && (!geometry::isFinite(window.corners) || !geometry::isConvex(window.corners))))
+      return false;
+    if (!isUpright(window, upInCamera(T_odom_camera))) return false;
+    const auto ordered = upright(window, upInCamera(T_odom_camera));
+    const auto shared = ImageMeasurement::make(ordered, camera, noiseAt(T_odom_camera.translation()));
+    const auto first = ImageMeasurement::make(ordered, camera, noise());
+    if (!shared || !first) return false;
+    startAnewForAnotherTarget(window.target_id);
+    path.add(window.stamp_sec, T_odom_camera.translation());
+    const auto motion = path.motion();
+    const bool moves = motion && motion->velocity_mps.norm() >= params.scale_speed_mps;
+    const Eigen::Vector3d jitter =
+        motion ? Eigen::Vector3d(T_odom_camera.translation() - motion->position_m) : Eigen::Vector3d::Zero();
+    return apply(estimate, window.stamp_sec, {*shared, *first, camera, T_odom_camera, jitter, moves});
+  }
+
+  // Jitter is no way flown. But where the way is the measure of the scale, its jitter counts as drift: what
+  // the smooth way still has of it would else make the scale too certain.
+  double wayTo(const FilterView& view, double stamp) const {
+    const double moved_m = (view.T_odom_camera.translation() - camera_position).norm();
+    const auto motion = path.motion();
+    return motion && sizeIsKnown() ? std::min(moved_m, motion->velocity_mps.norm() * (stamp - stamp_sec))
+                                   : moved_m;
+  }
+
+  bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
+    if (beliefs.empty()) return start(estimate, stamp, view);
+    if (mean_squares > params.max_mean_squares && start(estimate, stamp, view)) return true;
+    const auto outcome = beliefs.apply(view, stamp - stamp_sec, wayTo(view, stamp));
+    if (!outcome) {
+      consistency.refuse();
+      return ++outliers >= params.outliers_until_restart && start(estimate, stamp, view);
+    }
+    mean_squares += (outcome->squares - mean_squares) / kMeanOver;
+    consistency.add(outcome->squares, view.alone.size());
+    accept(stamp, view);
+    return true;
+  }
+
+  Matrix6d covarianceOf(const WindowHypothesis& window) const {
+    const Eigen::Matrix4d pose = window.poseCovariance();
+    Matrix6d covariance = Matrix6d::Zero();
+    covariance.topLeftCorner<3, 3>() = pose.topLeftCorner<3, 3>();
+    covariance.topRightCorner<3, 1>() = pose.topRightCorner<3, 1>();
+    covariance.bottomLeftCorner<1, 3>() = pose.bottomLeftCorner<1, 3>();
+    covariance(3, 3) = covariance(4, 4) = std::pow(params.attitude_bias_sigma_rad, 2);
+    covariance(5, 5) = pose(3, 3);
+    return covariance;
+  }
+
+  TargetMotion motionOf(const WindowHypothesis& window) const {
+    const MotionModel model = params.targetMotion();
+    if (model.stands()) return {};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(window.velocityCovariance(),
+                                                                Eigen::EigenvaluesOnly);
+    return {model, window.state().velocity(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))};
+  }
+
+  WindowHypothesis predicted(WindowHypothesis window, double age_sec) const {
+    window.predict(params, std::max(age_sec, 0.0), 0.0, camera_position);
+    return window;
+  }
+
+  // Two hypotheses so near to each other that they need not be told apart are one with the spread of both.
+  WindowHypothesis reported() const {
+    const auto& hypotheses = beliefs.hypotheses();
+    if (hypotheses.size() < 2 || !beliefs.areUnambiguous()) return hypotheses.front().window;
+    return hypotheses[0].window.mergedWith(hypotheses[1].window, std::exp(hypotheses[1].log_weight));
+  }
+
+  FilteredWindow stateAt(double age_sec) const {
+    const auto& hypotheses = beliefs.hypotheses();
+    const WindowHypothesis window = predicted(reported(), age_sec);
+    FilteredWindow out;
+    out.stamp_sec = stamp_sec;
+    out.age_sec = age_sec;
+    out.T_odom_window = window.T_odom_window();
+    out.covariance = covarianceOf(window);
+    out.hypothesis_weight = std::exp(hypotheses.front().log_weight);
+    out.updates = updates;
+    out.sign_trusted = beliefs.areUnambiguous() && window.yawSigma() < params.trusted_yaw_sigma_rad;
+    if (hypotheses.size() > 1) {
+      const WindowHypothesis other = predicted(hypotheses[1].window, age_sec);
+      out.alternative =
+          FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other), cameraTurn(other)};
+    }
+    out.size = window.size();
+    out.camera_turn = cameraTurn(window);
+    out.consistency = consistency.consistency();
+    out.motion = motionOf(window);
+    return out;
+  }
+};
+
+WindowFilter::WindowFilter(const FilterParams& params, const std::optional<SizeBelief>& size) {
+  const auto faults = parameters::outOfRange(params);
+  if (!faults.empty()) throw std::invalid_argument("filter parameters: " + parameters::joined(faults));
+  if (size && !isUsable(*size)) throw std::invalid_argument("filter: the size of the opening is not usable");
+  impl_ = std::make_unique<Impl>(params, size);
+}
+
+WindowFilter::~WindowFilter() = default;
+WindowFilter::WindowFilter(WindowFilter&&) noexcept = default;
+WindowFilter& WindowFilter::operator=(WindowFilter&&) noexcept = default;
+
+bool WindowFilter::update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
+                          const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) {
+  return impl_->update(&estimate, window, camera, T_odom_camera);
+}
+
+bool WindowFilter::update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
+                          const Eigen::Isometry3d& T_odom_camera) {
+  return impl_->update(nullptr, window, camera, T_odom_camera);
+}
+
+std::optional<SizeBelief> WindowFilter::sizeOf(const detection::WindowObservation& window) const {
+  return impl_->sizeOf(window);
+}
+
+std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
+  const Impl& self = *impl_;
+  if (self.beliefs.empty() || !std::isfinite(now_sec)) return std::nullopt;
+  const double age_sec = now_sec - self.stamp_sec;
+  if (age_sec > self.params.max_age_sec || age_sec < -self.params.time_jump_sec) return std::nullopt;
+  return self.stateAt(age_sec);
+}
+
+std::optional<geometry::Quadrilateral> WindowFilter::predictedCorners(
+    double now_sec, const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) const {
+  if (!state(now_sec) || !geometry::isValidPose(T_odom_camera)) return std::nullopt;
+  const WindowState& window = impl_->believed().state();
+  return geometry::projectOpening(camera, window.T_camera_window(T_odom_camera), window.opening());
+}
+
+void WindowFilter::reset() { impl_->reset(); }
+void WindowFilter::forgetPlaces() { impl_->forgetPlaces(); }
+
+}  // namespace window_ingress::estimation

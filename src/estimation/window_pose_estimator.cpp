@@ -1,0 +1,152 @@
+#include "window_ingress/estimation/window_pose_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
+#include "estimation/planar/observation_check.hpp"
+#include "estimation/planar/planar_solutions.hpp"
+#include "estimation/planar/stray_border.hpp"
+#include "estimation/planar/view_description.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+PoseResult rejected(PoseReject reason, std::string detail) {
+  return {std::nullopt, reason, std::move(detail)};
+}
+
+std::string exceeds(const char* what, double value, const char* relation, double limit, const char* unit) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, "%s %.3g %s %s %.3g %s", what, value, unit, relation, limit, unit);
+  return buffer;
+}
+
+// Limits on the pose itself; `result` keeps the first that is broken.
+PoseResult checked(const PoseParams& params, const Eigen::Vector3d& up_camera,
+                   const WindowPoseEstimate& estimate) {
+  const Eigen::Isometry3d& T = estimate.best.T_camera_window;
+  const double range = T.translation().norm();
+  const double tilt = std::acos(std::clamp(T.linear().col(2).dot(up_camera), -1.0, 1.0));
+  if (!geometry::isValidPose(T) || !std::isfinite(estimate.yaw_sigma_rad + estimate.yaw_rad))
+    return rejected(PoseReject::kNotFinite, "the fit has no finite pose or spread");
+  if (T.linear().col(0).dot(T.translation()) <= 0.0)
+    return rejected(PoseReject::kNotInFront, "the window would be seen from behind");
+  if (estimate.best.reprojection_rms_px > params.max_reprojection_rms_px)
+    return rejected(PoseReject::kReprojection, exceeds("reprojection", estimate.best.reprojection_rms_px, ">",
+                                                       params.max_reprojection_rms_px, "px"));
+  if (range < params.min_range_m)
+    return rejected(PoseReject::kRange, exceeds("range", range, "<", params.min_range_m, "m"));
+  if (range > params.max_range_m)
+    return rejected(PoseReject::kRange, exceeds("range", range, ">", params.max_range_m, "m"));
+  if (tilt > params.max_tilt_rad)
+    return rejected(PoseReject::kTilt, exceeds("tilt", tilt, ">", params.max_tilt_rad, "rad"));
+  if (std::abs(estimate.yaw_rad) > params.max_yaw_rad)
+    return rejected(PoseReject::kTilt,
+                    exceeds("yaw", std::abs(estimate.yaw_rad), ">", params.max_yaw_rad, "rad"));
+  return {estimate, PoseReject::kNone, ""};
+}
+
+// Of a window that is seen whole, no corner may lie behind the camera: its image would be that of the
+// opposite direction.
+bool isInFront(const detection::WindowObservation& window, const WindowPoseEstimate& estimate) {
+  if (!window.whole()) return true;
+  const auto corners = geometry::openingCorners(estimate.opening);
+  return std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
+    return (estimate.best.T_camera_window * corner).z() > 0.0;
+  });
+}
+
+ImageNoise noiseOf(const PoseParams& params) {
+  ImageNoise noise;
+  noise.systematic_sigma_px = params.systematic_sigma_px;
+  noise.unknown_corner_sigma_px = params.unknown_corner_sigma_px;
+  noise.systematic_turn = params.systematic_turn;
+  return noise;
+}
+
+PoseHints usable(const PoseHints& given) {
+  PoseHints hints = given;
+  if (hints.gravity && !isUsable(*hints.gravity)) hints.gravity.reset();
+  if (hints.prior && !isUsable(*hints.prior)) hints.prior.reset();
+  if (hints.size && !isUsable(*hints.size)) hints.size.reset();
+  return hints;
+}
+
+}  // namespace
+
+const char* toString(PoseReject reject) {
+  switch (reject) {
+    case PoseReject::kNone:
+      return "none";
+    case PoseReject::kBadCamera:
+      return "bad_camera";
+    case PoseReject::kBadCorners:
+      return "bad_corners";
+    case PoseReject::kNotInFront:
+      return "not_in_front";
+    case PoseReject::kReprojection:
+      return "reprojection";
+    case PoseReject::kRange:
+      return "range";
+    case PoseReject::kTilt:
+      return "tilt";
+    case PoseReject::kNotFinite:
+      return "not_finite";
+  }
+  return "unknown";
+}
+
+WindowPoseEstimator::WindowPoseEstimator(const PoseParams& params) : params_(params) {
+  auto faults = parameters::outOfRange(params);
+  if (params.min_range_m >= params.max_range_m) faults.push_back("min_range_m is not below max_range_m");
+  if (!faults.empty()) throw std::invalid_argument("pose parameters: " + parameters::joined(faults));
+}
+
+PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& window,
+                                         const geometry::PinholeCamera& camera,
+                                         const std::optional<GravityPrior>& gravity) const {
+  PoseHints hints;
+  hints.gravity = gravity;
+  return estimate(window, camera, hints);
+}
+
+PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& window,
+                                         const geometry::PinholeCamera& camera,
+                                         const PoseHints& given) const {
+  const auto camera_faults = camera.validate();
+  if (!camera_faults.empty()) return rejected(PoseReject::kBadCamera, parameters::joined(camera_faults));
+  if (!std::isfinite(window.stamp_sec)) return rejected(PoseReject::kNotFinite, "the stamp is not finite");
+  const PoseHints hints = usable(given);
+  const std::string fault = faultOfCorners(window, camera, params_, hints.prior ? 2 : 4);
+  if (!fault.empty()) return rejected(PoseReject::kBadCorners, fault);
+
+  const Eigen::Vector3d up =
+      hints.gravity ? hints.gravity->up_camera.normalized() : Eigen::Vector3d(0, -1, 0);
+  if (!isUpright(window, up))
+    return rejected(PoseReject::kBadCorners, "a partial view rolled by 45 degrees or more");
+  const auto ordered = upright(window, up);
+  const auto image = ImageMeasurement::make(ordered, camera, noiseOf(params_));
+  if (!image) return rejected(PoseReject::kBadCorners, "corners cannot be undistorted");
+  const geometry::OpeningSize stated{params_.opening_width_m, params_.opening_height_m};
+  const SizeBelief size =
+      hints.size ? *hints.size : sizeBelief(stated, params_.scale_sigma, params_.aspect_sigma);
+  const RefinementProblem problem{*image, camera, size.size, hints.gravity, hints.prior, rootOf(size)};
+  const auto solutions = planarSolutions(problem);
+  if (!solutions)
+    return rejected(PoseReject::kNotInFront, "no pose in front of the camera explains the corners");
+  WindowPoseEstimate estimate = describe(problem, *solutions, up, params_);
+  const auto stray = withoutStrayBorder(problem, estimate);
+  if (stray) estimate = describe(stray->problem, stray->solutions, up, params_);
+  estimate.stamp_sec = window.stamp_sec;
+  estimate.border_astray = stray.has_value();
+  if (stray) estimate.opening = size.size, estimate.opening_log_covariance.setZero();
+  if (!isInFront(window, estimate))
+    return rejected(PoseReject::kNotInFront, "a corner of the window would lie behind the camera");
+  return checked(params_, up, estimate);
+}
+
+}  // namespace window_ingress::estimation

@@ -1,0 +1,295 @@
+#include "evaluation/flights/closed_loop_flight.hpp"
+
+#include <cmath>
+
+#include "evaluation/flights/flight_facts.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/perception/window_perception.hpp"
+#include "window_ingress/estimation/pose_buffer.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
+#include "simulation/world.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using navigation::State;
+using simulation::Claim;
+using simulation::Outcome;
+
+constexpr double kTrackPeriod_sec = 0.1;
+constexpr double kMaxAttitudeGap_sec = 0.02;
+
+simulation::World::Pictures picturesFor(const FlightParams& params) {
+  using Pictures = simulation::World::Pictures;
+  return params.without_pictures ? Pictures::kNone : Pictures::kDrawn;
+}
+
+const simulation::Scenario& flyable(const simulation::Scenario& scenario) {
+  if (scenario.vehicle.profile != "external") return scenario;
+  throw simulation::ScenarioError(
+      "vehicle: external is flown elsewhere, over ROS topics; take another profile, or the world node");
+}
+
+Claim claimOf(State state) {
+  if (state == State::kPassed) return Claim::kPassed;
+  return state == State::kAborted ? Claim::kAborted : Claim::kNone;
+}
+
+class Flight {
+ public:
+  Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
+         const std::vector<FlightObserver*>& observers)
+      : observers_(observers),
+        world_(flyable(scenario), seed, picturesFor(params)),
+        params_(withFactsOf(world_, params)),
+        perception_(params_.detector, params_.interior),
+        sight_(params_.sight, seed),
+        tracker_(params_.pose, params_.filter, params_.tracker),
+        navigator_(params_.navigator) {
+    if (!params_.without_pictures) showReference();
+    timing_.lap(Stage::kOther);
+  }
+
+  simulation::Verdict fly() {
+    double next_step_sec = 0.0;
+    for (auto* observer : observers_) observer->onStart(world_);
+    auto verdict = world_.referee().judge(Claim::kNone);
+    while (verdict.outcome == Outcome::kRunning) {
+      world_.advance();
+      timing_.lap(Stage::kPhysics);
+      sense();
+      if (world_.timeSec() < next_step_sec) continue;
+      next_step_sec += 1.0 / params_.step_rate_hz;
+      step();
+      timing_.lap(Stage::kNavigator);
+      keepTrack();
+      if (!observers_.empty()) report();
+      verdict = world_.referee().judge(claimOf(output_.state), started_sec_.value_or(0.0));
+      timing_.lap(Stage::kOther);
+    }
+    for (auto* observer : observers_) observer->onEnd();
+    timing_.addSimulated(world_.timeSec());
+    return verdict;
+  }
+
+  FlightResult result(std::uint32_t seed, const simulation::Verdict& verdict) const;
+  const FlightTiming& timing() const { return timing_; }
+
+ private:
+  void sense();
+  void calibrate(const simulation::CalibrationSample& sample);
+  void showReference();
+  void look(const simulation::CameraFrame& frame);
+  std::optional<detection::WindowObservation> detect(const simulation::CameraFrame& frame);
+  void expectTarget();
+  void chooseTarget();
+  void step();
+  void keepTrack();
+  void report() const;
+  FlightRecord record() const;
+  void recordTarget(FlightRecord& record) const;
+  void recordImage(FlightRecord& record) const;
+
+  std::vector<FlightObserver*> observers_;
+  simulation::World world_;
+  FlightParams params_;
+  perception::WindowPerception perception_;
+  ProjectedSight sight_;
+  estimation::PoseBuffer attitude_;
+  estimation::SenderClock odometry_clock_;
+  estimation::TargetEstimator tracker_;
+  navigation::Navigator navigator_;
+  navigation::NavigatorInput input_;
+  navigation::NavigatorOutput output_;
+  std::optional<geometry::PinholeCamera> camera_;  // as camera_info last said
+  std::optional<double> started_sec_;
+  std::optional<geometry::Quadrilateral> expected_;
+  std::optional<double> last_seen_sec_;
+  bool detected_ = false, was_chosen_ = false;
+  std::vector<TrackPoint> track_;
+  FlightTiming timing_;
+};
+
+void Flight::sense() {
+  while (const auto odometry = world_.takeOdometry()) {
+    for (auto* observer : observers_) observer->onOdometry(*odometry);
+    const double stamp_sec = odometry_clock_.atReceiver(odometry->stamp_sec, world_.timeSec());
+    tracker_.addOdometry(stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps);
+    input_.vehicle = navigation::VehicleState{stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
+  }
+  while (const auto imu = world_.takeImu()) {
+    for (auto* observer : observers_) observer->onImu(*imu);
+    tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
+    attitude_.add(imu->stamp_sec,
+                  geometry::makePose(imu->R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
+  }
+  while (const auto calibration = world_.takeCalibration()) calibrate(*calibration);
+  if (const auto frame = world_.takeFrame()) look(*frame);
+}
+
+// A calibration that cannot be used withdraws the one before.
+void Flight::calibrate(const simulation::CalibrationSample& sample) {
+  for (auto* observer : observers_) observer->onCalibration(sample);
+  camera_.reset();
+  if (sample.camera.validate().empty()) camera_ = sample.camera;
+}
+
+void Flight::showReference() {
+  geometry::Quadrilateral corners;
+  const cv::Mat picture = world_.referencePicture(&corners);
+  perception_.setReference(detection::ReferenceAppearance(picture, corners));
+}
+
+std::optional<detection::WindowObservation> Flight::detect(const simulation::CameraFrame& frame) {
+  if (params_.without_pictures && !world_.scenario().window.present) return std::nullopt;
+  if (params_.without_pictures)
+    return sight_.look(world_.camera(), frame.T_camera_window, world_.opening(), frame.stamp_sec);
+  detection::TrackInput seen;
+  seen.image = frame.image;
+  seen.stamp_sec = frame.stamp_sec;
+  seen.camera = camera_ ? &*camera_ : nullptr;
+  seen.expected = expected_;
+  if (const auto T_odom_base = attitude_.at(frame.stamp_sec, kMaxAttitudeGap_sec))
+    seen.R_world_camera = T_odom_base->linear() * world_.T_base_camera().linear();
+  return perception_.update(seen);
+}
+
+void Flight::look(const simulation::CameraFrame& frame) {
+  timing_.lap(Stage::kPicture);
+  timing_.countFrame();
+  expectTarget();
+  const auto window = detect(frame);
+  timing_.lap(Stage::kDetector);
+  detected_ = window.has_value();
+  input_.image_stamp_sec = frame.stamp_sec;
+  if (!frame.image.empty())
+    for (auto* observer : observers_) observer->onImage(frame, perception_.trace(), window);
+  timing_.lap(Stage::kOther);
+  if (camera_) {
+    tracker_.see({frame.stamp_sec, *camera_, world_.T_base_camera(), window, perception_.windows()});
+    last_seen_sec_ = frame.stamp_sec;
+  }
+  timing_.lap(Stage::kPose);
+}
+
+// As the nodes do: said with the pose of a picture, heard with the next one.
+void Flight::expectTarget() {
+  expected_.reset();
+  if (camera_ && last_seen_sec_)
+    expected_ = tracker_.expected(*last_seen_sec_, *camera_, world_.T_base_camera());
+}
+
+// What the operator of a scenario does: points at the target as soon as it is in the memory of all windows,
+// and then starts the mission.
+void Flight::chooseTarget() {
+  if (!world_.scenario().target_chosen || was_chosen_ || params_.without_pictures) return;
+  const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
+  was_chosen_ = tracker_.selectWindowNear(T_odom_window.translation()).success;
+}
+
+void Flight::step() {
+  const double now_sec = world_.timeSec();
+  chooseTarget();
+  input_.target = tracker_.target(now_sec);
+  const facade::KnownWindow* remembered = tracker_.facade().target();
+  input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
+  const bool may_start = input_.image_stamp_sec && (was_chosen_ || !world_.scenario().target_chosen);
+  if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
+  output_ = navigator_.step(input_, now_sec);
+  tracker_.heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
+  if (!output_.enabled) return;
+  world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
+}
+
+void Flight::keepTrack() {
+  const double time_sec = world_.timeSec() - started_sec_.value_or(world_.timeSec());
+  if (!track_.empty() && time_sec - track_.back().time_sec < kTrackPeriod_sec) return;
+  track_.push_back({time_sec, world_.T_odom_window().inverse() * world_.truth().T_odom_base.translation()});
+}
+
+void Flight::report() const {
+  const FlightRecord now = record();
+  for (auto* observer : observers_) observer->onStep(now, output_);
+}
+
+FlightRecord Flight::record() const {
+  const Eigen::Matrix3d R_window_odom = world_.T_odom_window().linear().transpose();
+  const auto& truth = world_.truth();
+  FlightRecord record;
+  record.time_sec = world_.timeSec() - started_sec_.value_or(world_.timeSec());
+  record.state = output_.state;
+  record.reason = output_.reason;
+  record.position_m = world_.T_odom_window().inverse() * truth.T_odom_base.translation();
+  record.heading_rad = geometry::yawOf(R_window_odom * truth.T_odom_base.linear());
+  record.velocity_mps = R_window_odom * truth.velocity_odom_mps;
+  record.setpoint_mps =
+      R_window_odom * (world_.odometryDrift().linear().transpose() * output_.setpoint.velocity_odom_mps);
+  record.setpoint_yaw_rate_radps = output_.setpoint.yaw_rate_radps;
+  record.detected = detected_;
+  record.sighting = tracker_.lastUpdate().why_not;
+  record.predicted_miss_m = output_.report.predicted_miss_m;
+  recordTarget(record);
+  recordImage(record);
+  return record;
+}
+
+void Flight::recordTarget(FlightRecord& record) const {
+  if (!input_.target) return;
+  const auto& target = *input_.target;
+  const Eigen::Isometry3d T_window_estimate =
+      world_.T_odom_window().inverse() * world_.odometryDrift().inverse() * target.T_odom_window;
+  const Eigen::Vector3d left = target.T_odom_window.linear().col(1);
+  record.has_target = true;
+  record.sign_trusted = target.sign_trusted;
+  record.target_age_sec = world_.timeSec() - target.stamp_sec;
+  record.target_error_m = T_window_estimate.translation();
+  record.target_yaw_error_rad = geometry::yawOf(T_window_estimate.linear());
+  record.target_sigma_m = std::sqrt(left.dot(target.covariance.topLeftCorner<3, 3>() * left));
+  record.target_yaw_sigma_rad = std::sqrt(target.covariance(5, 5));
+}
+
+void Flight::recordImage(FlightRecord& record) const {
+  const auto& seen = tracker_.lastUpdate().pose.estimate;
+  if (!seen || !started_sec_) return;
+  record.image = ImageRecord{
+      seen->stamp_sec - *started_sec_, seen->yaw_rad,      seen->sign_trusted, seen->opening_width_m,
+      seen->opening_height_m,          seen->left_side_px, seen->right_side_px};
+}
+
+FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdict) const {
+  const auto& referee = world_.referee();
+  FlightResult result;
+  result.seed = seed;
+  result.outcome = verdict.outcome;
+  result.track = track_;
+  const double end_sec = referee.crossing() ? referee.crossing()->time_sec : world_.timeSec();
+  result.time_sec = end_sec - started_sec_.value_or(0.0);
+  if (referee.crossing()) {
+    result.offset_y_m = referee.crossing()->offset_y_m;
+    result.offset_z_m = referee.crossing()->offset_z_m;
+  }
+  result.min_clearance_m = referee.minClearance();
+  result.wrong_side_m = referee.wrongSide();
+  result.max_speed_mps = referee.maxSpeed();
+  result.nearest_m = referee.nearest();
+  result.blind_sec = output_.report.blind_sec;
+  result.clock_offset = tracker_.clockOffset();
+  if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;
+  result.reason = verdict.outcome == Outcome::kPassed
+                      ? verdict.reason
+                      : verdict.reason + " [" + toString(output_.state) + ": " + output_.reason + "]";
+  return result;
+}
+
+}  // namespace
+
+FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
+                     const std::vector<FlightObserver*>& observers, FlightTiming* timing) {
+  Flight flight(scenario, seed, params, observers);
+  const auto verdict = flight.fly();
+  if (timing != nullptr) timing->add(flight.timing());
+  return flight.result(seed, verdict);
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,49 @@
+/// Pictures of flights for people.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "evaluation/flights/flight_metrics.hpp"
+#include "evaluation/flights/flight_observer.hpp"
+
+namespace window_ingress::evaluation {
+
+/// The opening as the plots show it.
+struct WallOutline {
+  double opening_width_m = 1.2;
+  double opening_height_m = 1.0;
+  double thickness_m = 0.26;
+};
+
+/// All ways flown, seen from above (upper part) and from the right side (lower part), coloured by outcome, in
+/// the window's frame: the wall at x = 0, outside below 0. CV_8UC3.
+cv::Mat drawTracks(const std::vector<FlightResult>& flights, const WallOutline& wall,
+                   const std::string& title);
+
+/// Keeps what the camera saw, with the detector's drawing on it: the first picture of each state of the
+/// navigator, and the last one of all.
+class FlightStrip : public FlightObserver {
+ public:
+  static constexpr std::size_t kMost = 11;  ///< pictures besides the last one
+
+  void onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace& trace,
+               const std::optional<detection::WindowObservation>& window) override;
+  void onStep(const FlightRecord& record, const navigation::NavigatorOutput& output) override;
+
+  /// All of them with time and state below the flight's track. CV_8UC3; empty if there was no picture.
+  cv::Mat draw(const FlightResult& flight, const WallOutline& wall) const;
+
+ private:
+  struct Picture {
+    cv::Mat image;
+    std::string caption;
+  };
+  std::vector<Picture> pictures_;
+  Picture last_;
+  cv::Mat canvas_;
+  std::optional<navigation::State> shown_;
+};
+
+}  // namespace window_ingress::evaluation

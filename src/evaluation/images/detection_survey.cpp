@@ -1,0 +1,155 @@
+#include "evaluation/images/detection_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "evaluation/images/detection_table.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr double kSameWindowIou = 0.5, kOnBorderIou = 0.8;
+constexpr double kDegreesPerRad = 57.29577951308232;
+
+std::string number(const char* pattern, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+std::string corners(const Quadrilateral& quad) {
+  std::string text;
+  for (const Eigen::Vector2d& corner : quad)
+    text += "," + number("%.4f", corner.x()) + "," + number("%.4f", corner.y());
+  return text;
+}
+
+// Of the candidates that lie on the true border, the one that got farthest.
+std::string fateOfTrueCandidate(const detection::DetectionTrace& trace, const Quadrilateral& truth) {
+  double best = kOnBorderIou;
+  const detection::CandidateTrace* found = nullptr;
+  for (const auto& candidate : trace.candidates) {
+    if (!geometry::isConvex(candidate.quad)) continue;
+    const double iou = geometry::intersectionOverUnion(candidate.quad, truth);
+    if (iou < best) continue;
+    best = iou;
+    found = &candidate;
+  }
+  return found ? detection::toString(found->reject) : "unseen";
+}
+
+}  // namespace
+
+const char* toString(SurveyVerdict verdict) {
+  static constexpr std::array<const char*, kSurveyVerdicts> kNames{
+      "hit", "inexact", "outer_border", "far_border", "wrong_target", "missed", "nothing", "false_alarm"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth& truth) {
+  if (!truth.present) return found ? SurveyVerdict::kFalseAlarm : SurveyVerdict::kNothing;
+  if (!found) return SurveyVerdict::kMissed;
+  const Quadrilateral* nearest = &truth.inner;
+  SurveyVerdict border = SurveyVerdict::kInexact;
+  const auto consider = [&](const Quadrilateral& other, SurveyVerdict verdict) {
+    if (meanCornerDistance(*found, other) >= meanCornerDistance(*found, *nearest)) return;
+    nearest = &other;
+    border = verdict;
+  };
+  if (truth.outer) consider(*truth.outer, SurveyVerdict::kOuterBorder);
+  consider(truth.far, SurveyVerdict::kFarBorder);
+  if (geometry::intersectionOverUnion(*found, *nearest) < kSameWindowIou) return SurveyVerdict::kWrongTarget;
+  if (border != SurveyVerdict::kInexact) return border;
+  return worstCornerDistance(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit : border;
+}
+
+SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detection::WindowObservation>& window,
+                      const detection::DetectionTrace& trace, double milliseconds) {
+  SurveyResult result;
+  result.scenario = picture.scenario;
+  result.seed = picture.seed;
+  result.distance_m = picture.distance_m;
+  result.off_axis_rad = picture.off_axis_rad;
+  result.milliseconds = milliseconds;
+  result.truth = picture.truth;
+  result.window = window;
+  const bool whole = window && window->whole();
+  result.verdict = judge(whole ? std::make_optional(window->corners) : std::nullopt, picture.truth);
+  result.outcome = window ? "found" : std::string(detection::toString(trace.outcome)) + ": " + trace.detail;
+  if (picture.truth.present) result.true_candidate = fateOfTrueCandidate(trace, picture.truth.inner);
+  return result;
+}
+
+std::string surveyColumns() {
+  std::string text = "scenario,seed,distance_m,off_axis_deg,verdict,score,bhattacharyya,worst_corner_px";
+  for (const char* quad : {"found", "true"})
+    for (int i = 1; i <= 4; ++i)
+      for (const char* axis : {"x", "y"}) text += std::string(",") + quad + "_" + axis + std::to_string(i);
+  return text + ",outcome,true_candidate,milliseconds";
+}
+
+std::string surveyRow(const SurveyResult& result) {
+  const auto& window = result.window;
+  std::string text =
+      result.scenario + "," + std::to_string(result.seed) + "," + number("%.3f", result.distance_m) + "," +
+      number("%.2f", result.off_axis_rad * kDegreesPerRad) + "," + toString(result.verdict) + ",";
+  if (window) text += number("%.4f", window->score);
+  text += ",";
+  if (window && window->has_appearance) text += number("%.4f", window->bhattacharyya);
+  text += ",";
+  if (window && result.truth.present)
+    text += number("%.3f", worstCornerDistance(window->corners, result.truth.inner));
+  text += window ? corners(window->corners) : ",,,,,,,,";
+  text += corners(result.truth.inner);
+  return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +
+         number("%.3f", result.milliseconds);
+}
+
+std::string DistanceBin::name() const {
+  const std::string nearest = number("%g", nearest_m);
+  return (nearest_m == farthest_m ? nearest : nearest + "-" + number("%g", farthest_m)) + " m";
+}
+
+std::vector<DistanceBin> defaultBins() { return {{2.0, 3.0}, {3.0, 5.0}, {5.0, 8.0}}; }
+
+std::vector<DistanceBin> binsAt(const std::vector<double>& distances_m) {
+  std::vector<DistanceBin> bins;
+  for (const double distance_m : distances_m) bins.push_back({distance_m, distance_m});
+  return bins;
+}
+
+std::size_t SurveySummary::binOf(double distance_m) const {
+  const auto away = [&](const DistanceBin& bin) {
+    return std::max({0.0, bin.nearest_m - distance_m, distance_m - bin.farthest_m});
+  };
+  const auto nearer = [&](const DistanceBin& a, const DistanceBin& b) { return away(a) < away(b); };
+  return static_cast<std::size_t>(std::min_element(bins_.begin(), bins_.end(), nearer) - bins_.begin());
+}
+
+void SurveySummary::add(const SurveyResult& result) {
+  ++frames_;
+  ++counts_[static_cast<int>(result.verdict)];
+  milliseconds_.push_back(result.milliseconds);
+  if (result.verdict == SurveyVerdict::kMissed) ++misses_[result.true_candidate];
+  if (result.verdict != SurveyVerdict::kHit) return;
+  if (!bins_.empty()) corners_[binOf(result.distance_m)].add(result.window->corners, result.truth.inner);
+}
+
+double SurveySummary::part(SurveyVerdict verdict) const {
+  return frames_ > 0 ? static_cast<double>(count(verdict)) / frames_ : 0.0;
+}
+
+double SurveySummary::innerPart() const {
+  const int inner = count(SurveyVerdict::kHit) + count(SurveyVerdict::kInexact);
+  const int borders = inner + count(SurveyVerdict::kOuterBorder) + count(SurveyVerdict::kFarBorder);
+  return borders > 0 ? static_cast<double>(inner) / borders : 1.0;
+}
+
+double SurveySummary::medianMilliseconds() const { return quantile(milliseconds_, 0.5); }
+
+}  // namespace window_ingress::evaluation

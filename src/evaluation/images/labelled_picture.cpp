@@ -1,0 +1,201 @@
+#include "evaluation/images/labelled_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "window_ingress/detection/window_detector.hpp"
+#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+constexpr double kOverlapPart = 0.05;  // of the merit: a whole picture more counts for more
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else if (c != '\r')
+      cells.back() += c;
+  }
+  return cells;
+}
+
+// A video's neighbours differ in their last digit.
+std::string groupOf(const std::string& file) {
+  std::string stem = std::filesystem::path(file).stem().string();
+  if (!stem.empty() && std::isdigit(static_cast<unsigned char>(stem.back()))) stem.pop_back();
+  return stem;
+}
+
+class Annotations {
+ public:
+  Annotations(const std::string& file, const std::string& header) : file_(file) {
+    const auto names = cellsOf(header);
+    for (std::size_t i = 0; i < names.size(); ++i) column_[names[i]] = i;
+    for (const char* needed : {"file", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"})
+      if (column_.count(needed) == 0) throw TableError(file + ":1: no column '" + needed + "'");
+  }
+
+  void read(const std::string& text, int line) {
+    const auto cells = cellsOf(text);
+    const auto cell = [&](const std::string& name) {
+      const auto at = column_.find(name);
+      return at == column_.end() || at->second >= cells.size() ? std::string() : cells[at->second];
+    };
+    if (cell("label").rfind("pose_only_", 0) == 0) return;
+    auto& targets = targets_[cell("file")];
+    if (cell("x1").empty()) return;
+    geometry::Quadrilateral quad;
+    for (int i = 0; i < 4; ++i)
+      quad[i] = {number(cell("x" + std::to_string(i + 1)), line),
+                 number(cell("y" + std::to_string(i + 1)), line)};
+    const auto canonical = geometry::canonical(quad);
+    if (!canonical)
+      throw TableError(file_ + ":" + std::to_string(line) + ": the corners are no convex quadrilateral");
+    targets.push_back(*canonical);
+  }
+
+  const std::map<std::string, std::vector<geometry::Quadrilateral>>& targets() const { return targets_; }
+
+ private:
+  double number(const std::string& text, int line) const {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+      throw TableError(file_ + ":" + std::to_string(line) + ": '" + text + "' is no number");
+    return value;
+  }
+  std::string file_;
+  std::map<std::string, std::size_t> column_;
+  std::map<std::string, std::vector<geometry::Quadrilateral>> targets_;
+};
+
+std::string rate(const char* name, double value, int part, int all) {
+  if (all == 0) return std::string(name) + " unknown (0 of 0)";
+  const Interval interval = wilson95(part, all);
+  char text[120];
+  std::snprintf(text, sizeof text, "%s %.1f %% (%.1f to %.1f %%, %d of %d)", name, 100.0 * value,
+                100.0 * interval.low, 100.0 * interval.high, part, all);
+  return text;
+}
+
+}  // namespace
+
+double DetectionCounts::recall() const {
+  return found + missed == 0 ? 1.0 : static_cast<double>(found) / (found + missed);
+}
+
+double DetectionCounts::precision() const {
+  return found + wrong == 0 ? 1.0 : static_cast<double>(found) / (found + wrong);
+}
+
+double DetectionCounts::f1() const {
+  const int all = 2 * found + missed + wrong;
+  return all == 0 ? 1.0 : 2.0 * found / all;
+}
+
+double DetectionCounts::merit() const { return f1() + kOverlapPart * overlap / std::max(1, found + missed); }
+
+std::string DetectionCounts::text() const {
+  return rate("recall", recall(), found, found + missed) + ", " +
+         rate("precision", precision(), found, found + wrong);
+}
+
+DetectionCounts countDetections(const std::vector<LabelledPicture>& pictures,
+                                const detection::DetectorParams& params,
+                                const detection::ReferenceAppearance* reference) {
+  detection::WindowDetector detector(params);
+  if (reference) detector.setReference(*reference);
+  DetectionCounts counts;
+  for (const LabelledPicture& picture : pictures) {
+    const auto window = detector.detect(picture.image, 0.0, picture.camera ? &*picture.camera : nullptr);
+    double best = 0.0;
+    if (window)
+      for (const auto& target : picture.targets)
+        best = std::max(best, geometry::intersectionOverUnion(window->corners, target));
+    const bool hit = best >= DetectionCounts::kSameIou;
+    counts.found += hit;
+    counts.overlap += hit ? best : 0.0;
+    counts.missed += !picture.targets.empty() && !hit;
+    counts.wrong += window && !hit;
+  }
+  return counts;
+}
+
+std::vector<LabelledPicture> readLabelled(const std::string& csv_file, const std::string& folder) {
+  std::ifstream input(csv_file);
+  std::string line;
+  if (!std::getline(input, line)) throw TableError(csv_file + ": cannot be read, or is empty");
+  Annotations annotations(csv_file, line);
+  for (int number = 2; std::getline(input, line); ++number)
+    if (!line.empty()) annotations.read(line, number);
+  std::vector<LabelledPicture> pictures;
+  for (const auto& [file, targets] : annotations.targets()) {
+    const std::string path = (std::filesystem::path(folder) / file).string();
+    LabelledPicture picture{file, groupOf(file),
+                            cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), targets,
+                            std::nullopt};
+    if (picture.image.empty())
+      throw TableError(path + ": cannot be read as a picture; " + csv_file + " names it");
+    pictures.push_back(picture);
+  }
+  if (pictures.empty()) throw TableError(csv_file + ": no picture in it");
+  return pictures;
+}
+
+std::optional<LabelledPicture> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
+                                        const geometry::PinholeCamera& camera,
+                                        const geometry::OpeningSize& opening) {
+  LabelledPicture picture;
+  picture.image = image;
+  picture.camera = camera;
+  const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
+  if (!quad || geometry::signedArea(*quad) <= 0.0) return picture;  // behind, or seen from behind
+  const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
+  const auto corners = std::count_if(quad->begin(), quad->end(), inside);
+  if (corners == 4) picture.targets.push_back(*quad);
+  const cv::Rect2d frame(0.0, 0.0, image.cols, image.rows);
+  cv::Rect2d box((*quad)[0].x(), (*quad)[0].y(), 0.0, 0.0);
+  for (const auto& corner : *quad) box |= cv::Rect2d(corner.x(), corner.y(), 1e-6, 1e-6);
+  if (corners < 4 && (frame & box).area() > 0.0) return std::nullopt;
+  return picture;
+}
+
+std::pair<std::vector<LabelledPicture>, std::vector<LabelledPicture>> split(
+    const std::vector<LabelledPicture>& pictures, double held_out, std::uint32_t seed) {
+  std::set<std::string> names;
+  for (const auto& picture : pictures) names.insert(picture.group);
+  if (names.size() < 2)
+    throw std::invalid_argument(
+        "the pictures are all of one group (one second of a bag, one video): none can be held out");
+  std::vector<std::string> groups(names.begin(), names.end());
+  std::mt19937 random(seed);
+  for (std::size_t i = groups.size() - 1; i > 0; --i) std::swap(groups[i], groups[random() % (i + 1)]);
+  const auto wanted = static_cast<std::size_t>(std::lround(held_out * static_cast<double>(groups.size())));
+  const std::size_t count = std::clamp<std::size_t>(wanted, 1, groups.size() - 1);
+  const std::set<std::string> chosen(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(count));
+  std::pair<std::vector<LabelledPicture>, std::vector<LabelledPicture>> parts;
+  for (const auto& picture : pictures)
+    (chosen.count(picture.group) > 0 ? parts.second : parts.first).push_back(picture);
+  return parts;
+}
+
+}  // namespace window_ingress::evaluation

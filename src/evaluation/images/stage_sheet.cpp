@@ -1,0 +1,213 @@
+#include "evaluation/images/stage_sheet.hpp"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "detection/candidates/candidate_search.hpp"
+#include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/detection/text_overlay.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using detection::DetectorParams;
+using geometry::Quadrilateral;
+
+constexpr int kColumns = 3, kGap_px = 6, kSmallest_px = 64;
+constexpr double kBackground = 0.35;  ///< brightness of the picture behind what was found in it
+const cv::Scalar kGreen(60, 230, 60), kOrange(60, 170, 255), kBlue(255, 190, 90), kWhite(255, 255, 255);
+
+cv::Mat coloured(const cv::Mat& image) {
+  cv::Mat result;
+  if (image.channels() == 1)
+    cv::cvtColor(image, result, cv::COLOR_GRAY2BGR);
+  else
+    result = image.clone();
+  return result;
+}
+
+/// Collects the pictures, all in one size, each with a line of text below.
+class Sheet {
+ public:
+  Sheet(const cv::Size& picture, int cell_width_px)
+      : cell_(cell_width_px, cell_width_px * picture.height / picture.width) {}
+
+  void add(const cv::Mat& picture, const std::string& caption) {
+    cv::Mat cell;
+    cv::resize(coloured(picture), cell, cell_, 0, 0,
+               picture.cols > cell_.width ? cv::INTER_AREA : cv::INTER_LINEAR);
+    const int text_px = std::max(16, cell_.width / 22);
+    cv::copyMakeBorder(cell, cell, kGap_px, text_px, kGap_px, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
+    cv::putText(cell, caption, {kGap_px + 2, cell.rows - text_px / 4}, cv::FONT_HERSHEY_SIMPLEX,
+                cell_.width / 1050.0, kWhite, 1, cv::LINE_AA);
+    cells_.push_back(cell);
+  }
+
+  cv::Mat draw() const {
+    const cv::Size size = cells_.front().size();
+    const int rows = (static_cast<int>(cells_.size()) + kColumns - 1) / kColumns;
+    cv::Mat sheet(rows * size.height + kGap_px, kColumns * size.width + kGap_px, CV_8UC3,
+                  cv::Scalar::all(24));
+    for (int i = 0; i < static_cast<int>(cells_.size()); ++i)
+      cells_[i].copyTo(sheet(cv::Rect({i % kColumns * size.width, i / kColumns * size.height}, size)));
+    return sheet;
+  }
+
+ private:
+  cv::Size cell_;
+  std::vector<cv::Mat> cells_;
+};
+
+/// The level the search runs on, enlarged so that lines of one pixel remain fine.
+struct Canvas {
+  explicit Canvas(const cv::Mat& level) {
+    cv::resize(coloured(level), picture, cv::Size(), kZoom, kZoom, cv::INTER_LINEAR);
+    picture.convertTo(picture, -1, kBackground);
+  }
+  static Eigen::Vector2d at(const Eigen::Vector2d& p) {
+    return kZoom * p + Eigen::Vector2d::Constant(0.5 * (kZoom - 1));
+  }
+  void draw(const Quadrilateral& q, const cv::Scalar& colour) {
+    detection::drawQuad(picture, {at(q[0]), at(q[1]), at(q[2]), at(q[3])}, colour, 1);
+  }
+  static constexpr double kZoom = 2.0;
+  cv::Mat picture;
+};
+
+cv::Scalar colourOfDirection(const Eigen::Vector2d& normal) {
+  const double half_turns = std::atan2(normal.y(), normal.x()) / CV_PI;
+  cv::Mat3b colour(1, 1,
+                   cv::Vec3b(cv::saturate_cast<uchar>(std::fmod(half_turns + 2.0, 1.0) * 179), 160, 255));
+  cv::cvtColor(colour, colour, cv::COLOR_HSV2BGR);
+  return cv::Scalar(colour(0, 0));
+}
+
+template <typename Segments>
+cv::Mat drawSegments(const cv::Mat& level, const Segments& segments) {
+  Canvas canvas(level);
+  const auto pixel = [](const Eigen::Vector2d& p) {
+    const Eigen::Vector2d zoomed = Canvas::at(p);
+    return cv::Point2d(zoomed.x(), zoomed.y());
+  };
+  for (const auto& segment : segments)
+    cv::line(canvas.picture, pixel(segment.a), pixel(segment.b), colourOfDirection(segment.normal), 2,
+             cv::LINE_AA);
+  return canvas.picture;
+}
+
+cv::Mat drawOutlines(const cv::Mat& closed, const std::vector<detection::Candidate>& candidates) {
+  Canvas canvas(closed);
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::Mat large;
+  cv::resize(closed, large, canvas.picture.size(), 0, 0, cv::INTER_NEAREST);
+  cv::findContours(large, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+  canvas.picture.setTo(cv::Scalar::all(0));
+  cv::drawContours(canvas.picture, outlines, -1, cv::Scalar::all(120));
+  for (const auto& candidate : candidates) canvas.draw(candidate.quad, kOrange);
+  return canvas.picture;
+}
+
+cv::Mat drawQuads(const cv::Mat& level, const std::vector<detection::Candidate>& candidates) {
+  Canvas canvas(level);
+  for (const auto& candidate : candidates) canvas.draw(candidate.quad, kBlue);
+  return canvas.picture;
+}
+
+cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace, int& count) {
+  cv::Mat canvas = coloured(image);
+  canvas.convertTo(canvas, -1, kBackground);
+  count = 0;
+  for (const auto& candidate : trace.candidates) {
+    if (candidate.score <= 0.0) continue;
+    ++count;
+    const cv::Scalar colour =
+        candidate.reject == detection::RejectReason::kNone ? kGreen : detection::colourOf(candidate.reject);
+    detection::drawQuad(canvas, candidate.quad, colour, std::max(1, canvas.cols / 640));
+  }
+  return canvas;
+}
+
+void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const detection::EdgeMap& map,
+              const DetectorParams& params, Sheet& sheet) {
+  detection::EdgeDetector plain(params.edges);
+  sheet.add(image, cv::format("input, %d x %d", image.cols, image.rows));
+  sheet.add(plain.run(image).edges, "P3 edges without preprocessing");
+  sheet.add(map.edges,
+            cv::format("P2, P3 edges of the search level, %d x %d", level.image.cols, level.image.rows));
+}
+
+void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet) {
+  detection::Preprocess preprocess(params.preprocess);
+  detection::EdgeDetector edges(params.edges);
+  detection::EdgeChains runs;
+  detection::HoughSegments lines(params.lines);
+  detection::LevelCamera lens;  // no calibration: the picture is taken as free of distortion
+  detection::Closing closing(params.closing);
+  detection::ContourPolygons contours(params.contours);
+  detection::SegmentQuads quads(params.segment_quads);
+  const detection::SearchLevel level = preprocess.run(image);
+  const detection::EdgeMap& map = edges.run(level.image);
+  addEdges(image, level, map, params, sheet);
+  lens.set(nullptr, level.image.size(), level.factor);
+  const auto& segments = lines.run(runs.run(map, lens), level.image.size());
+  sheet.add(drawSegments(level.image, segments),
+            cv::format("P4 straight segments, colour: direction (%d)", static_cast<int>(segments.size())));
+  cv::Mat straight;
+  keepOnSegments(runs, lines, level.image.size(), straight);
+  const cv::Mat closed = closing.run(straight);
+  sheet.add(closed, cv::format("P6 closed, %d px", closing.radiusPx(level.image.size())));
+  const auto outlines = contours.run(closed, closing.radiusPx(level.image.size()));
+  sheet.add(drawOutlines(closed, outlines.candidates),
+            cv::format("P7 contours (%d), polygons with four sides (%d)", outlines.contours,
+                       static_cast<int>(outlines.candidates.size())));
+  const auto& found =
+      quads.run(segments, params.gates.min_area * level.image.size().area(), detection::SegmentQuads::kQuick);
+  sheet.add(drawQuads(level.image, found.candidates),
+            cv::format("P4, P7 quadrilaterals of segments (%d)", static_cast<int>(found.candidates.size())));
+}
+
+void drawTarget(const detection::WindowObservation& window, cv::Mat& canvas) {
+  detection::drawQuad(canvas, window.corners, kGreen, std::max(2, canvas.cols / 320));
+  const Eigen::Vector2d centre = geometry::centroid(window.corners);
+  cv::circle(canvas, cv::Point2d(centre.x(), centre.y()), std::max(3, canvas.cols / 120),
+             cv::Scalar(0, 255, 255), cv::FILLED, cv::LINE_AA);
+}
+
+void addResult(const cv::Mat& image, const DetectorParams& params,
+               const detection::ReferenceAppearance* reference, Sheet& sheet) {
+  detection::WindowDetector detector(params);
+  if (reference) detector.setReference(*reference);
+  const auto window = detector.detect(image, 0.0);
+  int count = 0;
+  const cv::Mat passed = drawPassed(image, detector.trace(), count);
+  sheet.add(passed, cv::format("P8, P9 passed the gates on shape (%d)", count));
+  cv::Mat result = coloured(image);
+  std::string caption = "P10 no target: " + detector.trace().detail;
+  if (window) {
+    drawTarget(*window, result);
+    caption = cv::format("P10 the target, score %.2f", window->score);
+    if (window->has_appearance)
+      caption += cv::format(", distance to the reference %.2f", window->bhattacharyya);
+  }
+  sheet.add(result, caption);
+}
+
+}  // namespace
+
+cv::Mat stageSheet(const cv::Mat& image, const DetectorParams& params,
+                   const detection::ReferenceAppearance* reference, int cell_width_px) {
+  if ((image.type() != CV_8UC1 && image.type() != CV_8UC3) || std::min(image.cols, image.rows) < kSmallest_px)
+    throw std::invalid_argument(
+        "a picture of 8 bits, grey or colour, with at least 64 pixels each way is needed");
+  if (cell_width_px < kSmallest_px) throw std::invalid_argument("the pictures of the sheet are too small");
+  Sheet sheet(image.size(), cell_width_px);
+  addStages(image, params, sheet);
+  addResult(image, params, reference, sheet);
+  return sheet.draw();
+}
+
+}  // namespace window_ingress::evaluation

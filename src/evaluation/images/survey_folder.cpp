@@ -1,0 +1,150 @@
+#include "evaluation/images/survey_folder.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "evaluation/flights/flight_table.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using geometry::Quadrilateral;
+
+constexpr int kNumbersBeforeCorners = 4, kQuads = 4;
+constexpr int kColumns = 1 + kNumbersBeforeCorners + 2 + 8 * kQuads;
+
+std::string columns() {
+  std::string text = "scenario,seed,distance_m,off_axis_rad,present,has_outer,has_reference";
+  for (const char* quad : {"inner", "outer", "far", "reference"})
+    for (int i = 1; i <= 4; ++i)
+      for (const char* axis : {"x", "y"}) text += std::string(",") + quad + "_" + axis + std::to_string(i);
+  return text;
+}
+
+std::string format(const char* pattern, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+std::string numbers(const Quadrilateral& quad) {
+  std::string text;
+  for (const Eigen::Vector2d& corner : quad)
+    text += "," + format("%.9f", corner.x()) + "," + format("%.9f", corner.y());
+  return text;
+}
+
+Quadrilateral quadrilateral(const double* numbers) {
+  Quadrilateral quad;
+  for (int i = 0; i < 4; ++i) quad[i] = {numbers[2 * i], numbers[2 * i + 1]};
+  return quad;
+}
+
+std::string rowOf(const SurveyPicture& picture) {
+  const SurveyTruth& truth = picture.truth;
+  const Quadrilateral none = quadrilateral(std::array<double, 8>{}.data());
+  return picture.scenario + "," + std::to_string(picture.seed) + "," + format("%.6f", picture.distance_m) +
+         "," + format("%.6f", picture.off_axis_rad) + "," + (truth.present ? "1," : "0,") +
+         (truth.outer ? "1," : "0,") + (picture.reference.empty() ? "0" : "1") + numbers(truth.inner) +
+         numbers(truth.outer.value_or(none)) + numbers(truth.far) +
+         numbers(picture.reference.empty() ? none : picture.reference_corners);
+}
+
+void writePicture(const std::string& file, const cv::Mat& image) {
+  if (!cv::imwrite(file, image, {cv::IMWRITE_PNG_COMPRESSION, 1}))
+    throw std::runtime_error(file + ": cannot be written; is the disk full?");
+}
+
+cv::Mat readPicture(const std::string& file) {
+  const cv::Mat image = cv::imread(file, cv::IMREAD_COLOR);
+  if (image.empty()) throw TableError(file + ": cannot be read as a picture");
+  return image;
+}
+
+void writeText(const std::string& file, const std::string& text) {
+  std::ofstream output(file);
+  output << text;
+  if (!output.flush()) throw std::runtime_error(file + ": cannot be written; is the disk full?");
+}
+
+std::string calibrationOf(const geometry::PinholeCamera& camera) {
+  const auto list = [](const auto& values) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : ", ") + format("%.17g", value);
+    return "[" + text + "]";
+  };
+  const std::array<double, 9> k{camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
+  return "image_width: " + std::to_string(camera.width) + "\nimage_height: " + std::to_string(camera.height) +
+         "\ncamera_matrix: {rows: 3, cols: 3, data: " + list(k) +
+         "}\ndistortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: " +
+         list(camera.distortion) + "}\n";
+}
+
+std::vector<double> numbersOf(std::istringstream& row) {
+  std::vector<double> values;
+  for (std::string part; std::getline(row, part, ',');) values.push_back(std::strtod(part.c_str(), nullptr));
+  return values;
+}
+
+}  // namespace
+
+std::string SurveyFolder::fileOf(const SurveyPicture& picture, const std::string& ending) const {
+  return (std::filesystem::path(folder_) / (picture.scenario + "_" + std::to_string(picture.seed) + ending))
+      .string();
+}
+
+void SurveyFolder::add(const SurveyPicture& picture) {
+  writePicture(fileOf(picture, ".png"), picture.image);
+  if (!picture.reference.empty()) writePicture(fileOf(picture, ".reference.png"), picture.reference);
+  writeText(fileOf(picture, ".camera.yaml"), calibrationOf(picture.camera));
+  rows_.push_back(rowOf(picture));
+}
+
+void SurveyFolder::writeTable() const {
+  std::string text = columns() + "\n";
+  for (const std::string& row : rows_) text += row + "\n";
+  writeText((std::filesystem::path(folder_) / "truth.csv").string(), text);
+}
+
+void SurveyFolder::readTable() {
+  const std::string file = (std::filesystem::path(folder_) / "truth.csv").string();
+  std::ifstream input(file);
+  std::string line;
+  if (!std::getline(input, line)) throw TableError(file + ": cannot be read, or empty");
+  if (line != columns())
+    throw TableError(file + ":1: other columns than expected; written by another version?");
+  while (std::getline(input, line)) {
+    if (std::count(line.begin(), line.end(), ',') != kColumns - 1)
+      throw TableError(file + ":" + std::to_string(rows_.size() + 2) + ": a field is missing");
+    rows_.push_back(line);
+  }
+}
+
+SurveyPicture SurveyFolder::load(int i) const {
+  std::istringstream row(rows_.at(i));
+  SurveyPicture picture;
+  std::getline(row, picture.scenario, ',');
+  const std::vector<double> values = numbersOf(row);
+  const double* quads = values.data() + kNumbersBeforeCorners + 2;
+  picture.seed = static_cast<std::uint32_t>(values[0]);
+  picture.distance_m = values[1];
+  picture.off_axis_rad = values[2];
+  picture.truth.present = values[3] != 0.0;
+  picture.truth.inner = quadrilateral(quads);
+  if (values[4] != 0.0) picture.truth.outer = quadrilateral(quads + 8);
+  picture.truth.far = quadrilateral(quads + 16);
+  picture.reference_corners = quadrilateral(quads + 24);
+  picture.image = readPicture(fileOf(picture, ".png"));
+  if (values[5] != 0.0) picture.reference = readPicture(fileOf(picture, ".reference.png"));
+  picture.camera = parameters::readCalibrationFile(fileOf(picture, ".camera.yaml"));
+  return picture;
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation/images/survey_picture.hpp"
+
+namespace window_ingress::evaluation {
+
+/// The pictures of a survey as files, so that detection can be measured again without drawing them again:
+/// `<scenario>_<seed>.png`, `.camera.yaml` (as camera_info_manager writes it) and, with a reference,
+/// `.reference.png` for each; truth.csv has one row each, in the order of `add`.
+class SurveyFolder {
+ public:
+  explicit SurveyFolder(const std::string& folder) : folder_(folder) {}
+
+  void add(const SurveyPicture& picture);  ///< \throws std::runtime_error if a file cannot be written
+  void writeTable() const;                 ///< truth.csv; \throws std::runtime_error
+
+  void readTable();  ///< \throws TableError
+  int size() const { return static_cast<int>(rows_.size()); }
+  SurveyPicture load(int i) const;  ///< \throws TableError
+
+ private:
+  std::string fileOf(const SurveyPicture& picture, const std::string& ending) const;
+
+  std::string folder_;
+  std::vector<std::string> rows_;
+};
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/images/survey_view.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+#include "simulation/scenario/scenario.hpp"
+
+namespace window_ingress::evaluation {
+
+/// The borders of the window in one picture, canonical order, in pixels of the picture as it came.
+struct SurveyTruth {
+  bool present = true;            ///< false: there is no window, and the borders are those where it would be
+  geometry::Quadrilateral inner;  ///< front inner border of the opening: what is to be found
+  std::optional<geometry::Quadrilateral> outer;  ///< outer border of its frame, if it has one
+  geometry::Quadrilateral far;                   ///< border of the opening in the room, at the wall's back
+};
+
+/// Nothing unless all of the front inner border lies before the camera.
+std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, const simulation::Scene& scene,
+                                       const geometry::PinholeCamera& camera,
+                                       const simulation::CameraMotion& motion);
+
+/// One picture with all that is known about it.
+struct SurveyPicture {
+  std::string scenario;  ///< name of its file, without folder and ending
+  std::uint32_t seed = 0;
+  double distance_m = 0.0, off_axis_rad = 0.0;
+  SurveyTruth truth;
+  geometry::PinholeCamera camera;
+  cv::Mat image;
+  cv::Mat reference;  ///< the target as photographed; empty without
+  geometry::Quadrilateral reference_corners;
+};
+
+/// Draws a picture of the scenario as its camera delivers it, exposure and white balance settled.
+/// \param scenario loaded with the same seed
+/// \throws as `drawView` and `simulation::CameraSensor`
+SurveyPicture takePicture(const simulation::Scenario& scenario, std::uint32_t seed, const ViewRange& range,
+                          bool with_reference);
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,168 @@
+#include "evaluation/images/track_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "evaluation/images/detection_survey.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLeastStretch = 1.0 / 12.0;  // of the picture's longer side
+constexpr int kLeastSides = 2;
+
+std::string number(const char* pattern, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+// Length of a segment's part within the picture, by clipping along both axes (Liang and Barsky).
+double lengthWithin(const Vector2d& from, const Vector2d& to, const geometry::PinholeCamera& camera) {
+  const Vector2d way = to - from, end(camera.width - 1.0, camera.height - 1.0);
+  double first = 0.0, last = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (std::abs(way[axis]) < 1e-12) {
+      if (from[axis] < 0.0 || from[axis] > end[axis]) return 0.0;
+      continue;
+    }
+    const double a = -from[axis] / way[axis], b = (end[axis] - from[axis]) / way[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return std::max(0.0, last - first) * way.norm();
+}
+
+TrackVerdict verdictOfWhole(const TrackResult& result) {
+  switch (judge(std::make_optional(result.window->corners), result.truth)) {
+    case SurveyVerdict::kHit:
+      return TrackVerdict::kWhole;
+    case SurveyVerdict::kOuterBorder:
+      return TrackVerdict::kOuter;
+    case SurveyVerdict::kFarBorder:
+      return TrackVerdict::kFar;
+    default:
+      return TrackVerdict::kWrong;
+  }
+}
+
+TrackVerdict verdictOf(const TrackResult& result) {
+  if (!result.window) return TrackVerdict::kNothing;
+  if (result.window->whole()) return verdictOfWhole(result);
+  return result.error_px <= hitTolerance(result.truth.inner) ? TrackVerdict::kPartial : TrackVerdict::kWrong;
+}
+
+}  // namespace
+
+const char* toString(TrackVerdict verdict) {
+  static constexpr std::array<const char*, kTrackVerdicts> kNames{"whole",        "partial",    "nothing",
+                                                                  "outer_border", "far_border", "wrong"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+double worstSideDistance(const detection::WindowObservation& window, const geometry::Quadrilateral& truth,
+                         const geometry::PinholeCamera& camera) {
+  double worst = 0.0;
+  for (int side = 0; side < 4; ++side) {
+    if (!window.edges[side].visible) continue;
+    const Vector2d from = camera.undistort(truth[side]), to = camera.undistort(truth[(side + 1) % 4]);
+    const Vector2d along = (to - from).normalized(), across(-along.y(), along.x());
+    for (const Vector2d& end : {window.edges[side].a, window.edges[side].b})
+      worst = std::max(worst, std::abs(across.dot(camera.undistort(end) - from)));
+  }
+  return worst;
+}
+
+int sidesInView(const geometry::Quadrilateral& truth, const geometry::PinholeCamera& camera) {
+  const double least_px = kLeastStretch * std::max(camera.width, camera.height);
+  int sides = 0;
+  for (int side = 0; side < 4; ++side)
+    sides += lengthWithin(truth[side], truth[(side + 1) % 4], camera) >= least_px;
+  return sides;
+}
+
+void judge(TrackResult& result, const geometry::PinholeCamera& camera) {
+  result.sides_in_view = sidesInView(result.truth.inner, camera);
+  result.error_px = 0.0;
+  if (result.window)
+    result.error_px = result.window->whole() ? worstCornerDistance(result.window->corners, result.truth.inner)
+                                             : worstSideDistance(*result.window, result.truth.inner, camera);
+  result.verdict = verdictOf(result);
+}
+
+std::string trackColumns() {
+  return "seed,frame,plane_m,sides_in_view,verdict,searched,target_id,visible_sides,score,error_px,"
+         "milliseconds";
+}
+
+std::string trackRow(const TrackResult& result) {
+  std::string text = std::to_string(result.seed) + "," + std::to_string(result.frame) + "," +
+                     number("%.3f", result.plane_m) + "," + std::to_string(result.sides_in_view) + "," +
+                     toString(result.verdict) + "," + (result.searched ? "1," : "0,");
+  if (result.window)
+    text += std::to_string(result.window->target_id) + "," + std::to_string(result.window->visibleSides()) +
+            "," + number("%.4f", result.window->score) + "," + number("%.4f", result.error_px);
+  else
+    text += ",,,";
+  return text + "," + number("%.3f", result.milliseconds);
+}
+
+int TrackSummary::count(std::size_t range, TrackVerdict verdict) const {
+  return ranges_.at(range).counts[static_cast<int>(verdict)];
+}
+
+void TrackSummary::add(const TrackResult& result) {
+  if (flights_ == 0 || result.seed != seed_) ++flights_, target_id_ = 0;
+  seed_ = result.seed;
+  if (result.window) {
+    swaps_ += target_id_ != 0 && result.window->target_id != target_id_;
+    target_id_ = result.window->target_id;
+  }
+  if (result.sides_in_view < kLeastSides && result.verdict <= TrackVerdict::kNothing) return;
+  std::size_t i = 0;
+  while (i + 1 < kFrom_m.size() && result.plane_m < kFrom_m[i]) ++i;
+  Range& range = ranges_[i];
+  ++range.frames;
+  ++range.counts[static_cast<int>(result.verdict)];
+  if (!result.searched) range.following_ms.push_back(result.milliseconds);
+  if (result.verdict == TrackVerdict::kWhole) range.corners.add(result.window->corners, result.truth.inner);
+  if (result.verdict == TrackVerdict::kPartial) range.side_errors_px.push_back(result.error_px);
+}
+
+std::string TrackSummary::markdownHeader() {
+  std::string text = "| scenario | to the plane | frames";
+  for (int i = 0; i < kTrackVerdicts; ++i)
+    text += std::string(" | ") + toString(static_cast<TrackVerdict>(i)) + " %";
+  text +=
+      " | corner RMS x, y px | outward px | worst side, median px | following, median ms | number swaps |\n|";
+  for (int i = 0; i < kTrackVerdicts + 8; ++i) text += "---|";
+  return text + "\n";
+}
+
+std::string TrackSummary::markdown(const std::string& name) const {
+  std::string text;
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const Range& range = ranges_[i];
+    text += "| " + name + " | " +
+            (i == 0 ? "over " + number("%g m", kFrom_m[0])
+                    : number("%g", kFrom_m[i - 1]) + " to " + number("%g m", kFrom_m[i])) +
+            " | " + std::to_string(range.frames);
+    for (const int count : range.counts)
+      text += " | " + number("%.1f", 100.0 * count / std::max(1, range.frames));
+    const bool has_corners = range.corners.frames() > 0;
+    text += has_corners ? " | " + number("%.3f", range.corners.rms().x()) + ", " +
+                              number("%.3f", range.corners.rms().y()) + " | " +
+                              number("%+.3f", range.corners.outward())
+                        : " | | ";
+    text += " | " + (range.side_errors_px.empty() ? "" : number("%.3f", quantile(range.side_errors_px, 0.5)));
+    text += " | " + (range.following_ms.empty() ? "" : number("%.3f", quantile(range.following_ms, 0.5)));
+    text += " | " + (i == 0 ? std::to_string(swaps_) : "") + " |\n";
+  }
+  return text;
+}
+
+}  // namespace window_ingress::evaluation

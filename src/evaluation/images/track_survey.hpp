@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window_ingress/detection/window_observation.hpp"
+#include "evaluation/images/corner_statistics.hpp"
+#include "evaluation/images/survey_picture.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::evaluation {
+
+/// What became of one frame of a flight towards the window.
+enum class TrackVerdict {
+  kWhole,    ///< all four corners, on the inner border to `hitTolerance`
+  kPartial,  ///< not all corners, but every side seen lies on its true one to `hitTolerance`
+  kNothing,  ///< nothing found
+  kOuter,    ///< all four corners, but on the frame's outer border
+  kFar,      ///< all four corners, but on the border in the room, at the wall's back
+  kWrong     ///< found, but on none of them
+};
+constexpr int kTrackVerdicts = static_cast<int>(TrackVerdict::kWrong) + 1;
+const char* toString(TrackVerdict verdict);
+
+/// Greatest distance of the ends of the sides seen from the true sides, in the undistorted picture [px].
+double worstSideDistance(const detection::WindowObservation& window, const geometry::Quadrilateral& truth,
+                         const geometry::PinholeCamera& camera);
+
+/// How many sides of the true border show in the picture, each by a twelfth of the picture's longer side at
+/// least.
+int sidesInView(const geometry::Quadrilateral& truth, const geometry::PinholeCamera& camera);
+
+struct TrackResult {
+  std::uint32_t seed = 0;
+  int frame = 0;
+  double plane_m = 0.0;  ///< of the camera from the plane of the opening
+  double milliseconds = 0.0;
+  bool searched = false;  ///< by a search, not by following
+  int sides_in_view = 0;
+  SurveyTruth truth;
+  std::optional<detection::WindowObservation> window;
+  TrackVerdict verdict = TrackVerdict::kNothing;
+  double error_px = 0.0;  ///< of the worst corner or, if partial, of the worst side; 0 with nothing found
+};
+
+/// Fills `verdict`, `error_px` and `sides_in_view` from the rest.
+void judge(TrackResult& result, const geometry::PinholeCamera& camera);
+
+std::string trackColumns();
+std::string trackRow(const TrackResult& result);  ///< no line end
+
+/// One scenario. Only frames in which two sides show at least count, but for those in which something wrong
+/// was found.
+class TrackSummary {
+ public:
+  static constexpr std::array<double, 4> kFrom_m{3.0, 1.5, 0.8,
+                                                 0.0};  ///< lower ends of the ranges of the plane's distance
+
+  void add(const TrackResult& result);  ///< flight by flight, frame by frame
+  int frames(std::size_t range) const { return ranges_.at(range).frames; }
+  int count(std::size_t range, TrackVerdict verdict) const;
+  int swaps() const { return swaps_; }  ///< frames in which the target's number was another one than before
+  std::string markdown(const std::string& name) const;
+  static std::string markdownHeader();
+
+ private:
+  struct Range {
+    int frames = 0;
+    std::array<int, kTrackVerdicts> counts{};
+    CornerStatistics corners;
+    std::vector<double> side_errors_px, following_ms;
+  };
+
+  std::array<Range, kFrom_m.size()> ranges_;
+  int swaps_ = 0, flights_ = 0;
+  std::uint32_t seed_ = 0, target_id_ = 0;
+};
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,79 @@
+#include "evaluation/images/truth_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "evaluation/images/track_survey.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/median.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+constexpr double kDegreesPerRad = 57.29577951308232;
+
+bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCamera& camera) {
+  const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
+  return std::all_of(quad.begin(), quad.end(), inside) && geometry::signedArea(quad) > 0.0;
+}
+
+double medianOrZero(std::vector<double> values) { return values.empty() ? 0.0 : geometry::median(values); }
+
+}  // namespace
+
+TruthErrors compareWithTruth(const std::optional<detection::WindowObservation>& window,
+                             const std::optional<Eigen::Isometry3d>& estimate,
+                             const Eigen::Isometry3d& T_camera_window, const geometry::PinholeCamera& camera,
+                             const geometry::OpeningSize& opening) {
+  TruthErrors errors;
+  const Eigen::Matrix3d R_flu_window = geometry::R_optical_flu().transpose() * T_camera_window.linear();
+  errors.true_distance_m = T_camera_window.translation().norm();
+  errors.true_yaw_rad = geometry::yawOf(R_flu_window);
+  const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
+  errors.whole = quad && showsWhole(*quad, camera);
+  if (quad && geometry::signedArea(*quad) > 0.0 && geometry::isConvex(*quad)) errors.truth = *quad;
+  errors.detected = window.has_value();
+  if (window && window->whole()) errors.found = window->corners;
+  if (errors.found && errors.truth)
+    errors.iou = geometry::intersectionOverUnion(*errors.found, *errors.truth);
+  if (window && !errors.found && errors.truth)
+    errors.on_true_sides = worstSideDistance(*window, *errors.truth, camera) <= hitTolerance(*errors.truth);
+  if (!estimate) return errors;
+  errors.yaw_rad = geometry::yawOf(T_camera_window.linear().transpose() * estimate->linear());
+  errors.distance_m = estimate->translation().norm() - errors.true_distance_m;
+  return errors;
+}
+
+void TruthSummary::add(const TruthErrors& errors) {
+  ++images;
+  whole += errors.whole;
+  const bool right = (errors.found && errors.iou >= kSameWindowIou) || errors.on_true_sides;
+  const bool wrong = errors.detected && errors.iou < kOtherWindowIou && !errors.on_true_sides;
+  (errors.whole ? found : partly) += right;
+  (errors.whole ? exchanged : imagined) += wrong;
+  if (!right || !errors.whole || !errors.found) return;
+  corners.add(*errors.found, *errors.truth);
+  if (!errors.yaw_rad) return;
+  yaw_errors_rad.push_back(std::abs(*errors.yaw_rad));
+  distance_errors_m.push_back(std::abs(*errors.distance_m));
+}
+
+std::string TruthSummary::text() const {
+  char line[800];
+  std::snprintf(
+      line, sizeof line,
+      "%d images with truth, %d show the window whole\n"
+      "found in %d of them (%.1f %%), something else taken for it in %d\n"
+      "of the others: found in %d, something else taken for it in %d\n"
+      "corners: RMS x %.3f y %.3f px, mean x %+.3f y %+.3f px, outward %+.3f px, median distance %.3f "
+      "px, worst %.3f px (%d images)\n"
+      "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
+      images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, exchanged, partly, imagined,
+      corners.rms().x(), corners.rms().y(), corners.mean().x(), corners.mean().y(), corners.outward(),
+      corners.median(), corners.worst(), corners.frames(), medianOrZero(yaw_errors_rad) * kDegreesPerRad,
+      medianOrZero(distance_errors_m), yaw_errors_rad.size());
+  return line;
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,96 @@
+#include "evaluation/openness/openness_approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "evaluation/poses/noisy_borders.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kSeen_px = 3.0;  // of each corner from the picture's border
+
+const geometry::OpeningSize kNeeded{0.6, 0.34};
+
+Vector3d spread(simulation::RandomStream& random, double sigma) {
+  const double x = random.normal(sigma), y = random.normal(sigma);
+  return {x, y, random.normal(sigma)};
+}
+
+}  // namespace
+
+OpennessApproach::OpennessApproach(const OpennessRange& range, const geometry::OpeningSize& opening,
+                                   const openness::OpennessParams& params, std::uint32_t seed)
+    : range_(range),
+      opening_(opening),
+      flight_(range.flight, seed),
+      random_(seed, "openness approach"),
+      judge_(params, kNeeded) {
+  window_error_ = geometry::makePose(geometry::yawRotation(random_.normal(range.window_error_rad)),
+                                     spread(random_, range.window_error_m));
+  camera_turn_ = noisyTurn(range.attitude_bias_rad);
+  for (double& bias : border_bias_px_) bias = random_.normal(range.border_bias_px);
+}
+
+Eigen::Isometry3d OpennessApproach::noisyTurn(double sigma_rad) {
+  const Vector3d turn = spread(random_, sigma_rad);
+  const double angle = turn.norm();
+  if (angle < 1e-12) return Eigen::Isometry3d::Identity();
+  return Eigen::Isometry3d(Eigen::AngleAxisd(angle, turn / angle));
+}
+
+int OpennessApproach::steps() const { return static_cast<int>(flight_.durationSec() * range_.rate_hz); }
+
+std::optional<detection::WindowObservation> OpennessApproach::look(const geometry::PinholeCamera& camera,
+                                                                   int step, double grown) {
+  const geometry::PinholeCamera ideal = camera.withoutDistortion();
+  const Eigen::Isometry3d T_camera_window = motion(step).T_window_camera.inverse();
+  const geometry::OpeningSize seen{opening_.width_m * (1.0 + grown), opening_.height_m * (1.0 + grown)};
+  std::mt19937 random(static_cast<std::uint32_t>(random_.bits()));
+  auto window = noisyBorders(ideal, T_camera_window, seen, range_.border_noise_px, random);
+  if (!window) return std::nullopt;
+  for (int i = 0; i < 4; ++i) {
+    auto& [visible, sigma_px, sigma_rad, a, b] = window->edges[i];
+    const Vector2d along = (b - a).normalized(), outwards(along.y(), -along.x());
+    a += border_bias_px_[i] * outwards;
+    b += border_bias_px_[i] * outwards;
+  }
+  for (int i = 0; i < 4; ++i) {
+    crossBorders(window->edges[(i + 3) % 4], window->edges[i], window->corners[i],
+                 window->corner_covariance[i]);
+    window->corners[i] = camera.distort(window->corners[i]);
+    if (!camera.contains(window->corners[i], kSeen_px)) return std::nullopt;
+  }
+  window->stamp_sec = timeSec(step);
+  window->target_id = 1;
+  return window;
+}
+
+void OpennessApproach::judge(const detection::WindowObservation& window,
+                             const geometry::PinholeCamera& camera, int step) {
+  drift_m_ += spread(random_, range_.drift_m_per_sqrt_sec / std::sqrt(range_.rate_hz));
+  Eigen::Isometry3d T_odom_camera = motion(step).T_window_camera;
+  T_odom_camera.translation() += drift_m_ + spread(random_, range_.position_noise_m);
+  T_odom_camera = T_odom_camera * camera_turn_ * noisyTurn(range_.attitude_noise_rad);
+  Eigen::Isometry3d T_odom_window = window_error_;
+  T_odom_window.translation() += drift_m_;
+  judge_.see({window, camera, T_odom_camera, T_odom_window, opening_});
+}
+
+void OpennessApproach::note(int step, OpennessResult& result, const OpennessStep& each) const {
+  const double plane_m = -motion(step).T_window_camera.translation().x();
+  const auto& verdict = judge_.verdict();
+  if (plane_m >= range_.decide_m) result.at_decision = verdict;
+  result.ever_closed |= verdict.openness == openness::Openness::kClosed;
+  if (verdict.openness == openness::Openness::kOpen && !result.ever_open) {
+    result.ever_open = true;
+    result.open_from_m = plane_m;
+  }
+  if (each) each(plane_m, verdict);
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "evaluation/openness/openness_survey.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+template <typename... Numbers>
+std::string text(const char* format, Numbers... numbers) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, numbers...);
+  return buffer;
+}
+
+std::string rate(int count, int trials) {
+  const Interval interval = wilson95(count, trials);
+  return text("%d (%.2f .. %.2f %%)", count, 100.0 * interval.low, 100.0 * interval.high);
+}
+
+}  // namespace
+
+void OpennessTable::add(const OpennessResult& result) {
+  auto found =
+      std::find_if(rows_.begin(), rows_.end(), [&](const auto& row) { return row.first == result.kind; });
+  if (found == rows_.end()) found = rows_.insert(rows_.end(), {result.kind, {}});
+  Row& row = found->second;
+  row.is_open = result.is_open;
+  ++row.flights;
+  row.open += result.at_decision.openness == openness::Openness::kOpen;
+  row.closed += result.at_decision.openness == openness::Openness::kClosed;
+  row.ever_open += result.ever_open;
+  row.ever_closed += result.ever_closed;
+  if (result.ever_open) row.open_from_m.push_back(result.open_from_m);
+  row.milliseconds.push_back(result.milliseconds);
+}
+
+std::string OpennessTable::markdown() const {
+  std::string out =
+      "| within the border | is | approaches | OPEN at the decision | CLOSED | UNKNOWN | ever OPEN | ever "
+      "CLOSED | "
+      "OPEN from, median m | ms a picture |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [kind, row] : rows_)
+    out += "| " + kind + " | " + (row.is_open ? "open" : "not open") + " | " + std::to_string(row.flights) +
+           " | " + rate(row.open, row.flights) + " | " + rate(row.closed, row.flights) + " | " +
+           std::to_string(row.flights - row.open - row.closed) + " | " + std::to_string(row.ever_open) +
+           " | " + std::to_string(row.ever_closed) + " | " +
+           (row.open_from_m.empty() ? "" : text("%.2f", quantile(row.open_from_m, 0.5))) + " | " +
+           text("%.3f", quantile(row.milliseconds, 0.5)) + " |\n";
+  return out;
+}
+
+int OpennessTable::falseOpen() const {
+  int count = 0;
+  for (const auto& [kind, row] : rows_) count += row.is_open ? 0 : row.ever_open;
+  return count;
+}
+
+std::string opennessColumns() {
+  return "kind,is_open,room_m,seed,verdict,log_odds,depth_behind_m,depth_sigma_m,open_share,stretches,points,"
+         "ever_open,ever_closed,open_from_m,reason";
+}
+
+std::string opennessRow(const OpennessResult& result) {
+  const auto& v = result.at_decision;
+  return result.kind + text(",%d,%.3f,%u,", result.is_open, result.room_m, result.seed) +
+         openness::toString(v.openness) +
+         text(",%.3f,%.3f,%.3f,%.3f,%d,%d,%d,%d,%.3f,", v.log_odds, v.depth_behind_m, v.depth_sigma_m,
+              v.open_share, v.stretches, v.points, result.ever_open, result.ever_closed, result.open_from_m) +
+         "\"" + v.reason + "\"";
+}
+
+}  // namespace window_ingress::evaluation

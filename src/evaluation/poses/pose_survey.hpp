@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "evaluation/poses/noisy_borders.hpp"
+#include "evaluation/poses/pose_methods.hpp"
+
+namespace window_ingress::evaluation {
+
+/// What the draws of a survey have in common.
+struct PoseSurveySetup {
+  geometry::PinholeCamera camera;
+  geometry::OpeningSize opening;
+  double attitude_sigma_rad = 0.02;  ///< of the attitude that one of the methods is given
+  double largest_bearing_rad = 0.2;  ///< of the window against the camera's axis, to either side
+  double largest_tilt_rad = 0.1;     ///< of the camera, in pitch and in roll
+};
+
+/// f = 554 px at 640 x 480 pixels, an opening of 1 m by 1 m: what published bounds were computed for.
+PoseSurveySetup usualSetup();
+
+struct PoseCell {
+  double distance_m = 0.0;
+  double yaw_rad = 0.0;          ///< magnitude, against the line of sight
+  double sample_sigma_px = 0.0;  ///< noise of each pixel along a border
+};
+
+enum PoseMethod { kOurs, kOursWithAttitude, kFirstPeer };
+constexpr int kPoseMethods = kFirstPeer + kPeerMethods;
+std::string nameOfMethod(int method);
+
+/// Errors of one method in one cell.
+struct MethodErrors {
+  int count = 0, failed = 0, wrong_signs = 0;
+  double yaw_squares = 0.0, lateral_squares = 0.0;
+  double yawRms() const;  ///< [rad]
+  double lateralRms() const;
+};
+
+struct PoseCellResult {
+  PoseCell cell;
+  int draws = 0;
+  double yaw_bound_rad = 0.0, lateral_bound_m = 0.0, sigma_u_rad = 0.0;  ///< root mean squares over the draws
+  std::array<MethodErrors, kPoseMethods> methods;
+  int trusted = 0, trusted_wrong = 0;
+  double trusted_yaw_squares = 0.0;  ///< of ours, where the sign is trusted
+  /// Of ours, where the better of both solutions is taken: mean squared error over stated variance, 1 if
+  /// honest.
+  double yaw_consistency = 0.0;
+
+  bool signIsDecidable() const { return sigma_u_rad < cell.yaw_rad / 3.0; }
+};
+
+/// Random views of one cell: window to either side, turned either way, camera tilted. The same seed gives the
+/// same draws.
+PoseCellResult surveyCell(const PoseSurveySetup& setup, const PoseCell& cell, int draws, std::uint32_t seed);
+
+std::string poseSurveyColumns();
+std::string poseSurveyRow(const PoseCellResult& result);  ///< no line end
+/// For people: what it reaches, and each method's yaw error over the bound.
+std::string poseSurveyTable(const std::vector<PoseCellResult>& results);
+std::string poseSurveySummary(const std::vector<PoseCellResult>& results);
+
+}  // namespace window_ingress::evaluation

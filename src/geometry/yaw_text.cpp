@@ -1,0 +1,19 @@
+#include "window_ingress/geometry/yaw_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace window_ingress::geometry {
+
+std::string yawText(double yaw_rad, double sigma_rad, bool sign_trusted) {
+  if (!std::isfinite(yaw_rad) || !std::isfinite(sigma_rad)) return "yaw not finite";
+  constexpr double kDegreesPerRad = 180.0 / M_PI;
+  const double sigma_deg = std::clamp(sigma_rad * kDegreesPerRad, 0.0, 180.0);
+  char text[64];
+  std::snprintf(text, sizeof text, sigma_deg < 0.095 ? "yaw %+.2f +-%.2f deg%s" : "yaw %+.1f +-%.1f deg%s",
+                yaw_rad * kDegreesPerRad, sigma_deg, sign_trusted ? "" : ", sign unknown");
+  return text;
+}
+
+}  // namespace window_ingress::geometry

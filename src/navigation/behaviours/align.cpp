@@ -1,0 +1,138 @@
+#include "navigation/behaviours/align.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+namespace {
+constexpr double kNearAxisM = 0.3;
+constexpr double kWellInFunnel = 0.15;  // of its openness
+}
+
+double HeightProbe::climb(double height_m) {
+  constexpr double kReachedM = 0.05;
+  const auto& align = params_->align;
+  if (!start_m_) start_m_ = height_m;
+  const double side = count_ % 2 == 0 ? 1.0 : -1.0;
+  const double turning_m = std::clamp(*start_m_ + side * align.probe_amplitude_m,
+                                      params_->limits.min_height_m, params_->limits.max_height_m);
+  if (std::abs((returns_ ? *start_m_ : turning_m) - height_m) < kReachedM) {
+    if (returns_) ++count_;
+    returns_ = !returns_;
+  }
+  const double goal_m = returns_ ? *start_m_ : turning_m;
+  return std::copysign(std::min(align.probe_speed_mps, 0.1 + std::abs(goal_m - height_m)), goal_m - height_m);
+}
+
+Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_odom_mps,
+                                const Eigen::Matrix3d& R_odom_window, const Situation& situation) {
+  constexpr double kStandingMps = 0.1, kThereM = 0.02;
+  if (!isStepped()) return velocity_odom_mps;
+  const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
+  const double left_m = from_odom_m_ ? params_->align.step_m - (position - *from_odom_m_).norm() : 0.0;
+  if (left_m > kThereM) return along(velocity_odom_mps, left_m);
+  from_odom_m_.reset();
+  const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStandingMps;
+  if (!stands) standing_since_sec_.reset();
+  if (stands && !standing_since_sec_) standing_since_sec_ = situation.now_sec;
+  const bool has_looked =
+      standing_since_sec_ && situation.now_sec - *standing_since_sec_ >= params_->align.step_pause_sec;
+  if (!has_looked) return Eigen::Vector3d::Zero();
+  standing_since_sec_.reset();
+  Eigen::Index axis;
+  (R_odom_window.transpose() * velocity_odom_mps).cwiseAbs().maxCoeff(&axis);
+  along_ = R_odom_window.col(axis);
+  from_odom_m_ = position;
+  return along(velocity_odom_mps, params_->align.step_m);
+}
+
+Eigen::Vector3d StepPacer::along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const {
+  const double most_mps = stoppingSpeed(left_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
+  return std::clamp(velocity_odom_mps.dot(along_), -most_mps, most_mps) * along_;
+}
+
+void Align::enter(double now_sec) {
+  *this = Align(*params_);
+  ambiguous_since_sec_ = now_sec;
+}
+
+Decision Align::step(const Situation& situation, MissionMemory& memory) {
+  if (auto other = leaveOtherWindow(situation, memory)) return *other;
+  const RelativeState relative = relate(*situation.vehicle, *situation.target);
+  if (!situation.target->sign_trusted) return resolveSign(situation, relative);
+  ambiguous_since_sec_ = situation.now_sec;
+  if (situation.target->approach_forbidden.empty()) probe_.reset();
+  return moveOntoAxis(situation, memory, relative);
+}
+
+Decision Align::resolveSign(const Situation& situation, const RelativeState& relative) {
+  in_funnel_since_sec_.reset();
+  Decision decision;
+  decision.keeps_place = true;
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
+  const double height_m = situation.vehicle->T_odom_base.translation().z();
+  if (situation.now_sec - ambiguous_since_sec_ < params_->align.settle_sec) {
+    const double limit_mps = params_->align.vertical_speed_mps;
+    decision.wish.velocity_odom_mps.z() = velocityTowards(-relative.vertical(), limit_mps, *params_);
+    decision.reason = "sign of the window's yaw not certain: looking";
+    return decision;
+  }
+  decision.wish.velocity_odom_mps.z() = probe_.climb(height_m);
+  decision.reason =
+      "sign of the window's yaw not certain: height probe " + std::to_string(probe_.count() + 1);
+  if (probe_.isExhausted()) {
+    decision.event = Event::kGiveUp;
+    decision.reason =
+        "sign of the window's yaw not certain after " + std::to_string(probe_.count()) + " height probes";
+  }
+  return decision;
+}
+
+bool Align::isNearAxis(const RelativeState& relative, const Contract& contract, bool is_forbidden) const {
+  if (is_forbidden && std::abs(relative.lateral()) < kNearAxisM) return true;
+  if (!pacer_.isStepped()) return contract.openness >= kWellInFunnel;
+  return std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
+}
+
+Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
+                             const RelativeState& relative) {
+  const auto& target = *situation.target;
+  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);
+  Decision decision;
+  const bool has_size = target.fit != estimation::Fit::kUnknown;
+  if (has_size && std::min(contract.clearance_lateral_m, contract.clearance_vertical_m) <= 0.0) {
+    decision.event = Event::kGiveUp;
+    decision.reason = "the opening is too small for the vehicle";
+    return decision;
+  }
+  const bool is_forbidden = !target.approach_forbidden.empty();
+  const bool near_axis = isNearAxis(relative, contract, is_forbidden);
+  const double retreat_mps = -velocityTowards(params_->align.min_distance_m - relative.distance(),
+                                              params_->align.lateral_speed_mps, *params_);
+  const double forward_mps = near_axis && !is_forbidden ? 0.0 : std::min(0.0, retreat_mps);
+  decision.wish.velocity_odom_mps =
+      pacer_.pace(velocityAlongAxis(relative, target, forward_mps, memory.wind_odom_mps, *params_),
+                  uprightRotation(target), situation);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
+  decision.reason = "moving onto the window's normal";
+  if (!near_axis) {
+    in_funnel_since_sec_.reset();
+  } else if (!in_funnel_since_sec_) {
+    in_funnel_since_sec_ = situation.now_sec;
+  }
+  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < params_->align.dwell_sec)
+    return decision;
+  if (is_forbidden) return probeForLeave(situation, decision);
+  decision.event = Event::kAligned;
+  return decision;
+}
+
+// Motion may yet show the size of the opening, or that the frames are as they are said to be.
+Decision Align::probeForLeave(const Situation& situation, Decision decision) {
+  decision.wish.velocity_odom_mps.z() = probe_.climb(situation.vehicle->T_odom_base.translation().z());
+  decision.reason = "approach forbidden: " + situation.target->approach_forbidden;
+  if (probe_.isExhausted()) decision.event = Event::kGiveUp;
+  return decision;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "navigation/behaviours/align.hpp"
+#include "navigation/behaviours/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// APPROACH (P16): forward along the normal, still correcting sideways and in height. The forward speed
+/// shrinks to nothing at the wall of the funnel, and so that the vehicle can stop at the commit line as long
+/// as the contract does not hold.
+class Approach {
+ public:
+  explicit Approach(const NavigatorParams& params) : params_(&params), pacer_(params) {}
+  explicit Approach(NavigatorParams&&) = delete;  ///< they are looked at in every step
+
+  void enter();
+  Decision step(const Situation& situation, MissionMemory& memory);
+
+ private:
+  double forwardSpeed(const Contract& contract, const RelativeState& relative) const;
+  /// Beside the axis, to see whether the opening is open.
+  double asideM(const Contract& contract, const Situation& situation) const;
+  double patienceSec(const TargetEstimate& target) const;
+  std::optional<Event> judge(const Contract& contract, const RelativeState& relative,
+                             const Situation& situation, std::string& reason);
+
+  const NavigatorParams* params_;
+  StepPacer pacer_;
+  std::optional<double> outside_since_sec_;
+  std::optional<double> waiting_since_sec_;
+  bool looks_ = false;  ///< at the line, to see whether the opening is open
+};
+
+}  // namespace window_ingress::navigation

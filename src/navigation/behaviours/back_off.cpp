@@ -1,0 +1,59 @@
+#include "navigation/behaviours/back_off.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+
+void BackOff::enter() { *this = BackOff(*params_); }
+
+Decision BackOff::step(const Situation& situation, const MissionMemory& memory) {
+  if (!memory.trusted) return withoutNormal(memory);
+  const auto& target = *memory.trusted;
+  const RelativeState relative = relate(*situation.vehicle, target);
+  const double room_m = params_->back_off.distance_m - relative.distance();
+  const double speed_mps = std::min(params_->back_off.speed_mps, 0.1 + std::max(0.0, room_m));
+  Decision decision;
+  const double turning_radius_m = std::hypot(params_->vehicle.half_length_m, params_->vehicle.half_width_m);
+  const bool is_clear = relative.distance() > turning_radius_m + params_->approach.margin_m;
+  decision.wish.velocity_odom_mps = velocityAlongAxis(
+      relative, target, againstTailwind(-speed_mps, target, memory), memory.wind_odom_mps, *params_);
+  if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
+  decision.reason = "away from the window along its normal";
+  if (room_m <= 0.0) {
+    decision.wish.velocity_odom_mps.setZero();
+    decision.keeps_place = true;
+    decision.event = judge(situation, memory, relative, decision.reason);
+  }
+  return decision;
+}
+
+Decision BackOff::withoutNormal(const MissionMemory& memory) const {
+  Decision decision;
+  decision.keeps_place = true;
+  const bool has_tries = memory.back_offs <= params_->back_off.max_retries;
+  decision.event = has_tries ? Event::kBackedOff : Event::kGiveUp;
+  decision.reason = "no trusted normal to go back along";
+  return decision;
+}
+
+std::optional<Event> BackOff::judge(const Situation& situation, const MissionMemory& memory,
+                                    const RelativeState& relative, std::string& reason) {
+  if (memory.back_offs > params_->back_off.max_retries) {
+    reason = "given up after " + std::to_string(params_->back_off.max_retries) + " retries";
+    if (!memory.unmet.empty()) reason += ": " + memory.unmet;
+    return Event::kGiveUp;
+  }
+  if (situation.target) {
+    if (situation.target_is_new) ++frames_;
+    if (frames_ < params_->search.found_frames) return std::nullopt;
+    reason = "window seen again";
+    return Event::kReacquired;
+  }
+  constexpr double kFacingRad = 0.1;
+  if (std::abs(relative.bearing_rad) > kFacingRad) return std::nullopt;
+  reason = "window still not in view";
+  return Event::kBackedOff;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,158 @@
+#include "navigation/behaviours/behaviour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "navigation/mission/opening_policy.hpp"
+#include "navigation/mission/window_choice.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+/// Beyond it nobody knows which of the two to fly by when the window is out of sight.
+constexpr double kMaxDisagreementMps = 0.35;
+constexpr double kMaxUnexplainedMps = 0.08;  // likewise, before a steady bias can be told from a slide
+
+std::string whyNoOdometryToCommitBy(const MissionMemory& memory) {
+  char text[120] = "";
+  if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
+    std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
+                  memory.odometry_disagreement_mps);
+  else if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
+    std::snprintf(text, sizeof text,
+                  "odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
+                  memory.odometry_unexplained_mps);
+  return text;
+}
+
+}  // namespace
+
+void MissionMemory::leaveWindow() {
+  trusted.reset();
+  window_odom_m.reset();
+  opening_confirmed = false;
+}
+
+void MissionMemory::giveUpWindow(const TargetEstimate& window) {
+  left_odom_m.push_back(window.T_odom_window.translation());
+  if (window.window_id != 0) given_up.push_back(window.window_id);
+  leaveWindow();
+}
+
+void MissionMemory::forgetWindow() {
+  leaveWindow();
+  others_odom_m.clear();
+}
+
+void MissionMemory::forgetPlaces() {
+  forgetWindow();
+  committed.reset();
+  left_odom_m.clear();
+  place_odom_m.reset();
+  keeping_since_sec.reset();
+}
+
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionMemory& memory) {
+  if (!memory.trusted || !situation.vehicle) return;
+  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
+  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.approach.margin_m;
+}
+
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {
+  const auto& target = *situation.target;
+  if (!target.other_window) return leaveClosedOpening(situation, memory);
+  const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
+  memory.others_odom_m.push_back(position +
+                                 *target.other_window * (target.T_odom_window.translation() - position));
+  ++memory.others;
+  if (target.window_id != 0) memory.given_up.push_back(target.window_id);
+  memory.leaveWindow();
+  Decision decision;
+  decision.keeps_place = true;
+  decision.event = Event::kOtherWindow;
+  decision.reason = target.approach_forbidden;
+  return decision;
+}
+
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory) {
+  if (wasLeftForGood(target, memory)) return true;
+  constexpr double kSameDirectionRad = 0.12;
+  const Eigen::Vector3d position = vehicle.T_odom_base.translation();
+  const Eigen::Vector3d sight = (target.T_odom_window.translation() - position).normalized();
+  return std::any_of(memory.others_odom_m.begin(), memory.others_odom_m.end(),
+                     [&](const Eigen::Vector3d& other) {
+                       return sight.dot((other - position).normalized()) > std::cos(kSameDirectionRad);
+                     });
+}
+
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory,
+                      const NavigatorParams& params, double unseen_sec) {
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const auto along = [&](int axis) {
+    const Eigen::Vector3d direction = R_odom_window.col(axis);
+    return std::sqrt(std::max(0.0, direction.dot(memory.gusts_odom * direction)));
+  };
+  ContractInput input;
+  input.relative = relate(vehicle, target);
+  input.opening = target.opening;
+  input.pitch_rad = pitchOf(vehicle);
+  input.unseen_sec = unseen_sec;
+  input.motion = target.motion;
+  input.gust_lateral_mps = along(1);
+  input.gust_vertical_mps = along(2);
+  input.odometry_mps = memory.odometry_unexplained_mps;
+  input.drift_m_per_sqrt_sec = memory.odometry_drift_m_per_sqrt_sec;
+  Contract contract = evaluateContract(input, params);
+  const std::string why_not = whyNotEntered(target, memory, params.commit);
+  contract.opening_unverified = !why_not.empty();
+  if (contract.holds) contract.unmet = whyNoOdometryToCommitBy(memory);
+  if (contract.unmet.empty()) contract.unmet = why_not;
+  contract.holds = contract.unmet.empty();
+  return contract;
+}
+
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionMemory& memory) {
+  return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(memory.wind_odom_mps));
+}
+
+double yawRateFor(double error_rad, const NavigatorParams& params) {
+  const double limit = params.limits.yaw_rate_radps;
+  return std::clamp(params.align.yaw_gain_hz * error_rad, -limit, limit);
+}
+
+double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params) {
+  return relative.distance() < params.limits.wall_distance_m ? relative.heading_error_rad
+                                                             : relative.bearing_rad;
+}
+
+double velocityTowards(double error_m, double limit_mps, const NavigatorParams& params) {
+  const double gain_hz = params.align.lateral_gain_hz, braking_mps2 = params.vehicle.braking_mps2;
+  const double linear_m = braking_mps2 / (gain_hz * gain_hz);
+  const double way_m = std::abs(error_m);
+  const double speed_mps =
+      way_m <= linear_m ? gain_hz * way_m : std::sqrt(2.0 * braking_mps2 * (way_m - 0.5 * linear_m));
+  return std::copysign(std::min(speed_mps, limit_mps), error_m);
+}
+
+Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
+                                  double forward_mps, const Eigen::Vector3d& wind_odom_mps,
+                                  const NavigatorParams& params) {
+  const Eigen::Vector3d coasted =
+      relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
+  const auto& align = params.align;
+  Eigen::Vector3d velocity_window(0.0, velocityTowards(-coasted.y(), align.lateral_speed_mps, params),
+                                  velocityTowards(-coasted.z(), align.vertical_speed_mps, params));
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const Eigen::Vector3d carried_window =
+      R_odom_window.transpose() * (target.motion.velocity_odom_mps - wind_odom_mps);
+  velocity_window.tail<2>() += carried_window.tail<2>();
+  const double across = velocity_window.norm();
+  if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
+  const double left =
+      std::sqrt(std::max(0.0, std::pow(params.limits.speed_mps, 2) - velocity_window.squaredNorm()));
+  velocity_window.x() = std::clamp(forward_mps, -left, left);
+  return R_odom_window * velocity_window;
+}
+
+}  // namespace window_ingress::navigation

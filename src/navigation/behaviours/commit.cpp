@@ -1,0 +1,152 @@
+#include "navigation/behaviours/commit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "navigation/motion/moving_target.hpp"
+#include "navigation/mission/opening_policy.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr int kDisagreementsToTurnBack = 3;
+constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
+
+std::string text(const char* pattern, double value) {
+  char buffer[80];
+  std::snprintf(buffer, sizeof buffer, pattern, value);
+  return buffer;
+}
+
+/// The predicted miss exceeds the clearance by half of the margin that was kept: less is no reason to turn
+/// back.
+bool isBroken(const Contract& contract, const NavigatorParams& params) {
+  const double given_m = params.approach.margin_m / 2.0;
+  return contract.miss_lateral_m > contract.clearance_lateral_m + given_m ||
+         contract.miss_vertical_m > contract.clearance_vertical_m + given_m;
+}
+
+/// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
+/// up.
+bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionMemory& memory,
+             const NavigatorParams& params) {
+  const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
+  const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
+  const double stop_m = stoppingDistance(speed_mps, params.vehicle.braking_mps2, params.vehicle.response_sec);
+  return relative.distance() - params.vehicle.half_length_m > stop_m;
+}
+
+/// Of the velocity that wind adds, what leads along the window's normal [m/s].
+double windAlong(const TargetEstimate& target, const MissionMemory& memory) {
+  return uprightRotation(target).col(0).dot(memory.wind_odom_mps);
+}
+
+/// The window is seen, and where it was committed. Odometry that was gone may have come back elsewhere.
+bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
+                   const NavigatorParams& params) {
+  if (!situation.target || !situation.target->sign_trusted) return false;
+  const Eigen::Vector3d moved =
+      situation.target->T_odom_window.translation() - committed.T_odom_window.translation();
+  return moved.norm() < params.commit.max_update_jump_m + reachM(committed.motion);
+}
+
+}  // namespace
+
+void Commit::enter() { *this = Commit(*params_); }
+
+Decision Commit::step(const Situation& situation, MissionMemory& memory) {
+  refine(situation, memory);
+  const TargetEstimate target = ahead(*memory.committed, situation.now_sec);
+  const RelativeState relative = relate(*situation.vehicle, target);
+  const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
+  const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
+  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_, unknown_sec);
+  if (relative.distance() > 0.0) memory.blind_sec = std::max(memory.blind_sec, blind_sec);
+
+  Decision decision;
+  decision.wish.velocity_odom_mps =
+      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, *params_);
+  decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
+  if (is_through_) {
+    const double room_m = params_->commit.exit_distance_m + relative.distance();
+    decision.wish.velocity_odom_mps =
+        velocityAlongAxis(relative, target, speedToExit(room_m, relative) - windAlong(target, memory),
+                          memory.wind_odom_mps, *params_);
+    decision.reason = text("%.2f m behind the window", -relative.distance());
+    const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
+    if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
+  } else if (canStop(relative, target, memory, *params_)) {
+    memory.predicted_miss_m = contract.missM();
+    turnBackIfUnsafe(contract, blind_sec, decision);
+  }
+  return decision;
+}
+
+void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const {
+  if (isBroken(contract, *params_)) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = "turning back: " + contract.unmet;
+  } else if (disagreements_ >= kDisagreementsToTurnBack) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = text("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
+  } else if (forbidden_ >= kDisagreementsToTurnBack) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = "turning back: " + why_forbidden_;
+  } else if (blind_sec > params_->commit.max_blind_sec) {
+    decision.event = Event::kContractUnmet;
+    decision.reason = text("turning back: window not seen for %.2f s", blind_sec);
+  }
+}
+
+void Commit::refine(const Situation& situation, MissionMemory& memory) {
+  if (!entry_odom_m_) entry_odom_m_ = memory.committed->T_odom_window.translation();
+  if (situation.target && situation.target_is_new) heedForbidden(*situation.target);
+  if (!situation.target || !situation.target->sign_trusted) return;
+  const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
+  disagreement_m_ = moved.norm();
+  if (disagreement_m_ < params_->commit.max_update_jump_m + reachM(situation.target->motion)) {
+    memory.committed = situation.target;
+    memory.committed_sec = situation.now_sec;
+    disagreements_ = 0;
+  } else if (situation.target_is_new) {
+    ++disagreements_;
+  }
+}
+
+void Commit::heedForbidden(const TargetEstimate& target) {
+  const std::string why = target.approach_forbidden.empty() ? whyClosed(target) : target.approach_forbidden;
+  forbidden_ = why.empty() ? 0 : forbidden_ + 1;
+  if (!why.empty()) why_forbidden_ = why;
+}
+
+double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {
+  const double room_m = params_->commit.exit_distance_m + relative.distance();
+  if (room_m < 0.1) is_through_ = true;
+  const double stop_mps = stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
+  const double off_axis = std::abs(relative.lateral()) / std::max(0.01, contract.clearance_lateral_m);
+  const double slowed = relative.distance() > 0.0 ? std::clamp(2.0 - 1.5 * off_axis, 0.2, 1.0) : 1.0;
+  return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps * slowed);
+}
+
+// Also back to it, if the vehicle has overshot it or was blown out again.
+double Commit::speedToExit(double room_m, const RelativeState& relative) const {
+  const double coasted_m = relative.velocity_window_mps.x() * params_->vehicle.response_sec;
+  const double wish_mps = params_->align.lateral_gain_hz * (room_m - coasted_m);
+  return std::clamp(wish_mps, -params_->hold.speed_mps, params_->hold.speed_mps);
+}
+
+bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
+                       const NavigatorParams& params) {
+  if (!memory.committed || !situation.vehicle) return false;
+  const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
+  const TargetEstimate committed = ahead(*memory.committed, situation.now_sec);
+  const RelativeState relative = relate(*situation.vehicle, committed);
+  if (relative.distance() < -params.vehicle.half_length_m) return true;
+  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed, params))
+    return false;
+  return !isBroken(contractWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
+}
+
+}  // namespace window_ingress::navigation

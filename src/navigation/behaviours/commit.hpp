@@ -1,0 +1,41 @@
+#pragma once
+
+#include "navigation/behaviours/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// COMMIT: through the opening on `MissionMemory::committed`, which is frozen in odom; sightings on the way
+/// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back.
+/// Heading along the normal. Ends standing still behind the window; turns back only while the nose can still
+/// be stopped in front of the plane.
+class Commit {
+ public:
+  explicit Commit(const NavigatorParams& params) : params_(&params) {}
+  explicit Commit(NavigatorParams&&) = delete;  ///< they are looked at in every step
+
+  void enter();
+  Decision step(const Situation& situation, MissionMemory& memory);
+
+  /// True, after odometry was gone, if the vehicle is through already, or if the contract with the committed
+  /// window still holds, grown by the drift since; in front of the plane only while the window is seen there.
+  static bool canResume(const Situation& situation, const MissionMemory& memory,
+                        const NavigatorParams& params);
+
+ private:
+  void heedForbidden(const TargetEstimate& target);
+  void refine(const Situation& situation, MissionMemory& memory);
+  void turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const;
+  double forwardSpeed(const Contract& contract, const RelativeState& relative);
+  double speedToExit(double room_m, const RelativeState& relative) const;
+
+  const NavigatorParams* params_;
+  std::optional<Eigen::Vector3d>
+      entry_odom_m_;             ///< the window at the commit: no series of updates leads far from it
+  int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere
+  double disagreement_m_ = 0.0;  ///< of the last sighting
+  int forbidden_ = 0;            ///< new sightings in a row that say not to fly there
+  std::string why_forbidden_;
+  bool is_through_ = false;  ///< has reached the exit distance once
+};
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,66 @@
+#include "navigation/behaviours/hold.hpp"
+
+#include "navigation/behaviours/commit.hpp"
+
+namespace window_ingress::navigation {
+
+void Hold::enter(State from) {
+  *this = Hold(*params_);
+  from_ = from;
+}
+
+Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
+  held_sec_ += situation.dt_sec;
+  const bool needs_image = from_ != State::kCommit;  // which flies on without
+  const bool is_good = situation.vehicle && situation.setpoint_fault.empty() &&
+                       (situation.image_fault.empty() || !needs_image);
+  good_sec_ = is_good ? good_sec_ + situation.dt_sec : 0.0;
+  Decision decision;
+  decision.keeps_place = true;
+  decision.reason = !situation.vehicle                  ? situation.vehicle_fault
+                    : !situation.setpoint_fault.empty() ? situation.setpoint_fault
+                    : !is_good                          ? situation.image_fault
+                                                        : situation.target_fault;
+  if (decision.reason.empty()) decision.reason = "inputs are back";
+  if (is_good && good_sec_ >= params_->hold.dwell_sec)
+    decision.event = wayOn(situation, memory, decision.reason);
+  if (!decision.event && situation.setpoint_fault.empty() && !situation.target &&
+      mayRetreat(situation, memory))
+    decision.event = Event::kWindowLost;
+  if (!decision.event && held_sec_ > params_->hold.timeout_sec) {
+    decision.event = Event::kGiveUp;
+    decision.reason = "held too long: " + decision.reason;
+  }
+  return decision;
+}
+
+// Without pictures nothing leads on, but odometry and the normal still lead away from the wall: at once where
+// wind could carry the vehicle into it meanwhile.
+bool Hold::mayRetreat(const Situation& situation, const MissionMemory& memory) const {
+  if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;
+  const bool is_near = from_ != State::kCommit && relate(*situation.vehicle, *memory.trusted).distance() <
+                                                      params_->limits.wall_distance_m;
+  return is_near || held_sec_ > params_->hold.patience_sec;
+}
+
+std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory& memory,
+                                 std::string& reason) const {
+  if (from_ == State::kCommit) {
+    if (Commit::canResume(situation, memory, *params_)) return Event::kResumed;
+    reason = "the commit cannot be resumed";
+    if (memory.trusted) return Event::kWindowLost;
+    if (!memory.was_in_front) return Event::kGiveUp;  // where the opening is now is not known
+    return situation.target ? std::optional(Event::kReacquired) : std::nullopt;
+  }
+  if (situation.target) {
+    reason = "window seen again";
+    return Event::kReacquired;
+  }
+  if (from_ == State::kSearch || from_ == State::kBackOff) {
+    return memory.trusted && from_ == State::kBackOff ? Event::kWindowLost : Event::kInputFresh;
+  }
+  if (held_sec_ < params_->hold.patience_sec) return std::nullopt;
+  return memory.trusted ? Event::kWindowLost : Event::kInputFresh;
+}
+
+}  // namespace window_ingress::navigation

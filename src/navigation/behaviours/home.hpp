@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "navigation/behaviours/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// Where the mission began, for the fence. The odometry may jump, home does not: it stays where it was as
+/// seen from the vehicle.
+class Home {
+ public:
+  /// Keeps `MissionMemory::home_odom_m` right; the first call sets it.
+  void follow(const VehicleState& vehicle, MissionMemory& memory);
+  void odometryJumped() { position_odom_m_.reset(); }
+  double awayM() const { return from_home_m_.head<2>().norm(); }  ///< of the vehicle, along the ground
+
+ private:
+  std::optional<Eigen::Vector3d> position_odom_m_;  ///< of the call before, in the present odometry frame
+  Eigen::Vector3d from_home_m_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace window_ingress::navigation

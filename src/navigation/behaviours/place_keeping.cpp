@@ -1,0 +1,87 @@
+#include "navigation/behaviours/place_keeping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr double kThereM = 0.01;
+
+Eigen::Vector3d levelDirection(const Eigen::Vector3d& way) {
+  return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
+}
+
+/// No faster than this, neither level nor upward and downward: a way that is mostly one takes nothing from
+/// the other.
+Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_mps) {
+  const double level_mps = velocity.head<2>().norm();
+  const double share = level_mps > limit_mps ? limit_mps / level_mps : 1.0;
+  return {share * velocity.x(), share * velocity.y(), std::clamp(velocity.z(), -limit_mps, limit_mps)};
+}
+
+/// Direction in which the window lies, where that is known and the vehicle in front of it.
+std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionMemory& memory) {
+  if (memory.trusted) {
+    const Eigen::Vector3d normal = uprightRotation(*memory.trusted).col(0);
+    const bool is_behind = normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
+    return is_behind ? std::nullopt : std::optional(normal);
+  }
+  if (!memory.window_odom_m) return std::nullopt;
+  return levelDirection(*memory.window_odom_m - position_m);
+}
+
+/// Neither wind nor its own errors take a vehicle so far that keeps its place.
+bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionMemory& memory) {
+  return memory.place_odom_m &&
+         (*memory.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;
+}
+
+}  // namespace
+
+void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params,
+                   MissionMemory& memory) {
+  if (!is_kept || !situation.vehicle || situation.vehicle_jumped ||
+      isTorn(*situation.vehicle, params, memory)) {
+    memory.place_odom_m.reset();
+    memory.keeping_since_sec.reset();
+    return;
+  }
+  if (!memory.keeping_since_sec) memory.keeping_since_sec = situation.now_sec;
+  const bool stands = situation.vehicle->velocity_odom_mps.norm() < params.standing_mps;
+  const bool has_settled = situation.now_sec - *memory.keeping_since_sec >= params.settle_sec;
+  if (!memory.place_odom_m && (stands || has_settled))
+    memory.place_odom_m = situation.vehicle->T_odom_base.translation();
+}
+
+Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionMemory& memory,
+                                const NavigatorParams& params) {
+  if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d way = *memory.place_odom_m - vehicle.T_odom_base.translation() -
+                              vehicle.velocity_odom_mps * params.vehicle.response_sec;
+  return levelAndVertical(params.align.lateral_gain_hz * way, params.hold.speed_mps);
+}
+
+Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const VehicleState& vehicle,
+                            const MissionMemory& memory, const HoldParams& params) {
+  if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
+  Eigen::Vector3d way = *memory.place_odom_m - position_m;
+  const bool leads_back = std::abs(way.z()) >= kThereM && velocity_odom_mps.z() * way.z() > 0.0;
+  Eigen::Vector3d velocity(0.0, 0.0, leads_back ? velocity_odom_mps.z() : 0.0);
+  way.z() = 0.0;
+  if (way.norm() >= kThereM)
+    velocity += std::max(0.0, velocity_odom_mps.dot(way.normalized())) * way.normalized();
+  velocity = levelAndVertical(velocity, params.speed_mps);
+  if (const auto forward = towardsWindow(position_m, memory))
+    velocity -= std::max(0.0, velocity.dot(*forward)) * *forward;
+  for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m}) {
+    for (const Eigen::Vector3d& window_odom_m : *windows) {
+      const Eigen::Vector3d forward = levelDirection(window_odom_m - position_m);
+      if (velocity.dot(forward) > 0.0) velocity -= velocity.dot(forward) * forward;
+    }
+  }
+  return velocity;
+}
+
+}  // namespace window_ingress::navigation

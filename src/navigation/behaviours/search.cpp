@@ -1,0 +1,89 @@
+#include "navigation/behaviours/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+constexpr int kMostOthers = 8;
+}
+
+void Search::enter(bool may_climb) {
+  *this = Search(*params_);
+  may_climb_ = may_climb;
+  looks_back_ = true;
+}
+
+Decision Search::step(const Situation& situation, MissionMemory& memory) {
+  const auto& vehicle = *situation.vehicle;
+  const double height_m = vehicle.T_odom_base.translation().z();
+  if (!height_m_) height_m_ = may_climb_ ? std::max(params_->search.height_m, height_m) : height_m;
+  Decision decision;
+  if (situation.target && !isKnownOther(*situation.target, vehicle, memory)) {
+    decision = lookAt(situation);
+  } else {
+    frames_ = 0;
+    const double fastest = fastestTurn(situation.image_period_sec);
+    decision.wish.yaw_rate_radps = std::clamp(sweep(vehicle, memory), -fastest, fastest);
+    decision.reason = "turn " + std::to_string(turns_ + 1) + " of " + std::to_string(params_->search.turns);
+  }
+  decision.keeps_place = true;
+  decision.wish.velocity_odom_mps.z() =
+      velocityTowards(*height_m_ - height_m, params_->search.climb_speed_mps, *params_);
+  if (turns_ >= params_->search.turns || memory.others > kMostOthers) {
+    decision.event = Event::kGiveUp;
+    decision.reason = "window not found in " + std::to_string(turns_) + " turns";
+    if (memory.others > 0) decision.reason += ", but others " + std::to_string(memory.others) + " times";
+    if (!memory.left_odom_m.empty())
+      decision.reason += ", but closed or tried in vain: " + std::to_string(memory.left_odom_m.size());
+  }
+  return decision;
+}
+
+Decision Search::lookAt(const Situation& situation) {
+  if (situation.target_is_new) ++frames_;
+  Decision decision;
+  decision.wish.yaw_rate_radps =
+      yawRateFor(relate(*situation.vehicle, *situation.target).bearing_rad, *params_);
+  decision.reason = "window in view";
+  if (frames_ >= params_->search.found_frames) decision.event = Event::kWindowFound;
+  return decision;
+}
+
+double Search::fastestTurn(double image_period_sec) const {
+  const auto& [search, vehicle] = std::tie(params_->search, params_->vehicle);
+  double fastest = search.yaw_rate_radps;
+  if (vehicle.exposure_sec > 0.0)
+    fastest = std::min(fastest, search.max_blur_px * vehicle.pixel_rad / vehicle.exposure_sec);
+  if (image_period_sec > 0.0)
+    fastest = std::min(fastest, search.max_turn_per_image * vehicle.horizontal_fov_rad / image_period_sec);
+  return fastest;
+}
+
+double Search::sweep(const VehicleState& vehicle, MissionMemory& memory) {
+  const double heading_rad = geometry::yawOf(vehicle.T_odom_base.linear());
+  if (looks_back_ && memory.window_odom_m) {
+    const Eigen::Vector3d to_window = *memory.window_odom_m - vehicle.T_odom_base.translation();
+    const double bearing_rad = geometry::wrapAngle(std::atan2(to_window.y(), to_window.x()) - heading_rad);
+    direction_ = bearing_rad < 0.0 ? -1.0 : 1.0;
+    if (std::abs(bearing_rad) > 0.1) return yawRateFor(bearing_rad, *params_);
+  }
+  looks_back_ = false;
+  countTurn(heading_rad, memory);
+  return direction_ * params_->search.yaw_rate_radps;
+}
+
+void Search::countTurn(double heading_rad, MissionMemory& memory) {
+  if (last_heading_rad_) turned_rad_ += geometry::wrapAngle(heading_rad - *last_heading_rad_);
+  last_heading_rad_ = heading_rad;
+  if (std::abs(turned_rad_) < 2.0 * M_PI) return;
+  turned_rad_ = 0.0;
+  ++turns_;
+  memory.forgetWindow();
+  if (may_climb_) height_m_ = *height_m_ + params_->search.height_step_m;
+}
+
+}  // namespace window_ingress::navigation

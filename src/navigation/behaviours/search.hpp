@@ -1,0 +1,38 @@
+#pragma once
+
+#include "navigation/behaviours/behaviour.hpp"
+
+namespace window_ingress::navigation {
+
+/// SEARCH (P14): turns in its place, first towards where the window was last seen, and looks from a greater
+/// height after each turn without success. It goes nowhere else. Once something is seen it
+/// stops turning away from it until enough images have shown it.
+class Search {
+ public:
+  explicit Search(const NavigatorParams& params) : params_(&params) {}
+  explicit Search(NavigatorParams&&) = delete;  ///< they are looked at in every step
+
+  /// \param may_climb false after a mission has been near the window: what is above is then not known to be
+  /// free
+  void enter(bool may_climb);
+  Decision step(const Situation& situation, MissionMemory& memory);
+
+ private:
+  Decision lookAt(const Situation& situation);
+  /// So that a picture is neither smeared nor the window passed over between two (trap: faster finds less).
+  double fastestTurn(double image_period_sec) const;
+  double sweep(const VehicleState& vehicle, MissionMemory& memory);
+  void countTurn(double heading_rad, MissionMemory& memory);
+
+  const NavigatorParams* params_;
+  bool may_climb_ = true;
+  std::optional<double> height_m_;
+  std::optional<double> last_heading_rad_;
+  double turned_rad_ = 0.0;
+  double direction_ = 1.0;
+  bool looks_back_ = false;
+  int turns_ = 0;
+  int frames_ = 0;
+};
+
+}  // namespace window_ingress::navigation

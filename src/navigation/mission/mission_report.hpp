@@ -1,0 +1,11 @@
+#pragma once
+
+#include "navigation/behaviours/behaviour.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+
+namespace window_ingress::navigation {
+
+NavigatorReport reportOn(const Situation& situation, const MissionMemory& memory,
+                         const NavigatorParams& params);
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,89 @@
+#include "navigation/mission/mission_rules.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "navigation/mission/window_choice.hpp"
+#include "window_ingress/parameters/fields.hpp"
+
+namespace window_ingress::navigation {
+
+NavigatorParams checked(const NavigatorParams& params) {
+  auto faults = parameters::outOfRange(params);
+  for (const auto& fault : parameters::outOfRange(params.vehicle)) faults.push_back("vehicle/" + fault);
+  if (!(params.limits.min_height_m < params.limits.max_height_m)) {
+    faults.push_back("limits/min_height_m must be below limits/max_height_m");
+  }
+  if (params.limits.acceleration_mps2 < params.vehicle.braking_mps2) {
+    faults.push_back(
+        "limits/acceleration_mps2 must not be below vehicle/braking_mps2: setpoints could not brake so hard");
+  }
+  if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
+  return params;
+}
+
+double timeoutOf(State state, const TimeoutParams& timeouts) {
+  switch (state) {
+    case State::kSearch:
+      return timeouts.search_sec;
+    case State::kAlign:
+      return timeouts.align_sec;
+    case State::kApproach:
+      return timeouts.approach_sec;
+    case State::kCommit:
+      return timeouts.commit_sec;
+    case State::kBackOff:
+      return timeouts.back_off_sec;
+    default:
+      return timeouts.total_sec;
+  }
+}
+
+std::string missingInput(State state, const Situation& situation) {
+  if (!situation.vehicle) return situation.vehicle_fault;
+  if (!situation.setpoint_fault.empty()) return situation.setpoint_fault;
+  if (state == State::kSearch) return situation.image_fault;
+  const bool needs_target = state == State::kAlign || state == State::kApproach;
+  return needs_target && !situation.target ? situation.target_fault : "";
+}
+
+std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
+                          const MissionMemory& memory, const InputParams& params) {
+  if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
+  const bool is_left = state == State::kHold || state == State::kBackOff;
+  if (is_left && wasLeftForGood(target, memory)) return "a window that was left for good";
+  if (!memory.trusted) {
+    return is_left && isKnownOther(target, vehicle, memory) ? "another window, known from before" : "";
+  }
+  const double shift_m =
+      (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
+  if (shift_m <= params.max_window_shift_m) return "";
+  char text[80];
+  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
+  return text;
+}
+
+std::string goesAstray(double turned_rad) {
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
+  return text;
+}
+std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
+                                      const NavigatorParams& params) {
+  std::vector<std::string> faults;
+  if (!std::isfinite(situation.now_sec)) faults.push_back("no valid time");
+  if (!situation.vehicle) faults.push_back(situation.vehicle_fault);
+  if (!situation.image_fault.empty()) faults.push_back(situation.image_fault);
+  if (!situation.camera_fault.empty()) faults.push_back(situation.camera_fault);
+  if (!situation.setpoint_fault.empty()) faults.push_back(situation.setpoint_fault);
+  if (!engaged) faults.push_back("the vehicle is not armed or not in a mode that follows setpoints");
+  if (!situation.vehicle) return faults;
+  if (situation.vehicle->T_odom_base.translation().z() > params.limits.max_height_m) {
+    faults.push_back("above limits/max_height_m");
+  }
+  return faults;
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,35 @@
+/// What the mission as a whole demands, apart from what any single state does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "navigation/behaviours/behaviour.hpp"
+#include "navigation/motion/input_monitor.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/navigation/transition_table.hpp"
+
+namespace window_ingress::navigation {
+
+/// The parameters as given. \throws std::invalid_argument that lists every fault
+NavigatorParams checked(const NavigatorParams& params);
+
+/// How long the mission may stay in this state [s].
+double timeoutOf(State state, const TimeoutParams& timeouts);
+
+/// What this state needs and does not have; empty if it has all.
+std::string missingInput(State state, const Situation& situation);
+
+/// Why a state other than COMMIT must not fly at this target: seen from behind, or another window than the
+/// one flown at before; empty if nothing speaks against it.
+std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
+                          const MissionMemory& memory, const InputParams& params);
+
+/// For people: the vehicle goes beside what it is told.
+std::string goesAstray(double turned_rad);
+
+/// What speaks against a start, all of it; empty if nothing does.
+std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
+                                      const NavigatorParams& params);
+
+}  // namespace window_ingress::navigation

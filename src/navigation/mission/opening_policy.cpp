@@ -1,0 +1,76 @@
+#include "navigation/mission/opening_policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace window_ingress::navigation {
+
+using openness::Openness;
+
+bool isSeenOpen(const TargetEstimate& target) { return target.openness.openness == Openness::kOpen; }
+
+namespace {
+
+/// What has yet to be known before anybody flies in; empty if nothing has.
+std::string doubtAbout(const TargetEstimate& target, const CommitParams& params) {
+  if (!isSeenOpen(target) && params.unverified_opening != "allow")
+    return "not seen to be open: " + target.openness.reason;
+  return params.glass == "excluded" ? "" : "glass is not excluded (commit/glass)";
+}
+
+bool asksAbout(const TargetEstimate& target, const CommitParams& params) {
+  return isSeenOpen(target) || params.unverified_opening != "deny";
+}
+
+}  // namespace
+
+std::string whyClosed(const TargetEstimate& target) {
+  const bool is_closed = target.openness.openness == Openness::kClosed;
+  return is_closed ? "the opening is closed: " + target.openness.reason : "";
+}
+
+std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& memory,
+                          const CommitParams& params) {
+  const std::string closed = whyClosed(target);
+  if (!closed.empty() || memory.opening_confirmed) return closed;
+  const std::string doubt = doubtAbout(target, params);
+  const bool asks = !doubt.empty() && asksAbout(target, params);
+  return asks ? "is it open? ~confirm_opening says yes; " + doubt : doubt;
+}
+
+double waitAtLineSec(const TargetEstimate& target, const CommitParams& params) {
+  return asksAbout(target, params) ? params.ask_sec : params.look_sec;
+}
+
+std::string whatIsAssumed(const CommitParams& params) {
+  const bool excluded = params.glass == "excluded";
+  const std::string glass =
+      excluded ? "assumes that there is no glass (commit/glass)"
+               : "will ask for ~confirm_opening at the line: glass is not excluded (commit/glass)";
+  if (params.unverified_opening == "deny") return glass + "; turns back where it is not seen to be open";
+  if (!excluded) return glass;
+  return glass + (params.unverified_opening == "allow"
+                      ? "; enters where it is not seen to be open, too"
+                      : "; will ask for ~confirm_opening where it is not seen to be open");
+}
+
+std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMemory& memory) {
+  const auto& target = *situation.target;
+  const std::string why = whyClosed(target);
+  if (why.empty()) return std::nullopt;
+  memory.giveUpWindow(target);
+  Decision decision;
+  decision.keeps_place = true;
+  decision.event = Event::kOtherWindow;
+  decision.reason = why;
+  return decision;
+}
+
+double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params) {
+  constexpr double kPeriodSec = 5.0, kPartOfClearance = 0.7;
+  const double aside_m =
+      std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, contract.clearance_lateral_m));
+  return aside_m * std::sin(2.0 * M_PI * waiting_sec / kPeriodSec);
+}
+
+}  // namespace window_ingress::navigation

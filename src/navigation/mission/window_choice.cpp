@@ -1,0 +1,42 @@
+#include "navigation/mission/window_choice.hpp"
+
+#include <algorithm>
+
+namespace window_ingress::navigation {
+
+namespace {
+
+constexpr double kSamePlaceM = 0.5;
+
+bool inOnePlace(const TargetEstimate& a, const TargetEstimate& b) {
+  return (a.T_odom_window.translation() - b.T_odom_window.translation()).norm() < kSamePlaceM;
+}
+
+}  // namespace
+
+bool wasLeftForGood(const TargetEstimate& target, const MissionMemory& memory) {
+  return std::any_of(memory.left_odom_m.begin(), memory.left_odom_m.end(), [&](const Eigen::Vector3d& left) {
+    return (left - target.T_odom_window.translation()).norm() < kSamePlaceM;
+  });
+}
+
+std::string whySentElsewhere(const Situation& situation, State state, const MissionMemory& memory) {
+  if (state == State::kCommit || !situation.target || !memory.trusted) return "";
+  const std::uint32_t now = situation.target->window_id, before = memory.trusted->window_id;
+  if (now == 0 || now == before) return "";
+  const bool has_got_its_number = before == 0 && inOnePlace(*situation.target, *memory.trusted);
+  if (has_got_its_number) return "";
+  return "window " + std::to_string(now) + " is the target now, no longer " +
+         (before == 0 ? "the one flown at" : "window " + std::to_string(before));
+}
+
+void turnToNextWindow(State state, const NavigatorParams& params, MissionMemory& memory, Decision& decision) {
+  const bool tried_in_vain = state == State::kBackOff && decision.event == Event::kGiveUp;
+  if (!tried_in_vain || !params.search.next_window || !memory.trusted) return;
+  decision.reason += "; the next window";
+  decision.event = Event::kBackedOff;
+  memory.giveUpWindow(*memory.trusted);
+  memory.back_offs = 0;
+}
+
+}  // namespace window_ingress::navigation

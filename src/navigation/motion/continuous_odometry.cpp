@@ -1,0 +1,173 @@
+#include "navigation/motion/continuous_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/median.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
+constexpr double kSecond = 1.0, kFramesSec = 3.0;
+constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
+constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
+constexpr std::size_t kLatePieces = 4;
+constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
+
+double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
+
+Eigen::Matrix3d uprightOf(const VehicleState& vehicle) { return geometry::yawRotation(yawOf(vehicle)); }
+
+}  // namespace
+
+std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry) {
+  if (!odometry_) {
+    odometry_ = smooth_ = odometry;
+    second_.push_back({odometry.stamp_sec, odometry.T_odom_base.translation(), way_m_});
+    return smooth_;
+  }
+  const double dt_sec = odometry.stamp_sec - odometry_->stamp_sec;
+  if (dt_sec <= 0.0) return smooth_;
+  if (dt_sec > kLongestGapSec) {
+    const double moved_m = (odometry.T_odom_base.translation() - odometry_->T_odom_base.translation()).norm();
+    const double speed_mps =
+        std::max({kFastestMps, odometry.velocity_odom_mps.norm(), odometry_->velocity_odom_mps.norm()});
+    const double turned_rad = std::abs(geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_)));
+    if (moved_m > kJumpInGapM + 2.0 * speed_mps * kLongestGapSec ||
+        turned_rad > kTurnJumpRad + kFastestRadps * kLongestGapSec) {
+      reset();
+      return std::nullopt;
+    }
+    second_.clear();
+    piece_.reset();
+  }
+  const double turned_rad = geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_));
+  const bool has_turned = std::abs(turned_rad) > kTurnJumpRad + kFastestRadps * dt_sec;
+  if (has_turned) heading_error_rad_ = geometry::wrapAngle(heading_error_rad_ + turned_rad);
+  is_erring_ = is_erring_ || has_turned;
+  const Eigen::Vector3d before_mps = smooth_->velocity_odom_mps;
+  VehicleState smooth = inSmooth(odometry);
+  way_m_ += dt_sec * 0.5 * (before_mps + smooth.velocity_odom_mps);
+  if (has_turned)  // one that came back before the vehicle had moved has turned no axes
+    turn_ = Turn{turned_rad + (turn_ ? turn_->turn_rad : 0.0),
+                 {odometry.stamp_sec, odometry.T_odom_base.translation(), way_m_}};
+  odometry_ = odometry;
+  judgeTurn(odometry);
+  learnBias(smooth);
+  shiftIfUnexplained(smooth);
+  smooth_ = smooth;
+  noteFrame();
+  return smooth_;
+}
+
+Eigen::Isometry3d ContinuousOdometry::T_smooth_odom(double stamp_sec) const {
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame)
+    if (frame->stamp_sec <= stamp_sec || std::next(frame) == frames_.rend()) return frame->T_smooth_odom;
+  return Eigen::Isometry3d::Identity();
+}
+
+void ContinuousOdometry::noteFrame() {
+  if (!is_erring_) return;
+  if (frames_.empty()) frames_.push_back({-1e300, Eigen::Isometry3d::Identity()});
+  frames_.push_back({odometry_->stamp_sec, smooth_->T_odom_base * odometry_->T_odom_base.inverse()});
+  while (frames_.size() > 2 && frames_[1].stamp_sec < odometry_->stamp_sec - kFramesSec) frames_.pop_front();
+}
+
+Eigen::Vector3d ContinuousOdometry::inOdomAxes(const Eigen::Vector3d& velocity_smooth_mps) const {
+  return is_erring_ ? Eigen::Vector3d(T_smooth_axes_.linear().transpose() * velocity_smooth_mps)
+                    : velocity_smooth_mps;
+}
+
+double ContinuousOdometry::headingErrorRad() const {
+  return geometry::wrapAngle(heading_error_rad_ + geometry::yawOf(T_smooth_axes_.linear()));
+}
+
+VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
+  if (!is_erring_) return odometry;
+  VehicleState smooth = odometry;
+  const Eigen::Matrix3d turn_back = geometry::yawRotation(-heading_error_rad_);
+  smooth.T_odom_base.linear() = turn_back * odometry.T_odom_base.linear();
+  smooth.velocity_odom_mps = turn_back * odometry.velocity_odom_mps;
+  smooth.T_odom_base.translation() = T_smooth_axes_ * odometry.T_odom_base.translation();
+  return smooth;
+}
+
+// In pieces of a second: over a long one velocity and position drift apart by themselves.
+void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
+  if (!turn_) return;
+  const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
+  const Eigen::Vector2d way_m = (way_m_ - turn_->piece.way_m).head<2>();  // upward nothing turns
+  const Eigen::Vector2d moved_m =
+      (T_smooth_axes_.linear() * (position_m - turn_->piece.position_m)).head<2>();
+  const Eigen::Rotation2Dd turn_back(-turn_->turn_rad);
+  Turn now = *turn_;
+  now.told_m2 += way_m.squaredNorm() * std::pow(2.0 * std::sin(0.5 * turn_->turn_rad), 2);
+  now.misfit_m2 += (moved_m - way_m).squaredNorm();
+  now.misfit_turned_m2 += (turn_back * moved_m - way_m).squaredNorm();
+  now.piece = {odometry.stamp_sec, position_m, way_m_};
+  if (now.told_m2 < kTellingM * kTellingM) {
+    if (odometry.stamp_sec - turn_->piece.stamp_sec >= kSecond) turn_ = now;
+    return;
+  }
+  if (now.misfit_turned_m2 < now.misfit_m2) {
+    const Eigen::Vector3d smooth_m = T_smooth_axes_ * position_m;
+    T_smooth_axes_.linear() = geometry::yawRotation(-turn_->turn_rad) * T_smooth_axes_.linear();
+    T_smooth_axes_.translation() = smooth_m - T_smooth_axes_.linear() * position_m;
+    second_.clear();
+  }
+  turn_.reset();
+}
+
+// Of an estimator's velocity that is always off by the same, fixed in the body.
+void ContinuousOdometry::learnBias(const VehicleState& smooth) {
+  const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
+  if (!piece_) piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
+  const double piece_sec = smooth.stamp_sec - piece_->stamp_sec;
+  if (piece_sec < kPieceSec) return;
+  const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
+  pieces_mps_.push_back(uprightOf(smooth).transpose() * unexplained_m / piece_sec);
+  if (pieces_mps_.size() > kPieces) pieces_mps_.pop_front();
+  piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
+  if (!isBiasKnown()) return;
+  std::vector<Eigen::Vector3d> pieces_mps(pieces_mps_.begin(), pieces_mps_.end());
+  bias_base_mps_ = geometry::componentwiseMedian(pieces_mps);
+  if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
+  std::vector<double> errors_mps;
+  for (const Eigen::Vector3d& mps : pieces_mps_)
+    for (const int axis : {0, 1}) errors_mps.push_back(std::abs(mps[axis] - bias_base_mps_[axis]));
+  drift_m_per_sqrt_sec_ = kSigmaOfMedian * geometry::median(errors_mps) * std::sqrt(kPieceSec);
+}
+
+Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
+  if (pieces_mps_.size() < kLatePieces) return bias_base_mps_;
+  const Eigen::Vector3d sum_mps =
+      std::accumulate(pieces_mps_.end() - kLatePieces, pieces_mps_.end(), Eigen::Vector3d(0, 0, 0));
+  return sum_mps / kLatePieces;
+}
+
+Eigen::Vector3d ContinuousOdometry::unbiased(const VehicleState& smooth) const {
+  if (bias_base_mps_.norm() < kNoticeableMps) return smooth.velocity_odom_mps;
+  return smooth.velocity_odom_mps + uprightOf(smooth) * bias_base_mps_;
+}
+
+void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
+  const Eigen::Vector3d position_m = smooth.T_odom_base.translation();
+  second_.push_back(
+      {smooth.stamp_sec, position_m, way_m_});  // the only one after a gap: what was flown is not known
+  while (second_.front().stamp_sec < smooth.stamp_sec - kSecond) second_.pop_front();
+  const Sample& first = second_.front();
+  const Eigen::Vector3d steady_m = uprightOf(smooth) * bias_base_mps_ * (smooth.stamp_sec - first.stamp_sec);
+  const Eigen::Vector3d unexplained_m = (position_m - first.position_m) - (way_m_ - first.way_m) - steady_m;
+  if (unexplained_m.norm() < kUnexplainedM) return;
+  is_erring_ = true;
+  T_smooth_axes_.translation() -= unexplained_m;
+  smooth.T_odom_base.translation() -= unexplained_m;
+  shift_m_ -= unexplained_m;
+  second_.clear();
+  second_.push_back({smooth.stamp_sec, smooth.T_odom_base.translation(), way_m_});
+}
+
+}  // namespace window_ingress::navigation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+#include "window_ingress/navigation/navigator_params.hpp"
+#include "navigation/motion/response_estimator.hpp"
+
+namespace window_ingress::navigation {
+
+/// How far the vehicle's velocity stays away from what was commanded, in wind: the measured velocity less
+/// that of a model of the vehicle under the same commands, smoothed over `wind_sec`. To be taken
+/// off the next command (P24). The model answers as fast as the vehicle was seen to (`ResponseEstimator`):
+/// the lag of a slow vehicle taken for wind would be steered against out of phase. One wild sample moves it
+/// no more than the strongest wind would.
+class DisturbanceObserver {
+ public:
+  DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
+      : approach_(approach), response_(vehicle.response_sec) {}
+
+  /// What moves the vehicle now is not known to be wind.
+  void restart();
+  /// Another mission: how the vehicle answers is not known, either.
+  void reset();
+  /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
+  void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
+  /// At most `max_wind_mps` long.
+  const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
+  /// Mean square of what remains beyond it and beyond what the model may err by, over `gust_memory_sec`:
+  /// gusts. Whatever the vehicle is told meanwhile counts, for it is told most while gusts carry it off.
+  Eigen::Matrix3d gusts() const;
+  /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
+  /// plane; 0 as long as it was told, or moved, too little to tell [rad]. What is there whatever it is told
+  /// (wind, a biased velocity) turns nothing.
+  double turnedRad() const;
+  const ResponseEstimator& response() const { return response_; }
+
+ private:
+  /// What the setpoints alone would have given, and what was measured, both in the plane: sums over the time.
+  struct Directions {
+    double sec = 0.0, said_m2ps = 0.0;
+    std::complex<double> said_m = 0.0, done_m = 0.0, both_m2ps = 0.0;
+    void fade(double keep);
+  };
+
+  void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
+
+  ApproachParams approach_;
+  ResponseEstimator response_;
+  Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
+  Directions directions_;
+  Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();
+  double watched_sec_ = 0.0;  ///< fading
+};
+
+}  // namespace window_ingress::navigation

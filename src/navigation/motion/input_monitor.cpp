@@ -1,0 +1,253 @@
+#include "navigation/motion/input_monitor.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "navigation/motion/moving_target.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[160];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
+/// Empty if the stamp is young enough and not from the future.
+std::string ageFault(const char* what, double stamp_sec, double now_sec, double max_age_sec,
+                     double max_future_sec) {
+  const double age_sec = now_sec - stamp_sec;
+  if (!std::isfinite(age_sec)) return format("%s: stamp is not finite", what);
+  if (age_sec > max_age_sec) return format("%s %.2f s old", what, age_sec);
+  if (age_sec < -max_future_sec) return format("%s: stamp is %.2f s in the future", what, -age_sec);
+  return "";
+}
+
+double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return std::abs(geometry::wrapAngle(geometry::yawOf(a.linear()) - geometry::yawOf(b.linear())));
+}
+
+constexpr double kFarAwayM = 1e5;
+constexpr double kFasterThanAnyMps = 20.0;
+constexpr double kMoving = 0.1;       // [m/s], [rad/s]
+constexpr double kDeadTimeSec = 0.5;  // after which no vehicle that is told to move stands as before
+constexpr double kTrustedYawJumpRad = 0.35;
+
+bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
+  constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
+  constexpr double kAlike = 1e-6;
+  if (!covariance.allFinite()) return false;
+  Eigen::Matrix4d block;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      block(row, column) = covariance(kUpright[row], kUpright[column]);
+  const bool is_symmetric = block.isApprox(block.transpose(), kAlike);
+  return is_symmetric && block.llt().info() == Eigen::Success;  // which reads one half only
+}
+
+bool hasUsableMotion(const TargetEstimate& target) {
+  constexpr double kFastestWindowMps = 2.0, kLongestSec = 1000.0;
+  const auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; };
+  const estimation::TargetMotion& motion = target.motion;
+  const double velocity_mps = motion.velocity_odom_mps.stableNorm();
+  if (motion.model.stands()) return isWithin(motion.model.speed_mps, 0.0) && isWithin(velocity_mps, 0.0);
+  return isWithin(motion.model.speed_mps, kFastestWindowMps) && isWithin(velocity_mps, kFastestWindowMps) &&
+         isWithin(motion.velocity_sigma_mps, kFastestWindowMps) && motion.model.time_sec > 0.0 &&
+         motion.model.time_sec <= kLongestSec && std::isfinite(target.pose_stamp_sec);
+}
+
+}  // namespace
+
+std::string faultOf(const VehicleState& vehicle) {
+  if (!std::isfinite(vehicle.stamp_sec)) return "odometry: stamp is not finite";
+  if (!geometry::isValidPose(vehicle.T_odom_base)) return "odometry: pose is not finite or not a rotation";
+  if (!vehicle.velocity_odom_mps.allFinite()) return "odometry: velocity is not finite";
+  const double position_m = vehicle.T_odom_base.translation().stableNorm();
+  if (position_m > kFarAwayM) return format("odometry: position %.3g m is out of this world", position_m);
+  const double speed_mps = vehicle.velocity_odom_mps.stableNorm();
+  if (speed_mps > kFasterThanAnyMps)
+    return format("odometry: speed %.3g m/s is out of this world", speed_mps);
+  return "";
+}
+
+std::string faultOf(const TargetEstimate& target, double max_tilt_rad) {
+  if (!std::isfinite(target.stamp_sec)) return "window: stamp is not finite";
+  if (!geometry::isValidPose(target.T_odom_window)) return "window: pose is not finite or not a rotation";
+  if (target.T_odom_window.translation().stableNorm() > kFarAwayM)
+    return "window: position is out of this world";
+  const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
+  if (tilt_rad > max_tilt_rad) return format("window: leans by %.2f rad", tilt_rad);
+  if (!isPositive(target.covariance)) return "window: covariance unknown";
+  if (!hasUsableMotion(target)) return "window: its motion is out of this world";
+  const auto& opening = target.opening;
+  const bool has_size =
+      opening.width_m > 0.0 && opening.height_m > 0.0 && opening.width_m < 20.0 && opening.height_m < 20.0;
+  return has_size ? "" : "window: size of the opening unknown";
+}
+
+void InputMonitor::reset() { *this = InputMonitor(params_); }
+
+// A window is where it is in odom as of its image.
+TargetEstimate InputMonitor::inSmooth(TargetEstimate target) const {
+  const Eigen::Isometry3d T_smooth_odom = odometry_.T_smooth_odom(target.stamp_sec);
+  const Eigen::Matrix3d& R = T_smooth_odom.linear();
+  target.T_odom_window = T_smooth_odom * target.T_odom_window;
+  target.covariance.topLeftCorner<3, 3>() = R * target.covariance.topLeftCorner<3, 3>() * R.transpose();
+  target.covariance.topRightCorner<3, 3>() = R * target.covariance.topRightCorner<3, 3>();
+  target.covariance.bottomLeftCorner<3, 3>() = target.covariance.topRightCorner<3, 3>().transpose();
+  target.motion.velocity_odom_mps = R * target.motion.velocity_odom_mps;
+  return target;
+}
+
+Situation InputMonitor::judge(const NavigatorInput& input, double now_sec) {
+  Situation situation;
+  judgeClock(now_sec, situation);
+  judgeVehicle(input, situation);
+  judgeTarget(input, situation);
+  judgeImage(input, situation);
+  situation.camera_fault = input.camera_fault;
+  if (input.camera && input.camera_fault.empty()) situation.camera_fault = faultOf(*input.camera);
+  if (!input.passed_on) situation.setpoint_fault = "nobody passes the setpoints on: the guard is silent";
+  return situation;
+}
+
+void InputMonitor::judgeClock(double now_sec, Situation& situation) {
+  situation.now_sec = now_sec;
+  if (!std::isfinite(now_sec)) return;
+  const double dt_sec = last_now_sec_ ? now_sec - *last_now_sec_ : 0.0;
+  if (dt_sec < -params_.max_future_sec) {
+    reset();
+    situation.vehicle_jumped = true;
+  }
+  situation.dt_sec = std::clamp(dt_sec, 0.0, 0.2);
+  last_now_sec_ = now_sec;
+}
+
+void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situation) {
+  if (!input.vehicle) {
+    situation.vehicle_fault = "no odometry";
+    return;
+  }
+  situation.vehicle_fault = faultOf(*input.vehicle);
+  if (!situation.vehicle_fault.empty()) return;
+  if (situation.vehicle_jumped) situation.vehicle_fault = "the clock jumped back";
+  if (situation.vehicle_jumped) return;
+  const bool is_newer = !vehicle_ || input.vehicle->stamp_sec > vehicle_->stamp_sec;
+  const VehicleState sample = is_newer ? *input.vehicle : *vehicle_;
+  situation.vehicle_fault = ageFault("odometry", sample.stamp_sec, situation.now_sec,
+                                     params_.max_vehicle_age_sec, params_.max_future_sec);
+  if (!situation.vehicle_fault.empty()) return;
+  if (is_newer && isStuck(sample)) {
+    vehicle_ = sample;
+    const double for_sec = sample.stamp_sec - unchanged_since_sec_;
+    situation.vehicle_fault = format("odometry stuck for %.2f s", for_sec);
+    return;
+  }
+  vehicle_ = sample;
+  if (is_newer) smooth_ = odometry_.add(sample);
+  if (!smooth_) {
+    situation.vehicle_fault = "odometry went elsewhere while it was gone";
+    situation.vehicle_jumped = true;
+    not_before_sec_ = sample.stamp_sec;
+    target_.reset();
+    moved_target_.reset();
+    return;
+  }
+  situation.vehicle = smooth_;
+  situation.vehicle->velocity_odom_mps = odometry_.unbiased(*smooth_);
+  const double ahead_sec = std::max(0.0, situation.now_sec - sample.stamp_sec);
+  situation.vehicle->T_odom_base.translation() += situation.vehicle->velocity_odom_mps * ahead_sec;
+}
+
+void InputMonitor::told(const Setpoint& setpoint, double now_sec) {
+  const bool moves = std::max(setpoint.velocity_odom_mps.norm(), std::abs(setpoint.yaw_rate_radps)) > kMoving;
+  if (!moves || !std::isfinite(now_sec)) told_to_move_sec_.reset();
+  if (moves && !told_to_move_sec_ && std::isfinite(now_sec)) told_to_move_sec_ = now_sec;
+}
+
+// The noise of a sensor that works never repeats itself, and nothing moves without changing its place.
+bool InputMonitor::isStuck(const VehicleState& vehicle) {
+  const bool repeats = vehicle_ && vehicle.T_odom_base.matrix() == vehicle_->T_odom_base.matrix() &&
+                       vehicle.velocity_odom_mps == vehicle_->velocity_odom_mps;
+  if (!repeats) unchanged_since_sec_ = vehicle.stamp_sec;
+  const double for_sec = vehicle.stamp_sec - unchanged_since_sec_;
+  const bool says_to_move = vehicle.velocity_odom_mps.norm() > kMoving;
+  const bool ought_to_move = told_to_move_sec_ && vehicle.stamp_sec - *told_to_move_sec_ > kDeadTimeSec;
+  is_stuck_ = repeats && (is_stuck_ || (says_to_move && for_sec > params_.max_vehicle_age_sec) ||
+                          (ought_to_move && for_sec > kDeadTimeSec));
+  return is_stuck_;
+}
+
+void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation) {
+  situation.target_fault = "no window seen";
+  if (input.target) {
+    const auto& target = *input.target;
+    std::string fault = faultOf(target, params_.max_target_tilt_rad);
+    if (fault.empty()) {
+      fault = ageFault("window", target.stamp_sec, situation.now_sec, params_.max_target_age_sec,
+                       params_.max_future_sec);
+    }
+    if (fault.empty() && target.stamp_sec <= not_before_sec_)
+      fault = "window: from before the odometry jumped";
+    if (fault.empty()) situation.target_is_new = acceptTarget(inSmooth(target), situation.now_sec);
+    if (!fault.empty()) situation.target_fault = fault;
+  }
+  if (!target_) return;
+  const std::string age = ageFault("window", target_->stamp_sec, situation.now_sec,
+                                   params_.max_target_age_sec, params_.max_future_sec);
+  if (age.empty()) {
+    situation.target = ahead(*target_, situation.now_sec);
+    situation.target_fault.clear();
+  }
+}
+
+bool InputMonitor::staysAtNewPlace(const TargetEstimate& target) const {
+  if (!moved_target_ || target.stamp_sec - moved_target_->stamp_sec > params_.max_target_age_sec)
+    return false;
+  const Eigen::Vector3d moved =
+      target.T_odom_window.translation() - moved_target_->T_odom_window.translation();
+  return moved.norm() < params_.max_target_jump_m;
+}
+
+bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
+  if (target_ && target.stamp_sec <= target_->stamp_sec) return false;
+  if (target_) {
+    const double moved_m = (target.T_odom_window.translation() - target_->T_odom_window.translation()).norm();
+    const bool turned = target.sign_trusted && target_->sign_trusted &&
+                        yawBetween(target.T_odom_window, target_->T_odom_window) > kTrustedYawJumpRad;
+    if (moved_m > params_.max_target_jump_m || turned) {
+      if (!staysAtNewPlace(target)) moved_since_sec_ = now_sec;
+      moved_target_ = target;
+      if (now_sec - moved_since_sec_ < params_.target_jump_persist_sec) return false;
+    }
+  }
+  moved_target_.reset();
+  target_ = target;
+  return true;
+}
+
+void InputMonitor::judgeImage(const NavigatorInput& input, Situation& situation) {
+  situation.image_fault = "no image searched so far";
+  if (!input.image_stamp_sec) return;
+  situation.image_fault = ageFault("last image", *input.image_stamp_sec, situation.now_sec,
+                                   params_.max_image_age_sec, params_.max_future_sec);
+  if (situation.image_fault.empty()) measurePeriod(*input.image_stamp_sec);
+  situation.image_period_sec = image_period_sec_;
+}
+
+void InputMonitor::measurePeriod(double image_stamp_sec) {
+  constexpr double kWeight = 0.2;
+  if (image_stamp_sec_ == image_stamp_sec) return;
+  const double period_sec = image_stamp_sec_ ? image_stamp_sec - *image_stamp_sec_ : 0.0;
+  image_stamp_sec_ = image_stamp_sec;
+  if (!(period_sec > 0.0 && period_sec < params_.max_image_age_sec)) return;
+  image_period_sec_ += (image_period_sec_ > 0.0 ? kWeight : 1.0) * (period_sec - image_period_sec_);
+}
+
+}  // namespace window_ingress::navigation

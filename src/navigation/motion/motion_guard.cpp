@@ -1,0 +1,130 @@
+#include "navigation/motion/motion_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "navigation/behaviours/place_keeping.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+/// The velocity less its part towards the window.
+Eigen::Vector3d withoutForward(const Eigen::Vector3d& velocity, const TargetEstimate& target) {
+  const Eigen::Vector3d normal = uprightRotation(target).col(0);
+  return velocity - std::max(0.0, velocity.dot(normal)) * normal;
+}
+
+/// Upward and downward as wished, sideways only back to the place that is kept.
+Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situation& situation,
+                                   const MissionMemory& memory, const NavigatorParams& params) {
+  Eigen::Vector3d permitted =
+      onlyToPlace({velocity.x(), velocity.y(), 0.0}, *situation.vehicle, memory, params.hold);
+  permitted.z() = velocity.z();
+  return permitted;
+}
+
+/// Away from the wall; and in front of the opening sideways and upward to its axis, which leads away from its
+/// frame.
+Eigen::Vector3d awayAndToAxis(const Eigen::Vector3d& velocity, const VehicleState& vehicle,
+                              const TargetEstimate& target) {
+  const Eigen::Matrix3d R_odom_window = uprightRotation(target);
+  const RelativeState relative = relate(vehicle, target);
+  Eigen::Vector3d kept = R_odom_window.transpose() * velocity;
+  kept.x() = std::min(0.0, kept.x());
+  const bool is_before_opening = std::abs(relative.lateral()) < target.opening.width_m / 2.0 &&
+                                 std::abs(relative.vertical()) < target.opening.height_m / 2.0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (!is_before_opening || kept[axis] * relative.position_window_m[axis] > 0.0) kept[axis] = 0.0;
+  return R_odom_window * kept;
+}
+
+/// Of a velocity that leads nowhere forward, what is permitted this near the wall outside the funnel.
+Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& situation,
+                             const Contract& contract, const NavigatorParams& params) {
+  const auto& target = *situation.target;
+  const bool is_near = relate(*situation.vehicle, target).distance() < params.limits.wall_distance_m;
+  return is_near && !contract.in_funnel ? awayAndToAxis(velocity, *situation.vehicle, target) : velocity;
+}
+
+Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
+                                      const Situation& situation, const MissionMemory& memory,
+                                      const NavigatorParams& params) {
+  const auto& target = *situation.target;
+  const Contract contract = contractWith(target, *situation.vehicle, memory, params);
+  const double distance_m = relate(*situation.vehicle, target).distance();
+  if (distance_m <= 0.0) return verticalAndToPlace(velocity, situation, memory, params);
+  const bool before_line = distance_m > contract.commit_distance_m;
+  const bool may_advance = state == State::kApproach && target.approach_forbidden.empty() &&
+                           (contract.holds || (before_line && contract.in_funnel));
+  if (may_advance) return velocity;
+  return awayFromWall(withoutForward(velocity, target), situation, contract, params);
+}
+
+Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situation& situation,
+                                   const MissionMemory& memory, const NavigatorParams& params) {
+  if (!memory.trusted) return Eigen::Vector3d::Zero();
+  const bool in_reveal =
+      relate(*situation.vehicle, *memory.trusted).distance() < params.vehicle.half_length_m;
+  return in_reveal ? awayAndToAxis(velocity, *situation.vehicle, *memory.trusted)
+                   : withoutForward(velocity, *memory.trusted);
+}
+
+Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,
+                                 const MissionMemory& memory, const NavigatorParams& params) {
+  const auto& target = situation.target;
+  const bool is_trusted = target && target->sign_trusted;
+  switch (state) {
+    case State::kSearch:
+      return verticalAndToPlace(velocity, situation, memory, params);
+    case State::kAlign:
+    case State::kApproach:
+      if (!is_trusted) return verticalAndToPlace(velocity, situation, memory, params);
+      return permittedBeforeWindow(velocity, state, situation, memory, params);
+    case State::kCommit:
+      return memory.committed ? velocity : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    case State::kBackOff:
+      return permittedBackwards(velocity, situation, memory, params);
+    case State::kHold:
+    case State::kPassed:
+      return onlyToPlace(velocity, *situation.vehicle, memory, params.hold);
+    case State::kIdle:
+    case State::kAborted:
+      break;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+double withinHeights(double climb_mps, double height_m, const NavigatorParams& params) {
+  const auto& [braking, response] = std::pair(params.vehicle.braking_mps2, params.vehicle.response_sec);
+  const double up = stoppingSpeed(params.limits.max_height_m - height_m, braking, response);
+  const double down = stoppingSpeed(height_m - params.limits.min_height_m, braking, response);
+  return std::clamp(climb_mps, -down, up);
+}
+
+/// The velocity less what of its way outward could not be stopped at the fence.
+Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector3d& position_m,
+                            const MissionMemory& memory, const NavigatorParams& params) {
+  if (!memory.home_odom_m) return velocity;
+  Eigen::Vector3d outward = position_m - *memory.home_odom_m;
+  outward.z() = 0.0;
+  const double away_m = outward.norm();
+  if (away_m < 1e-6) return velocity;
+  outward /= away_m;
+  const double most_mps = stoppingSpeed(params.limits.fence_radius_m - away_m, params.vehicle.braking_mps2,
+                                        params.vehicle.response_sec);
+  return velocity - std::max(0.0, velocity.dot(outward) - most_mps) * outward;
+}
+
+}  // namespace
+
+Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
+                                  const Situation& situation, const MissionMemory& memory,
+                                  const NavigatorParams& params) {
+  if (!situation.vehicle) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = permittedByState(velocity_odom_mps, state, situation, memory, params);
+  const Eigen::Vector3d position_m = situation.vehicle->T_odom_base.translation();
+  velocity.z() = withinHeights(velocity.z(), position_m.z(), params);
+  return withinFence(velocity, position_m, memory, params);
+}
+
+}  // namespace window_ingress::navigation

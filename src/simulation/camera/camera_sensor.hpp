@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "simulation/camera/camera_motion.hpp"
+#include "simulation/scenario/camera_params.hpp"
+#include "simulation/random_stream.hpp"
+#include "simulation/scene/scene.hpp"
+
+namespace window_ingress::simulation {
+
+/// Makes of ideal renderings what a camera delivers: motion during the exposure, distortion, blur, brightness
+/// and colour, noise.
+class CameraSensor {
+ public:
+  /// \throws as `Renderer`, `Lens` and `CameraParams::model`
+  CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed);
+  ~CameraSensor();
+
+  /// The picture number `index` of the flight; the noise depends on seed and index alone, automatic gains on
+  /// the pictures exposed before. The picture is valid until the next call.
+  cv::Mat expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// When pictures arrive, and which ones do not.
+class CameraTransport {
+ public:
+  CameraTransport(const CameraParams& params, std::uint32_t seed);
+  /// Of the next picture, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::pushUntil` sees to it
+  /// that none overtakes another.
+  std::optional<double> arrivalOf(double stamp_sec);
+
+ private:
+  double latency_sec_, jitter_sec_, drop_probability_;
+  RandomStream jitter_, drops_;
+};
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,32 @@
+#include "simulation/camera/reference_picture.hpp"
+
+#include <algorithm>
+
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/opening.hpp"
+#include "simulation/rendering/renderer.hpp"
+#include "simulation/scene/scene.hpp"
+
+namespace window_ingress::simulation {
+namespace {
+
+constexpr double kLeastDistance_m = 2.5;
+constexpr double kGreatestPart = 0.5;  // of the picture's width or height that the opening may fill
+
+}  // namespace
+
+cv::Mat referencePicture(const Scenario& scenario, geometry::Quadrilateral* corners) {
+  const geometry::PinholeCamera ideal = scenario.camera.model().withoutDistortion();
+  const geometry::OpeningSize size = scenario.opening();
+  const double distance_m =
+      std::max({kLeastDistance_m, ideal.fx * size.width_m / (kGreatestPart * ideal.width),
+                ideal.fy * size.height_m / (kGreatestPart * ideal.height)});
+  const Eigen::Isometry3d T_camera_window = geometry::makePose(geometry::R_optical_flu(), {0, 0, distance_m});
+  cv::Mat picture;
+  Renderer(buildScene(asPhotographed(scenario)), ideal).render(T_camera_window, picture);
+  if (scenario.camera.gain != 1.0) picture.convertTo(picture, CV_8U, scenario.camera.gain);
+  if (corners) *corners = *geometry::projectOpening(ideal, T_camera_window, size);
+  return picture;
+}
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "simulation/rendering/gl_functions.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "simulation/scene/glass.hpp"
+
+namespace window_ingress::simulation {
+
+/// The panes of a scene, all in one plane. What they mirror is a picture of its own, taken by the mirrored
+/// camera with the same pixels; laid over what is seen through them, each point by its own part.
+class Glazing {
+ public:
+  /// \throws std::runtime_error if OpenGL refuses
+  void create(const GlFunctions& gl, const geometry::PinholeCamera& camera, const std::vector<Pane>& panes);
+
+  /// Part of the picture in which panes may be seen; nothing of them is seen from the room.
+  cv::Rect partIn(const Eigen::Isometry3d& T_camera_window) const;
+  Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) const;
+
+  /// What is drawn between these two is what the panes mirror: only what lies before them.
+  void beginMirror(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_mirrored) const;
+  void endMirror(const GlFunctions& gl) const;
+  /// Over the picture as drawn; leaves its alpha channel as it is, and OpenGL's arrays pointing elsewhere.
+  void draw(const GlFunctions& gl, const Eigen::Matrix4d& projection,
+            const Eigen::Isometry3d& T_camera_window);
+
+ private:
+  struct Point {
+    std::array<float, 3> position;  // window frame [m]
+    std::array<float, 4> mirrored;  // texture coordinates, homogeneous
+    std::array<float, 4> colour;    // white; its alpha is the part that is mirrored
+  };
+  void addPane(const Pane& pane, const Eigen::Matrix4d& texture_from_window, const Eigen::Vector3d& eye);
+
+  geometry::PinholeCamera camera_;
+  std::vector<Pane> panes_;
+  GLuint mirror_ = 0, texture_ = 0;
+  std::vector<Point> points_;
+  std::vector<GLuint> corners_;
+};
+
+/// The smallest part of the picture that holds all these points; all of it if one of them is not in front of
+/// the camera.
+cv::Rect partAround(const geometry::PinholeCamera& camera, const std::vector<Eigen::Vector3d>& points_camera);
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,99 @@
+/// Parts of which `buildScene` makes a world. All take and give coordinates of the target's window frame.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/scene/scene.hpp"
+
+namespace window_ingress::simulation {
+
+/// An upright rectangle in a plane of constant x [m].
+struct Rectangle {
+  double right_m, left_m, bottom_m, top_m;  // y from right to left, z from bottom to top
+  static Rectangle around(double y_m, double z_m, double width_m, double height_m) {
+    return {y_m - 0.5 * width_m, y_m + 0.5 * width_m, z_m - 0.5 * height_m, z_m + 0.5 * height_m};
+  }
+  Rectangle grown(double by_m) const {
+    return {right_m - by_m, left_m + by_m, bottom_m - by_m, top_m + by_m};
+  }
+  bool contains(double y_m, double z_m) const {
+    return y_m > right_m && y_m < left_m && z_m > bottom_m && z_m < top_m;
+  }
+};
+
+/// A window in the front wall, the target or another one.
+struct Fitting {
+  Rectangle opening;
+  double frame_width_m, frame_front_m;  // the frame reaches from there to the wall
+  Surface frame, reveal;
+  std::string surround, closed_by, bars;
+  std::string frame_name, closed_name;  // what a contact with it is called
+  double dirt;                          // of its glass
+};
+
+Surface painted(const ColourParams& colour, Texture texture = Texture::kPlain);
+/// One of the textures that a scenario names for walls.
+Texture wallTexture(const std::string& name);
+Eigen::AlignedBox3d box(double x0, double x1, const Rectangle& face);
+
+// --- light (scene_light.cpp)
+Lighting daylight(const Scenario& scenario);
+Lighting roomLight(const Scenario& scenario);
+Lighting skyLight(const Scenario& scenario);
+std::optional<Fog> fogOf(const Scenario& scenario);
+/// Cuts `region` down to where the sun shines through a hole in the plane `x_m`.
+void addBeam(std::vector<HalfSpace>& region, double x_m, const Rectangle& hole, const Eigen::Vector3d& sun);
+/// Height of the lower border of the shadow that the eaves throw on an upright plane.
+double eavesShadow(const Scenario& scenario, double x_m);
+/// Daylight on the inner faces of an opening whose front lies at `x_m`.
+Lighting revealLight(const Scenario& scenario, const Rectangle& opening, double x_m);
+
+// --- walls (scene_walls.cpp)
+/// The face of a wall at `x_m` towards the outside (or towards the room), with holes. Cut along the lines of
+/// all holes, so that no vertex lies on another's side: no cracks. What lies above `shadow_z_m` gets no sun.
+void addWallFace(Mesh& mesh, double x_m, bool outside, const Rectangle& wall,
+                 const std::vector<Rectangle>& holes, const Surface& surface, double shadow_z_m);
+/// Four bars around an opening from x0 to x1, without their inner faces.
+void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, double x1,
+              const Surface& surface);
+/// The inner faces of an opening from x0 to x1.
+void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface);
+/// A picture over a rectangle, towards the outside.
+void addPane(Mesh& mesh, double x_m, const Rectangle& face, const Surface& surface);
+/// What is solid of a wall between x0 and x1.
+void addSolidWall(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& wall,
+                  const std::vector<Rectangle>& holes, double x0, double x1);
+void addSolid(Scene& scene, const std::string& name, const Eigen::AlignedBox3d& solid,
+              const Surface& surface);
+
+// --- what stands where (scene_layout.cpp)
+constexpr double kOverhang_m = 0.45;  // of the roof
+/// The roof, as something to run into.
+Eigen::AlignedBox3d roofBox(const Scenario& scenario);
+Rectangle frontWall(const Scenario& scenario);
+Rectangle roomWalls(const Scenario& scenario);
+Rectangle backWindow(const Scenario& scenario);
+Rectangle targetOpening(const Scenario& scenario);
+Rectangle openingOf(const DecoyParams& decoy);
+Rectangle openingOf(const Scenario& scenario, const DoorParams& door);
+/// Through which the room is seen: the target and other windows, if open or of clear glass.
+std::vector<Rectangle> clearHoles(const Scenario& scenario);
+/// Recesses and holes in the front wall.
+std::vector<Rectangle> wallHoles(const Scenario& scenario);
+
+// --- the parts
+void addFront(const Scenario& scenario, Scene& scene);
+void addTarget(const Scenario& scenario, Scene& scene);
+void addDecoy(const Scenario& scenario, const DecoyParams& decoy, Scene& scene);
+void addFitting(const Scenario& scenario, const Fitting& fitting, Scene& scene);
+void addDoor(const Scenario& scenario, const DoorParams& door, Scene& scene);
+void addPoster(const Scenario& scenario, const PosterParams& poster, Scene& scene);
+void addRoof(const Scenario& scenario, Scene& scene);
+void addGarden(Scene& scene);
+void addSky(const Scenario& scenario, Scene& scene);
+void addRoom(const Scenario& scenario, Scene& scene);
+void addFurniture(const Scenario& scenario, Scene& scene);
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,133 @@
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "simulation/surfaces/texture_patterns.hpp"
+
+namespace window_ingress::simulation {
+namespace {
+
+constexpr int kSize = kTextureSize;
+
+// Trees and hedge as a dark band with a ragged upper border around `row`; width of the border's bumps in
+// rows.
+cv::Mat treeLine(cv::RNG& random, double row, double rough) {
+  cv::Mat mask(kSize, kSize, CV_8U, cv::Scalar(0)), profile = bumps(random, 8) + 0.4 * bumps(random, 32);
+  for (int x = 0; x < kSize; ++x) {
+    const int top =
+        cv::saturate_cast<uchar>((row + rough * profile.at<float>(0, x)) * 255.0 / kSize) * kSize / 255;
+    mask.col(x).rowRange(std::min(top, kSize - 1), kSize).setTo(255);
+  }
+  return mask;
+}
+
+cv::Mat verticalGradient(const cv::Scalar& top, const cv::Scalar& bottom) {
+  cv::Mat image(kSize, kSize, CV_32FC3);
+  for (int y = 0; y < kSize; ++y) image.row(y).setTo(top + (bottom - top) * (static_cast<double>(y) / kSize));
+  return image;
+}
+
+cv::Mat bytes(const cv::Mat& image) {
+  cv::Mat result;
+  image.convertTo(result, CV_8U);
+  return result;
+}
+
+}  // namespace
+
+// What a pane shows: a dim room, curtains at both sides, and over both the reflection of sky and garden.
+cv::Mat glass(cv::RNG& random) {
+  cv::Mat image(kSize, kSize, CV_32FC3);
+  const cv::Mat garden = treeLine(random, 300.0, 26.0);
+  for (int y = 0; y < kSize; ++y) {
+    const double sky = std::pow(1.0 - static_cast<double>(y) / kSize, 1.5);
+    for (int x = 0; x < kSize; ++x) {
+      const double aside = std::abs(x - 0.5 * kSize) / (0.5 * kSize);
+      const double fold = aside > 0.62 ? 90.0 + 25.0 * std::sin(x * 0.19) : 0.0;
+      const double streak = std::abs(x + y - 600) < 55 ? 28.0 : 0.0;
+      const double reflected = garden.at<uchar>(y, x) ? 0.0 : 24.0;
+      image.at<cv::Vec3f>(y, x) =
+          cv::Vec3f(static_cast<float>(38 + 70 * sky + fold + streak + 0.7 * reflected),
+                    static_cast<float>(46 + 90 * sky + fold + streak + 0.9 * reflected),
+                    static_cast<float>(50 + 115 * sky + 0.9 * fold + streak + 1.1 * reflected));
+    }
+  }
+  return bytes(image);
+}
+
+cv::Mat curtain(cv::RNG& random) {
+  cv::Mat image(kSize, kSize, CV_32F);
+  const cv::Mat sway = bumps(random, 4);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const double phase = 2.0 * M_PI * x / 46.0 + 0.8 * sway.at<float>(y, x);
+      const double gap = std::abs(x - kSize / 2) < 3 ? -70.0 : 0.0;
+      image.at<float>(y, x) =
+          static_cast<float>(205.0 + 34.0 * std::sin(phase) + 10.0 * std::sin(2.3 * phase) + gap);
+    }
+  return tinted(image + noise(random, {{128, 1.5}}), {255, 255, 255});
+}
+
+cv::Mat poster(cv::RNG& random) {
+  cv::Mat image(kTextureSize, kTextureSize, CV_8UC3, cv::Scalar(235, 225, 200));
+  cv::rectangle(image, {0, 0, kTextureSize, 330}, cv::Scalar(90, 150, 205), cv::FILLED);
+  cv::circle(image, {380, 100}, 55, cv::Scalar(250, 215, 90), cv::FILLED, cv::LINE_AA);
+  for (int hill = 0; hill < 5; ++hill) {
+    const cv::Point centre(random.uniform(0, kTextureSize), 330),
+        axes(random.uniform(80, 220), random.uniform(50, 170));
+    const cv::Scalar green(50 + random.uniform(0, 50), 100 + random.uniform(0, 60), 60);
+    cv::ellipse(image, centre, axes, 0, 180, 360, green, cv::FILLED, cv::LINE_AA);
+  }
+  for (int line = 0; line < 4; ++line) {
+    const cv::Rect words(40, 360 + 36 * line, random.uniform(200, 430), 14);
+    cv::rectangle(image, words, cv::Scalar(60, 50, 50), cv::FILLED);
+  }
+  return image;
+}
+
+// A room seen through an open window from some metres away, printed: the back wall with its picture, and the
+// inner faces of the opening as a narrow border, lit from the left.
+cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall) {
+  constexpr int kFace_px = 14;
+  const cv::Point inner[] = {{kFace_px, kFace_px},
+                             {kSize - kFace_px, kFace_px},
+                             {kSize - kFace_px, kSize - kFace_px},
+                             {kFace_px, kSize - kFace_px}};
+  const cv::Point outer[] = {{0, 0}, {kSize, 0}, {kSize, kSize}, {0, kSize}};
+  const cv::Scalar faces[] = {
+      {126, 123, 117}, {182, 178, 169}, {240, 235, 223}, {137, 134, 127}};  // from the top
+  cv::Mat image(kSize, kSize, CV_8UC3, cv::Scalar(96, 93, 84));
+  for (int side = 0; side < 4; ++side) {
+    const int next = (side + 1) % 4;
+    const std::vector<cv::Point> face{outer[side], outer[next], inner[next], inner[side]};
+    cv::fillConvexPoly(image, face, faces[side], cv::LINE_AA);
+  }
+  const cv::Rect picture(90, 143, 217, 188);
+  cv::rectangle(image, {picture.x - 10, picture.y - 12, picture.width + 20, picture.height + 24},
+                {48, 37, 27}, cv::FILLED);
+  cv::Mat small;
+  cv::resize(picture_on_wall, small, picture.size(), 0, 0, cv::INTER_AREA);
+  small.convertTo(image(picture), CV_8U, 0.53);
+  return roughened(random, image, 2.0);
+}
+
+// Sky, trees, lawn: what a window on the other side of the house shows.
+cv::Mat gardenView(cv::RNG& random) {
+  cv::Mat image = bytes(verticalGradient({200, 222, 252}, {238, 244, 252}));
+  image.setTo(cv::Scalar(92, 112, 74), treeLine(random, 270.0, 34.0));
+  image.setTo(cv::Scalar(132, 156, 92), treeLine(random, 352.0, 3.0));
+  return roughened(random, image, 3.0);
+}
+
+cv::Mat chessboard() {
+  constexpr int kColumns = 11, kRows = 9;
+  cv::Mat squares(kRows, kColumns, CV_8UC3, cv::Scalar::all(235)), fine, image;
+  for (int row = 1; row + 1 < kRows; ++row)
+    for (int column = 1; column + 1 < kColumns; ++column)
+      if ((row + column) % 2 == 0) squares.at<cv::Vec3b>(row, column) = {25, 25, 25};
+  cv::resize(squares, fine, {kColumns * 64, kRows * 64}, 0, 0, cv::INTER_NEAREST);
+  cv::resize(fine, image, {kSize, kSize}, 0, 0, cv::INTER_AREA);
+  return image;
+}
+
+}  // namespace window_ingress::simulation

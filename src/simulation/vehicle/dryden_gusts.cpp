@@ -1,0 +1,63 @@
+#include "simulation/vehicle/dryden_gusts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace window_ingress::simulation {
+namespace {
+
+constexpr double kFoot_m = 0.3048;
+constexpr double kLeastAirspeed_mps = 0.1;
+const double kRoot3 = std::sqrt(3.0);
+
+}  // namespace
+
+DrydenScale drydenScale(double height_m, double wind_20ft_mps) {
+  const double height_ft = std::clamp(height_m / kFoot_m, 10.0, 1000.0);
+  const double base = 0.177 + 0.000823 * height_ft;
+  const double level_m = kFoot_m * height_ft / std::pow(base, 1.2);
+  const double up_mps = 0.1 * wind_20ft_mps, level_mps = up_mps / std::pow(base, 0.4);
+  return {{level_mps, level_mps, up_mps}, {level_m, level_m, kFoot_m * height_ft}};
+}
+
+double windAtHeight(double height_m, double wind_20ft_mps) {
+  const double height_ft = std::max(height_m / kFoot_m, 3.0), roughness_ft = 0.15;
+  return wind_20ft_mps * std::log(height_ft / roughness_ft) / std::log(20.0 / roughness_ft);
+}
+
+DrydenGusts::DrydenGusts(std::uint32_t seed) : random_(seed, "wind") {
+  const double for_ever = std::numeric_limits<double>::max();
+  along_ = random_.normal();
+  across_.step(for_ever, random_);
+  up_.step(for_ever, random_);
+}
+
+// Transition exp(-s) [1 0; s 1] over s time constants; the noise is what makes up for the variance lost of
+// the stationary [1/2 1/4; 1/4 1/4].
+void DrydenGusts::Across::step(double s, RandomStream& random) {
+  const double kept = std::exp(-s), squared = kept * kept;
+  const double lost = squared > 0.0 ? squared : 0.0, t = squared > 0.0 ? s : 0.0;
+  const double q11 = 0.5 * (1.0 - lost);
+  const double q12 = 0.25 - lost * (0.5 * t + 0.25);
+  const double q22 = 0.25 - lost * (0.5 * t * t + 0.5 * t + 0.25);
+  const double l11 = std::sqrt(q11), l21 = l11 > 0.0 ? q12 / l11 : 0.0;
+  const double l22 = std::sqrt(std::max(0.0, q22 - l21 * l21));
+  const double a = random.normal(), b = random.normal();
+  second = kept * (t * first + second) + l21 * a + l22 * b;
+  first = kept * first + l11 * a;
+}
+
+double DrydenGusts::Across::output() const { return kRoot3 * first + (1.0 - kRoot3) * second; }
+
+Eigen::Vector3d DrydenGusts::step(double step_sec, const DrydenScale& scale, double airspeed_mps) {
+  const Eigen::Vector3d steps =
+      step_sec * std::max(airspeed_mps, kLeastAirspeed_mps) * scale.length_m.cwiseInverse();
+  const double kept = std::exp(-steps.x());
+  along_ = kept * along_ + random_.normal(std::sqrt(1.0 - kept * kept));
+  across_.step(steps.y(), random_);
+  up_.step(steps.z(), random_);
+  return scale.sigma_mps.cwiseProduct(Eigen::Vector3d(along_, across_.output(), up_.output()));
+}
+
+}  // namespace window_ingress::simulation

@@ -1,0 +1,128 @@
+#include "adapters/bags/bag_check.hpp"
+
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/bags/replay.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own, and small bags in it.
+class BagCheck : public testing::Test {
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/bag_check_test_XXXXXX";
+    folder_ = mkdtemp(name);
+    file_ = (folder_ / "small.bag").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    bag.setChunkThreshold(1500);
+    for (int i = 0; i < 4; ++i) {
+      sensor_msgs::Image image;
+      image.header.stamp = ros::Time(100 + i);
+      image.encoding = "mono8";
+      image.width = image.step = 12, image.height = 8;
+      image.data.assign(96, static_cast<std::uint8_t>(20 * i));
+      bag.write("image_raw", image.header.stamp, image);
+      sensor_msgs::CameraInfo info = toMsg(geometry::PinholeCamera::fromFieldOfView(12, 8, 1.0));
+      info.header = image.header;
+      bag.write("camera_info", image.header.stamp, info);
+    }
+  }
+  std::vector<char> bytes() const {
+    std::ifstream stream(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+  void put(const std::vector<char>& content) const {
+    std::ofstream(file_, std::ios::binary)
+        .write(content.data(), static_cast<std::streamsize>(content.size()));
+  }
+  /// Opened and replayed; true if it was read to its end, false if it was refused by name.
+  bool replayed() const {
+    try {
+      rosbag::Bag bag;
+      openBag(bag, file_);
+      ReplayParams params;
+      params.topics = chooseTopics(bag, {});
+      replay(bag, params, [](const ReplayedFrame&) {});
+      return true;
+    } catch (const BagError& error) {
+      EXPECT_EQ(std::string(error.what()).find(file_), 0u) << error.what();
+      return false;
+    }
+  }
+
+  fs::path folder_;
+  std::string file_;
+};
+
+TEST_F(BagCheck, HasNothingAgainstWhatRosbagWrites) {
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    write(compression);
+    EXPECT_EQ(whyDamaged(file_), "");
+    EXPECT_TRUE(replayed());
+  }
+}
+
+TEST_F(BagCheck, LeavesWhatIsNoBagToRosbag) {
+  EXPECT_EQ(whyDamaged("/nowhere.bag"), "");
+  put({});
+  EXPECT_EQ(whyDamaged(file_), "");
+  put(std::vector<char>(500, 'x'));
+  EXPECT_EQ(whyDamaged(file_), "");
+  const std::string old = "#ROSBAG V1.2\nand more of it";
+  put({old.begin(), old.end()});
+  EXPECT_NE(whyDamaged(file_).find("old version"), std::string::npos);
+}
+
+// Opening a bag takes rosbag tens of milliseconds: only some of the files are handed on to it.
+TEST_F(BagCheck, ABagThatIsCutOffAnywhereIsRefused) {
+  write();
+  const std::vector<char> whole = bytes();
+  for (std::size_t length = 0; length < whole.size(); length += length + 400 < whole.size() ? 7 : 1) {
+    put({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)});
+    if (length > 13) {
+      EXPECT_NE(whyDamaged(file_), "") << length;
+    }
+    if (length % 1001 == 0) {
+      EXPECT_FALSE(replayed()) << length;
+    }
+  }
+}
+
+// Of every byte in turn one bit or all: nothing of it may crash rosbag.
+TEST_F(BagCheck, FlippedBytesAreReadOrRefused) {
+  write();
+  const std::vector<char> whole = bytes();
+  std::mt19937 random(1);
+  int accepted = 0, refused = 0;
+  for (std::size_t place = 0; place < whole.size(); place += 2) {
+    std::vector<char> flipped = whole;
+    flipped[place] = static_cast<char>(flipped[place] ^ (place % 3 == 0 ? 0xff : 1 << random() % 8));
+    put(flipped);
+    const bool sound = whyDamaged(file_).empty();
+    ++(sound ? accepted : refused);
+    if (sound && accepted % 89 == 0) replayed();
+  }
+  EXPECT_GT(accepted, 100) << "a flipped pixel is a picture still";
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace window_ingress::adapters

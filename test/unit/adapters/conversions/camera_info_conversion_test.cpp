@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "adapters/conversions/msg_conversion.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+sensor_msgs::CameraInfo makeInfo() {
+  sensor_msgs::CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  info.distortion_model = "plumb_bob";
+  info.D = {-0.2, 0.05, 0.001, -0.002, 0.0};
+  info.K = {554.0, 0.0, 319.5, 0.0, 553.0, 239.5, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {500.0, 0.0, 320.0, 0.0, 0.0, 501.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+template <typename Change>
+std::string refusal(Change change, bool rectified = false) {
+  sensor_msgs::CameraInfo info = makeInfo();
+  change(info);
+  const auto camera = cameraFromMsg(info, rectified);
+  EXPECT_EQ(camera.value.has_value(), camera.reason.empty());
+  return camera.reason;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(CameraInfo, RawPicturesTakeKAndD) {
+  const auto camera = cameraFromMsg(makeInfo(), false);
+  ASSERT_TRUE(camera) << camera.reason;
+  EXPECT_EQ(camera.value->fx, 554.0);
+  EXPECT_EQ(camera.value->fy, 553.0);
+  EXPECT_EQ(camera.value->cx, 319.5);
+  EXPECT_EQ(camera.value->cy, 239.5);
+  EXPECT_EQ(camera.value->distortion[0], -0.2);
+}
+
+TEST(CameraInfo, RectifiedPicturesTakePAndNoDistortion) {
+  const auto camera = cameraFromMsg(makeInfo(), true);
+  ASSERT_TRUE(camera) << camera.reason;
+  EXPECT_EQ(camera.value->fx, 500.0);
+  EXPECT_EQ(camera.value->cy, 240.0);
+  EXPECT_FALSE(camera.value->hasDistortion());
+}
+
+TEST(CameraInfo, ZeroKIsUncalibrated) {
+  EXPECT_TRUE(contains(refusal([](auto& info) { info.K.assign(0.0); }), "uncalibrated"));
+}
+
+TEST(CameraInfo, RefusesNumbersThatAreNotFinite) {
+  for (const double bad : {kNan, kInf, -kInf}) {
+    EXPECT_FALSE(refusal([&](auto& info) { info.K[0] = bad; }).empty());
+    EXPECT_FALSE(refusal([&](auto& info) { info.D[2] = bad; }).empty());
+    EXPECT_FALSE(refusal([&](auto& info) { info.R[4] = bad; }).empty());
+    EXPECT_FALSE(refusal([&](auto& info) { info.P[3] = bad; }).empty());
+  }
+}
+
+TEST(CameraInfo, RefusesFocalLengthsThatAreNotPositive) {
+  EXPECT_FALSE(refusal([](auto& info) { info.K[0] = -554.0; }).empty());
+  EXPECT_FALSE(refusal([](auto& info) { info.K[4] = 0.0; }).empty());
+  EXPECT_FALSE(refusal([](auto& info) { info.P[0] = -1.0; }, true).empty());
+}
+
+TEST(CameraInfo, ZeroPServesRawPicturesOnly) {
+  EXPECT_TRUE(refusal([](auto& info) { info.P.assign(0.0); }).empty());
+  EXPECT_TRUE(contains(refusal([](auto& info) { info.P.assign(0.0); }, true), "P is zero"));
+}
+
+TEST(CameraInfo, RefusesSizesBeforeAnyAllocation) {
+  for (const std::uint32_t side : {0u, 100000u, 4000000000u}) {
+    EXPECT_TRUE(contains(refusal([&](auto& info) { info.width = side; }), "size"));
+    EXPECT_TRUE(contains(refusal([&](auto& info) { info.height = side; }), "size"));
+  }
+}
+
+TEST(CameraInfo, RefusesDOfTheWrongLength) {
+  for (const std::size_t length : {1u, 3u, 4u, 6u, 8u, 100000u})
+    EXPECT_TRUE(contains(refusal([&](auto& info) { info.D.assign(length, 0.01); }), "D holds")) << length;
+  EXPECT_TRUE(refusal([](auto& info) { info.D.clear(); }).empty()) << "no distortion given";
+}
+
+TEST(CameraInfo, RefusesUnknownModelsAndSaysWhichAreKnown) {
+  for (const std::string model : {"Equidistant", "", "PLUMB_BOB", "division"})
+    EXPECT_TRUE(contains(refusal([&](auto& info) { info.distortion_model = model; }), "plumb_bob")) << model;
+  EXPECT_TRUE(refusal([](auto& info) { info.distortion_model = "equidistant"; }, true).empty())
+      << "rectified pictures have no model any more";
+}
+
+TEST(CameraInfo, RationalModelOnlyWithoutItsDenominator) {
+  const auto rational = [](double k4) {
+    return [k4](auto& info) {
+      info.distortion_model = "rational_polynomial";
+      info.D = {0.1, 0.0, 0.0, 0.0, 0.0, k4, 0.0, 0.0};
+    };
+  };
+  EXPECT_TRUE(refusal(rational(0.0)).empty());
+  EXPECT_TRUE(contains(refusal(rational(0.1)), "k4"));
+}
+
+TEST(CameraInfo, BinningHalvesFocalLengthAndKeepsPixelCentres) {
+  sensor_msgs::CameraInfo info = makeInfo();
+  info.binning_x = info.binning_y = 2;
+  const auto camera = cameraFromMsg(info, false);
+  ASSERT_TRUE(camera) << camera.reason;
+  EXPECT_EQ(camera.value->fx, 277.0);
+  EXPECT_EQ(camera.value->width, 320);
+  EXPECT_DOUBLE_EQ(camera.value->cx, 159.5) << "centre of 640 pixels stays centre of 320";
+  EXPECT_TRUE(contains(refusal([](auto& i) { i.binning_x = 4000000000u; }), "binning"));
+}
+
+TEST(CameraInfo, BinningZeroIsOne) {
+  sensor_msgs::CameraInfo info = makeInfo();
+  info.binning_x = info.binning_y = 1;
+  EXPECT_EQ(cameraFromMsg(info, false).value->cx, cameraFromMsg(makeInfo(), false).value->cx);
+}
+
+TEST(CameraInfo, RegionMovesThePrincipalPoint) {
+  sensor_msgs::CameraInfo info = makeInfo();
+  info.roi.x_offset = 100;
+  info.roi.y_offset = 50;
+  info.roi.width = 320;
+  info.roi.height = 240;
+  const auto camera = cameraFromMsg(info, false);
+  ASSERT_TRUE(camera) << camera.reason;
+  EXPECT_EQ(camera.value->cx, 219.5);
+  EXPECT_EQ(camera.value->cy, 189.5);
+  EXPECT_EQ(camera.value->width, 320);
+  EXPECT_FALSE(cameraFromMsg(info, true)) << "a raw region does not fit rectified pictures";
+  info.roi.do_rectify = true;
+  EXPECT_TRUE(cameraFromMsg(info, true));
+}
+
+TEST(CameraInfo, RefusesRegionsOffTheImage) {
+  EXPECT_FALSE(refusal([](auto& info) {
+                 info.roi.x_offset = 600, info.roi.width = 100, info.roi.height = 100;
+               }).empty());
+  EXPECT_FALSE(refusal([](auto& info) {
+                 info.roi.x_offset = 4294967295u, info.roi.width = 2, info.roi.height = 2;
+               }).empty());
+  EXPECT_FALSE(refusal([](auto& info) { info.roi.width = 100; }).empty()) << "without height";
+}
+
+TEST(CameraInfo, GoesThereAndBack) {
+  const auto camera = cameraFromMsg(makeInfo(), false);
+  const auto again = cameraFromMsg(toMsg(*camera.value), false);
+  ASSERT_TRUE(again) << again.reason;
+  EXPECT_EQ(again.value->K(), camera.value->K());
+  EXPECT_EQ(again.value->distortion, camera.value->distortion);
+}
+
+}  // namespace
+}  // namespace window_ingress::adapters

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "adapters/markers/markers.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
+#include "window_row.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+facade::FacadeMemory memoryOfARow() {
+  const test::WindowRow row;
+  facade::FacadeMemory memory{facade::FacadeParams()};
+  std::mt19937 random(1);
+  for (int n = 0; n < 20; ++n)
+    memory.see(row.look(10.0 + 0.1 * n, row.from({-8.0, -3.8, 1.5}), 2, random),
+               row.filtered(2, 10.0 + 0.1 * n), row.size);
+  return memory;
+}
+
+TEST(FacadeConversion, TellsEveryWindowWithItsNumberAndWhichIsTheTarget) {
+  const auto memory = memoryOfARow();
+  const window_ingress::Facade message = toMsg(memory, 13.0);
+  ASSERT_EQ(message.windows.size(), 5u);
+  EXPECT_EQ(message.target_id, memory.targetId());
+  EXPECT_FALSE(message.target_chosen);
+  for (const window_ingress::KnownWindow& window : message.windows) {
+    const facade::KnownWindow& known = *std::find_if(memory.windows().begin(), memory.windows().end(),
+                                                     [&](const auto& one) { return one.id == window.id; });
+    EXPECT_DOUBLE_EQ(window.pose.position.y, known.place.position_m.y());
+    EXPECT_DOUBLE_EQ(window.position_covariance[4], known.place.covariance(1, 1));
+    EXPECT_NEAR(window.last_seen, 1.1, 1e-9);
+    EXPECT_NEAR(window.width, 1.2, 0.1);
+  }
+  EXPECT_EQ(facadeMarkers(message).markers.size(), 4u + 5u) << "a border each but the target's, and a text";
+}
+
+TEST(FacadeConversion, WhatIsTooSmallOrBadOrOfAnotherLookIsDrawnFaintlyWithoutANumber) {
+  window_ingress::Facade message;
+  for (const auto& [id, width, alike, score, openness] : {std::tuple{1u, 1.2, true, 0.9, 0},
+                                                          {2u, 0.1, true, 0.9, 0},
+                                                          {3u, 1.2, false, 0.9, 0},
+                                                          {4u, 1.2, true, 0.2, 0},
+                                                          {5u, 1.2, false, 0.0, 2}}) {
+    window_ingress::KnownWindow& window = message.windows.emplace_back();
+    window.id = id;
+    window.pose.orientation.w = 1.0;
+    window.width = window.height = width;
+    window.may_be_target = alike;
+    window.score = score;
+    window.openness = static_cast<std::uint8_t>(openness);
+  }
+  const auto markers = facadeMarkers(message).markers;
+  ASSERT_EQ(markers.size(), 10u);
+  for (const std::size_t plain : {0u, 4u}) {
+    EXPECT_GT(markers[2 * plain].color.a, 0.8F);
+    EXPECT_EQ(markers[2 * plain + 1].action, visualization_msgs::Marker::ADD);
+  }
+  for (const std::size_t faint : {1u, 2u, 3u}) {
+    EXPECT_LT(markers[2 * faint].color.a, 0.5F);
+    EXPECT_EQ(markers[2 * faint + 1].action, visualization_msgs::Marker::DELETE);
+  }
+  EXPECT_EQ(markers[9].text, "5: CLOSED");
+  EXPECT_GT(markers[9].pose.position.z, 0.6) << "above its border";
+}
+
+TEST(FacadeConversion, WindowsOfAPictureGoThereAndBackAndBadOnesAreLeftOut) {
+  std::mt19937 random(2);
+  const test::WindowRow row;
+  detection::SeenWindow window = *row.seen(0, row.from({-5.0, 0.0, 1.5}), random);
+  window.has_appearance = true;
+  window.bhattacharyya = 0.25;
+  window.is_target = true;
+  window_ingress::WindowDetection message;
+  message.windows.assign(100, toMsg(window));
+  message.windows[0].corner_x[1] = std::numeric_limits<double>::quiet_NaN();
+  message.windows[1].corner_x.fill(0.0);
+  message.windows[2].score = std::numeric_limits<double>::infinity();
+  const auto windows = seenWindowsFrom(message);
+  ASSERT_EQ(windows.size(), kMostSeenWindows);
+  EXPECT_EQ(windows[0].corners, window.corners);
+  EXPECT_EQ(windows[0].bhattacharyya, 0.25);
+  EXPECT_TRUE(windows[0].is_target);
+  EXPECT_TRUE(windows[0].may_be_target);
+}
+
+TEST(FacadeConversion, APlaceIsRememberedOnlyWithANumberAndInTheSameFrame) {
+  window_ingress::WindowPose message;
+  message.filtered_frame_id = "odom";
+  message.remembered.x = 2.0;
+  EXPECT_FALSE(rememberedFrom(message, "odom"));
+  message.window_id = 3;
+  ASSERT_TRUE(rememberedFrom(message, "odom"));
+  EXPECT_EQ(rememberedFrom(message, "odom")->x(), 2.0);
+  EXPECT_FALSE(rememberedFrom(message, "map"));
+  message.remembered.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(rememberedFrom(message, "odom"));
+}
+
+}  // namespace
+}  // namespace window_ingress::adapters

@@ -1,0 +1,100 @@
+#include "estimation/checks/parallax_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace window_ingress::estimation {
+namespace {
+
+using Verdict = ParallaxCheck::Verdict;
+
+struct Seen {
+  ParallaxCheck check;
+  double way_m = 0.0;  ///< until there was a verdict
+};
+
+/// Moves across the sight of a window whose true size over the said one is `factor`, with noise.
+Seen moveBy(double way_m, double factor, double distance_m, unsigned seed, const Eigen::Vector3d& direction) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gauss;
+  const Eigen::Vector3d window(distance_m, 0.3, 0.2);
+  Seen seen;
+  for (double moved = 0.0; moved <= way_m; moved += 0.02) {
+    const Eigen::Vector3d camera = moved * direction.normalized();
+    const Eigen::Vector3d noise(gauss(random), gauss(random), gauss(random));
+    const Eigen::Vector3d sight = window + (0.01 + 0.004 * distance_m) * noise - camera;
+    if (seen.check.verdict() == Verdict::kOpen) seen.way_m = moved;
+    seen.check.see(2.0 * moved, camera, camera + sight / factor);  // 0.5 m/s
+  }
+  return seen;
+}
+
+TEST(ParallaxCheck, NamesAWindowOfAnotherSizeAfterHalfAMetre) {
+  for (unsigned seed = 1; seed <= 100; ++seed)
+    for (const double factor : {0.4, 0.5}) {
+      const Seen seen = moveBy(1.0, factor, 5.0 * factor, seed, {0, 1, 0});
+      EXPECT_EQ(seen.check.verdict(), Verdict::kOther) << factor;
+      EXPECT_LT(seen.way_m, 0.8) << factor;
+      EXPECT_NEAR(seen.check.factor(), factor, 0.25 * factor);
+    }
+}
+
+TEST(ParallaxCheck, NeverNamesOneOfTheSizeSaid) {
+  int confirmed = 0;
+  for (unsigned seed = 1; seed <= 500; ++seed)
+    for (const double distance_m : {2.0, 5.0, 9.0}) {
+      const Seen seen = moveBy(0.6, 1.0, distance_m, seed, {0.3, 1, 0.5});
+      EXPECT_NE(seen.check.verdict(), Verdict::kOther) << distance_m;
+      confirmed += seen.check.verdict() == Verdict::kAsSaid;
+    }
+  EXPECT_GT(confirmed, 400);
+}
+
+TEST(ParallaxCheck, OdometryATenthOfASecondLateIsNoOtherWindow) {
+  for (const double late_sec : {-0.1, 0.1})
+    for (const double distance_m : {3.0, 5.0, 8.0}) {
+      ParallaxCheck check;
+      const Eigen::Vector3d window(distance_m, 0.0, 0.0);
+      const auto yAt = [](double t) {
+        return t < 0.0 ? 0.0 : t < 0.6 ? 0.75 * t * t : 0.27 + 0.9 * (t - 0.6);
+      };
+      for (double t = 0.0; t < 2.0; t += 0.033) {
+        const Eigen::Vector3d camera(0.0, yAt(t), 0.0), told(0.0, yAt(t - late_sec), 0.0);
+        // The camera is kept on the window; the heading comes as late as the place.
+        const auto bearing = [&](double y) { return std::atan2(-y, distance_m); };
+        const double turn = bearing(told.y()) - bearing(camera.y());
+        const Eigen::AngleAxisd turned(turn, Eigen::Vector3d::UnitZ());
+        check.see(t, told, told + turned * (window - camera));
+        EXPECT_NE(check.verdict(), Verdict::kOther) << late_sec << " " << distance_m << " " << t;
+      }
+    }
+}
+
+TEST(ParallaxCheck, StaysOpenWithoutMotionAcrossTheSight) {
+  EXPECT_EQ(moveBy(0.0, 0.5, 5.0, 1, {0, 1, 0}).check.verdict(), Verdict::kOpen);
+  EXPECT_EQ(moveBy(1.0, 0.5, 5.0, 1, {5.0, 0.3, 0.2}).check.verdict(), Verdict::kOpen);
+  ParallaxCheck still;
+  for (int i = 0; i < 100; ++i) still.see(0.03 * i, {0, 0, 0}, {5, 0.01 * i, 0});
+  EXPECT_EQ(still.verdict(), Verdict::kOpen);
+}
+
+TEST(ParallaxCheck, ForgetsAndIgnoresWhatIsNoNumber) {
+  Seen seen = moveBy(0.8, 0.5, 5.0, 1, {0, 1, 0});
+  seen.check.clear();
+  EXPECT_EQ(seen.check.verdict(), Verdict::kOpen);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 50; ++i) {
+    seen.check.see(0.03 * i, {0, nan, 0.1 * i}, {5, 0, 0});
+    seen.check.see(0.03 * i, {0, 0, 0.1 * i}, {nan, 0, 0});
+    seen.check.see(nan, {0, 0, 0.1 * i}, {5, 0, 0});
+    seen.check.see(-0.03 * i, {0, 0, 0.1 * i}, {5, 0, 0});
+  }
+  EXPECT_EQ(seen.check.verdict(), Verdict::kOpen);
+}
+
+}  // namespace
+}  // namespace window_ingress::estimation

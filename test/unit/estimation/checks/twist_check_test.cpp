@@ -1,0 +1,146 @@
+#include "estimation/checks/twist_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::estimation {
+namespace {
+
+using Meaning =
+    std::function<Eigen::Vector3d(const Eigen::Matrix3d& R, const Eigen::Vector3d& velocity_odom)>;
+
+/// Flies a square at some heading; what is reported as twist is taken for the body's.
+FramesVerdict fly(double heading_rad, unsigned seed, const Meaning& twist, double noise_mps = 0.03,
+                  double side_sec = 1.5, const Eigen::Vector3d& bias_base_mps = {0, 0, 0},
+                  double slide_mps = 0.0) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  TwistCheck check{FramesParams()};
+  Eigen::Vector3d position(3, -2, 1);
+  const int side = static_cast<int>(50 * side_sec);
+  for (int i = 0; i < 2 * side; ++i) {
+    const Eigen::Vector3d velocity =
+        i < side ? Eigen::Vector3d(0.6, 0.1, 0.05) : Eigen::Vector3d(-0.1, 0.5, -0.05);
+    position += velocity / 50.0;
+    if (i < 150) position.x() += slide_mps / 50.0;
+    const Eigen::Matrix3d R = geometry::yawRotation(heading_rad);
+    const Eigen::Vector3d jitter(noise(random), noise(random), noise(random));
+    const Eigen::Vector3d reported = twist(R, velocity + noise_mps * jitter) + bias_base_mps;
+    check.add(i / 50.0, geometry::makePose(R, position + 0.005 * jitter), R * reported);
+  }
+  return check.verdict();
+}
+
+const Meaning kBody = [](const Eigen::Matrix3d& R, const Eigen::Vector3d& v) -> Eigen::Vector3d {
+  return R.transpose() * v;
+};
+const Meaning kWorld = [](const Eigen::Matrix3d&, const Eigen::Vector3d& v) { return v; };
+
+TEST(TwistCheck, AVelocityInBodyAxesIsGoodAtAnyHeading) {
+  for (int i = 0; i < 200; ++i) EXPECT_EQ(fly(-3.1 + 0.031 * i, i, kBody).state, FramesVerdict::kGood) << i;
+}
+
+TEST(TwistCheck, AVelocityInWorldAxesIsNamedWhereTheHeadingShowsIt) {
+  for (int i = 0; i < 200; ++i) {
+    const double heading = 0.5 + i * (2.0 * M_PI - 1.0) / 200.0;
+    const auto verdict = fly(heading, i, kWorld);
+    EXPECT_EQ(verdict.state, FramesVerdict::kWrong) << heading;
+    EXPECT_FALSE(verdict.what.empty());
+  }
+  EXPECT_NE(fly(1.0, 1, kWorld).what.find("world frame"), std::string::npos);
+  EXPECT_EQ(fly(0.1, 1, kWorld).state, FramesVerdict::kGood) << "both are nearly the same";
+}
+
+TEST(TwistCheck, NamesExchangedAndMirroredAxes) {
+  const auto exchanged = fly(0.7, 1, [](const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
+    const Eigen::Vector3d body = R.transpose() * v;
+    return Eigen::Vector3d(body.y(), body.x(), body.z());
+  });
+  EXPECT_NE(exchanged.what.find("exchanged"), std::string::npos) << exchanged.what;
+  const auto ned = fly(0.7, 1, [](const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
+    const Eigen::Vector3d body = R.transpose() * v;
+    return Eigen::Vector3d(body.x(), -body.y(), -body.z());
+  });
+  EXPECT_NE(ned.what.find("forward-right-down"), std::string::npos) << ned.what;
+  const auto none = fly(
+      0.7, 1, [](const Eigen::Matrix3d&, const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); }, 0.0,
+      5.0);
+  EXPECT_NE(none.what.find("does not fit"), std::string::npos) << none.what;
+}
+
+TEST(TwistCheck, ABiasFixedInTheBodyIsNoFault) {
+  for (int i = 0; i < 100; ++i) {
+    const double heading = -3.1 + 0.062 * i;
+    const Eigen::Vector3d bias = geometry::yawRotation(0.1 * i) * Eigen::Vector3d(0.29, 0.0, 0.0);
+    EXPECT_NE(fly(heading, i, kBody, 0.03, 8.0, bias).state, FramesVerdict::kWrong) << heading;
+    const auto world = fly(heading, i, kWorld, 0.03, 8.0, bias);
+    if (std::abs(heading) > 0.6) {
+      EXPECT_EQ(world.state, FramesVerdict::kWrong) << heading;
+    }
+  }
+}
+
+TEST(TwistCheck, HoveringWithABiasIsNoFault) {
+  TwistCheck check{FramesParams()};
+  for (int i = 0; i < 50 * 60; ++i) {
+    const Eigen::Matrix3d R = geometry::yawRotation(0.01 * i);  // while it searches
+    check.add(i / 50.0, geometry::makePose(R, {0, 0, 1}), R * Eigen::Vector3d(0.2, 0.15, 0.0));
+    ASSERT_NE(check.verdict().state, FramesVerdict::kWrong) << i / 50.0 << ": " << check.verdict().what;
+  }
+}
+
+TEST(TwistCheck, ASlideOfThePositionIsNoFault) {
+  for (const double slide_mps : {-2.0, -0.5, 0.3, 1.0, 2.0})
+    for (int i = 0; i < 20; ++i)
+      EXPECT_NE(fly(0.3 * i, i, kBody, 0.03, 8.0, {0, 0, 0}, slide_mps).state, FramesVerdict::kWrong)
+          << slide_mps;
+}
+
+TEST(TwistCheck, SaysNothingWithoutAWayAndIgnoresWhatIsNotFinite) {
+  TwistCheck check{FramesParams()};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto T = geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 1});
+  for (int i = 0; i < 500; ++i) check.add(i / 50.0, T, {0.01, 0, 0});
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
+  check.add(nan, T, {0, 0, 0});
+  check.add(11.0, T, {nan, 0, 0});
+  check.add(11.1, geometry::makePose(Eigen::Matrix3d::Identity(), {nan, 0, 1}), {0, 0, 0});
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
+}
+
+TEST(TwistCheck, AWayOfDriftAloneIsNoFault) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> step(0.0, 0.05 * std::sqrt(1.0 / 50.0));
+  TwistCheck check{FramesParams()};
+  Eigen::Vector3d position(0, 0, 1);
+  for (int i = 0; i < 50 * 600; ++i) {
+    position += Eigen::Vector3d(step(random), step(random), 0.4 * step(random));
+    check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), position), Eigen::Vector3d::Zero());
+    ASSERT_NE(check.verdict().state, FramesVerdict::kWrong) << i / 50.0 << ": " << check.verdict().what;
+  }
+}
+
+TEST(TwistCheck, APositionThatStandsStillWhileTheVehicleFliesIsAFault) {
+  TwistCheck check{FramesParams()};
+  for (int i = 0; i < 500; ++i)
+    check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), {0, 0, 1}), {0.5, 0.1, 0.0});
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
+}
+
+TEST(TwistCheck, AGapOrAJumpBackIsNoWay) {
+  TwistCheck check{FramesParams()};
+  for (int i = 0; i < 20; ++i) {
+    check.add(i, geometry::makePose(Eigen::Matrix3d::Identity(), {0.3 * i, 0, 1}), {0, 0, 0});
+    check.add(-i, geometry::makePose(Eigen::Matrix3d::Identity(), {0.3 * i, 0, 1}), {0, 0, 0});
+  }
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
+}
+
+}  // namespace
+}  // namespace window_ingress::estimation

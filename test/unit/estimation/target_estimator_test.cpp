@@ -1,0 +1,323 @@
+#include "window_ingress/estimation/target_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
+const Eigen::Isometry3d kMounting =
+    geometry::makePose(geometry::R_optical_flu().transpose(), {0.1, 0.0, 0.02});
+const Eigen::Isometry3d kWindow = geometry::makePose(geometry::yawRotation(0.3), {4.0, 0.5, 1.4});
+
+Eigen::Isometry3d vehicleAt(double y_m) {
+  return geometry::makePose(geometry::yawRotation(0.1), {0.0, y_m, 1.2});
+}
+
+/// The window, seen exactly, from a vehicle at this place.
+detection::WindowObservation sighting(const Eigen::Isometry3d& T_odom_base, double stamp_sec) {
+  detection::WindowObservation window;
+  const Eigen::Isometry3d T_camera_window = (T_odom_base * kMounting).inverse() * kWindow;
+  window.corners = *geometry::projectOpening(kCamera, T_camera_window, {1.2, 1.0});
+  for (auto& covariance : window.corner_covariance) covariance = 0.01 * Eigen::Matrix2d::Identity();
+  for (auto& edge : window.edges) edge = {true, 0.1, 0.001};
+  window.stamp_sec = stamp_sec;
+  window.score = 1.0;
+  window.target_id = 1;
+  return window;
+}
+
+TargetEstimator tracker() { return TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), TargetEstimatorParams()); }
+
+TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
+  auto track = tracker();
+  for (int i = 0; i < 30; ++i) {
+    const double now = i / 30.0, exposure = now - 0.05;
+    track.addOdometry(now, vehicleAt(now));  // 1 m/s sideways
+    track.addAttitude(now, Eigen::Quaterniond(geometry::yawRotation(0.1)));
+    if (exposure >= 0.0) track.see(sighting(vehicleAt(exposure), exposure), kCamera, kMounting);
+  }
+  const auto target = track.target(1.0);
+  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  EXPECT_TRUE(track.lastUpdate().used);
+  EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.02);
+  EXPECT_NEAR(geometry::yawOf(target->T_odom_window.linear()), 0.3, 0.02);
+  EXPECT_NEAR(target->stamp_sec, 29 / 30.0 - 0.05, 1e-9);
+  EXPECT_DOUBLE_EQ(target->opening.width_m, 1.2);
+  EXPECT_GT(target->updates, 10);
+}
+
+TEST(TargetEstimator, AnImageWaitsForItsOdometry) {
+  auto track = tracker();
+  track.addOdometry(0.0, vehicleAt(0.0));
+  track.see(sighting(vehicleAt(0.03), 0.03), kCamera, kMounting);
+  EXPECT_FALSE(track.target(0.03));
+  track.addOdometry(0.06, vehicleAt(0.06));
+  EXPECT_TRUE(track.target(0.06));
+}
+
+TEST(TargetEstimator, WithoutOdometryNearTheExposureThereIsNoTarget) {
+  auto track = tracker();
+  track.see(sighting(vehicleAt(0.0), 1.0), kCamera, kMounting);
+  track.addOdometry(0.0, vehicleAt(0.0));
+  track.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+  EXPECT_FALSE(track.target(1.03));
+  EXPECT_EQ(track.lastUpdate().why_not, "no odometry near the exposure");
+}
+
+TEST(TargetEstimator, AJumpOfTheOdometryStartsAnew) {
+  auto track = tracker();
+  for (int i = 0; i < 10; ++i) {
+    track.addOdometry(0.03 * i, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), 0.03 * i), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(0.3));
+  track.addOdometry(0.3, vehicleAt(5.0));
+  EXPECT_FALSE(track.target(0.3));
+}
+
+/// 2 m sideways past the window, each picture as it would be; the mounting told may be another.
+TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEstimatorParams& params,
+                            const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
+  TargetEstimator track(pose, estimation::FilterParams(), params);
+  for (int i = 0; i <= 90; ++i) {
+    const double now = i / 30.0, y = 0.6 * now;
+    track.addOdometry(now, vehicleAt(y), Eigen::Vector3d(0.0, 0.6 * velocity_factor, 0.0));
+    track.see(sighting(vehicleAt(y), now), kCamera, mounting_told);
+  }
+  return track;
+}
+
+estimation::PoseParams unknownSize() {
+  estimation::PoseParams params;
+  params.opening_width_m = params.opening_height_m = 0.9;
+  params.scale_sigma = 0.5;
+  params.aspect_sigma = 0.3;
+  return params;
+}
+
+TEST(TargetEstimator, FindsOutASizeThatIsNotKnown) {
+  const auto track = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
+  const auto target = track.target(3.0);
+  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  EXPECT_NEAR(target->opening.width_m, 1.2, 0.06);
+  EXPECT_NEAR(target->opening.height_m, 1.0, 0.05);
+  EXPECT_LT((target->T_odom_window.translation() - kWindow.translation()).norm(), 0.25);
+  EXPECT_EQ(target->fit, estimation::Fit::kGo);
+  EXPECT_EQ(target->approach_forbidden, "");
+}
+
+TEST(TargetEstimator, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
+  estimation::PoseParams twice;  // looking for one twice as large
+  twice.opening_width_m = 2.4;
+  twice.opening_height_m = 2.0;
+  auto track = flownSideways(twice, TargetEstimatorParams(), kMounting);
+  auto target = track.target(3.0);
+  ASSERT_TRUE(target) << track.lastUpdate().why_not;
+  ASSERT_TRUE(target->other_window);
+  EXPECT_NEAR(*target->other_window, 0.5, 0.1);
+  EXPECT_NE(target->approach_forbidden, "");
+
+  auto next = sighting(vehicleAt(1.8), 3.03);
+  next.target_id = 7;
+  track.addOdometry(3.03, vehicleAt(1.8));
+  track.see(next, kCamera, kMounting);
+  target = track.target(3.03);
+  ASSERT_TRUE(target);
+  EXPECT_FALSE(target->other_window);
+  EXPECT_EQ(target->approach_forbidden, "");
+
+  const auto right = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting).target(3.0);
+  ASSERT_TRUE(right);
+  EXPECT_FALSE(right->other_window);
+}
+
+TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
+  auto track = TargetEstimator(unknownSize(), estimation::FilterParams(), TargetEstimatorParams());
+  for (int i = 0; i < 30; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(1.0));
+  EXPECT_EQ(track.target(1.0)->fit, estimation::Fit::kUnknown);
+  EXPECT_NE(track.target(1.0)->approach_forbidden.find("UNKNOWN"), std::string::npos);
+  TargetEstimatorParams broad;
+  broad.fit.vehicle_width_m = 1.15;
+  const auto narrow = flownSideways(estimation::PoseParams(), broad, kMounting);
+  EXPECT_EQ(narrow.target(3.0)->fit, estimation::Fit::kNoGo);
+  EXPECT_NE(narrow.target(3.0)->approach_forbidden.find("NO_GO"), std::string::npos);
+}
+
+TEST(TargetEstimator, ForbidsTheApproachWhileManyPicturesContradictTheWindow) {
+  for (const double aside_m : {0.0, 0.5}) {  // every second picture shows another place
+    auto track = tracker();
+    for (int i = 0; i <= 60; ++i) {
+      const double now = i / 30.0;
+      track.addOdometry(now, vehicleAt(0.0), Eigen::Vector3d(0, 0, 0));
+      track.see(sighting(vehicleAt(i % 2 == 0 ? 0.0 : aside_m), now), kCamera, kMounting);
+    }
+    const auto target = track.target(2.0);
+    ASSERT_TRUE(target) << track.lastUpdate().why_not;
+    EXPECT_EQ(target->approach_forbidden.find("pictures contradict") != std::string::npos, aside_m > 0.0)
+        << target->approach_forbidden;
+  }
+}
+
+TEST(TargetEstimator, ForbidsTheApproachWithFramesThatAreNotAsTold) {
+  Eigen::Isometry3d turned = kMounting;
+  turned.linear() = geometry::yawRotation(0.3) * turned.linear();
+  const auto mounting = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), turned);
+  EXPECT_EQ(mounting.frames().state, estimation::FramesVerdict::kWrong);
+  EXPECT_NE(mounting.frames().what.find("in yaw"), std::string::npos) << mounting.frames().what;
+  const auto twist = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting, -1.0);
+  ASSERT_TRUE(twist.target(3.0));
+  EXPECT_NE(twist.target(3.0)->approach_forbidden.find("twist"), std::string::npos);
+  const auto good = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
+  EXPECT_EQ(good.frames().state, estimation::FramesVerdict::kGood) << good.frames().what;
+  EXPECT_EQ(good.target(3.0)->approach_forbidden, "");
+}
+
+TEST(TargetEstimator, AJumpOfTheOdometryKeepsTheSizeAndWhatWasFoundOfTheFrames) {
+  auto track = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
+  const auto frames = track.frames();
+  track.addOdometry(3.03, vehicleAt(7.0));
+  EXPECT_FALSE(track.target(3.03));
+  EXPECT_EQ(track.frames(), frames);
+  for (int i = 0; i < 3; ++i) {
+    track.addOdometry(3.1 + i / 30.0, vehicleAt(1.8));
+    if (i > 0) track.see(sighting(vehicleAt(1.8), 3.1 + i / 30.0), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(3.2)) << track.lastUpdate().why_not;
+  EXPECT_NEAR(track.target(3.2)->opening.width_m, 1.2, 0.1);
+}
+
+TargetEstimator hovering(double until_sec) {
+  auto track = tracker();
+  for (int i = 0; i <= 30.0 * until_sec; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  return track;
+}
+
+TEST(TargetEstimator, AnOdometrySampleThatComesLateChangesNothing) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double stamp : {0.98, 0.6, -infinity}) {
+    auto track = hovering(1.0);
+    const int updates = track.target(1.0)->updates;
+    track.addOdometry(stamp, vehicleAt(0.0));
+    track.addOdometry(1.03, vehicleAt(0.0));
+    track.see(sighting(vehicleAt(0.0), 1.03), kCamera, kMounting);
+    ASSERT_TRUE(track.target(1.03)) << stamp;
+    EXPECT_EQ(track.target(1.03)->updates, updates + 1) << stamp;
+  }
+  auto track = hovering(3.0);
+  track.addOdometry(1.0, vehicleAt(0.0));
+  EXPECT_FALSE(track.target(3.0)) << "two seconds back are another time";
+}
+
+TEST(TargetEstimator, AHeadingThatJumpsStartsAnew) {
+  auto track = hovering(1.0);
+  Eigen::Isometry3d turned = vehicleAt(0.0);
+  turned.linear() = geometry::yawRotation(0.15) * turned.linear();
+  track.addOdometry(1.03, turned);
+  EXPECT_TRUE(track.target(1.03)) << "a vehicle can turn as fast";
+  turned.linear() = geometry::yawRotation(0.9) * turned.linear();
+  track.addOdometry(1.06, turned);
+  EXPECT_FALSE(track.target(1.06));
+}
+
+/// Noses down by this much.
+Eigen::Isometry3d pitched(double rad) {
+  Eigen::Isometry3d T = vehicleAt(0.0);
+  T.rotate(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitY()));
+  return T;
+}
+
+TEST(TargetEstimator, WithoutRecentAttitudeThatOfTheOdometryCounts) {
+  auto with_imu = tracker(), without = tracker();
+  with_imu.addAttitude(0.0, Eigen::Quaterniond(pitched(0.0).linear()));
+  for (auto* track : {&with_imu, &without}) {
+    track->addOdometry(1.0, pitched(0.25));
+    track->see(sighting(pitched(0.25), 1.0), kCamera, kMounting);
+    ASSERT_TRUE(track->lastUpdate().pose.estimate) << track->lastUpdate().pose.detail;
+  }
+  EXPECT_NEAR(without.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.002);
+  EXPECT_EQ(with_imu.lastUpdate().pose.estimate->yaw_rad, without.lastUpdate().pose.estimate->yaw_rad);
+}
+
+TEST(TargetEstimator, AnAttitudeInOtherAxesThanTheOdometryIsNamedAndNotUsed) {
+  const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));  // north-east-down
+  auto track = tracker();
+  for (int i = 0; i < 60; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.addAttitude(i / 30.0, down);
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  ASSERT_TRUE(track.target(2.0)) << track.lastUpdate().why_not;
+  ASSERT_TRUE(track.lastUpdate().pose.estimate);
+  EXPECT_NEAR(track.lastUpdate().pose.estimate->yaw_rad, 0.2, 0.01);
+  EXPECT_EQ(track.frames().state, estimation::FramesVerdict::kWrong);
+  EXPECT_NE(track.target(2.0)->approach_forbidden.find("attitude"), std::string::npos);
+  for (int i = 60; i < 120; ++i) {
+    track.addOdometry(i / 30.0, vehicleAt(0.0));
+    track.addAttitude(i / 30.0, Eigen::Quaterniond(vehicleAt(0.0).linear()));
+    track.see(sighting(vehicleAt(0.0), i / 30.0), kCamera, kMounting);
+  }
+  EXPECT_NE(track.frames().state, estimation::FramesVerdict::kWrong) << track.frames().what;
+}
+
+TEST(TargetEstimator, AnObservationWithoutBordersThatGivesNoPoseIsNotUsed) {
+  auto track = hovering(1.0);
+  auto skewed = sighting(vehicleAt(0.0), 1.03);
+  track.addOdometry(1.03, vehicleAt(0.0));
+  for (int i = 0; i < 4; ++i) {
+    skewed.edges[i] = detection::Edge();
+    skewed.corner_covariance[i] = 50.0 * Eigen::Matrix2d::Identity();
+    skewed.corners[i].x() += i < 2 ? 6.0 : -6.0;
+  }
+  track.see(skewed, kCamera, kMounting);
+  EXPECT_FALSE(track.lastUpdate().pose.estimate);
+  EXPECT_FALSE(track.lastUpdate().used);
+  EXPECT_EQ(track.lastUpdate().why_not, track.lastUpdate().pose.detail);
+}
+
+TEST(TargetEstimator, AnotherTargetHasNoMeasuredSizeYet) {
+  auto track = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
+  ASSERT_TRUE(track.measuredSize());
+  track.addOdometry(3.2, vehicleAt(1.8));
+  auto other = sighting(vehicleAt(1.8), 3.2);
+  other.target_id = 7;
+  track.see(other, kCamera, kMounting);
+  track.addOdometry(3.4, vehicleAt(2.0));
+  other = sighting(vehicleAt(2.0), 3.4);
+  other.target_id = 8;
+  track.see(other, kCamera, kMounting);
+  EXPECT_FALSE(track.measuredSize());
+}
+
+TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
+  auto track = tracker();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  track.addOdometry(0.0, vehicleAt(nan));
+  track.addOdometry(nan, vehicleAt(0.0));
+  track.addOdometry(0.0, vehicleAt(0.0));
+  track.addAttitude(0.0, Eigen::Quaterniond(nan, 0, 0, 1));
+  auto window = sighting(vehicleAt(0.0), 0.0);
+  window.corners[2].x() = nan;
+  track.see(window, kCamera, kMounting);
+  EXPECT_FALSE(track.lastUpdate().used);
+  EXPECT_FALSE(track.lastUpdate().why_not.empty());
+  EXPECT_FALSE(track.target(0.0));
+  TargetEstimatorParams params;
+  params.max_jump_m = -1.0;
+  EXPECT_THROW(TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), params), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation

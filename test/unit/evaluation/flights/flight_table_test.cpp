@@ -1,0 +1,136 @@
+#include "evaluation/flights/flight_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "evaluation/flights/flight_draws.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+using simulation::Outcome;
+
+FlightResult flightWith(std::uint32_t seed) {
+  FlightResult flight;
+  flight.seed = seed;
+  flight.outcome = Outcome::kPassed;
+  flight.time_sec = 8.5;
+  flight.offset_y_m = -0.0123;
+  flight.offset_z_m = 0.0;
+  flight.reason = "crossed, \"well\"";
+  flight.track = {{0.0, {-5.0, 1.0, 0.25}}, {0.1, {-4.9, 0.9, 0.25}}};
+  return flight;
+}
+
+class FlightTable : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::temp_directory_path() / (std::string("flight_table_") + test->name());
+    fs::remove_all(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  std::string write(const std::string& name, const std::vector<FlightResult>& flights) const {
+    const fs::path folder = root_ / name;
+    fs::create_directories(folder);
+    std::ofstream rows(folder / "flights.csv"), tracks(folder / "tracks.csv");
+    rows << csvHeader() << "\n";
+    tracks << trackHeader() << "\n";
+    for (const auto& flight : flights) {
+      rows << csvRow(flight) << "\n";
+      tracks << trackRows(flight);
+    }
+    return folder.string();
+  }
+  static std::string error(const std::vector<std::string>& folders) {
+    try {
+      joinFlights(folders);
+    } catch (const TableError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  fs::path root_;
+};
+
+TEST(FlightRow, HasTheColumnsOfTheHeader) {
+  EXPECT_EQ(csvHeader(),
+            "seed,outcome,time_s,offset_y_m,offset_z_m,min_clearance_m,wrong_side_m,max_speed_mps,blind_s,"
+            "predicted_miss_m,reason,nearest_m");
+  auto flight = flightWith(7);
+  flight.min_clearance_m = 0.25;
+  flight.predicted_miss_m = 0.1;
+  flight.reason = "crossed";
+  EXPECT_EQ(csvRow(flight), "7,PASSED,8.500,-0.0123,0.0000,0.2500,0.0000,0.0000,0.000,0.1000,crossed,0.0000");
+}
+
+TEST(FlightRow, LeavesEmptyWhatWasNeverMeasuredAndQuotesText) {
+  FlightResult lost;
+  lost.outcome = Outcome::kAborted;
+  lost.reason = "lost, \"really\"\nlost";
+  EXPECT_EQ(csvRow(lost), "0,ABORTED,0.000,,,,0.0000,0.0000,0.000,,\"lost, \"\"really\"\" lost\",0.0000");
+}
+
+TEST_F(FlightTable, ReadsBackWhatItWrote) {
+  FlightResult bare;
+  bare.seed = 3;
+  bare.outcome = Outcome::kTimeout;
+  const auto read = readFlights(write("a", {flightWith(2), bare}));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(csvRow(read[0]), csvRow(flightWith(2)));
+  EXPECT_EQ(trackRows(read[0]), trackRows(flightWith(2)));
+  EXPECT_EQ(csvRow(read[1]), csvRow(bare));
+  EXPECT_FALSE(read[1].offset_y_m || read[1].min_clearance_m || read[1].predicted_miss_m);
+  EXPECT_TRUE(read[1].track.empty());
+}
+
+TEST_F(FlightTable, JoinsShardsInTheOrderOfTheirSeeds) {
+  const auto joined =
+      joinFlights({write("a", {flightWith(2), flightWith(4)}), write("b", {flightWith(1), flightWith(3)})});
+  ASSERT_EQ(joined.size(), 4u);
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(joined[i].seed, i + 1);
+  EXPECT_EQ(joined[2].track.size(), 2u);
+}
+
+TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
+  const std::string good = write("good", {flightWith(1)});
+  EXPECT_NE(error({good, good}).find("seed 1 was flown twice"), std::string::npos);
+  EXPECT_NE(error({"/nowhere"}).find("/nowhere/tracks.csv: cannot be read"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED\n";
+  EXPECT_NE(error({good}).find("flights.csv:2: has not 12 fields"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0\n";
+  EXPECT_NE(error({good}).find("flights.csv:2: 'LANDED' is no outcome"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0\n";
+  EXPECT_NE(error({good}).find("'soon' is no number"), std::string::npos);
+  std::ofstream(good + "/flights.csv") << "seed\n1\n";
+  EXPECT_NE(error({good}).find("flights.csv:1: is not 'seed,outcome"), std::string::npos);
+}
+
+TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
+  fs::create_directories(root_);
+  const std::string file = (root_ / "draws.csv").string();
+  const auto errorOf = [&](const std::string& text) -> std::string {
+    std::ofstream(file) << text;
+    try {
+      readDraws(file);
+    } catch (const TableError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(errorOf("seed,wind/x_mps\n3,0.25\n9,1\n"), "");
+  const FlightDraws draws = readDraws(file);
+  ASSERT_EQ(draws.size(), 2u);
+  EXPECT_EQ(draws.at(3).at("wind/x_mps"), 0.25);
+  EXPECT_NE(errorOf("wind/x_mps\n0.5\n").find("must begin with 'seed'"), std::string::npos);
+  EXPECT_NE(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n").find(":3: seed 3 stands there twice"),
+            std::string::npos);
+  EXPECT_NE(errorOf("seed,wind/x_mps\n3\n").find(":2: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,38 @@
+#include "evaluation/flights/flight_timing.hpp"
+
+#include <gtest/gtest.h>
+
+namespace window_ingress::evaluation {
+namespace {
+
+TEST(FlightTiming, GivesEachLapToItsStageAndSumsUp) {
+  FlightTiming timing;
+  const auto began = FlightTiming::Clock::now();
+  timing.begin();
+  while (std::chrono::duration<double>(FlightTiming::Clock::now() - began).count() < 0.01) {
+  }
+  timing.lap(Stage::kPicture);
+  timing.lap(Stage::kPose);
+  EXPECT_GE(timing.spentSec(Stage::kPicture), 0.0099);
+  EXPECT_LT(timing.spentSec(Stage::kPose), timing.spentSec(Stage::kPicture));
+  EXPECT_EQ(timing.spentSec(Stage::kDetector), 0.0);
+  EXPECT_DOUBLE_EQ(timing.totalSec(), timing.spentSec(Stage::kPicture) + timing.spentSec(Stage::kPose));
+  timing.countFrame();
+  timing.addSimulated(1.5);
+  FlightTiming sum;
+  sum.add(timing);
+  sum.add(timing);
+  EXPECT_EQ(sum.frames(), 2);
+  EXPECT_DOUBLE_EQ(sum.simulatedSec(), 3.0);
+  EXPECT_DOUBLE_EQ(sum.totalSec(), 2.0 * timing.totalSec());
+}
+
+TEST(FlightTiming, TableNamesEveryStageAlsoWithoutAFlight) {
+  const std::string text = FlightTiming().table();
+  for (const char* name : {"physics", "picture", "detector", "pose", "navigator", "rest", "times real time"})
+    EXPECT_NE(text.find(name), std::string::npos) << name;
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

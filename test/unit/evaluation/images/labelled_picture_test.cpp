@@ -1,0 +1,162 @@
+#include "evaluation/images/labelled_picture.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "drawn_window.hpp"
+#include "evaluation/flights/flight_table.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+
+const geometry::Quadrilateral kOpening{Eigen::Vector2d(220, 150), {420, 150}, {420, 310}, {220, 310}};
+
+LabelledPicture windowPicture(unsigned seed = 1) {
+  test::WindowPicture window;
+  window.opening = kOpening;
+  window.frame_px = 14.0;
+  window.seed = seed;
+  return {"window", "group", window.draw(), {kOpening}, std::nullopt};
+}
+
+LabelledPicture wall() {
+  return {"wall", "other", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(190)), {}, std::nullopt};
+}
+
+TEST(DetectionCounts, RatesOfNothingAreOne) {
+  EXPECT_DOUBLE_EQ(DetectionCounts().recall(), 1.0);
+  EXPECT_DOUBLE_EQ(DetectionCounts().precision(), 1.0);
+  EXPECT_DOUBLE_EQ(DetectionCounts().f1(), 1.0);
+}
+
+TEST(DetectionCounts, SaysRatesWithTheirIntervals) {
+  DetectionCounts counts;
+  counts.found = 27, counts.missed = 3, counts.wrong = 1;
+  EXPECT_NE(DetectionCounts().text().find("precision unknown (0 of 0)"), std::string::npos);
+  EXPECT_EQ(counts.text(),
+            "recall 90.0 % (74.4 to 96.5 %, 27 of 30), precision 96.4 % (82.3 to 99.4 %, 27 of 28)");
+  EXPECT_NEAR(counts.f1(), 54.0 / 58.0, 1e-12);
+}
+
+TEST(CountDetections, FoundMissedAndWrong) {
+  LabelledPicture elsewhere = windowPicture(), unlabelled = windowPicture(), missing = wall();
+  for (auto& corner : elsewhere.targets[0]) corner += Eigen::Vector2d(150.0, 0.0);
+  unlabelled.targets.clear();
+  missing.targets = {kOpening};
+  const auto count = [](const LabelledPicture& picture) {
+    return countDetections({picture}, detection::DetectorParams(), nullptr);
+  };
+  EXPECT_EQ(count(windowPicture()).found, 1);
+  EXPECT_GT(count(windowPicture()).overlap, 0.95);
+  EXPECT_EQ(count(elsewhere).missed, 1);
+  EXPECT_EQ(count(elsewhere).wrong, 1);
+  EXPECT_EQ(count(unlabelled).wrong, 1);
+  EXPECT_EQ(count(missing).missed, 1);
+  EXPECT_EQ(count(missing).wrong, 0);
+  EXPECT_EQ(count(wall()).f1(), 1.0);
+}
+
+class LabelledFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::vector<LabelledPicture> read(const std::string& text) {
+    const std::string file = (folder_ / "labels.csv").string();
+    std::ofstream(file) << text;
+    return readLabelled(file, folder_.string());
+  }
+  std::string errorOf(const std::string& text) {
+    try {
+      read(text);
+    } catch (const TableError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path folder_ = fs::temp_directory_path() / ("labelled_picture_test_" + std::to_string(::getpid()));
+  const std::string header_ = "file,label,x1,y1,x2,y2,x3,y3,x4,y4\n";
+};
+
+TEST_F(LabelledFile, ReadsTargetsNegativesAndWhatIsQuoted) {
+  cv::imwrite((folder_ / "a1.png").string(), windowPicture().image);
+  cv::imwrite((folder_ / "b.png").string(), wall().image);
+  const auto pictures = read(header_ +
+                             "a1.png,\"gate, red\",220,150,420,150,420,310,220,310\n"
+                             "a1.png,gate,420,310,220,310,220,150,420,150\n"
+                             "b.png,negative,,,,,,,,\n"
+                             "b.png,pose_only_gate,1,1,5,1,5,5,1,5\n");
+  ASSERT_EQ(pictures.size(), 2u);
+  EXPECT_EQ(pictures[0].targets.size(), 2u);
+  EXPECT_EQ(pictures[0].targets[1][0], kOpening[0]) << "from any corner on";
+  EXPECT_EQ(pictures[0].group, "a") << "neighbours in a video";
+  EXPECT_TRUE(pictures[1].targets.empty());
+}
+
+TEST_F(LabelledFile, WhatIsWrongIsNamedWithItsLine) {
+  EXPECT_NE(errorOf("").find("empty"), std::string::npos);
+  EXPECT_NE(errorOf("file,x1\n").find("no column 'y1'"), std::string::npos);
+  EXPECT_NE(errorOf(header_).find("no picture"), std::string::npos);
+  EXPECT_NE(errorOf(header_ + "none.png,,1,1,5,1,5,5,1,5\n").find("none.png: cannot be read"),
+            std::string::npos);
+  EXPECT_NE(errorOf(header_ + "\na.png,,1,1,5,1,5,nan,1,5\n").find("labels.csv:3: 'nan' is no number"),
+            std::string::npos);
+  EXPECT_NE(errorOf(header_ + "a.png,,1,1,5,5,5,1,1,5\n").find("no convex quadrilateral"), std::string::npos);
+}
+
+TEST(Labelled, WholeNoneAndInPart) {
+  geometry::PinholeCamera camera;
+  camera.width = 640, camera.height = 480;
+  camera.fx = camera.fy = 500.0;
+  camera.cx = 319.5, camera.cy = 239.5;
+  const cv::Mat image(480, 640, CV_8UC1, cv::Scalar(0));
+  const geometry::OpeningSize opening{1.2, 1.0};
+  const Eigen::Matrix3d R_camera_window = geometry::R_optical_flu();
+  const auto at = [&](double x, double z) {
+    return labelled(image, geometry::makePose(R_camera_window, {x, 0.0, z}), camera, opening);
+  };
+  ASSERT_TRUE(at(0.0, 4.0));
+  ASSERT_EQ(at(0.0, 4.0)->targets.size(), 1u);
+  EXPECT_NEAR(at(0.0, 4.0)->targets[0][0].x(), 319.5 - 500.0 * 0.6 / 4.0, 1e-9);
+  EXPECT_FALSE(at(2.4, 4.0)) << "cut by the border of the picture";
+  EXPECT_TRUE(at(9.0, 4.0)->targets.empty()) << "beside the picture";
+  EXPECT_TRUE(at(0.0, -4.0)->targets.empty()) << "behind the camera";
+  EXPECT_FALSE(at(0.0, 0.5)) << "the picture lies within it";
+}
+
+TEST(Split, KeepsGroupsTogetherAndIsDrawnByTheSeed) {
+  std::vector<LabelledPicture> pictures;
+  for (int i = 0; i < 40; ++i) {
+    pictures.push_back(wall());
+    pictures.back().group = "group " + std::to_string(i / 4);
+    pictures.back().name = std::to_string(i);
+  }
+  std::set<std::string> drawn;
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    const auto [tuned, held] = split(pictures, 0.3, seed);
+    EXPECT_EQ(held.size(), 12u);
+    EXPECT_EQ(tuned.size(), 28u);
+    std::string names;
+    for (const auto& a : held) {
+      names += a.name + " ";
+      for (const auto& b : tuned) EXPECT_NE(a.group, b.group);
+    }
+    EXPECT_EQ(split(pictures, 0.3, seed).second.front().name, held.front().name)
+        << "the same for the same seed";
+    drawn.insert(names);
+  }
+  EXPECT_GT(drawn.size(), 1u);
+  EXPECT_EQ(split(pictures, 0.0, 1).second.size(), 4u) << "at least one group";
+  EXPECT_EQ(split(pictures, 1.0, 1).first.size(), 4u);
+  EXPECT_THROW(split({wall(), wall()}, 0.5, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,54 @@
+#include "evaluation/images/stage_sheet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "drawn_window.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+constexpr int kWidth = 200;
+
+test::WindowPicture window() {
+  test::WindowPicture picture;
+  picture.width = 320, picture.height = 240, picture.frame_px = 8;
+  picture.opening = test::rectangle(100, 70, 220, 170);
+  return picture;
+}
+
+bool holdsGreen(const cv::Mat& part) {
+  for (int y = 0; y < part.rows; ++y)
+    for (int x = 0; x < part.cols; ++x) {
+      const auto& pixel = part.at<cv::Vec3b>(y, x);
+      if (pixel[1] > pixel[0] + 100 && pixel[1] > pixel[2] + 100) return true;
+    }
+  return false;
+}
+
+TEST(StageSheet, ThreeRowsOfThreeAndTheTargetInTheLast) {
+  const auto picture = window();
+  const detection::ReferenceAppearance reference(picture.draw(), picture.opening);
+  const cv::Mat sheet = stageSheet(picture.draw(), {}, &reference, kWidth);
+  ASSERT_EQ(sheet.type(), CV_8UC3);
+  EXPECT_NEAR(sheet.cols, 3 * kWidth, 40);
+  EXPECT_NEAR(sheet.rows, 3 * kWidth * 240 / 320, 120);
+  const cv::Rect last(sheet.cols * 2 / 3, sheet.rows * 2 / 3, sheet.cols / 3, sheet.rows / 3);
+  EXPECT_TRUE(holdsGreen(sheet(last)));
+  EXPECT_FALSE(holdsGreen(sheet(cv::Rect(0, 0, sheet.cols / 3, sheet.rows / 3))));
+}
+
+TEST(StageSheet, GreyPicturesAndEmptyWallsAreDrawn) {
+  EXPECT_FALSE(stageSheet(cv::Mat(240, 320, CV_8UC1, cv::Scalar(90)), {}, nullptr, kWidth).empty());
+}
+
+TEST(StageSheet, BadInputIsRefused) {
+  EXPECT_THROW(stageSheet(cv::Mat(), {}, nullptr, kWidth), std::invalid_argument);
+  EXPECT_THROW(stageSheet(cv::Mat(20, 20, CV_8UC3), {}, nullptr, kWidth), std::invalid_argument);
+  EXPECT_THROW(stageSheet(cv::Mat(240, 320, CV_32FC1), {}, nullptr, kWidth), std::invalid_argument);
+  EXPECT_THROW(stageSheet(cv::Mat(240, 320, CV_8UC3), {}, nullptr, 3), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

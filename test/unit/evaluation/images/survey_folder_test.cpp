@@ -1,0 +1,118 @@
+#include "evaluation/images/survey_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "evaluation/flights/flight_table.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SurveyFolderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              (std::string("survey_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static SurveyPicture draw(bool with_reference, double k1 = 0.0) {
+    simulation::Scenario scenario;
+    scenario.camera.width_px = 160;
+    scenario.camera.height_px = 120;
+    scenario.camera.k1 = k1;
+    SurveyPicture picture = takePicture(scenario, 3, ViewRange(), with_reference);
+    picture.scenario = "calm";
+    return picture;
+  }
+
+  fs::path folder_;
+};
+
+void expectSame(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR((a[i] - b[i]).norm(), 0.0, 1e-8);
+}
+
+TEST_F(SurveyFolderTest, LoadsWhatWasSaved) {
+  const SurveyPicture first = draw(true), bent = draw(false, -0.2);
+  SurveyFolder saved(folder_.string());
+  saved.add(first);
+  saved.writeTable();
+  SurveyFolder folder(folder_.string());
+  folder.readTable();
+  ASSERT_EQ(folder.size(), 1);
+  const SurveyPicture loaded = folder.load(0);
+  EXPECT_EQ(loaded.scenario, "calm");
+  EXPECT_EQ(loaded.seed, 3u);
+  EXPECT_NEAR(loaded.distance_m, first.distance_m, 1e-6);
+  EXPECT_EQ(cv::norm(loaded.image, first.image, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(loaded.reference, first.reference, cv::NORM_INF), 0.0);
+  expectSame(loaded.truth.inner, first.truth.inner);
+  expectSame(loaded.truth.far, first.truth.far);
+  ASSERT_TRUE(loaded.truth.outer);
+  expectSame(*loaded.truth.outer, *first.truth.outer);
+  expectSame(loaded.reference_corners, first.reference_corners);
+  EXPECT_EQ(loaded.camera.K(), first.camera.K());
+
+  saved.add(bent);
+  saved.writeTable();
+  SurveyFolder both(folder_.string());
+  both.readTable();
+  ASSERT_EQ(both.size(), 2);
+  EXPECT_TRUE(both.load(1).reference.empty());
+  EXPECT_EQ(both.load(1).camera.distortion, bent.camera.distortion);
+}
+
+TEST_F(SurveyFolderTest, FoldersThatAreNoneAreErrorsWithTheirName) {
+  SurveyFolder folder(folder_.string());
+  EXPECT_THROW(folder.readTable(), TableError) << "empty";
+  std::ofstream(folder_ / "truth.csv") << "file,x\n1,2\n";
+  EXPECT_THROW(folder.readTable(), TableError) << "of something else";
+  SurveyFolder whole(folder_.string());
+  whole.add(draw(false));
+  whole.writeTable();
+  fs::remove(folder_ / "calm_3.png");
+  whole.readTable();
+  EXPECT_THROW(whole.load(0), TableError) << "a picture is missing";
+  EXPECT_THROW(SurveyFolder("/no/such/folder").writeTable(), std::runtime_error);
+}
+
+TEST_F(SurveyFolderTest, CutRowsAreErrors) {
+  SurveyFolder saved(folder_.string());
+  saved.add(draw(false));
+  saved.writeTable();
+  const auto size = fs::file_size(folder_ / "truth.csv");
+  fs::resize_file(folder_ / "truth.csv", size - 60);
+  EXPECT_THROW(SurveyFolder(folder_.string()).readTable(), TableError);
+}
+
+TEST(SurveyPicture, AutomaticGainsHaveSettled) {
+  simulation::Scenario scenario;
+  scenario.camera.width_px = 160;
+  scenario.camera.height_px = 120;
+  scenario.camera.noise_grey = 0.0;
+  scenario.camera.auto_exposure = true;
+  scenario.camera.target_grey = 90.0;
+  const SurveyPicture picture = takePicture(scenario, 4, ViewRange(), false);
+  const cv::Scalar mean = cv::mean(picture.image);
+  EXPECT_NEAR((mean[0] + mean[1] + mean[2]) / 3.0, 90.0, 4.0);
+}
+
+TEST(SurveyPicture, ClosedWallHasThePlaceButNoTarget) {
+  simulation::Scenario scenario;
+  scenario.window.present = false;
+  scenario.camera.width_px = 160;
+  scenario.camera.height_px = 120;
+  const SurveyPicture picture = takePicture(scenario, 4, ViewRange(), true);
+  EXPECT_FALSE(picture.truth.present);
+  EXPECT_FALSE(picture.reference.empty()) << "the reference shows what is looked for";
+}
+
+}  // namespace
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,89 @@
+#include "navigation/behaviours/place_keeping.hpp"
+
+#include <gtest/gtest.h>
+
+#include "navigation_samples.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+Situation standingAt(const Eigen::Vector3d& position_m, double speed_mps = 0.0) {
+  Situation situation;
+  situation.vehicle = test::vehicleAt(position_m, 1.0);
+  situation.vehicle->velocity_odom_mps.x() = speed_mps;
+  return situation;
+}
+
+TEST(PlaceKeeping, ThePlaceIsWhereTheVehicleFirstStands) {
+  const HoldParams params;
+  MissionMemory memory;
+  rememberPlace(true, standingAt({0, 0, 1}, 0.5), params, memory);
+  EXPECT_FALSE(memory.place_odom_m) << "still moving";
+  rememberPlace(true, standingAt({0.3, 0, 1}), params, memory);
+  rememberPlace(true, standingAt({0.9, 0, 1}), params, memory);
+  ASSERT_TRUE(memory.place_odom_m);
+  EXPECT_EQ(*memory.place_odom_m, Eigen::Vector3d(0.3, 0, 1));
+}
+
+TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
+  const HoldParams params;
+  MissionMemory memory;
+  double now = 10.0;
+  for (; !memory.place_odom_m && now < 20.0; now += 0.1) {
+    auto situation = standingAt({0.5 * (now - 10.0), 0, 1}, 0.5);
+    situation.now_sec = now;
+    rememberPlace(true, situation, params, memory);
+  }
+  ASSERT_TRUE(memory.place_odom_m);
+  EXPECT_NEAR(now - 10.0, params.settle_sec + 0.1, 0.11);
+}
+
+TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
+  const HoldParams params;
+  MissionMemory memory;
+  const auto set = [&] {
+    rememberPlace(true, standingAt({0, 0, 1}), params, memory);
+    EXPECT_TRUE(memory.place_odom_m);
+  };
+  set();
+  rememberPlace(false, standingAt({0, 0, 1}), params, memory);
+  EXPECT_FALSE(memory.place_odom_m);
+  set();
+  rememberPlace(true, Situation(), params, memory);
+  EXPECT_FALSE(memory.place_odom_m) << "no odometry";
+  set();
+  auto jumped = standingAt({5, 0, 1});
+  jumped.vehicle_jumped = true;
+  rememberPlace(true, jumped, params, memory);
+  EXPECT_FALSE(memory.place_odom_m);
+  set();
+  memory.forgetPlaces();
+  EXPECT_FALSE(memory.place_odom_m);
+}
+
+TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
+  const NavigatorParams params = test::withoutGlass();
+  MissionMemory memory;
+  EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params), Eigen::Vector3d(0, 0, 0));
+  memory.place_odom_m = Eigen::Vector3d(0, 0, 1);
+  for (double away = -3.0; away <= 3.0; away += 0.05) {
+    const auto velocity = velocityToPlace(test::vehicleAt({away, -0.5 * away, 1}, 0.0), memory, params);
+    EXPECT_LE(velocity.norm(), params.hold.speed_mps + 1e-12);
+    EXPECT_LE(velocity.x() * away, 0.0);
+    EXPECT_GE(velocity.y() * away, 0.0);
+  }
+  const auto climbed = velocityToPlace(test::vehicleAt({0.2, 0, 4}, 0.0), memory, params);
+  EXPECT_NEAR(climbed.x(), -0.2 * params.align.lateral_gain_hz, 1e-12) << "height takes nothing from it";
+  EXPECT_NEAR(climbed.z(), -params.hold.speed_mps, 1e-12);
+}
+
+TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
+  NavigatorParams params = test::withoutGlass();
+  params.hold.speed_mps = 0.0;
+  MissionMemory memory;
+  memory.place_odom_m = Eigen::Vector3d(0, 0, 1);
+  EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation

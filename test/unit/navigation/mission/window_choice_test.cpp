@@ -1,0 +1,102 @@
+#include "navigation/mission/window_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include "navigation_samples.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+NavigatorInput inputFor(std::uint32_t window_id, double now_sec, double aside_m = 0.0) {
+  NavigatorInput input = test::inputAt({-4.0, 0.0, 1.5}, now_sec);
+  input.target->window_id = window_id;
+  input.target->T_odom_window.translation().y() += aside_m;
+  return input;
+}
+
+/// A navigator that flies at window 1.
+struct Flying {
+  Navigator navigator{test::withoutGlass()};
+  double now_sec = 1.0;
+  NavigatorOutput step(const NavigatorInput& input) { return navigator.step(input, now_sec); }
+  Flying() {
+    navigator.start(inputFor(1, now_sec), now_sec);
+    for (int n = 0; n < 30; ++n, now_sec += 0.033) step(inputFor(1, now_sec));
+  }
+};
+
+TEST(WindowChoice, FliesAtTheWindowThatTheReportNames) {
+  Flying flying;
+  const auto output = flying.step(inputFor(1, flying.now_sec));
+  EXPECT_TRUE(output.state == State::kAlign || output.state == State::kApproach);
+  EXPECT_EQ(output.report.window_id, 1u);
+}
+
+TEST(WindowChoice, SaysWhyItLeavesAWindowWhenAnotherIsChosen) {
+  Flying flying;
+  const auto output = flying.step(inputFor(2, flying.now_sec));
+  EXPECT_EQ(output.state, State::kSearch);
+  EXPECT_NE(output.reason.find("window 2 is the target now, no longer window 1"), std::string::npos);
+}
+
+TEST(WindowChoice, TurnsToTheWindowThatIsChosenInFlightWhereverItIs) {
+  Flying flying;
+  NavigatorOutput output;
+  for (int n = 0; n < 60; ++n, flying.now_sec += 0.033)
+    output = flying.step(inputFor(2, flying.now_sec, 2.0));
+  EXPECT_EQ(output.report.window_id, 2u);
+  EXPECT_TRUE(output.report.given_up.empty()) << "the one before may be chosen again";
+}
+
+TEST(WindowChoice, AWindowWithoutANumberIsNoOtherWindow) {
+  Flying flying;
+  EXPECT_NE(flying.step(inputFor(0, flying.now_sec)).state, State::kSearch);
+}
+
+TEST(WindowChoice, CommitFliesOn) {
+  Situation situation;
+  situation.target = test::targetAtOrigin(1.0);
+  situation.target->window_id = 2;
+  MissionMemory memory;
+  memory.trusted = test::targetAtOrigin(1.0);
+  memory.trusted->window_id = 1;
+  EXPECT_EQ(whySentElsewhere(situation, State::kCommit, memory), "");
+  for (const State state : {State::kAlign, State::kApproach, State::kHold, State::kBackOff, State::kSearch})
+    EXPECT_NE(whySentElsewhere(situation, state, memory), "");
+}
+
+TEST(WindowChoice, AWindowTriedInVainIsLeftForTheNextOneOnlyIfThatIsAllowed) {
+  for (const bool allowed : {false, true}) {
+    NavigatorParams params = test::withoutGlass();
+    params.search.next_window = allowed;
+    MissionMemory memory;
+    memory.trusted = test::targetAtOrigin(1.0);
+    memory.trusted->window_id = 7;
+    memory.back_offs = 6;
+    Decision decision;
+    decision.event = Event::kGiveUp;
+    turnToNextWindow(State::kBackOff, params, memory, decision);
+    EXPECT_EQ(decision.event == Event::kBackedOff, allowed);
+    EXPECT_EQ(memory.given_up.size(), allowed ? 1u : 0u);
+    EXPECT_EQ(memory.back_offs, allowed ? 0 : 6);
+    EXPECT_EQ(wasLeftForGood(test::targetAtOrigin(2.0), memory), allowed);
+  }
+}
+
+TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
+  NavigatorParams params = test::withoutGlass();
+  params.search.next_window = true;
+  MissionMemory memory;
+  memory.trusted = test::targetAtOrigin(1.0);
+  Decision decision;
+  decision.event = Event::kGiveUp;  // a time-out
+  turnToNextWindow(State::kApproach, params, memory, decision);
+  EXPECT_EQ(decision.event, Event::kGiveUp);
+  decision.event = Event::kReacquired;
+  turnToNextWindow(State::kBackOff, params, memory, decision);
+  EXPECT_EQ(decision.event, Event::kReacquired);
+}
+
+}  // namespace
+}  // namespace window_ingress::navigation
