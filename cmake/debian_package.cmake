@@ -13,12 +13,12 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/devel/lib)
 set(run_dependencies
-    libnodeletlib-tools libtopic-tools-dev python3-cv-bridge python3-diagnostic-msgs python3-dynamic-reconfigure
+    libnodeletlib-tools libtopic-tools-dev python3-actionlib python3-cv-bridge python3-diagnostic-msgs python3-dynamic-reconfigure
     python3-geometry-msgs python3-matplotlib python3-nav-msgs python3-numpy python3-opencv python3-rosbag
     python3-rosgraph-msgs python3-roslaunch python3-rosmaster python3-rosnode python3-rospy python3-rosservice
     python3-rostopic python3-sensor-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs
     python3-yaml rosbash rosout topic-tools)
 list(JOIN run_dependencies ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
-# parallel: ingress campaign; python3-deap: ingress evaluate envelope.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "rviz, parallel, python3-deap")
+# tf2-tools: static_transform_publisher; parallel: ingress campaign; python3-deap: ingress evaluate envelope.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "rviz, tf2-tools, parallel, python3-deap")
 include(CPack)

@@ -42,11 +42,12 @@ TargetEstimate targetFrom(const FilteredWindow& window) {
 }
 
 TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& filter,
-                             const TargetEstimatorParams& params)
+                                 const TargetEstimatorParams& params)
     : params_(checked(params)),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
-      checks_(new Checks{{pose, filter, params.frames, sizeSaid(pose)}, ParallaxCheck(filter.target_speed_mps)}),
+      checks_(
+          new Checks{{pose, filter, params.frames, sizeSaid(pose)}, ParallaxCheck(filter.target_speed_mps)}),
       judge_(params.openness, neededBy(params.fit)),
       facade_(params.facade),
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
@@ -77,7 +78,7 @@ void TargetEstimator::reset() {
 }
 
 void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
-                                const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
+                                  const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
   if (!geometry::isValidPose(T_odom_base) || !std::isfinite(stamp_sec)) return;
   if (odometry_stamp_sec_) {
     const double dt_sec = stamp_sec - *odometry_stamp_sec_;
@@ -105,7 +106,7 @@ void TargetEstimator::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_
 }
 
 void TargetEstimator::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                        const std::optional<Eigen::Isometry3d>& T_base_camera) {
+                          const std::optional<Eigen::Isometry3d>& T_base_camera) {
   see({window.stamp_sec, camera, T_base_camera, window, {}});
 }
 
@@ -174,9 +175,8 @@ geometry::OpeningSize TargetEstimator::lookedFor() const {
   return {pose.opening_width_m, pose.opening_height_m};
 }
 
-std::optional<geometry::Quadrilateral> TargetEstimator::expected(double stamp_sec,
-                                                               const geometry::PinholeCamera& camera,
-                                                               const Eigen::Isometry3d& T_base_camera) const {
+std::optional<geometry::Quadrilateral> TargetEstimator::expected(
+    double stamp_sec, const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera) const {
   const auto T_odom_camera = cameraAt(stamp_sec, T_base_camera);
   return T_odom_camera ? facade_.expected({camera, *T_odom_camera}) : std::nullopt;
 }
@@ -203,7 +203,8 @@ facade::Answer TargetEstimator::selectWindowNear(const Eigen::Vector3d& point_od
   return answer;
 }
 
-void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one) {
+void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up,
+                           bool next_one) {
   facade_.noteFlownAt(flown_at);
   heeded_ = std::min(heeded_, given_up.size());  // another mission began
   const std::vector<std::uint32_t> news(given_up.begin() + static_cast<std::ptrdiff_t>(heeded_),
@@ -227,7 +228,7 @@ std::string TargetEstimator::updateFilter(const SeenPicture& picture) {
   // A camera that is not mounted as said may give no pose at all.
   if (is_whole && T_odom_camera)
     checks_->frames.mounting().see(window, picture.camera, *T_odom_camera * picture.T_base_camera->inverse(),
-                           *picture.T_base_camera);
+                                   *picture.T_base_camera);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
   if (!picture.T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_camera) return "no odometry near the exposure";

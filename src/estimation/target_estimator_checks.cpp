@@ -26,7 +26,7 @@ std::string contradictedText(const Consistency& consistency) {
 void TargetEstimator::checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera) {
   if (!size_is_known_ || !last_.pose.estimate || !picture.window->whole()) return;
   checks_->parallax.see(picture.stamp_sec, T_odom_camera.translation(),
-                T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
+                        T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
 // Pictures that the filter refuses count, too: that they come at the wrong time may be why.

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/parameters/fields.hpp"
-#include "estimation/planar/observation_check.hpp"
 #include "estimation/checks/smooth_path.hpp"
 #include "estimation/filter/viewpoints.hpp"
 #include "estimation/filter/window_beliefs.hpp"
+#include "estimation/planar/observation_check.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::estimation {
 namespace {

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/parameters/fields.hpp"
 #include "estimation/planar/observation_check.hpp"
 #include "estimation/planar/planar_solutions.hpp"
 #include "estimation/planar/stray_border.hpp"
 #include "estimation/planar/view_description.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::estimation {
 namespace {

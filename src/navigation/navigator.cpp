@@ -8,18 +8,18 @@
 #include "navigation/behaviours/approach.hpp"
 #include "navigation/behaviours/back_off.hpp"
 #include "navigation/behaviours/commit.hpp"
-#include "navigation/motion/disturbance_observer.hpp"
 #include "navigation/behaviours/hold.hpp"
 #include "navigation/behaviours/home.hpp"
+#include "navigation/behaviours/place_keeping.hpp"
+#include "navigation/behaviours/search.hpp"
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
-#include "navigation/motion/motion_guard.hpp"
 #include "navigation/mission/opening_policy.hpp"
-#include "navigation/behaviours/place_keeping.hpp"
-#include "navigation/behaviours/search.hpp"
-#include "navigation/motion/setpoint_limiter.hpp"
 #include "navigation/mission/window_choice.hpp"
+#include "navigation/motion/disturbance_observer.hpp"
+#include "navigation/motion/motion_guard.hpp"
+#include "navigation/motion/setpoint_limiter.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
@@ -41,6 +41,7 @@ struct Navigator::Impl {
 
   NavigatorParams params;
   const double told_braking_mps2 = params.vehicle.braking_mps2;  ///< what is measured may be less
+  const CommitParams told_commit = params.commit;                ///< a mission may have a policy of its own
   InputMonitor monitor;
   SetpointLimiter limiter;
   DisturbanceObserver observer;
@@ -75,7 +76,14 @@ struct Navigator::Impl {
   Setpoint output(const Decision& decision, const Situation& situation);
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
   MeasuredVehicle measuredVehicle() const;
+  void follow(const MissionPolicy& policy);
 };
+
+void Navigator::Impl::follow(const MissionPolicy& policy) {
+  params.commit.unverified_opening =
+      policy.unverified_opening.empty() ? told_commit.unverified_opening : policy.unverified_opening;
+  params.commit.glass = policy.glass.empty() ? told_commit.glass : policy.glass;
+}
 
 MeasuredVehicle Navigator::Impl::measuredVehicle() const {
   const ResponseEstimator& response = observer.response();
@@ -245,13 +253,14 @@ std::vector<std::string> Navigator::Impl::unmet(const NavigatorInput& input, dou
 Navigator::Navigator(const NavigatorParams& params) : impl_(new Impl(params)) {}
 Navigator::~Navigator() = default;
 
-Reply Navigator::start(const NavigatorInput& input, double now_sec) {
+Reply Navigator::start(const NavigatorInput& input, double now_sec, const MissionPolicy& policy) {
   auto& self = *impl_;
   if (self.isLive()) return {true, std::string("already flying: ") + toString(self.state)};
   if (isEnd(self.state))
     return {false, std::string("mission ended as ") + toString(self.state) + ": reset first"};
   const auto faults = self.unmet(input, now_sec);
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
+  self.follow(policy);
   self.memory = MissionMemory();
   self.observer.reset();
   self.home = Home();
@@ -280,6 +289,7 @@ Reply Navigator::reset() {
   const auto to = next(self.state, Event::kReset);
   if (!to) return {false, std::string("flying: ") + toString(self.state) + "; abort first"};
   self.monitor.reset();
+  self.follow({});
   self.change(*to, self.waiting());
   return {true, "reset"};
 }
@@ -291,6 +301,8 @@ Reply Navigator::confirmOpening() {
   self.memory.opening_confirmed = true;
   return {true, "confirmed: the window flown at is open, without glass"};
 }
+
+State Navigator::state() const { return impl_->state; }
 
 void Navigator::sentZero() { impl_->last_setpoint = impl_->limiter.stop(); }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/geometry/opening.hpp"
 #include "simulation/scene/obstacle.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
 

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/parameters/fields.hpp"
 #include "simulation/camera/camera_sensor.hpp"
-#include "simulation/sensors/faults.hpp"
-#include "simulation/vehicle/followed_vehicle.hpp"
 #include "simulation/camera/reference_picture.hpp"
 #include "simulation/scene/scene.hpp"
+#include "simulation/sensors/faults.hpp"
+#include "simulation/vehicle/followed_vehicle.hpp"
 #include "simulation/vehicle/sway.hpp"
 #include "simulation/vehicle/wind.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -5,15 +5,15 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "simulation/referee.hpp"
+#include "simulation/scenario/scenario.hpp"
 #include "simulation/sensors/faults.hpp"
 #include "simulation/sensors/imu_sensor.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
-#include "simulation/referee.hpp"
-#include "simulation/scenario/scenario.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

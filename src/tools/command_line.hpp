@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "evaluation/flights/flight_table.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "window_ingress/parameters/yaml.hpp"
 
 namespace window_ingress::tools {
 

@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "evaluation/images/detection_table.hpp"
 #include "params_file.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
-#include "evaluation/images/detection_table.hpp"
-#include "window_ingress/parameters/calibration_file.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/yaw_text.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/parameters/yaml.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "window_ingress/configuration/overlay.hpp"
 #include "evaluation/images/stage_sheet.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 
 namespace {
 

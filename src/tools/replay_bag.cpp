@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "adapters/bags/detection_strip.hpp"
-#include "adapters/nodes/detector_node.hpp"
-#include "adapters/sources/parameters.hpp"
 #include "adapters/bags/replay.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/bags/replay_tables.hpp"
+#include "adapters/nodes/detector_node.hpp"
+#include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
 

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "evaluation/images/detection_survey.hpp"
+#include "evaluation/images/survey_folder.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "evaluation/images/detection_survey.hpp"
-#include "evaluation/images/survey_folder.hpp"
 
 namespace {
 

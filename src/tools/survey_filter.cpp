@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/configuration/overlay.hpp"
 #include "evaluation/poses/filter_survey.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 
 namespace {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/configuration/overlay.hpp"
 #include "evaluation/openness/openness_survey.hpp"
 #include "simulation/random_stream.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 
 namespace {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/detection/window_detector.hpp"
+#include "evaluation/images/survey_folder.hpp"
 #include "evaluation/poses/pose_chain.hpp"
 #include "evaluation/poses/pose_survey.hpp"
-#include "evaluation/images/survey_folder.hpp"
-#include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/parameters/calibration_file.hpp"
 
 namespace {
 

@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/detection/window_tracker.hpp"
 #include "evaluation/images/survey_flight.hpp"
 #include "evaluation/images/survey_picture.hpp"
 #include "evaluation/images/track_survey.hpp"
 #include "simulation/camera/camera_sensor.hpp"
-#include "simulation/random_stream.hpp"
 #include "simulation/camera/reference_picture.hpp"
+#include "simulation/random_stream.hpp"
+#include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 
 namespace {
 

@@ -16,11 +16,11 @@
 #include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "display.hpp"
+#include "evaluation/statistics.hpp"
 #include "params_file.hpp"
 #include "tuning_bench.hpp"
 #include "tuning_source.hpp"
 #include "value_table.hpp"
-#include "evaluation/statistics.hpp"
 #include "window_ingress/parameters/slider.hpp"
 
 namespace {

@@ -15,8 +15,8 @@
 #include "adapters/sources/parameters.hpp"
 #include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
-#include "params_file.hpp"
 #include "evaluation/images/detector_tuning.hpp"
+#include "params_file.hpp"
 #include "window_ingress/parameters/field_list.hpp"
 
 namespace {

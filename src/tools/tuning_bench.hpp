@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "adapters/sources/diagnostics.hpp"
-#include "window_ingress/detection/window_detector.hpp"
 #include "evaluation/images/stage_sheet.hpp"
+#include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/parameters/field_list.hpp"
 
 namespace window_ingress::tools {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "adapters/bags/bag_topics.hpp"
-#include "adapters/conversions/image_guard.hpp"
 #include "adapters/bags/labelled_bag.hpp"
+#include "adapters/conversions/image_guard.hpp"
 #include "command_line.hpp"
 
 namespace window_ingress::tools {

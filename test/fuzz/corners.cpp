@@ -3,8 +3,8 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "bytes.hpp"
 #include "targets.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::fuzz {
 namespace {
@@ -47,7 +47,8 @@ window_ingress::WindowDetection anyDetection(Bytes& bytes, double stamp_sec) {
 }
 
 void check(const estimation::PoseResult& result) {
-  require(result.estimate.has_value() == (result.reject == estimation::PoseReject::kNone), "a pose or a reason");
+  require(result.estimate.has_value() == (result.reject == estimation::PoseReject::kNone),
+          "a pose or a reason");
   if (!result.estimate) return require(!result.detail.empty(), "a reason has words");
   const estimation::WindowPoseEstimate& pose = *result.estimate;
   require(geometry::isValidPose(pose.best.T_camera_window), "a rotation and finite numbers");
@@ -74,7 +75,7 @@ geometry::PinholeCamera anyCamera(Bytes& bytes) {
 std::optional<estimation::GravityPrior> anyGravity(Bytes& bytes) {
   if (bytes.take<std::uint8_t>() % 2 == 0) return std::nullopt;
   return estimation::GravityPrior{{bytes.number(-0.2, 0.2), bytes.number(-1.0, 0.0), bytes.number(-0.2, 0.2)},
-                            bytes.number(0.0, 0.1)};
+                                  bytes.number(0.0, 0.1)};
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include "targets.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
-#include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 

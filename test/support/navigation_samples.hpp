@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "navigation/motion/input_monitor.hpp"
+#include "window_ingress/geometry/frames.hpp"
 #include "without_glass.hpp"
 
 namespace window_ingress::test {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "window_ingress/detection/seen_windows.hpp"
+#include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/facade/facade_map.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/estimation/window_filter.hpp"
 
 namespace window_ingress::test {
 

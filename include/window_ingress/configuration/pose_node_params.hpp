@@ -3,9 +3,9 @@
 #include <string>
 
 #include "window_ingress/configuration/common_params.hpp"
-#include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/pose_params.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/navigation/vehicle_params.hpp"
 
 namespace window_ingress::configuration {

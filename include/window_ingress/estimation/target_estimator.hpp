@@ -7,9 +7,6 @@
 #include <vector>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/facade/facade_memory.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/openness/openness_judge.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/estimation/frames_params.hpp"
 #include "window_ingress/estimation/opening_fit.hpp"
@@ -17,6 +14,9 @@
 #include "window_ingress/estimation/target_estimate.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/openness/openness_judge.hpp"
 
 namespace window_ingress::estimation {
 
@@ -104,9 +104,7 @@ class TargetEstimator {
   const TargetUpdate& lastUpdate() const { return last_; }
 
   /// Whether the vehicle fits through the opening, as far as its size is known.
-  FitVerdict fit(const FilteredWindow& window) const {
-    return fitVerdict(window.size, params_.fit);
-  }
+  FitVerdict fit(const FilteredWindow& window) const { return fitVerdict(window.size, params_.fit); }
   /// Whether it is open, as far as the texture within its border has shown.
   const openness::OpennessVerdict& openness() const { return judge_.verdict(); }
   FramesVerdict frames() const;

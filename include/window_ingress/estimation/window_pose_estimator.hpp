@@ -4,11 +4,11 @@
 #include <string>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/estimation/pose_params.hpp"
 #include "window_ingress/estimation/pose_prior.hpp"
 #include "window_ingress/estimation/size_belief.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {
 

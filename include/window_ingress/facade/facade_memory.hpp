@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/facade/facade_map.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
+#include "window_ingress/facade/facade_map.hpp"
 
 namespace window_ingress::facade {
 

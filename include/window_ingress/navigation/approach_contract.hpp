@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "window_ingress/estimation/target_motion.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/relative_state.hpp"
-#include "window_ingress/estimation/target_motion.hpp"
 
 namespace window_ingress::navigation {
 
@@ -28,12 +28,12 @@ double commitDistance(const RelativeState& relative, const geometry::OpeningSize
 struct ContractInput {
   RelativeState relative;
   geometry::OpeningSize opening;
-  double pitch_rad = 0.0;          ///< of the vehicle, nose down positive
-  double unseen_sec = 0.0;         ///< the estimate is as of so long ago
-  estimation::TargetMotion motion;       ///< of the window
-  double gust_lateral_mps = 0.0;   ///< root mean square of the velocity that gusts bring
-  double gust_vertical_mps = 0.0;  ///< likewise
-  double odometry_mps = 0.0;       ///< by which the odometry's velocity may be off
+  double pitch_rad = 0.0;           ///< of the vehicle, nose down positive
+  double unseen_sec = 0.0;          ///< the estimate is as of so long ago
+  estimation::TargetMotion motion;  ///< of the window
+  double gust_lateral_mps = 0.0;    ///< root mean square of the velocity that gusts bring
+  double gust_vertical_mps = 0.0;   ///< likewise
+  double odometry_mps = 0.0;        ///< by which the odometry's velocity may be off
   double drift_m_per_sqrt_sec =
       0.0;  ///< of the odometry, as measured; at least that of the parameters counts
 };

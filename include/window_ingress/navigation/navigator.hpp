@@ -71,6 +71,12 @@ struct Reply {
   std::string message;
 };
 
+/// What holds for one mission in place of the parameters `commit/...`; empty: as these are set.
+struct MissionPolicy {
+  std::string unverified_opening;  ///< ask, allow or deny
+  std::string glass;               ///< possible or excluded
+};
+
 /// State machine, guidance and limiter. No clock inside: `now_sec` must come from the caller, in the time of
 /// the stamps.
 ///
@@ -88,7 +94,8 @@ class Navigator {
   explicit Navigator(const NavigatorParams& params);
   ~Navigator();
 
-  Reply start(const NavigatorInput& input, double now_sec);  ///< refused with all unmet conditions listed
+  /// Refused with all unmet conditions listed.
+  Reply start(const NavigatorInput& input, double now_sec, const MissionPolicy& policy = {});
   Reply abort();  ///< from everywhere, any number of times; zero from the next step on
   Reply reset();  ///< from any end state back to IDLE
   /// The operator says that the window flown at now is open; forgotten when it is given up. Refused where
@@ -98,6 +105,7 @@ class Navigator {
   NavigatorOutput step(const NavigatorInput& input, double now_sec);
   /// The caller has sent zero in place of what the last step said: from there the velocity grows anew.
   void sentZero();
+  State state() const;
 
  private:
   struct Impl;

@@ -24,7 +24,8 @@ std::string named(std::size_t number) {
 std::string captionOf(const ReplayedFrame& frame) {
   if (!frame.row.window) return "no window: " + frame.row.reject_reason;
   if (!frame.row.pose) return "window";
-  return geometry::yawText(frame.row.pose->yaw_rad, frame.row.pose->yaw_sigma_rad, frame.row.pose->sign_trusted);
+  return geometry::yawText(frame.row.pose->yaw_rad, frame.row.pose->yaw_sigma_rad,
+                           frame.row.pose->sign_trusted);
 }
 
 }  // namespace

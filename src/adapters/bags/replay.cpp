@@ -16,10 +16,10 @@
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/conversions/stamps.hpp"
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/parameters/text.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -270,7 +270,8 @@ void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
     const estimation::PoseResult& result = tracker_.lastUpdate().pose;
     frame.row.pose = result.estimate;
     frame.why_not_filtered = tracker_.lastUpdate().why_not;
-    if (!result.estimate) frame.row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
+    if (!result.estimate)
+      frame.row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
   }
   frame.filtered = tracker_.filtered(stamp_sec);
   frame.openness = tracker_.openness();

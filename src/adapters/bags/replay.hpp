@@ -16,8 +16,8 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "evaluation/images/detection_table.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
-#include "window_ingress/perception/window_perception.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
+#include "window_ingress/perception/window_perception.hpp"
 
 namespace window_ingress::adapters {
 

@@ -73,7 +73,8 @@ geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose) {
   return transform;
 }
 
-geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose, const estimation::Matrix6d& covariance) {
+geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
+                                        const estimation::Matrix6d& covariance) {
   geometry_msgs::PoseWithCovariance message;
   message.pose = toPoseMsg(pose);
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = covariance;

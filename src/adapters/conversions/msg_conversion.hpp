@@ -22,14 +22,14 @@
 #include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/facade/facade_memory.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/navigation/navigator.hpp"
-#include "window_ingress/openness/openness_verdict.hpp"
 #include "window_ingress/estimation/frames_params.hpp"
 #include "window_ingress/estimation/opening_fit.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/facade/facade_memory.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+#include "window_ingress/openness/openness_verdict.hpp"
 
 namespace window_ingress::adapters {
 
@@ -53,7 +53,8 @@ Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message);
 
 geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose);
 geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose);
-geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose, const estimation::Matrix6d& covariance);
+geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
+                                        const estimation::Matrix6d& covariance);
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector);
 Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector);
 

@@ -23,7 +23,8 @@ static_assert(same(PoseMsg::OK, estimation::PoseReject::kNone) &&
               same(PoseMsg::RANGE, estimation::PoseReject::kRange) &&
               same(PoseMsg::TILT, estimation::PoseReject::kTilt) &&
               same(PoseMsg::NOT_FINITE, estimation::PoseReject::kNotFinite));
-static_assert(same(PoseMsg::FIT_UNKNOWN, estimation::Fit::kUnknown) && same(PoseMsg::FIT_GO, estimation::Fit::kGo) &&
+static_assert(same(PoseMsg::FIT_UNKNOWN, estimation::Fit::kUnknown) &&
+              same(PoseMsg::FIT_GO, estimation::Fit::kGo) &&
               same(PoseMsg::FIT_NO_GO, estimation::Fit::kNoGo));
 static_assert(same(PoseMsg::FRAMES_OPEN, estimation::FramesVerdict::kOpen) &&
               same(PoseMsg::FRAMES_GOOD, estimation::FramesVerdict::kGood) &&

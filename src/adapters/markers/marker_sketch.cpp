@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "adapters/markers/marker_colours.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
-#include "adapters/conversions/msg_conversion.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -135,8 +135,9 @@ std::string windowLabel(const window_ingress::WindowPose& message) {
   return text;
 }
 
-visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window, const std::string& text,
-                                              const ros::Time& stamp, const std::string& frame_id) {
+visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window,
+                                              const std::string& text, const ros::Time& stamp,
+                                              const std::string& frame_id) {
   MarkerSketch sketch(stamp, frame_id);
   const geometry::OpeningSize& size = window.size.size;
   const int rgb = window.sign_trusted ? kTrustedRgb : kOpenRgb;

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::adapters {
 
@@ -27,8 +27,9 @@ std::string windowLabel(const window_ingress::WindowPose& message);
 /// of its heading; the ellipsoid of three standard deviations of its centre; `text` beside it. Once the
 /// normal is trusted the plane of the wall; until then the other hypothesis, the fainter the less likely it
 /// is.
-visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window, const std::string& text,
-                                              const ros::Time& stamp, const std::string& frame_id);
+visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window,
+                                              const std::string& text, const ros::Time& stamp,
+                                              const std::string& frame_id);
 
 /// All windows known: borders coloured by whether they are open, and in each its number and verdict.
 visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade);

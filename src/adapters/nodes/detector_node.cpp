@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/sources/guarded.hpp"
 #include "adapters/conversions/image_message.hpp"
+#include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/yaw_text.hpp"
@@ -130,8 +130,7 @@ void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& pict
 void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::Mat& image,
                                      double milliseconds) {
   const auto& window = perception_.window();
-  detection::drawDetection(image, perception_.trace(), window ? &*window : nullptr, canvas_,
-                           milliseconds);
+  detection::drawDetection(image, perception_.trace(), window ? &*window : nullptr, canvas_, milliseconds);
   const std::string yaw = yawAt(header.stamp);
   if (window && !yaw.empty()) detection::drawYaw(canvas_, *window, yaw);
   debug_publisher_.publish(toImageMsg(canvas_, header));
@@ -220,8 +219,9 @@ Health DetectorNode::referenceHealth() const {
   if (reference_from_.empty()) return {Health::kOk, "none: windows are told by their geometry alone"};
   std::string text = "from " + reference_from_;
   if (perception_.window())
-    text += perception_.window()->has_appearance ? "; distance " + std::to_string(perception_.window()->bhattacharyya)
-                                         : "; not compared in the last image: geometry alone";
+    text += perception_.window()->has_appearance
+                ? "; distance " + std::to_string(perception_.window()->bhattacharyya)
+                : "; not compared in the last image: geometry alone";
   return {reference_is_guess_ ? Health::kWarn : Health::kOk, text};
 }
 

@@ -13,16 +13,16 @@
 #include <string>
 #include <vector>
 
+#include "adapters/conversions/stamps.hpp"
+#include "adapters/nodes/picture_times.hpp"
+#include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/attitude_source.hpp"
 #include "adapters/sources/camera_source.hpp"
 #include "adapters/sources/diagnostics.hpp"
 #include "adapters/sources/image_source.hpp"
 #include "adapters/sources/lockstep.hpp"
-#include "adapters/nodes/picture_times.hpp"
 #include "adapters/sources/reconfigure.hpp"
 #include "adapters/sources/reference_source.hpp"
-#include "adapters/nodes/run_node.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/perception/window_perception.hpp"

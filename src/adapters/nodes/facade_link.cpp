@@ -1,9 +1,9 @@
 #include "adapters/nodes/facade_link.hpp"
 
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/markers.hpp"
 #include "adapters/sources/attitude_source.hpp"
 #include "adapters/sources/guarded.hpp"
-#include "adapters/markers/markers.hpp"
-#include "adapters/conversions/msg_conversion.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -19,6 +19,8 @@ FacadeLink::FacadeLink(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& d
   publisher_ = nh.advertise<window_ingress::Facade>("facade", 1, true);
   click_ = subscribeGuarded<geometry_msgs::PointStamped>(
       nh, "clicked_point", 1, diagnostics, [this](const auto& message) { receiveClick(*message); });
+  choice_ = subscribeGuarded<std_msgs::UInt32>(nh, "chosen_window", 1, diagnostics,
+                                               [this](const auto& message) { receiveChoice(*message); });
   state_ = subscribeGuarded<window_ingress::IngressState>(
       nh, "state", 1, diagnostics, [this](const auto& message) { receiveState(*message); });
   select_ = pnh.advertiseService("select_window", &FacadeLink::select, this);
@@ -31,6 +33,12 @@ bool FacadeLink::select(window_ingress::SelectWindow::Request& request,
   reply.success = answer.success;
   reply.message = answer.message;
   return true;
+}
+
+void FacadeLink::receiveChoice(const std_msgs::UInt32& message) {
+  const facade::Answer answer = tracker_.selectWindow(message.data);
+  ROS_INFO("chosen by a goal: %s", answer.message.c_str());
+  if (answer.success) published_sec_ = -1.0;  // whoever waits for it hears of it with the next image
 }
 
 void FacadeLink::receiveClick(const geometry_msgs::PointStamped& message) {

@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/PointStamped.h>
 #include <ros/node_handle.h>
+#include <std_msgs/UInt32.h>
 #include <tf2_ros/buffer.h>
 #include <window_ingress/Facade.h>
 #include <window_ingress/IngressState.h>
@@ -16,8 +17,8 @@
 namespace window_ingress::adapters {
 
 /// The memory of all windows between topics: what it knows goes out (`facade`, `markers`), which of them is
-/// the target comes in (`~select_window`, a click in rviz: `clicked_point`), and what the navigator does
-/// (`state`).
+/// the target comes in (`~select_window`, a click in rviz: `clicked_point`, a goal of the navigator's action:
+/// `chosen_window`), and what the navigator does (`state`).
 class FacadeLink {
  public:
   /// \param tracker \param tf both outlive this
@@ -32,6 +33,7 @@ class FacadeLink {
  private:
   window_ingress::Facade tell(const ros::Time& stamp);
   bool select(window_ingress::SelectWindow::Request& request, window_ingress::SelectWindow::Response& reply);
+  void receiveChoice(const std_msgs::UInt32& message);
   void receiveClick(const geometry_msgs::PointStamped& message);
   void receiveState(const window_ingress::IngressState& message);
   Health health() const;
@@ -40,7 +42,7 @@ class FacadeLink {
   const tf2_ros::Buffer& tf_;
   std::string odom_frame_;
   ros::Publisher publisher_;
-  ros::Subscriber click_, state_;
+  ros::Subscriber choice_, click_, state_;
   ros::ServiceServer select_;
   double published_sec_ = -1.0;  // on the steady clock
   std::uint32_t published_target_ = 0;

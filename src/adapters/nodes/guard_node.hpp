@@ -3,9 +3,9 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/node_handle.h>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"
+#include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/conversions/image_guard.hpp"
 #include "adapters/nodes/run_node.hpp"
+#include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "adapters/sources/guarded.hpp"
 #include "adapters/markers/marker_sketch.hpp"
+#include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -70,20 +70,18 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
   diagnostics_.add("camera", [this] { return cameraHealth(); });
   diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
-  start_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
-      "start", &NavigatorNode::start, this);
-  abort_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
-      "abort", &NavigatorNode::abort, this);
-  reset_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
-      "reset", &NavigatorNode::reset, this);
-  confirm_opening_ = pnh.advertiseService<NavigatorNode, Trigger::Request, Trigger::Response>(
-      "confirm_opening", &NavigatorNode::confirmOpening, this);
+  advertiseServices(pnh);
   if (params_.lockstep)
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
         [this](const auto& step) { stepInStep(step); });
   else
     timer_ = createGuardedTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
+  if (!params_.lockstep)
+    action_.emplace(nh, diagnostics_,
+                    MissionAction::Mission{[this] { return whyFlying(); },
+                                           [this](const auto& policy) { return startMission(policy); },
+                                           [this] { return abortMission(); }});
 }
 
 bool NavigatorNode::isComplete(const Lockstep::Step& step) const {
@@ -137,6 +135,7 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   pose_health_.stamped(*input_.image_stamp_sec);
   input_.remembered_odom_m = rememberedFrom(*message, params_.frames.odom);
   takeCamera(message->camera);
+  if (action_) action_->hear(*message);
   if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
   const auto target = targetFromMsg(*message, params_.frames.odom);
   if (!target) return pose_health_.refused(target.reason);
@@ -158,6 +157,10 @@ void NavigatorNode::step() {
   restartIfClockJumpedBack(now.toSec());
   forgetSilentInputs();
   const bool works = guarded(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
+  if (isLeftToOthers()) {
+    last_.enabled = was_enabled_ = false;
+    last_.reason = "disabled (~enable)";
+  }
   if (!works) {
     last_.setpoint = navigation::Setpoint();
     navigator_.sentZero();
@@ -204,46 +207,8 @@ bool NavigatorNode::clockStandsStill(double now_sec) {
   return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
 }
 
-bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
-  const double now_sec = nowSec();
-  if (!lockstep_) forgetSilentInputs();
-  if (!lockstep_ && clockStandsStill(now_sec))
-    return answer("start", {false, "the clock stands still: nothing on /clock"}, response);
-  if (params_.start_at_once && last_.state == navigation::State::kIdle)
-    return answer("start", {false, "starts by itself in the first step in which it may"}, response);
-  navigation::Reply reply = navigator_.start(input_, now_sec);
-  for (const TopicHealth* topic : {&odom_health_, &pose_health_}) {
-    const Health health = topic->health();
-    if (!reply.success && health.level == Health::kError) reply.message += "; " + health.text;
-  }
-  const Health engaged = engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
-  if (!reply.success && engaged.level == Health::kError) reply.message += "; " + engaged.text;
-  return answer("start", reply, response);
-}
-
-bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
-  const navigation::Reply reply = navigator_.abort();
-  if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
-  return answer("abort", reply, response);
-}
-
-bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
-  return answer("reset", navigator_.reset(), response);
-}
-
-bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& response) {
-  return answer("confirm_opening", navigator_.confirmOpening(), response);
-}
-
-bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Trigger::Response& response) {
-  ROS_INFO("%s: %s: %s", service, reply.success ? "done" : "refused", reply.message.c_str());
-  response.success = reply.success;
-  response.message = reply.message;
-  return true;
-}
-
 void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros::Time& now) {
-  const bool stands_by = output.state == navigation::State::kIdle && !lockstep_;
+  const bool stands_by = output.state == navigation::State::kIdle && !lockstep_ && !is_disabled_;
   if (output.enabled || was_enabled_ || stands_by)
     publishSetpoint(output.enabled ? output.setpoint : navigation::Setpoint(), now);
   was_enabled_ = output.enabled;
@@ -294,54 +259,15 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
   message.header.stamp = now;
   message.header.frame_id = params_.frames.odom;
   state_publisher_.publish(message);
+  if (action_) action_->hear(message);
   said_ = message;
   said_sec_ = steadyNowSec();
-}
-
-Health NavigatorNode::missionHealth() const {
-  const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;
-  const bool bad = last_.state == navigation::State::kAborted || last_.state == navigation::State::kHold;
-  return {bad ? Health::kWarn : Health::kOk, text};
-}
-
-Health NavigatorNode::vehicleHealth() const {
-  const navigation::MeasuredVehicle& vehicle = last_.report.vehicle;
-  char text[200];
-  std::snprintf(text, sizeof text, "answers in %.2f s, as %s", vehicle.response_sec,
-                vehicle.is_measured ? "measured in flight" : "assumed");
-  std::string said = text;
-  if (std::isfinite(vehicle.acceleration_mps2)) {
-    std::snprintf(text, sizeof text, "; changes its velocity by no more than %.1f m/s^2",
-                  vehicle.acceleration_mps2);
-    said += text;
-  }
-  if (const double bias_mps = vehicle.velocity_bias_base_mps.norm(); bias_mps > 0.0) {
-    std::snprintf(text, sizeof text, "; odometry's velocity is off by %.2f m/s, which is taken off",
-                  bias_mps);
-    said += text;
-  }
-  return {Health::kOk, said};
-}
-
-Health NavigatorNode::cameraHealth() const {
-  if (!input_.camera_fault.empty()) return {Health::kWarn, input_.camera_fault};
-  const navigation::VehicleParams& vehicle = params_.navigator.vehicle;
-  char text[160];
-  std::snprintf(text, sizeof text, "%.2f m ahead, sees %.2f x %.2f rad, %.2g rad a pixel: as %s",
-                vehicle.camera_forward_m, vehicle.horizontal_fov_rad, vehicle.vertical_fov_rad,
-                vehicle.pixel_rad,
-                input_.camera ? "camera_info and tf say" : "the parameters vehicle/... say");
-  return {Health::kOk, text};
-}
-
-Health NavigatorNode::lastGateHealth() const {
-  if (gate_fault_.empty()) return {};
-  return {Health::kError, "zero is sent in place of a setpoint that must not be: " + gate_fault_};
 }
 
 void NavigatorNode::stop() {
   timer_.stop();
   navigator_.abort();
+  if (action_) action_->stop();
   for (int i = 0; i < 5; ++i) {
     publishSetpoint(navigation::Setpoint(), ros::Time::now());
     ros::WallDuration(0.05).sleep();

@@ -3,6 +3,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <std_msgs/Bool.h>
+#include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <window_ingress/CameraInBody.h>
 #include <window_ingress/IngressState.h>
@@ -12,18 +13,19 @@
 #include <optional>
 #include <string>
 
-#include "adapters/sources/diagnostics.hpp"
-#include "adapters/nodes/engagement.hpp"
-#include "adapters/markers/flight_markers.hpp"
-#include "adapters/sources/lockstep.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "adapters/markers/flight_markers.hpp"
+#include "adapters/nodes/engagement.hpp"
+#include "adapters/nodes/mission_action.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"
 #include "adapters/nodes/setpoint_watch.hpp"
-#include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/diagnostics.hpp"
+#include "adapters/sources/lockstep.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
-#include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::adapters {
 
@@ -31,7 +33,8 @@ using configuration::NavigatorNodeParams;
 
 /// `navigation::Navigator` between topics and services: pose and odometry in, velocity out. In IDLE it sends
 /// zeros, so that an autopilot accepts the switch to the mode that follows them; after an abort it falls
-/// silent, so that the autopilot's own failsafe acts. In lockstep it is silent in IDLE, too.
+/// silent, so that the autopilot's own failsafe acts. In lockstep it is silent in IDLE, too. While disabled
+/// it starts nothing and leaves the setpoints to others.
 class NavigatorNode : public Node {
  public:
   NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
@@ -53,11 +56,18 @@ class NavigatorNode : public Node {
   void restartIfClockJumpedBack(double now_sec);
   bool clockStandsStill(double now_sec);
   navigation::NavigatorOutput decide(double now_sec);
+  void advertiseServices(ros::NodeHandle& pnh);
+  navigation::Reply startMission(const navigation::MissionPolicy& policy);
+  navigation::Reply abortMission();
+  std::string whyFlying() const;
+  bool isLeftToOthers() const;
   bool start(Trigger::Request& request, Trigger::Response& response);
   bool abort(Trigger::Request& request, Trigger::Response& response);
   bool reset(Trigger::Request& request, Trigger::Response& response);
   bool confirmOpening(Trigger::Request& request, Trigger::Response& response);
-  static bool answer(const char* service, const navigation::Reply& reply, Trigger::Response& response);
+  bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  template <typename Response>
+  static bool answer(const char* service, const navigation::Reply& reply, Response& response);
   void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
@@ -82,7 +92,7 @@ class NavigatorNode : public Node {
   double drawn_sec_ = 0.0;
   window_ingress::IngressState said_;
   double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
-  bool was_enabled_ = false;
+  bool was_enabled_ = false, is_disabled_ = false;
   GuardParams last_gate_;
   std::string gate_fault_;  // of the setpoint last sent
   std::optional<Lockstep> lockstep_;
@@ -91,7 +101,8 @@ class NavigatorNode : public Node {
 
   ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
-  ros::ServiceServer start_, abort_, reset_, confirm_opening_;
+  ros::ServiceServer start_, abort_, reset_, confirm_opening_, enable_;
+  std::optional<MissionAction> action_;  // not in lockstep: nobody asks there
   ros::SteadyTimer timer_;
 };
 

@@ -8,7 +8,8 @@
 namespace window_ingress::adapters {
 
 Health framesHealth(const estimation::FramesVerdict& frames) {
-  if (frames.state == estimation::FramesVerdict::kWrong) return {Health::kError, frames.what + "; no approach"};
+  if (frames.state == estimation::FramesVerdict::kWrong)
+    return {Health::kError, frames.what + "; no approach"};
   if (frames.state == estimation::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
   return {Health::kOk, "camera mounting and velocity frame verified"};
 }

@@ -4,10 +4,10 @@
 
 #include <cstdio>
 
-#include "adapters/sources/attitude_source.hpp"
-#include "adapters/sources/guarded.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "adapters/markers/markers.hpp"
+#include "adapters/sources/attitude_source.hpp"
+#include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 
 namespace window_ingress::adapters {

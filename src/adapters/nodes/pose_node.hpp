@@ -13,18 +13,18 @@
 #include <optional>
 #include <string>
 
-#include "adapters/sources/camera_source.hpp"
-#include "adapters/sources/diagnostics.hpp"
-#include "adapters/nodes/facade_link.hpp"
-#include "adapters/sources/lockstep.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "adapters/nodes/facade_link.hpp"
 #include "adapters/nodes/pose_health.hpp"
 #include "adapters/nodes/run_node.hpp"
-#include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/camera_source.hpp"
+#include "adapters/sources/diagnostics.hpp"
+#include "adapters/sources/lockstep.hpp"
 #include "adapters/sources/tf_attitude.hpp"
 #include "window_ingress/configuration/pose_node_params.hpp"
-#include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::adapters {
 

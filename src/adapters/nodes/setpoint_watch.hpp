@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/nodes/engagement.hpp"
+#include "adapters/sources/diagnostics.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 
 namespace window_ingress::adapters {

@@ -1,7 +1,7 @@
 #include "adapters/sources/attitude_source.hpp"
 
-#include "adapters/sources/guarded.hpp"
 #include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/guarded.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/sources/diagnostics.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 
 namespace window_ingress::adapters {

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <string>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/conversions/image_guard.hpp"
 #include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {
 

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {
 

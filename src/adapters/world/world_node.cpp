@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "adapters/conversions/stamps.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/world/world_messages.hpp"
 
 namespace window_ingress::adapters {

@@ -12,15 +12,15 @@
 #include <optional>
 #include <string>
 
-#include "adapters/sources/diagnostics.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/nodes/run_node.hpp"
+#include "adapters/sources/diagnostics.hpp"
 #include "adapters/world/world_lockstep.hpp"
 #include "adapters/world/world_publishers.hpp"
 #include "adapters/world/world_referee.hpp"
-#include "window_ingress/configuration/world_node_params.hpp"
 #include "simulation/schedule.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/configuration/world_node_params.hpp"
 
 namespace window_ingress::adapters {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "window_ingress/estimation/filter_params.hpp"
 #include "estimation/filter/window_hypothesis.hpp"
+#include "window_ingress/estimation/filter_params.hpp"
 
 namespace window_ingress::estimation {
 

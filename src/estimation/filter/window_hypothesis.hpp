@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/estimation/filter_params.hpp"
+#include "estimation/filter/window_state.hpp"
 #include "estimation/planar/image_measurement.hpp"
+#include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/size_belief.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
-#include "estimation/filter/window_state.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {
 

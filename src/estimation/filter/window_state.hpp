@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "estimation/planar/image_measurement.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
-#include "estimation/planar/image_measurement.hpp"
 
 namespace window_ingress::estimation {
 

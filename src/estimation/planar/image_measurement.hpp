@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "estimation/planar/predicted_opening.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
-#include "estimation/planar/predicted_opening.hpp"
 
 namespace window_ingress::estimation {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/estimation/pose_params.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "estimation/planar/opening_aspect.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
 namespace {

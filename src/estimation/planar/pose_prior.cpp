@@ -2,8 +2,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "estimation/planar/predicted_opening.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
 namespace {

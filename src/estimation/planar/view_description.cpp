@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "estimation/planar/opening_aspect.hpp"
 #include "estimation/planar/relative_yaw.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
 namespace {

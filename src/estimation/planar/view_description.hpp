@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "estimation/planar/planar_solutions.hpp"
-#include "window_ingress/estimation/pose_params.hpp"
 #include "estimation/planar/refinement.hpp"
+#include "window_ingress/estimation/pose_params.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 
 namespace window_ingress::estimation {

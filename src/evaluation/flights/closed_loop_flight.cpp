@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "evaluation/flights/flight_facts.hpp"
+#include "simulation/world.hpp"
+#include "window_ingress/estimation/pose_buffer.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/perception/window_perception.hpp"
-#include "window_ingress/estimation/pose_buffer.hpp"
-#include "window_ingress/estimation/sender_clock.hpp"
-#include "simulation/world.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/detection/detector_params.hpp"
 #include "evaluation/flights/flight_metrics.hpp"
 #include "evaluation/flights/flight_observer.hpp"
 #include "evaluation/flights/flight_timing.hpp"
 #include "evaluation/flights/projected_sight.hpp"
-#include "window_ingress/navigation/navigator_params.hpp"
-#include "window_ingress/estimation/target_estimator.hpp"
-#include "window_ingress/openness/follower_params.hpp"
+#include "simulation/scenario/scenario.hpp"
+#include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/pose_params.hpp"
-#include "simulation/scenario/scenario.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/openness/follower_params.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "window_ingress/configuration/pose_node_params.hpp"
 #include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/configuration/pose_node_params.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -26,7 +26,8 @@ void tellVehicle(const simulation::World& world, const std::set<std::string>& sa
   tell("exposure_sec", vehicle.exposure_sec, world.scenario().camera.exposure_sec);
 }
 
-void tellOpening(const simulation::World& world, const std::set<std::string>& said, estimation::PoseParams& pose) {
+void tellOpening(const simulation::World& world, const std::set<std::string>& said,
+                 estimation::PoseParams& pose) {
   if (pose.scale_sigma > 0.0 || pose.aspect_sigma > 0.0) return;  // to be found out
   const auto isSaid = [&](const char* name) { return said.count(name) > 0; };
   if (!isSaid("homography_pose/pose/opening_width_m")) pose.opening_width_m = world.opening().width_m;

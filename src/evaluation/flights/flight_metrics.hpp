@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "evaluation/statistics.hpp"
-#include "window_ingress/estimation/clock_check.hpp"
 #include "simulation/referee.hpp"
+#include "window_ingress/estimation/clock_check.hpp"
 
 namespace window_ingress::evaluation {
 
@@ -31,8 +31,9 @@ struct FlightResult {
   double max_speed_mps = 0.0;
   double nearest_m = 0.0;  ///< smallest gap to anything solid but the ground, never more than the true one
   double blind_sec = 0.0;  ///< longest time without sight of the window before the plane
-  std::optional<double> predicted_miss_m;                ///< by the navigator, at its last commit
-  std::optional<estimation::ClockCheck::Offset> clock_offset;  ///< of pictures beside odometry, as found on the way
+  std::optional<double> predicted_miss_m;  ///< by the navigator, at its last commit
+  std::optional<estimation::ClockCheck::Offset>
+      clock_offset;  ///< of pictures beside odometry, as found on the way
   std::string reason;
   std::vector<TrackPoint> track;  ///< ten points a second
 };

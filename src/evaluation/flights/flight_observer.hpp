@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "evaluation/flights/flight_record.hpp"
+#include "simulation/world.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/window_observation.hpp"
-#include "evaluation/flights/flight_record.hpp"
 #include "window_ingress/navigation/navigator.hpp"
-#include "simulation/world.hpp"
 
 namespace window_ingress::evaluation {
 

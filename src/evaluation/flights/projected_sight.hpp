@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "simulation/random_stream.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
-#include "simulation/random_stream.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/detection/detection_trace.hpp"
-#include "window_ingress/detection/window_observation.hpp"
 #include "evaluation/images/corner_statistics.hpp"
 #include "evaluation/images/survey_picture.hpp"
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 
 namespace window_ingress::evaluation {
 
@@ -68,7 +68,8 @@ class SurveySummary {
   int frames() const { return frames_; }
   int count(SurveyVerdict verdict) const { return counts_[static_cast<int>(verdict)]; }
   double part(SurveyVerdict verdict) const;  ///< 0 to 1
-  /// Of the frames in which any border of the window was found: those with the inner one; 1 if there are none.
+  /// Of the frames in which any border of the window was found: those with the inner one; 1 if there are
+  /// none.
   double innerPart() const;
   /// Of the hits whose distance is nearest to the i-th bin.
   const CornerStatistics& corners(std::size_t bin) const { return corners_.at(bin); }

@@ -15,9 +15,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "window_ingress/detection/window_detector.hpp"
 #include "evaluation/flights/flight_table.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/random_stream.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

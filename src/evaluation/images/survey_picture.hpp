@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "evaluation/images/survey_view.hpp"
+#include "simulation/scenario/scenario.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
-#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/random_stream.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

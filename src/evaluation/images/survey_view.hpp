@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "simulation/camera/camera_motion.hpp"
 #include "simulation/scenario/camera_params.hpp"
 #include "simulation/scene/scene.hpp"
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/detection/window_observation.hpp"
 #include "evaluation/images/corner_statistics.hpp"
 #include "evaluation/images/survey_picture.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::evaluation {

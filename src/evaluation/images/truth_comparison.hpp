@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/detection/window_observation.hpp"
 #include "evaluation/images/corner_statistics.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 

@@ -4,12 +4,12 @@
 
 #include <optional>
 
-#include "window_ingress/detection/window_observation.hpp"
 #include "evaluation/openness/openness_survey.hpp"
+#include "simulation/random_stream.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/openness/openness_judge.hpp"
-#include "simulation/random_stream.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -2,8 +2,8 @@
 #include <chrono>
 
 #include "evaluation/openness/openness_approach.hpp"
-#include "window_ingress/openness/interior_follower.hpp"
 #include "simulation/camera/camera_sensor.hpp"
+#include "window_ingress/openness/interior_follower.hpp"
 
 namespace window_ingress::evaluation {
 

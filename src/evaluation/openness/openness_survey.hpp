@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "window_ingress/detection/window_observation.hpp"
 #include "evaluation/images/survey_flight.hpp"
+#include "simulation/scenario/scenario.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/openness/follower_params.hpp"
 #include "window_ingress/openness/openness_params.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
-#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -109,7 +109,8 @@ std::optional<PoseBound> poseBound(const geometry::PinholeCamera& camera,
   Vector7d by_yaw = Vector7d::Zero(), by_lateral = Vector7d::Zero();
   by_yaw.segment<3>(3) = R.col(2);
   by_lateral.head<3>() = -R.col(1);
-  by_lateral.segment<3>(3) = -(R.col(1).transpose() * estimation::skew(T_camera_window.translation())).transpose();
+  by_lateral.segment<3>(3) =
+      -(R.col(1).transpose() * estimation::skew(T_camera_window.translation())).transpose();
   const Eigen::MatrixXd of_pose = information.topLeftCorner<6, 6>();
   const PoseBound bound{spread(of_pose, by_yaw.head<6>()), spread(of_pose, by_lateral.head<6>()),
                         spread(information, by_yaw)};

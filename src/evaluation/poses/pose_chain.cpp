@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "evaluation/images/detection_survey.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "estimation/planar/relative_yaw.hpp"
+#include "evaluation/images/detection_survey.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/detection/window_observation.hpp"
 #include "evaluation/images/survey_picture.hpp"
-#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "estimation/planar/relative_yaw.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

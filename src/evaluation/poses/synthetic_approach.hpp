@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "simulation/random_stream.hpp"
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/estimation/filter_params.hpp"
-#include "simulation/random_stream.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -7,7 +7,7 @@ namespace window_ingress::navigation {
 namespace {
 constexpr double kNearAxisM = 0.3;
 constexpr double kWellInFunnel = 0.15;  // of its openness
-}
+}  // namespace
 
 double HeightProbe::climb(double height_m) {
   constexpr double kReachedM = 0.05;

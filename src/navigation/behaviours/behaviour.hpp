@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/navigation/approach_contract.hpp"
 #include "navigation/motion/input_monitor.hpp"
+#include "window_ingress/navigation/approach_contract.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
 
 namespace window_ingress::navigation {

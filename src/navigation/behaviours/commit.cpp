@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "navigation/motion/moving_target.hpp"
 #include "navigation/mission/opening_policy.hpp"
+#include "navigation/motion/moving_target.hpp"
 
 namespace window_ingress::navigation {
 namespace {

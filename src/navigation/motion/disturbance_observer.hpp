@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "window_ingress/navigation/navigator_params.hpp"
 #include "navigation/motion/response_estimator.hpp"
+#include "window_ingress/navigation/navigator_params.hpp"
 
 namespace window_ingress::navigation {
 

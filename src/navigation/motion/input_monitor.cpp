@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "navigation/motion/moving_target.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation {
 namespace {

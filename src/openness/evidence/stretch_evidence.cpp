@@ -73,7 +73,8 @@ StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
   says.depth_m = geometry::median(depths);
   says.depth_sigma_m = geometry::median(sigmas);
   says.is_too_deep = says.too_deep > kMostTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
-  if (!says.is_moving) says.log_odds = std::clamp(geometry::median(odds), -params.max_log_odds, params.max_log_odds);
+  if (!says.is_moving)
+    says.log_odds = std::clamp(geometry::median(odds), -params.max_log_odds, params.max_log_odds);
   if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
   return says;
 }

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

@@ -4,8 +4,8 @@
 
 #include "simulation/camera/camera_noise.hpp"
 #include "simulation/camera/exposure_control.hpp"
-#include "simulation/scene/shutter.hpp"
 #include "simulation/camera/lens.hpp"
+#include "simulation/scene/shutter.hpp"
 
 namespace window_ingress::simulation {
 namespace {

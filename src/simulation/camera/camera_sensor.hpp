@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "simulation/camera/camera_motion.hpp"
-#include "simulation/scenario/camera_params.hpp"
 #include "simulation/random_stream.hpp"
+#include "simulation/scenario/camera_params.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace window_ingress::simulation {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/geometry/opening.hpp"
 #include "simulation/rendering/renderer.hpp"
 #include "simulation/scene/scene.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "simulation/rendering/edge_smoother.hpp"
-#include "simulation/surfaces/faces.hpp"
 #include "simulation/rendering/gl_context.hpp"
 #include "simulation/rendering/gl_target.hpp"
 #include "simulation/scene/glazing.hpp"
+#include "simulation/surfaces/faces.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/fields.hpp"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "simulation/scene/scene.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

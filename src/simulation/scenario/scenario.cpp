@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "simulation/scene/obstacle.hpp"
 #include "simulation/scene/scene_parts.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/parameters/fields.hpp"
-#include "simulation/scene/obstacle.hpp"
 
 namespace window_ingress::simulation {
 namespace {

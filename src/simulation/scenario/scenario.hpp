@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "simulation/scenario/camera_params.hpp"
 #include "simulation/scenario/fault_params.hpp"
 #include "simulation/scenario/house_params.hpp"
 #include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scenario/sway_params.hpp"
 #include "simulation/scenario/vehicle_params.hpp"
+#include "window_ingress/geometry/opening.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

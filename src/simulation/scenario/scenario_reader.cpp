@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "window_ingress/parameters/yaml.hpp"
-#include "window_ingress/parameters/yaml_mapping.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/parameters/yaml_mapping.hpp"
 
 namespace window_ingress::simulation {
 

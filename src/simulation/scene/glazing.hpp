@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "simulation/rendering/gl_functions.hpp"
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "simulation/scene/glass.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

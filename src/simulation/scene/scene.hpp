@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/scene/glass.hpp"
-#include "simulation/surfaces/mesh.hpp"
-#include "simulation/scene/obstacle.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "simulation/scene/glass.hpp"
+#include "simulation/scene/obstacle.hpp"
+#include "simulation/surfaces/mesh.hpp"
 
 namespace window_ingress::simulation {
 

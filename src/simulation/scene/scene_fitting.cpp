@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "simulation/scene/scene_parts.hpp"
 #include "simulation/random_stream.hpp"
+#include "simulation/scene/scene_parts.hpp"
 
 namespace window_ingress::simulation {
 namespace {

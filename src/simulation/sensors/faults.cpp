@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/scenario/scenario.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
-#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
-#include "simulation/sensors/fault_line.hpp"
+#include "simulation/random_stream.hpp"
 #include "simulation/scenario/fault_params.hpp"
+#include "simulation/sensors/fault_line.hpp"
 #include "simulation/sensors/imu_sensor.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
-#include "simulation/random_stream.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "simulation/random_stream.hpp"
-#include "simulation/schedule.hpp"
 #include "simulation/scenario/sensor_params.hpp"
+#include "simulation/schedule.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
 
 namespace window_ingress::simulation {

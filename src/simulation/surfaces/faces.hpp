@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "window_ingress/geometry/pinhole_camera.hpp"
 #include "simulation/surfaces/mesh.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
 

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "window_ingress/geometry/opening.hpp"
-#include "simulation/vehicle/dryden_gusts.hpp"
 #include "simulation/scenario/vehicle_params.hpp"
+#include "simulation/vehicle/dryden_gusts.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
 

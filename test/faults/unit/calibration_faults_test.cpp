@@ -164,7 +164,8 @@ TEST(Fault, M30_Fisheye) {
                           .detect(bent(picture.draw(), *camera.value), 1.0, &*camera.value);
   ASSERT_TRUE(window);
   EXPECT_LT(test::worstCorner(window->corners, *geometry::projectOpening(*camera.value, T, opening)), 1.0);
-  const auto pose = estimation::WindowPoseEstimator(estimation::PoseParams()).estimate(*window, *camera.value);
+  const auto pose =
+      estimation::WindowPoseEstimator(estimation::PoseParams()).estimate(*window, *camera.value);
   ASSERT_TRUE(pose.estimate) << pose.detail;
   const double error_m = (pose.estimate->best.T_camera_window.translation() - T.translation()).norm();
   EXPECT_LT(error_m, 0.03);

@@ -7,8 +7,8 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/sources/reference_source.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
 namespace {

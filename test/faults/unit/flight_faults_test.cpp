@@ -6,9 +6,9 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"
+#include "navigation/motion/setpoint_limiter.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"
-#include "navigation/motion/setpoint_limiter.hpp"
 
 namespace window_ingress::adapters {
 namespace {

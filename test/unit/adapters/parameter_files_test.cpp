@@ -91,8 +91,7 @@ TEST(ParameterFiles, DefaultsAreInRange) {
 
 TEST(ParameterFiles, AreWrittenFromTheStructs) {
   EXPECT_EQ(
-      std::system("/usr/bin/python3 " WINDOW_INGRESS_SOURCE_DIR "/dev/write_parameter_files.py --check"),
-      0);
+      std::system("/usr/bin/python3 " WINDOW_INGRESS_SOURCE_DIR "/dev/write_parameter_files.py --check"), 0);
 }
 
 using Config = window_ingress::WindowDetectorConfig;

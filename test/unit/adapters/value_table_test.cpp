@@ -1,5 +1,5 @@
 // What tune_detector shows beside its sliders.
-#include "value_table.hpp"
+#include "tools/value_table.hpp"
 
 #include <gtest/gtest.h>
 

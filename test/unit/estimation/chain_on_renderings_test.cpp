@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "pose_fixtures.hpp"
-#include "window_ingress/detection/window_detector.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/detection/window_detector.hpp"
 
 namespace window_ingress::estimation {
 namespace {

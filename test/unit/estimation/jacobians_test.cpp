@@ -1,11 +1,11 @@
 /// Analytic derivatives against central differences.
 #include <gtest/gtest.h>
 
-#include "pose_fixtures.hpp"
 #include "estimation/planar/image_measurement.hpp"
 #include "estimation/planar/predicted_opening.hpp"
 #include "estimation/planar/refinement.hpp"
 #include "estimation/planar/relative_yaw.hpp"
+#include "pose_fixtures.hpp"
 
 namespace window_ingress::estimation {
 namespace {

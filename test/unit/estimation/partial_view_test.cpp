@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "pose_fixtures.hpp"
 #include "estimation/planar/predicted_opening.hpp"
+#include "pose_fixtures.hpp"
 
 namespace window_ingress::estimation {
 namespace {

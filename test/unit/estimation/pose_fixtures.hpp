@@ -5,9 +5,9 @@
 #include <random>
 
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/opening.hpp"
-#include "window_ingress/estimation/window_pose_estimator.hpp"
 
 namespace window_ingress::estimation::fixtures {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation {
 namespace {

@@ -32,7 +32,9 @@ detection::WindowObservation sighting(const Eigen::Isometry3d& T_odom_base, doub
   return window;
 }
 
-TargetEstimator tracker() { return TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), TargetEstimatorParams()); }
+TargetEstimator tracker() {
+  return TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), TargetEstimatorParams());
+}
 
 TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
   auto track = tracker();
@@ -83,7 +85,7 @@ TEST(TargetEstimator, AJumpOfTheOdometryStartsAnew) {
 
 /// 2 m sideways past the window, each picture as it would be; the mounting told may be another.
 TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEstimatorParams& params,
-                            const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
+                              const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
   TargetEstimator track(pose, estimation::FilterParams(), params);
   for (int i = 0; i <= 90; ++i) {
     const double now = i / 30.0, y = 0.6 * now;
@@ -316,7 +318,8 @@ TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
   EXPECT_FALSE(track.target(0.0));
   TargetEstimatorParams params;
   params.max_jump_m = -1.0;
-  EXPECT_THROW(TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), params), std::invalid_argument);
+  EXPECT_THROW(TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), params),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <functional>
 #include <random>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "estimation/checks/twist_check.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress {
 namespace {

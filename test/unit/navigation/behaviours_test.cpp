@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "navigation_samples.hpp"
 #include "navigation/behaviours/align.hpp"
 #include "navigation/behaviours/approach.hpp"
 #include "navigation/behaviours/back_off.hpp"
 #include "navigation/behaviours/commit.hpp"
 #include "navigation/behaviours/hold.hpp"
 #include "navigation/behaviours/search.hpp"
+#include "navigation_samples.hpp"
 
 namespace window_ingress::navigation {
 namespace {

@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "view.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scene/scene.hpp"
+#include "view.hpp"
 
 namespace window_ingress::simulation {
 namespace {

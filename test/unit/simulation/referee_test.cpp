@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/scene/scene.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "edge_fit.hpp"
-#include "view.hpp"
-#include "window_ingress/geometry/opening.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scene/scene.hpp"
 #include "simulation/world.hpp"
+#include "view.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "simulation/sensors/imu_sensor.hpp"
-#include "simulation/sensors/odometry_sensor.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/schedule.hpp"
+#include "simulation/sensors/imu_sensor.hpp"
+#include "simulation/sensors/odometry_sensor.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "view.hpp"
-#include "window_ingress/geometry/opening.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/world.hpp"
+#include "view.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "simulation/vehicle/quadrotor.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
+#include "simulation/vehicle/quadrotor.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/rendering/renderer.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation::views {
 

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <random>
 
-#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/bags/replay.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -14,11 +14,11 @@
 #include <sstream>
 #include <vector>
 
-#include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/bags/detection_strip.hpp"
-#include "adapters/conversions/image_message.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/bags/replay_tables.hpp"
+#include "adapters/conversions/image_message.hpp"
+#include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/world/world_messages.hpp"
 
 namespace window_ingress::adapters {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <tuple>
 
-#include "adapters/markers/markers.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/markers.hpp"
 #include "window_row.hpp"
 
 namespace window_ingress::adapters {

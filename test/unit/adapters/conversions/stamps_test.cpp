@@ -29,7 +29,8 @@ TEST(StampGate, AdmitsRecentStampsInOrder) {
   EXPECT_FALSE(gate.whyRefused(ros::Time(100.1), 100.1));
   EXPECT_TRUE(gate.whyRefused(ros::Time(100.1), 100.1)) << "duplicate";
   EXPECT_TRUE(gate.whyRefused(ros::Time(100.05), 100.1)) << "out of order";
-  EXPECT_FALSE(gate.whyRefused(ros::Time(100.264), 100.1)) << "as far ahead of the clock as autopilots have been seen";
+  EXPECT_FALSE(gate.whyRefused(ros::Time(100.264), 100.1))
+      << "as far ahead of the clock as autopilots have been seen";
 }
 
 TEST(StampGate, RefusesOldFutureAndExtremeStampsWithoutThrowing) {

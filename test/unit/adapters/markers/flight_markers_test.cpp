@@ -7,9 +7,9 @@
 #include <map>
 #include <random>
 
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
-#include "adapters/conversions/msg_conversion.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/approach_contract.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "adapters/markers/marker_colours.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "adapters/markers/marker_colours.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/markers/marker_colours.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

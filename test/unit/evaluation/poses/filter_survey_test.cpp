@@ -146,7 +146,8 @@ TEST(FilterSurvey, TheFitVerdictIsRightWheneverTheTruthIsClear) {
   int clear = 0, right = 0, wrong = 0;
   for (std::uint32_t seed = 1; clear < 200; ++seed) {
     simulation::RandomStream random(seed, "fit");
-    const auto [opening, found] = flySideways(1000 + seed, estimation::FilterParams(), random.uniform(0.4, 0.8));
+    const auto [opening, found] =
+        flySideways(1000 + seed, estimation::FilterParams(), random.uniform(0.4, 0.8));
     if (!found) continue;
     const double needed = 0.6, width = found->size.size.width_m;
     const double sigma = width * std::sqrt(found->size.log_covariance(0, 0));

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "evaluation/poses/noisy_borders.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

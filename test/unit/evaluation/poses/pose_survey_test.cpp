@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "navigation_samples.hpp"
 #include "navigation/mission/mission_clock.hpp"
+#include "navigation_samples.hpp"
 
 namespace window_ingress::navigation {
 namespace {

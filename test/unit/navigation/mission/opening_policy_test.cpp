@@ -95,6 +95,23 @@ TEST(OpeningPolicy, SaysAtTheStartWhatItWillAskAndWhatItAssumes) {
   EXPECT_TRUE(says(said(paramsFor("allow")), "enters where it is not seen to be open"));
 }
 
+TEST(OpeningPolicy, OfOneMissionHoldsForThisMissionAlone) {
+  Navigator navigator{NavigatorParams()};
+  const auto said = [&](double now_sec, const MissionPolicy& policy) {
+    const std::string message =
+        navigator.start(test::inputAt({-4, 0, 1.5}, now_sec), now_sec, policy).message;
+    navigator.abort();
+    navigator.reset();
+    return message;
+  };
+  const std::string of_parameters = said(1.0, {});
+  EXPECT_EQ(
+      said(2.0, {"deny", "excluded"}),
+      "started; assumes that there is no glass (commit/glass); turns back where it is not seen to be open");
+  EXPECT_EQ(said(3.0, {}), of_parameters);
+  EXPECT_EQ(said(4.0, {"ask", "possible"}), of_parameters);
+}
+
 TEST(OpeningPolicy, IsPartOfTheContractAfterItsGeometry) {
   const auto params = paramsFor("ask");
   auto target = test::targetAtOrigin(0.0);

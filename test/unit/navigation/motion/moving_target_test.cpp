@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/navigation/approach_contract.hpp"
 #include "navigation/behaviours/behaviour.hpp"
 #include "navigation/motion/input_monitor.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/navigation/approach_contract.hpp"
 
 namespace window_ingress::navigation {
 namespace {

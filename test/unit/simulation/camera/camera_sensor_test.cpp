@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "../edge_fit.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/schedule.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

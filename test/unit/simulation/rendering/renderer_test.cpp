@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "../edge_fit.hpp"
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/geometry/opening.hpp"
 #include "simulation/camera/lens.hpp"
 #include "simulation/random_stream.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::simulation {
 namespace {

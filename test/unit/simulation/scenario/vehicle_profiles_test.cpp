@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/parameters/fields.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
+#include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

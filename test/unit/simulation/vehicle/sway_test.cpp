@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "window_ingress/geometry/frames.hpp"
 #include "simulation/world.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
 namespace {

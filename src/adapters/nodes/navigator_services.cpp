@@ -1,0 +1,88 @@
+/// What others may ask of the navigator's node: services, and the action's goal and cancel.
+#include "adapters/nodes/navigator_node.hpp"
+
+namespace window_ingress::adapters {
+
+using navigation::State;
+
+void NavigatorNode::advertiseServices(ros::NodeHandle& pnh) {
+  using Request = Trigger::Request;
+  using Response = Trigger::Response;
+  start_ = pnh.advertiseService<NavigatorNode, Request, Response>("start", &NavigatorNode::start, this);
+  abort_ = pnh.advertiseService<NavigatorNode, Request, Response>("abort", &NavigatorNode::abort, this);
+  reset_ = pnh.advertiseService<NavigatorNode, Request, Response>("reset", &NavigatorNode::reset, this);
+  confirm_opening_ = pnh.advertiseService<NavigatorNode, Request, Response>(
+      "confirm_opening", &NavigatorNode::confirmOpening, this);
+  enable_ = pnh.advertiseService("enable", &NavigatorNode::enable, this);
+}
+
+navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
+  const double now_sec = nowSec();
+  if (is_disabled_) return {false, "not started: disabled (~enable)"};
+  if (!lockstep_) forgetSilentInputs();
+  if (!lockstep_ && clockStandsStill(now_sec)) return {false, "the clock stands still: nothing on /clock"};
+  if (params_.start_at_once && last_.state == State::kIdle)
+    return {false, "starts by itself in the first step in which it may"};
+  navigation::Reply reply = navigator_.start(input_, now_sec, policy);
+  for (const TopicHealth* topic : {&odom_health_, &pose_health_}) {
+    const Health health = topic->health();
+    if (!reply.success && health.level == Health::kError) reply.message += "; " + health.text;
+  }
+  const Health engaged = engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
+  if (!reply.success && engaged.level == Health::kError) reply.message += "; " + engaged.text;
+  return reply;
+}
+
+navigation::Reply NavigatorNode::abortMission() {
+  const navigation::Reply reply = navigator_.abort();
+  if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
+  return reply;
+}
+
+std::string NavigatorNode::whyFlying() const {
+  const State state = navigator_.state();
+  if (state == State::kIdle || navigation::isEnd(state)) return "";
+  return std::string("already flying: ") + navigation::toString(state);
+}
+
+bool NavigatorNode::isLeftToOthers() const {
+  return is_disabled_ && (last_.state == State::kIdle || last_.state == State::kPassed);
+}
+
+bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
+  return answer("start", startMission({}), response);
+}
+
+bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
+  return answer("abort", abortMission(), response);
+}
+
+// In flight it is aborted first: zeros go on as after ~abort.
+bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  is_disabled_ = !request.data;
+  if (!is_disabled_)
+    return answer("enable", {true, "enabled: zeros in IDLE, ~start may be called"}, response);
+  const bool flies = !whyFlying().empty();
+  if (flies) abortMission();
+  return answer("enable",
+                {true, std::string(flies ? "aborted, " : "") + "disabled: sends nothing, starts nothing"},
+                response);
+}
+
+bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
+  return answer("reset", navigator_.reset(), response);
+}
+
+bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& response) {
+  return answer("confirm_opening", navigator_.confirmOpening(), response);
+}
+
+template <typename Response>
+bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Response& response) {
+  ROS_INFO("%s: %s: %s", service, reply.success ? "done" : "refused", reply.message.c_str());
+  response.success = reply.success;
+  response.message = reply.message;
+  return true;
+}
+
+}  // namespace window_ingress::adapters
