@@ -1,6 +1,4 @@
 # src/adapters is the only folder that sees ROS; each src/nodes/<name>.cpp is the main of one node.
-set(ros_headers <cv_bridge/cv_bridge.h> <geometry_msgs/PoseStamped.h> <nav_msgs/Odometry.h> <ros/console.h> <ros/node_handle.h>
-    <sensor_msgs/CameraInfo.h> <sensor_msgs/Image.h> <sensor_msgs/Imu.h> <tf2_ros/buffer.h> <visualization_msgs/MarkerArray.h>)
 
 # add_adapters(name FOLDERS folders below src/adapters DEPENDS libs...)
 function(add_adapters name)
@@ -15,7 +13,6 @@ function(add_adapters name)
   target_include_directories(${name} SYSTEM PUBLIC
                              ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
   target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} opencv_imgcodecs ${catkin_LIBRARIES})
-  target_precompile_headers(${name} PRIVATE ${common_headers} ${ros_headers})
   add_dependencies(${name} ${${PROJECT_NAME}_EXPORTED_TARGETS})
 endfunction()
 

@@ -16,7 +16,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/markers/flight_markers.hpp"
-#include "adapters/nodes/engagement.hpp"
+#include "adapters/sources/engagement.hpp"
 #include "adapters/nodes/mission_action.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"

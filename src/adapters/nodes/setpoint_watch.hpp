@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "adapters/nodes/engagement.hpp"
+#include "adapters/sources/engagement.hpp"
 #include "adapters/sources/diagnostics.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 

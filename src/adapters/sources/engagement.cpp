@@ -1,4 +1,4 @@
-#include "adapters/nodes/engagement.hpp"
+#include "adapters/sources/engagement.hpp"
 
 namespace window_ingress::adapters {
 

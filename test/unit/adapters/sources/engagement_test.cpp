@@ -1,4 +1,4 @@
-#include "adapters/nodes/engagement.hpp"
+#include "adapters/sources/engagement.hpp"
 
 #include <gtest/gtest.h>
 

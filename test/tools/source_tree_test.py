@@ -1,0 +1,62 @@
+"""The tree of C++ sources: small folders, an interface that stands alone, tests that mirror what they test."""
+import collections
+import pathlib
+import re
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PUBLIC = ROOT / "include/window_ingress"
+MAX_FILES_OF_A_KIND = 16
+MAX_PUBLIC_HEADERS = 90
+INCLUDE = re.compile(r'#include "([^"]+)"')
+HEADERS = sorted(PUBLIC.rglob("*.hpp"))
+
+
+def sources(*folders):
+    return [file for folder in folders for file in (ROOT / folder).rglob("*.?pp")]
+
+
+def included_by(file):
+    return INCLUDE.findall(file.read_text(encoding="utf-8"))
+
+
+def folder_of(file):
+    """The part of the package that a source belongs to: detection, navigation, ..."""
+    return file.relative_to(PUBLIC if PUBLIC in file.parents else ROOT / "src").parts[0]
+
+
+def test_no_folder_is_crowded():
+    counted = collections.Counter((file.parent, file.suffix) for file in sources("include", "src"))
+    assert len(counted) > 40
+    assert not {f"{folder.relative_to(ROOT)}: {count} {kind}" for (folder, kind), count in counted.items() if count > MAX_FILES_OF_A_KIND}
+
+
+def test_the_interface_is_small():
+    assert 40 < len(HEADERS) <= MAX_PUBLIC_HEADERS
+
+
+def test_the_interface_stands_alone():
+    """What is installed includes nothing that is not."""
+    private = [f"{header.relative_to(ROOT)}: {name}" for header in HEADERS for name in included_by(header) if not (ROOT / "include" / name).exists()]
+    assert not private
+
+
+def test_the_interface_is_used_elsewhere():
+    """A header that only its own folder uses lies beside its source, unless a public header needs it."""
+    users = collections.defaultdict(set)
+    for file in sources("include", "src"):
+        for name in included_by(file):
+            users[name].add(file)
+    for header in HEADERS:
+        name = str(header.relative_to(ROOT / "include"))
+        assert any(folder_of(user) != folder_of(header) or PUBLIC in user.parents for user in users[name]), name
+
+
+@pytest.mark.parametrize("test", sorted((ROOT / "test/unit").rglob("*_test.cpp")), ids=lambda test: test.stem)
+def test_a_test_stands_where_its_subject_does(test):
+    folder = test.parent.relative_to(ROOT / "test/unit")
+    subject = test.name.replace("_test.cpp", "")
+    places = [file.parent.relative_to(ROOT / "src") for file in (ROOT / "src" / folder.parts[0]).rglob(f"{subject}.?pp")]
+    places += [header.parent.relative_to(PUBLIC) for header in (PUBLIC / folder.parts[0]).rglob(f"{subject}.hpp")]
+    assert not places or folder in places
