@@ -31,6 +31,7 @@ foreach(source ${node_sources})
   add_executable(${target} ${source})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${node} PREFIX "")
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters)
+  list(APPEND node_targets ${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()
 

@@ -9,13 +9,13 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kStretchSec = 2.0, kLongestGapSec = 0.5;
-constexpr std::size_t kLeastSights = 10, kMostSights = 400;
-constexpr double kLeastRateSpread = 0.08;  // rad/s, root mean square about the mean
-constexpr double kLeastSigmaRad = 0.003;   // of a direction: corners, attitude
-constexpr double kCorrelated = 4.0;        // so many sights err alike
-constexpr double kModelSigmaSec = 0.015;   // of one stretch: the rate is that of a moment before
-constexpr double kStrayRad = 0.3;          // no offset moves a window so far
-constexpr double kMostWeight = 10.0;       // stretches; older ones are forgotten
+constexpr std::size_t kMinSights = 10, kMaxSights = 400;
+constexpr double kMinRateSpread = 0.08;   // rad/s, root mean square about the mean
+constexpr double kMinSigmaRad = 0.003;    // of a direction: corners, attitude
+constexpr double kCorrelated = 4.0;       // so many sights err alike
+constexpr double kModelSigmaSec = 0.015;  // of one stretch: the rate is that of a moment before
+constexpr double kStrayRad = 0.3;         // no offset moves a window so far
+constexpr double kMaxWeight = 10.0;       // stretches; older ones are forgotten
 
 bool isFinite(const ClockCheck::Sight& sight) {
   return std::isfinite(sight.stamp_sec) && sight.camera_odom_m.allFinite() &&
@@ -31,7 +31,7 @@ void ClockCheck::see(const Sight& sight, const Eigen::Vector2d& window_odom_m) {
     if (!(elapsed_sec > 0.0 && elapsed_sec < kLongestGapSec)) stretch_.clear();
   }
   stretch_.push_back(sight);
-  if (stretch_.size() > kMostSights) stretch_.pop_front();
+  if (stretch_.size() > kMaxSights) stretch_.pop_front();
   if (sight.stamp_sec - stretch_.front().stamp_sec < kStretchSec) return;
   if (const auto found = slopeWith(window_odom_m)) {
     join(*found);
@@ -53,12 +53,12 @@ std::optional<ClockCheck::Offset> ClockCheck::slopeWith(const Eigen::Vector2d& w
     both += sight.yaw_rate_radps * off_rad;
     offs += off_rad * off_rad;
   }
-  if (count < static_cast<double>(kLeastSights)) return std::nullopt;
+  if (count < static_cast<double>(kMinSights)) return std::nullopt;
   const double spread = rates - rate * rate / count;
-  if (spread < count * kLeastRateSpread * kLeastRateSpread) return std::nullopt;
+  if (spread < count * kMinRateSpread * kMinRateSpread) return std::nullopt;
   const double slope_sec = (both - rate * off / count) / spread;
   const double left = std::max(0.0, offs - off * off / count - slope_sec * slope_sec * spread) / count;
-  const double variance = kCorrelated * (left + kLeastSigmaRad * kLeastSigmaRad) / spread;
+  const double variance = kCorrelated * (left + kMinSigmaRad * kMinSigmaRad) / spread;
   return Offset{slope_sec, std::sqrt(variance + kModelSigmaSec * kModelSigmaSec)};
 }
 
@@ -68,7 +68,7 @@ void ClockCheck::join(const Offset& found) {
     return;
   }
   const double before = std::min(1.0 / (offset_->sigma_sec * offset_->sigma_sec),
-                                 kMostWeight / (kModelSigmaSec * kModelSigmaSec));
+                                 kMaxWeight / (kModelSigmaSec * kModelSigmaSec));
   const double now = 1.0 / (found.sigma_sec * found.sigma_sec);
   offset_->late_sec = (before * offset_->late_sec + now * found.late_sec) / (before + now);
   offset_->sigma_sec = 1.0 / std::sqrt(before + now);

@@ -33,7 +33,7 @@ const char* toString(Fit fit) {
   return "UNKNOWN";
 }
 
-FitVerdict fitVerdict(const SizeBelief& opening, const FitParams& params) {
+FitVerdict fitVerdict(const SizeEstimate& opening, const FitParams& params) {
   if (!isUsable(opening)) return {Fit::kUnknown, "the size of the opening is not known"};
   const auto& [size, covariance] = opening;
   const Side width{"width", size.width_m, size.width_m * std::sqrt(covariance(0, 0)),

@@ -22,8 +22,8 @@ geometry::OpeningSize neededBy(const FitParams& fit) {
   return {fit.vehicle_width_m + 2.0 * fit.margin_m, fit.vehicle_height_m + 2.0 * fit.margin_m};
 }
 
-SizeBelief sizeSaid(const PoseParams& pose) {
-  return sizeBelief({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
+SizeEstimate sizeSaid(const PoseParams& pose) {
+  return sizeEstimate({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ void TargetEstimator::see(const detection::WindowObservation& window, const geom
   see({window.stamp_sec, camera, T_base_camera, window, {}});
 }
 
-void TargetEstimator::see(SeenPicture picture) {
+void TargetEstimator::see(ObservedImage picture) {
   flush();
   pending_ = std::move(picture);
   if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= pending_->stamp_sec) flush();
@@ -128,7 +128,7 @@ std::optional<Eigen::Isometry3d> TargetEstimator::cameraAt(
   return *T_odom_base * *T_base_camera;
 }
 
-PoseResult TargetEstimator::estimate(const SeenPicture& picture) {
+PoseResult TargetEstimator::estimate(const ObservedImage& picture) {
   PoseHints hints;
   hints.gravity = gravity(picture);
   hints.size = filter_.sizeOf(*picture.window);
@@ -143,12 +143,12 @@ void TargetEstimator::noticeTarget(std::uint32_t target_id) {
   clocks_.forgetPlaces();
 }
 
-void TargetEstimator::process(const SeenPicture& picture) {
+void TargetEstimator::process(const ObservedImage& picture) {
   if (picture.window) use(picture);
   rememberWindows(picture);
 }
 
-void TargetEstimator::use(const SeenPicture& picture) {
+void TargetEstimator::use(const ObservedImage& picture) {
   noticeTarget(picture.window->target_id);
   last_.pose = estimate(picture);
   last_.why_not = updateFilter(picture);
@@ -157,7 +157,7 @@ void TargetEstimator::use(const SeenPicture& picture) {
   checkClocks(picture);
 }
 
-void TargetEstimator::rememberWindows(const SeenPicture& picture) {
+void TargetEstimator::rememberWindows(const ObservedImage& picture) {
   const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
   if (!T_odom_camera) return;
   const bool is_used = picture.window && last_.used;
@@ -216,7 +216,7 @@ void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32
   if (next_one) startAnewIfNot(before);
 }
 
-std::string TargetEstimator::updateFilter(const SeenPicture& picture) {
+std::string TargetEstimator::updateFilter(const ObservedImage& picture) {
   const detection::WindowObservation& window = *picture.window;
   const int sides = window.visibleSides();  // none: only corners are known
   const bool is_whole = window.whole() && (sides == 4 || sides == 0);
@@ -249,7 +249,7 @@ std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
   return std::nullopt;
 }
 
-std::optional<GravityPrior> TargetEstimator::gravity(const SeenPicture& picture) {
+std::optional<GravityPrior> TargetEstimator::gravity(const ObservedImage& picture) {
   if (!picture.T_base_camera) return std::nullopt;
   const auto R_odom_base = attitudeAt(picture.stamp_sec);
   if (!R_odom_base) return std::nullopt;

@@ -23,14 +23,14 @@ std::string contradictedText(const Consistency& consistency) {
 
 }  // namespace
 
-void TargetEstimator::checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera) {
+void TargetEstimator::checkSize(const ObservedImage& picture, const Eigen::Isometry3d& T_odom_camera) {
   if (!size_is_known_ || !last_.pose.estimate || !picture.window->whole()) return;
   checks_->parallax.see(picture.stamp_sec, T_odom_camera.translation(),
                         T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
 // Pictures that the filter refuses count, too: that they come at the wrong time may be why.
-void TargetEstimator::checkClocks(const SeenPicture& picture) {
+void TargetEstimator::checkClocks(const ObservedImage& picture) {
   constexpr double kRateSec = 0.1;
   const auto window = filter_.state(picture.stamp_sec);
   const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
@@ -45,7 +45,7 @@ void TargetEstimator::checkClocks(const SeenPicture& picture) {
               window->T_odom_window.translation().head<2>());
 }
 
-void TargetEstimator::judgeOpenness(const SeenPicture& picture) {
+void TargetEstimator::judgeOpenness(const ObservedImage& picture) {
   const auto window = filter_.state(picture.stamp_sec);
   const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
   if (!window || !T_odom_camera) return;
@@ -59,7 +59,7 @@ void TargetEstimator::judgeOpenness(const SeenPicture& picture) {
 
 FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }
 
-const std::optional<SizeBelief>& TargetEstimator::measuredSize() const {
+const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {
   return checks_->frames.mounting().measuredSize();
 }
 

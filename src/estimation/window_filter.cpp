@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "estimation/checks/smooth_path.hpp"
+#include "estimation/checks/odometry_smoother.hpp"
 #include "estimation/filter/viewpoints.hpp"
-#include "estimation/filter/window_beliefs.hpp"
+#include "estimation/filter/window_hypotheses.hpp"
 #include "estimation/planar/observation_check.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -33,7 +33,7 @@ CameraTurn cameraTurn(const WindowHypothesis& window) {
 }  // namespace
 
 struct WindowFilter::Impl {
-  Impl(const FilterParams& p, const std::optional<SizeBelief>& size)
+  Impl(const FilterParams& p, const std::optional<SizeEstimate>& size)
       : params(p),
         nominal_size(size),
         viewpoints(p.systematic_renewal_m),
@@ -41,11 +41,11 @@ struct WindowFilter::Impl {
         consistency(p.consistency_images, p.max_consistency) {}
 
   FilterParams params;
-  std::optional<SizeBelief> nominal_size, held_size;
+  std::optional<SizeEstimate> nominal_size, held_size;
   Viewpoints viewpoints;
-  WindowBeliefs beliefs;
+  WindowHypotheses beliefs;
   ConsistencyMonitor consistency;
-  SmoothPath path;
+  OdometrySmoother path;
   std::uint32_t target_id = 0;
   double stamp_sec = 0.0;
   double interval_sec = 1.0;
@@ -81,27 +81,27 @@ struct WindowFilter::Impl {
     if (beliefs.empty() || sizeIsKnown()) return;
     held_size.reset();
     if (!beliefs.areUnambiguous() || mean_squares > params.max_mean_squares) return;
-    SizeBelief found = believed().size();
+    SizeEstimate found = believed().size();
     if (found.log_covariance.trace() > kMaxHeldSigma * kMaxHeldSigma) return;
     found.log_covariance *= kHeldSigmaGrowth * kHeldSigmaGrowth;
     held_size = found;
   }
 
-  SizeBelief priorSize(const geometry::OpeningSize& fitted) const {
+  SizeEstimate priorSize(const geometry::OpeningSize& fitted) const {
     if (held_size) return *held_size;
     return {fitted, nominal_size ? nominal_size->log_covariance : Eigen::Matrix2d::Zero()};
   }
 
   // A scale that is still open may be anything for a while.
-  SizeBelief believedSize() const {
-    SizeBelief size = believed().size();
+  SizeEstimate believedSize() const {
+    SizeEstimate size = believed().size();
     if (size.log_covariance(1, 1) < kSureOfHeight * kSureOfHeight) return size;
     const double height_m = nominal_size->size.height_m;
     size.size = {size.size.width_m * height_m / size.size.height_m, height_m};
     return size;
   }
 
-  std::optional<SizeBelief> sizeOf(const detection::WindowObservation& window) const {
+  std::optional<SizeEstimate> sizeOf(const detection::WindowObservation& window) const {
     const bool is_same = target_id == 0 || window.target_id == 0 || window.target_id == target_id;
     if (sizeIsKnown() || !is_same) return nominal_size;
     if (!beliefs.empty()) return believedSize();
@@ -251,7 +251,7 @@ struct WindowFilter::Impl {
   }
 };
 
-WindowFilter::WindowFilter(const FilterParams& params, const std::optional<SizeBelief>& size) {
+WindowFilter::WindowFilter(const FilterParams& params, const std::optional<SizeEstimate>& size) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("filter parameters: " + parameters::joined(faults));
   if (size && !isUsable(*size)) throw std::invalid_argument("filter: the size of the opening is not usable");
@@ -272,7 +272,7 @@ bool WindowFilter::update(const detection::WindowObservation& window, const geom
   return impl_->update(nullptr, window, camera, T_odom_camera);
 }
 
-std::optional<SizeBelief> WindowFilter::sizeOf(const detection::WindowObservation& window) const {
+std::optional<SizeEstimate> WindowFilter::sizeOf(const detection::WindowObservation& window) const {
   return impl_->sizeOf(window);
 }
 

@@ -132,8 +132,8 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   const auto image = ImageMeasurement::make(ordered, camera, noiseOf(params_));
   if (!image) return rejected(PoseReject::kBadCorners, "corners cannot be undistorted");
   const geometry::OpeningSize stated{params_.opening_width_m, params_.opening_height_m};
-  const SizeBelief size =
-      hints.size ? *hints.size : sizeBelief(stated, params_.scale_sigma, params_.aspect_sigma);
+  const SizeEstimate size =
+      hints.size ? *hints.size : sizeEstimate(stated, params_.scale_sigma, params_.aspect_sigma);
   const RefinementProblem problem{*image, camera, size.size, hints.gravity, hints.prior, rootOf(size)};
   const auto solutions = planarSolutions(problem);
   if (!solutions)

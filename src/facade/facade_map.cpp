@@ -8,7 +8,7 @@
 namespace window_ingress::facade {
 namespace {
 
-constexpr std::size_t kMostWindows = 64;
+constexpr std::size_t kMaxWindows = 64;
 constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two windows can be
 
 constexpr double kSizeRatio = 1.35;  // beyond which two loops are not one window
@@ -67,7 +67,7 @@ void FacadeMap::associate(double stamp_sec, std::vector<Sight>& sights) const {
 void FacadeMap::learn(double stamp_sec, Sight& sight) {
   KnownWindow* window = find(sight.id);
   if (window == nullptr) {
-    if (windows_.size() >= kMostWindows) return;
+    if (windows_.size() >= kMaxWindows) return;
     windows_.emplace_back();
     window = &windows_.back();
     window->id = sight.id = ++last_id_;

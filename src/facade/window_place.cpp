@@ -8,7 +8,7 @@
 namespace window_ingress::facade {
 namespace {
 
-constexpr double kMostOblique = 0.2;  // cosine between sight and way through
+constexpr double kMaxOblique = 0.2;  // cosine between sight and way through
 constexpr double kFurthestM = 40.0;
 constexpr double kBearingSigmaRad = 0.01;  // of the camera in odom
 
@@ -35,7 +35,7 @@ std::optional<WindowPlace> onWall(const geometry::Quadrilateral& corners, const 
     least_cosine = std::min(least_cosine, through.dot(ray));
     points[i] = eye + ray * (ahead_m / through.dot(ray));
   }
-  if (least_cosine < kMostOblique || ahead_m <= 0.0) return std::nullopt;
+  if (least_cosine < kMaxOblique || ahead_m <= 0.0) return std::nullopt;
   WindowPlace place;
   place.position_m = 0.25 * (points[0] + points[1] + points[2] + points[3]);
   const double range_m = (place.position_m - eye).norm();

@@ -53,7 +53,7 @@ struct Navigator::Impl {
   Hold hold;
   State state = State::kIdle;
   std::string reason;
-  MissionMemory memory;
+  MissionState memory;
   Setpoint last_setpoint;
   Home home;
   MissionClock clock;
@@ -261,7 +261,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   const auto faults = self.unmet(input, now_sec);
   if (!faults.empty()) return {false, "not started: " + parameters::joined(faults)};
   self.follow(policy);
-  self.memory = MissionMemory();
+  self.memory = MissionState();
   self.observer.reset();
   self.home = Home();
   self.was_near = self.stands_down = false;

@@ -17,9 +17,9 @@ using detection::WindowObservation;
 using geometry::Quadrilateral;
 
 constexpr int kReach = 13, kLevels = 2;  // of Lucas-Kanade: side of its patch [px], further halvings
-constexpr double kLeastSide_px = 24.0;
-constexpr double kSpacing = 0.05;      // between points, part of the straightened picture's longer side
-constexpr double kLeastAge_sec = 0.3;  // of a key picture whose points were lost
+constexpr double kMinSide_px = 24.0;
+constexpr double kSpacing = 0.05;    // between points, part of the straightened picture's longer side
+constexpr double kMinAge_sec = 0.3;  // of a key picture whose points were lost
 constexpr int kGradientBlock = 5;
 constexpr double kBlur_px = 0.8;  // against the noise of dark pictures
 
@@ -129,7 +129,7 @@ void InteriorFollower::Impl::straighten(const cv::Mat& image, const Quadrilatera
 void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {
   has_key = false;
   size = straightenedSize(window.corners, params.most_px);
-  if (std::min(size.width, size.height) < kLeastSide_px) return;
+  if (std::min(size.width, size.height) < kMinSide_px) return;
   straighten(image, window.corners);
   if (image.channels() == 3) chooseChannel(image, window.corners);
   cv::buildOpticalFlowPyramid(straight, key_pyramid, {kReach, kReach}, kLevels, true);
@@ -261,7 +261,7 @@ bool InteriorFollower::Impl::isWornOut(const WindowObservation& window) const {
   const double left = static_cast<double>(points.size());
   return growth > params.max_growth || growth < 1.0 / params.max_growth ||
          window.stamp_sec - tracks.key_stamp_sec > params.max_key_age_sec ||
-         (window.stamp_sec - tracks.key_stamp_sec > kLeastAge_sec &&
+         (window.stamp_sec - tracks.key_stamp_sec > kMinAge_sec &&
           (left < params.min_points || left < params.min_shared * static_cast<double>(found)));
 }
 

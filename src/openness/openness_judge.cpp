@@ -14,12 +14,12 @@ namespace {
 using geometry::Quadrilateral;
 
 constexpr double kSameStamp_sec = 1e-6, kLongest_sec = 10.0;
-constexpr std::size_t kMostLooks = 600;
-constexpr double kSays = 1.0;         // log odds below which a stretch has said nothing
-constexpr double kMisfit_px = 1.5;    // of corners against the filtered window, beside the part of its size
-constexpr double kMostClosed = 0.15;  // of the middle that is needed
-constexpr double kLeastQuarter = 0.5, kLeastSide = 0.3;  // seen to be open
-constexpr double kMostTotal = 12.0;
+constexpr std::size_t kMaxLooks = 600;
+constexpr double kSays = 1.0;        // log odds below which a stretch has said nothing
+constexpr double kMisfit_px = 1.5;   // of corners against the filtered window, beside the part of its size
+constexpr double kMaxClosed = 0.15;  // of the middle that is needed
+constexpr double kMinQuarter = 0.5, kMinSide = 0.3;  // seen to be open
+constexpr double kMaxTotal = 12.0;
 constexpr int kOutvoted = 3;  // stretches that outweigh one that says the opposite
 
 Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera& camera) {
@@ -88,7 +88,7 @@ void OpennessJudge::reset() {
 
 OpennessJudge::Count OpennessJudge::counted() const {
   Count all = past_;
-  all.log_odds = std::clamp(all.log_odds + says_.log_odds, -kMostTotal, kMostTotal);
+  all.log_odds = std::clamp(all.log_odds + says_.log_odds, -kMaxTotal, kMaxTotal);
   all.open += says_.log_odds >= kSays;
   all.closed += says_.log_odds <= -kSays;
   all.moving += says_.is_moving;
@@ -103,7 +103,7 @@ void OpennessJudge::close() {
 
 void OpennessJudge::remember(const OpennessView& view) {
   looks_.push_back({view.window.stamp_sec, view.T_odom_camera});
-  while (looks_.size() > kMostLooks || view.window.stamp_sec - looks_.front().stamp_sec > kLongest_sec)
+  while (looks_.size() > kMaxLooks || view.window.stamp_sec - looks_.front().stamp_sec > kLongest_sec)
     looks_.pop_front();
 }
 
@@ -183,11 +183,11 @@ void OpennessJudge::conclude() {
                           all.moving, all.log_odds);
   } else if (!sure_open) {
     verdict.reason = text("%.0f points followed, log odds %.1f", says_.points, all.log_odds);
-  } else if (share.closed > kMostClosed) {
+  } else if (share.closed > kMaxClosed) {
     verdict.reason =
         text("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
-  } else if (share.open < params_.min_open_share || share.least_quarter_open < kLeastQuarter ||
-             share.least_side_open < kLeastSide) {
+  } else if (share.open < params_.min_open_share || share.least_quarter_open < kMinQuarter ||
+             share.least_side_open < kMinSide) {
     verdict.reason = text("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
   } else {
     verdict.openness = Openness::kOpen;

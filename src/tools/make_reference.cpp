@@ -27,11 +27,11 @@ namespace options = boost::program_options;
 using namespace window_ingress;
 using tools::UsageError;
 
-constexpr double kMostPx = 1200.0;       // of the picture on the screen
-constexpr double kFitRadiusPx = 6.0;     // on the screen
-constexpr double kMostMovedPx = 4.0;     // of a side by the fit, on the screen: clicks are better than that
-constexpr double kMostMovedPart = 0.04;  // the same as part of the shortest side
-constexpr double kLeastOnEdge = 0.7;     // of each side, on one straight edge
+constexpr double kMaxPx = 1200.0;       // of the picture on the screen
+constexpr double kFitRadiusPx = 6.0;    // on the screen
+constexpr double kMaxMovedPx = 4.0;     // of a side by the fit, on the screen: clicks are better than that
+constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side
+constexpr double kMinOnEdge = 0.7;      // of each side, on one straight edge
 const char* const kWindow = "make_reference";
 // What the title asks for, by the number of corners there are.
 const char* const kNext[] = {
@@ -101,16 +101,16 @@ Fit fitted(const cv::Mat& picture, const std::vector<double>& corners) {
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto clicked = geometry::canonical(quad);
   if (!clicked) return refused("the corners make no convex quadrilateral");
-  const double scale = std::max(1.0, std::max(picture.cols, picture.rows) / kMostPx);
+  const double scale = std::max(1.0, std::max(picture.cols, picture.rows) / kMaxPx);
   double on_edge = 0.0;
   const auto borders =
       detection::BorderRefinement().run(picture, {*clicked, kFitRadiusPx * scale}, nullptr, &on_edge);
   char text[160];
   std::snprintf(text, sizeof text, "only %.0f %% of one side lie on a straight edge near it",
                 100.0 * on_edge);
-  if (on_edge < kLeastOnEdge) return refused(text);
+  if (on_edge < kMinOnEdge) return refused(text);
   if (!borders) return refused("the straight edge near one side leads away from its corners");
-  const double most_px = std::min(kMostMovedPx * scale, kMostMovedPart * shortestSide(*clicked));
+  const double most_px = std::min(kMaxMovedPx * scale, kMaxMovedPart * shortestSide(*clicked));
   Fit fit{{}, "moved by the fit:"};
   for (std::size_t side = 0; side < 4; ++side) {
     const double moved_px = moved(*clicked, borders->corners, side);
@@ -129,7 +129,7 @@ Fit fitted(const cv::Mat& picture, const std::vector<double>& corners) {
 class Clicking {
  public:
   explicit Clicking(const cv::Mat& picture)
-      : picture_(picture), scale_(std::min(1.0, kMostPx / std::max(picture.cols, picture.rows))) {
+      : picture_(picture), scale_(std::min(1.0, kMaxPx / std::max(picture.cols, picture.rows))) {
     cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
     cv::setMouseCallback(kWindow, onMouse, this);
   }

@@ -19,7 +19,7 @@ namespace {
 using namespace window_ingress::bench;
 using nlohmann::json;
 
-constexpr std::size_t kLeastPictures = 30;  ///< counted; what happens now and then must happen among them
+constexpr std::size_t kMinPictures = 30;  ///< counted; what happens now and then must happen among them
 
 json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double pictures, std::size_t limit) {
   std::vector<std::pair<std::size_t, AllocationSite>> order;
@@ -38,7 +38,7 @@ json count(const Subject& subject, const Sequence& sequence, std::size_t limit) 
   const Step step = subject.start(sequence);
   if (!step) return {};
   const std::size_t turn = std::max<std::size_t>(1, 2 * (sequence.images.size() - 1));
-  const std::size_t pictures = turn * ((kLeastPictures + turn - 1) / turn);
+  const std::size_t pictures = turn * ((kMinPictures + turn - 1) / turn);
   for (std::size_t i = 0; i < pictures; ++i) step();
   startRecording();
   for (std::size_t i = 0; i < pictures; ++i) step();

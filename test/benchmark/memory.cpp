@@ -19,8 +19,8 @@ namespace {
 
 using namespace window_ingress::bench;
 
-constexpr double kMostMegabytes = 150.0;  ///< of the detector's process, the pictures in memory included
-constexpr double kMostGrowth = 1.0;       ///< from a tenth to the end [MB]
+constexpr double kMaxMegabytes = 150.0;  ///< of the detector's process, the pictures in memory included
+constexpr double kMaxGrowth = 1.0;       ///< from a tenth to the end [MB]
 constexpr std::size_t kSearchEvery = 10;
 
 double residentMegabytes() {
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
                                 {"tenth_mb", resident[resident.size() - 2]},
                                 {"end_mb", resident.back()}}
               << "\n";
-    return growth > kMostGrowth || resident.back() > kMostMegabytes ? 1 : 0;
+    return growth > kMaxGrowth || resident.back() > kMaxMegabytes ? 1 : 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "benchmark_memory: %s\n", error.what());
     return 2;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 
 namespace window_ingress::estimation {
 
@@ -36,6 +36,6 @@ struct FitVerdict {
 
 /// GO if width and height both exceed what is needed by `sigmas` standard deviations, NO-GO if either falls
 /// short of it by as much.
-FitVerdict fitVerdict(const SizeBelief& opening, const FitParams& params);
+FitVerdict fitVerdict(const SizeEstimate& opening, const FitParams& params);
 
 }  // namespace window_ingress::estimation

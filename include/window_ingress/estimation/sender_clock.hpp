@@ -13,7 +13,7 @@ class SenderClock {
   double aheadSec() const { return ahead_sec_ > kUsualSec ? ahead_sec_ : 0.0; }
   void clear() { *this = SenderClock(); }
 
-  static constexpr double kUsualSec = 0.02, kMostSec = 0.5;
+  static constexpr double kUsualSec = 0.02, kMaxSec = 0.5;
 
  private:
   double ahead_sec_ = 0.0, arrival_sec_ = 0.0;

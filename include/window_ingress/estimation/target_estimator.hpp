@@ -44,7 +44,7 @@ struct TargetEstimatorParams {
 };
 
 /// What the detector says of one picture, and from where it was taken.
-struct SeenPicture {
+struct ObservedImage {
   double stamp_sec = 0.0;
   geometry::PinholeCamera camera;
   std::optional<Eigen::Isometry3d> T_base_camera;  ///< without it there is a pose, but nothing for the filter
@@ -83,7 +83,7 @@ class TargetEstimator {
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const std::optional<Eigen::Isometry3d>& T_base_camera);
   void see(
-      SeenPicture picture);  ///< the same with all windows of the picture, whether or not one is the target
+      ObservedImage picture);  ///< the same with all windows of the picture, whether or not one is the target
   /// An observation that still waits for odometry is processed with what there is.
   void flush();
   void reset();
@@ -109,7 +109,7 @@ class TargetEstimator {
   const openness::OpennessVerdict& openness() const { return judge_.verdict(); }
   FramesVerdict frames() const;
   /// The opening's size as measured on the way flown, whatever it is said to be.
-  const std::optional<SizeBelief>& measuredSize() const;
+  const std::optional<SizeEstimate>& measuredSize() const;
   /// By how much the stamps of pictures and odometry differ, once a turn has shown it.
   const std::optional<ClockCheck::Offset>& clockOffset() const { return clocks_.offset(); }
   /// Why nobody should fly towards this window; empty if there is no reason.
@@ -118,23 +118,23 @@ class TargetEstimator {
   std::optional<double> otherWindow() const;
 
  private:
-  void process(const SeenPicture& picture);
-  void use(const SeenPicture& picture);
+  void process(const ObservedImage& picture);
+  void use(const ObservedImage& picture);
   geometry::OpeningSize lookedFor() const;
   std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
                                             const std::optional<Eigen::Isometry3d>& T_base_camera) const;
-  void rememberWindows(const SeenPicture& picture);
+  void rememberWindows(const ObservedImage& picture);
   void startAnewIfNot(std::uint32_t target_before);
-  std::string updateFilter(const SeenPicture& picture);  // empty, or why it was not used
+  std::string updateFilter(const ObservedImage& picture);  // empty, or why it was not used
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
-  void checkSize(const SeenPicture& picture, const Eigen::Isometry3d& T_odom_camera);
-  void checkClocks(const SeenPicture& picture);
+  void checkSize(const ObservedImage& picture, const Eigen::Isometry3d& T_odom_camera);
+  void checkClocks(const ObservedImage& picture);
   bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
   std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
-  std::optional<GravityPrior> gravity(const SeenPicture& picture);
-  PoseResult estimate(const SeenPicture& picture);
-  void judgeOpenness(const SeenPicture& picture);
+  std::optional<GravityPrior> gravity(const ObservedImage& picture);
+  PoseResult estimate(const ObservedImage& picture);
+  void judgeOpenness(const ObservedImage& picture);
 
   TargetEstimatorParams params_;
   WindowPoseEstimator estimator_;
@@ -150,7 +150,7 @@ class TargetEstimator {
   PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
   Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
-  std::optional<SeenPicture> pending_;
+  std::optional<ObservedImage> pending_;
   TargetUpdate last_;
 };
 

@@ -6,7 +6,7 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/consistency_monitor.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/target_motion.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -40,7 +40,7 @@ struct FilteredWindow {
 
   /// The opening's size that goes with the pose. What is called known is as good as
   /// `FilterParams::known_size_sigma` says; what is not is estimated.
-  SizeBelief size;
+  SizeEstimate size;
 
   CameraTurn camera_turn;
   Consistency consistency;
@@ -54,7 +54,7 @@ class WindowFilter {
   /// \param size what is known of the opening before any image; without it, the opening of each estimate is
   ///        taken as known
   /// \throws std::invalid_argument that lists every parameter out of range
-  explicit WindowFilter(const FilterParams& params, const std::optional<SizeBelief>& size = std::nullopt);
+  explicit WindowFilter(const FilterParams& params, const std::optional<SizeEstimate>& size = std::nullopt);
   ~WindowFilter();
   WindowFilter(WindowFilter&&) noexcept;
   WindowFilter& operator=(WindowFilter&&) noexcept;
@@ -73,7 +73,7 @@ class WindowFilter {
 
   /// What is known of the size of the window in this observation, for the estimator: what the filter was made
   /// with, or what was found since; nothing if neither is there.
-  std::optional<SizeBelief> sizeOf(const detection::WindowObservation& window) const;
+  std::optional<SizeEstimate> sizeOf(const detection::WindowObservation& window) const;
 
   /// Where the window should be in an image taken now; nothing without a state or if it is not wholly in
   /// front.

@@ -6,7 +6,7 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/pose_params.hpp"
 #include "window_ingress/estimation/pose_prior.hpp"
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -38,7 +38,7 @@ struct PoseHints {
   /// Where it is expected; with it two or three visible sides give a pose. Its own errors must not come from
   /// this image.
   std::optional<PosePrior> prior = std::nullopt;
-  std::optional<SizeBelief> size = std::nullopt;  ///< instead of the parameters' size
+  std::optional<SizeEstimate> size = std::nullopt;  ///< instead of the parameters' size
 };
 
 /// One observation and a calibration to the relative pose (P11, P12). Stateless.

@@ -42,9 +42,9 @@ class OpeningCells {
   bool isOpen(int x, int y) const;
   bool isBetweenOpen(int x, int y) const;
   static constexpr float kMost = 12.0f;
-  static constexpr float kSure = 2.0f;    ///< log odds by which a cell is one or the other
-  static constexpr int kLeastBeside = 3;  // points on one picture
-  static constexpr int kLeastPictures = 5;
+  static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
+  static constexpr int kMinBeside = 3;  // points on one picture
+  static constexpr int kMinPictures = 5;
   std::array<float, kSide * kSide> open_{}, closed_{};
   std::array<int, kSide * kSide> deep_{}, shallow_{};  // points beside the cell, on this picture
   std::array<int, kSide * kSide> pictures_{};          // on which the cell was beside deep points alone

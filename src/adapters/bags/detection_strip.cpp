@@ -43,7 +43,7 @@ const char* DetectionStrip::whyShown(const ReplayedFrame& frame) {
   const bool changed = !is_first && is_found != was_found_;
   was_found_ = is_found;
   const bool is_due = seen_++ % step_ == 0;
-  if (changed && changes_++ < kMostChanges) return is_found ? "found" : "lost";
+  if (changed && changes_++ < kMaxChanges) return is_found ? "found" : "lost";
   return is_due ? "time" : nullptr;
 }
 

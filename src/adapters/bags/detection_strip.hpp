@@ -14,8 +14,8 @@ namespace window_ingress::adapters {
 /// strip.csv: stamp, file, why it is there, and what it shows.
 class DetectionStrip {
  public:
-  static constexpr int kMost = 36;         ///< evenly over time
-  static constexpr int kMostChanges = 24;  ///< beyond those
+  static constexpr int kMost = 36;        ///< evenly over time
+  static constexpr int kMaxChanges = 24;  ///< beyond those
 
   /// \param images that will come
   /// \throws std::runtime_error if the folder cannot be made

@@ -25,7 +25,7 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kMaxAttitudeGapSec = 0.02;
-constexpr std::size_t kMostWaiting = 30;   // images that wait for odometry as new as themselves
+constexpr std::size_t kMaxWaiting = 30;    // images that wait for odometry as new as themselves
 constexpr double kAttitudeWaitSec = 0.05;  // they wait as long for the attitude, in time of the bag
 
 double nowMs() {
@@ -129,7 +129,7 @@ void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImag
   if (!stampSec(header.stamp)) return refuse("image", "header.stamp is zero or not normalised");
   noticeJump(header.stamp);
   waiting_.push_back({header, std::move(decode)});
-  if (waiting_.size() > kMostWaiting) processFirst();
+  if (waiting_.size() > kMaxWaiting) processFirst();
   processComplete();
 }
 

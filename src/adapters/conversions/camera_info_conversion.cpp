@@ -10,7 +10,7 @@ namespace {
 using geometry::PinholeCamera;
 
 constexpr std::uint32_t kLargestSidePx = 20000;
-constexpr std::uint32_t kMostBinning = 16;
+constexpr std::uint32_t kMaxBinning = 16;
 constexpr const char* kPlumbBob = "plumb_bob";
 constexpr const char* kRational = "rational_polynomial";
 constexpr const char* kEquidistant = "equidistant";
@@ -66,7 +66,7 @@ std::string badDistortion(const sensor_msgs::CameraInfo& m) {
 }
 
 std::string badRegion(const sensor_msgs::CameraInfo& m, bool rectified) {
-  if (m.binning_x > kMostBinning || m.binning_y > kMostBinning)
+  if (m.binning_x > kMaxBinning || m.binning_y > kMaxBinning)
     return "binning " + text(m.binning_x) + "x" + text(m.binning_y) + " is above 16";
   const bool full = m.roi.width == 0 && m.roi.height == 0;
   const bool fits = std::uint64_t{m.roi.x_offset} + m.roi.width <= m.width &&

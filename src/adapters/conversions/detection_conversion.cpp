@@ -8,7 +8,7 @@ namespace window_ingress::adapters {
 namespace {
 
 using DetectionMsg = window_ingress::WindowDetection;
-constexpr std::size_t kMostInteriorPoints = 1000;  // what a detector sends stays far below
+constexpr std::size_t kMaxInteriorPoints = 1000;  // what a detector sends stays far below
 
 // Constants of the messages are the enums of the core.
 template <typename Enum>
@@ -142,9 +142,9 @@ Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
   const auto stamp_sec = stampSec(message.header.stamp);
   if (!stamp_sec) return {std::nullopt, "header.stamp is zero or not normalised"};
   if (!message.detected) return {std::nullopt, "no window: " + message.reject_reason};
-  if (message.interior_id.size() > kMostInteriorPoints)
+  if (message.interior_id.size() > kMaxInteriorPoints)
     return {std::nullopt, std::to_string(message.interior_id.size()) +
-                              " points within the opening, at most " + std::to_string(kMostInteriorPoints) +
+                              " points within the opening, at most " + std::to_string(kMaxInteriorPoints) +
                               " are taken"};
   if (!isFinite(message)) return {std::nullopt, "a number of the detection is not finite"};
   detection::WindowObservation window;

@@ -51,7 +51,7 @@ std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowD
     for (std::size_t i = 0; i < 4; ++i) window.corners[i] = {one.corner_x[i], one.corner_y[i]};
     const bool is_usable = geometry::isFinite(window.corners) && geometry::isConvex(window.corners) &&
                            std::isfinite(one.score) && std::isfinite(one.bhattacharyya);
-    if (!is_usable || windows.size() == kMostSeenWindows) continue;
+    if (!is_usable || windows.size() == kMaxSeenWindows) continue;
     window.score = one.score;
     window.has_appearance = one.has_appearance != 0;
     window.bhattacharyya = one.bhattacharyya;

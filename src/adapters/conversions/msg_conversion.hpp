@@ -80,15 +80,15 @@ window_ingress::WindowDetection toMsg(
 /// Refuses `detected == false` with the message's own reason.
 Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDetection& message);
 window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window);
-/// Those of the message that are convex, finite quadrilaterals; at most `kMostSeenWindows`.
+/// Those of the message that are convex, finite quadrilaterals; at most `kMaxSeenWindows`.
 std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowDetection& message);
-constexpr std::size_t kMostSeenWindows = 64;
+constexpr std::size_t kMaxSeenWindows = 64;
 window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec);  ///< without header
 
 void fill(window_ingress::WindowPose& message, const estimation::PoseResult& result);
 void fill(window_ingress::WindowPose& message, const estimation::FilteredWindow& filtered);
 /// The size as measured on the way flown.
-void fill(window_ingress::WindowPose& message, const estimation::SizeBelief& measured);
+void fill(window_ingress::WindowPose& message, const estimation::SizeEstimate& measured);
 void fill(window_ingress::WindowPose& message, const estimation::FitVerdict& fit);
 void fill(window_ingress::WindowPose& message, const estimation::FramesVerdict& frames);
 void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);

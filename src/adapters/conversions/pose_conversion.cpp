@@ -48,7 +48,7 @@ bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
 }
 
 // Standard deviations of width and height [m].
-Eigen::Vector2d sigmasOf(const estimation::SizeBelief& belief) {
+Eigen::Vector2d sigmasOf(const estimation::SizeEstimate& belief) {
   return {belief.size.width_m * std::sqrt(belief.log_covariance(0, 0)),
           belief.size.height_m * std::sqrt(belief.log_covariance(1, 1))};
 }
@@ -127,7 +127,7 @@ void fill(PoseMsg& message, const estimation::FilteredWindow& filtered) {
   message.target_speed_time = filtered.motion.model.stands() ? 0.0 : filtered.motion.model.time_sec;
 }
 
-void fill(PoseMsg& message, const estimation::SizeBelief& measured) {
+void fill(PoseMsg& message, const estimation::SizeEstimate& measured) {
   const Eigen::Vector2d sigma = sigmasOf(measured);
   message.measured_width = measured.size.width_m;
   message.measured_width_sigma = sigma.x();

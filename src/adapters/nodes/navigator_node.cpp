@@ -19,7 +19,7 @@ constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
 constexpr double kRounding = 1e-6;
-constexpr std::size_t kMostReason = 400;  // characters of what others say
+constexpr std::size_t kMaxReason = 400;  // characters of what others say
 
 // What the navigator keeps to already, asked once more of what is sent.
 GuardParams lastGate(const navigation::LimitParams& limits) {
@@ -145,7 +145,7 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
 
 // In lockstep the vehicle's parameters count: the world is told the same, and flights repeat to the bit.
 void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
-  input_.camera_fault = message.fault.substr(0, kMostReason);
+  input_.camera_fault = message.fault.substr(0, kMaxReason);
   if (lockstep_) return;
   input_.camera = cameraFromMsg(message);
   if (!input_.camera || !navigation::faultOf(*input_.camera).empty()) return;

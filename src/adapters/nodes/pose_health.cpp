@@ -16,7 +16,7 @@ Health framesHealth(const estimation::FramesVerdict& frames) {
 
 Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                     const estimation::SenderClock& odometry) {
-  constexpr double kMostOffsetSec = 0.05, kSigmas = 3.0;
+  constexpr double kMaxOffsetSec = 0.05, kSigmas = 3.0;
   char text[200] = "";
   if (odometry.aheadSec() > 0.0)
     std::snprintf(text, sizeof text, "; odometry is stamped %.2f s ahead of its arrival, which is taken off",
@@ -25,7 +25,7 @@ Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
   if (!offset) return {Health::kOk, "to be seen in the first turn before a window" + ahead};
   std::snprintf(text, sizeof text, "pictures are stamped %.2f +- %.2f s %s beside odometry",
                 std::abs(offset->late_sec), offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
-  const double least_sec = std::max(kMostOffsetSec, kSigmas * offset->sigma_sec);
+  const double least_sec = std::max(kMaxOffsetSec, kSigmas * offset->sigma_sec);
   if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text + ahead};
   return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
 }

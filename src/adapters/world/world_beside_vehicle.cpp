@@ -7,10 +7,10 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kStepSec = simulation::World::kStepSec;
-constexpr double kMostSilenceSec = 5.0;   // after a longer one it is another flight
-constexpr double kMostLateSec = 0.5;      // a stamp that goes back further begins another flight
-constexpr std::size_t kMostPictures = 2;  // that are drawn of those which fall due at once
-constexpr long kForgivenPictures = 30;    // while the house is built, the vehicle flies on
+constexpr double kMaxSilenceSec = 5.0;   // after a longer one it is another flight
+constexpr double kMaxLateSec = 0.5;      // a stamp that goes back further begins another flight
+constexpr std::size_t kMaxPictures = 2;  // that are drawn of those which fall due at once
+constexpr long kForgivenPictures = 30;   // while the house is built, the vehicle flies on
 
 }  // namespace
 
@@ -19,7 +19,7 @@ void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
   const auto vehicle = fromMsg(*message, params_.frames);
   if (!vehicle) return vehicle_health_->refused(vehicle.reason);
   const double back_sec = followed_sec_ - vehicle.value->stamp_sec;
-  if (running_ && back_sec >= 0.0 && back_sec <= kMostLateSec)
+  if (running_ && back_sec >= 0.0 && back_sec <= kMaxLateSec)
     return vehicle_health_->refused("stamp is " + std::to_string(back_sec) +
                                     " s before the latest: late samples are left out");
   const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
@@ -38,7 +38,7 @@ void WorldNode::begin(const navigation::VehicleState& vehicle) {
 // Time is that of the stamps; where none come it stands still, and no picture shows what nobody said.
 void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
   const double passed_sec = vehicle.stamp_sec - followed_sec_;
-  const bool leaps = running_ && (passed_sec <= 0.0 || passed_sec > kMostSilenceSec);
+  const bool leaps = running_ && (passed_sec <= 0.0 || passed_sec > kMaxSilenceSec);
   if (leaps) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
   if (leaps || !running_) begin(vehicle);
   followed_sec_ = vehicle.stamp_sec;
@@ -53,7 +53,7 @@ void WorldNode::deliverNewestPictures() {
   std::deque<simulation::Exposure> due;
   while (const auto exposure = world_->takeExposure()) due.push_back(*exposure);
   pictures_due_ += static_cast<long>(due.size());
-  for (; due.size() > kMostPictures; due.pop_front()) ++pictures_lost_;
+  for (; due.size() > kMaxPictures; due.pop_front()) ++pictures_lost_;
   for (const simulation::Exposure& exposure : due) deliver(world_->draw(exposure));
 }
 

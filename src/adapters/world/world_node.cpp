@@ -12,7 +12,7 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kTickSec = 0.005;
-constexpr double kMostDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
+constexpr double kMaxDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
 constexpr double kVehicleSilenceSec = 0.5;
 constexpr double kStepSec = simulation::World::kStepSec;
 
@@ -103,8 +103,8 @@ void WorldNode::tick() {
   debt_sec_ += running_ ? (now_sec - ticked_sec_) * params_.real_time_factor : 0.0;
   ticked_sec_ = now_sec;
   running_ = running_ || mayRun();
-  lost_sec_ += std::max(0.0, debt_sec_ - kMostDebtSec);
-  debt_sec_ = std::min(debt_sec_, kMostDebtSec);
+  lost_sec_ += std::max(0.0, debt_sec_ - kMaxDebtSec);
+  debt_sec_ = std::min(debt_sec_, kMaxDebtSec);
   for (; debt_sec_ >= kStepSec; debt_sec_ -= kStepSec) {
     stepOnce();
     deliverPictures();

@@ -17,7 +17,7 @@ FramesParams checked(const FramesParams& params) {
 }  // namespace
 
 FramesCheck::FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-                         const SizeBelief& size)
+                         const SizeEstimate& size)
     : twist_(checked(params)), attitude_(params), mounting_(pose, filter, params, size) {}
 
 FramesVerdict FramesCheck::verdict() const {

@@ -12,7 +12,7 @@ class FramesCheck {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
   FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-              const SizeBelief& size);
+              const SizeEstimate& size);
 
   TwistCheck& twist() { return twist_; }
   AttitudeCheck& attitude() { return attitude_; }

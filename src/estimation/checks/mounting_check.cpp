@@ -14,9 +14,9 @@ namespace {
 constexpr char kNothingYet[] = "camera mounting: no way flown yet";
 constexpr double kLastingSec = 10000.0;  // a mounting does not change
 constexpr double kSpacingSec = 0.5, kGoodSpacingFactor = 3.0;
-constexpr std::size_t kMostImages = 16, kEnoughImages = 10;
+constexpr std::size_t kMaxImages = 16, kEnoughImages = 10;
 constexpr double kKeptSpacingM = 0.1;
-constexpr int kRefusedUntilRestart = 5, kLeastUpdates = 15;
+constexpr int kRefusedUntilRestart = 5, kMinUpdates = 15;
 constexpr double kOpenScaleSigma = 0.5, kOpenAspectSigma = 0.2;
 constexpr double kMeasuredSigma = 0.2;  // a size less certain is not told
 constexpr double kMaxMisfit = 2.0, kMuchBetter = 0.3;
@@ -113,12 +113,12 @@ std::vector<MountingCheck::Setup> MountingCheck::setups() {
 }
 
 MountingCheck::MountingCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-                             const SizeBelief& size)
+                             const SizeEstimate& size)
     : params_(params),
       estimator_(pose),
       filter_params_(openParams(filter, params)),
       said_(size),
-      open_(sizeBelief(size.size, kOpenScaleSigma, kOpenAspectSigma)),
+      open_(sizeEstimate(size.size, kOpenScaleSigma, kOpenAspectSigma)),
       filter_(filter_params_, open_) {}
 
 void MountingCheck::forgetPlaces() {
@@ -182,7 +182,7 @@ void MountingCheck::keep(const Image& image) {
       images_.pop_back();
   }
   images_.push_back(image);
-  if (images_.size() > kMostImages) images_.pop_front();
+  if (images_.size() > kMaxImages) images_.pop_front();
 }
 
 bool MountingCheck::feed(WindowFilter& filter, const Image& image,
@@ -196,7 +196,7 @@ bool MountingCheck::feed(WindowFilter& filter, const Image& image,
 
 void MountingCheck::judge() {
   const auto found = filter_.state(images_.back().window.stamp_sec);
-  if (!found || found->updates < kLeastUpdates) return;
+  if (!found || found->updates < kMinUpdates) return;
   trial_.reset();
   if (found->size.log_covariance(1, 1) < kMeasuredSigma * kMeasuredSigma) measured_size_ = found->size;
   judgeTurn(*found);
@@ -222,7 +222,7 @@ void MountingCheck::judgeTurn(const FilteredWindow& found) {
 }
 
 // Empty if the size is as it was said to be, or was not said to be known.
-std::string MountingCheck::faultOfSize(const SizeBelief& found) const {
+std::string MountingCheck::faultOfSize(const SizeEstimate& found) const {
   if (!said_.log_covariance.isZero(0.0)) return "";
   const Eigen::Vector2d grown(std::log(found.size.width_m / said_.size.width_m),
                               std::log(found.size.height_m / said_.size.height_m));

@@ -22,7 +22,7 @@ class MountingCheck {
  public:
   /// \param size what the opening is said to be; zero covariance: known, and so to be verified
   MountingCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-                const SizeBelief& size);
+                const SizeEstimate& size);
 
   /// Only whole windows say something.
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
@@ -32,7 +32,7 @@ class MountingCheck {
   FramesVerdict verdict() const { return verdict_; }
 
   /// The size as measured on the way flown, whatever it is said to be; nothing before there is one.
-  const std::optional<SizeBelief>& measuredSize() const { return measured_size_; }
+  const std::optional<SizeEstimate>& measuredSize() const { return measured_size_; }
 
  private:
   struct Image {
@@ -49,21 +49,21 @@ class MountingCheck {
   void keep(const Image& image);
   void judge();
   void judgeTurn(const FilteredWindow& found);
-  std::string faultOfSize(const SizeBelief& found) const;
+  std::string faultOfSize(const SizeEstimate& found) const;
   void tryNextSetups();
   double misfitOf(const Setup& setup) const;
 
   FramesParams params_;
   WindowPoseEstimator estimator_;
   FilterParams filter_params_;
-  SizeBelief said_, open_;
+  SizeEstimate said_, open_;
   WindowFilter filter_;
   std::deque<Image> images_;
   int refused_ = 0;
   std::uint32_t target_id_ = 0;
   bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
   std::shared_ptr<Trial> trial_;  ///< other setups, a few with each image; nothing while all is well
-  std::optional<SizeBelief> measured_size_;
+  std::optional<SizeEstimate> measured_size_;
   FramesVerdict verdict_{FramesVerdict::kOpen, "camera mounting: no way flown yet"};
 };
 

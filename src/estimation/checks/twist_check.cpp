@@ -12,16 +12,16 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kLongestGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
-constexpr std::size_t kMostPieces = 24;
-constexpr std::size_t kLeastPieces =
+constexpr std::size_t kMaxPieces = 24;
+constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
 constexpr double kMostBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
 constexpr double kJitterM = 0.02, kDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
-constexpr double kMostSquares = 9.0;     // of one piece: mad numbers and slides are no frame
+constexpr double kMaxSquares = 9.0;      // of one piece: mad numbers and slides are no frame
 constexpr double kMaxMeanSquares = 2.0;  // of its errors, normalised; 1 is expected
 constexpr double kMuchBetter = 0.5;      // of the other meaning's squares
-constexpr double kLeastEvidence = 10.0;  // for it [nats]
+constexpr double kMinEvidence = 10.0;    // for it [nats]
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
     "",
@@ -46,7 +46,7 @@ std::array<Eigen::Vector3d, TwistCheck::kMeanings> meanings(const Eigen::Matrix3
 double square(double value) { return value * value; }
 
 double normalised(double length_m, double variance) {
-  return std::min(square(length_m) / variance, kMostSquares);
+  return std::min(square(length_m) / variance, kMaxSquares);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
   for (int k = 0; k < kMeanings; ++k)
     piece.error_base_m[k] = first_->R_odom_base.transpose() * (integrated_m_[k] - moved_m);
   pieces_.push_back(piece);
-  if (pieces_.size() > kMostPieces) pieces_.pop_front();
+  if (pieces_.size() > kMaxPieces) pieces_.pop_front();
   startAt(*last_);
   judge();
 }
@@ -94,7 +94,7 @@ double TwistCheck::Sums::misfit() const { return std::sqrt(misfits[0] / squares)
 
 // Of a velocity that is always off by the same, fixed in the body: no fault of its frame.
 Eigen::Vector3d TwistCheck::biasMps(int meaning) const {
-  if (pieces_.size() < kLeastPieces) return Eigen::Vector3d::Zero();
+  if (pieces_.size() < kMinPieces) return Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> errors_mps;
   for (const Piece& piece : pieces_) errors_mps.push_back(piece.error_base_m[meaning] / piece.sec);
   return geometry::componentwiseMedian(errors_mps);
@@ -122,7 +122,7 @@ TwistCheck::Sums TwistCheck::sums() const {
 std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
   const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
   const double evidence = 1.5 * static_cast<double>(pieces_.size()) * std::log(sums.misfits[0] / *least);
-  const bool is_better = *least < kMuchBetter * sums.misfits[0] && evidence > kLeastEvidence;
+  const bool is_better = *least < kMuchBetter * sums.misfits[0] && evidence > kMinEvidence;
   return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
 }
 
@@ -138,7 +138,7 @@ void TwistCheck::judge() {
   const double mean_squares = all.misfits[0] / (3.0 * static_cast<double>(pieces_.size()));
   if (better > 0) {
     verdict_ = {FramesVerdict::kWrong, kNames[better]};
-  } else if (is_biased || (pieces_.size() >= kLeastPieces && mean_squares > kMaxMeanSquares)) {
+  } else if (is_biased || (pieces_.size() >= kMinPieces && mean_squares > kMaxMeanSquares)) {
     char text[160];
     std::snprintf(text, sizeof text,
                   "twist does not fit the way flown: off by %.0f %% and by %.2f m/s throughout",

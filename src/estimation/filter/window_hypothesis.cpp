@@ -117,7 +117,7 @@ double leastCostNear(const FitPoint& point) {
 }  // namespace
 
 WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
-                                   const SizeBelief& size, const Eigen::Vector3d& anchor_m,
+                                   const SizeEstimate& size, const Eigen::Vector3d& anchor_m,
                                    double yaw_sigma_rad) {
   const double inverse_height = 1.0 / size.size.height_m;
   state_.anchor_m = anchor_m;
@@ -227,7 +227,7 @@ Eigen::Matrix3d WindowHypothesis::velocityCovariance() const {
   return height_m * height_m * covariance_.block<3, 3>(WindowState::kVelocityX, WindowState::kVelocityX);
 }
 
-SizeBelief WindowHypothesis::size() const {
+SizeEstimate WindowHypothesis::size() const {
   Eigen::Matrix2d log_size;
   log_size << 1.0, -state_.heightM(), 0.0, -state_.heightM();
   const Eigen::Matrix2d aspect_and_scale =

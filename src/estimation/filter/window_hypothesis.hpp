@@ -6,7 +6,7 @@
 #include "estimation/filter/window_state.hpp"
 #include "estimation/planar/image_measurement.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -30,8 +30,9 @@ class WindowHypothesis {
  public:
   /// A wide prior around a pose from a single image; the image itself is still to be applied.
   /// \param anchor_m of the state: the camera's position at that image
-  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window, const SizeBelief& size,
-                   const Eigen::Vector3d& anchor_m, double yaw_sigma_rad = kWideYawSigmaRad);
+  WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
+                   const SizeEstimate& size, const Eigen::Vector3d& anchor_m,
+                   double yaw_sigma_rad = kWideYawSigmaRad);
   static constexpr double kWideYawSigmaRad = 0.7;
 
   /// Time passes and the camera flies a way to its position: odometry drifts, attitude errors fade.
@@ -51,7 +52,7 @@ class WindowHypothesis {
   Eigen::Isometry3d T_odom_window() const { return state_.T_odom_window(); }
   Eigen::Matrix4d poseCovariance() const;      ///< x, y, z [m], yaw [rad]; odom axes
   Eigen::Matrix3d velocityCovariance() const;  ///< of the window, odom axes [(m/s)^2]
-  SizeBelief size() const;
+  SizeEstimate size() const;
   double yawSigma() const { return std::sqrt(covariance_(WindowState::kYaw, WindowState::kYaw)); }
 
   /// Angle of the window's axis against the horizontal line of sight [rad]: 0 when seen along its axis.

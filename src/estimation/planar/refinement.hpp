@@ -5,7 +5,7 @@
 
 #include "estimation/planar/image_measurement.hpp"
 #include "window_ingress/estimation/pose_prior.hpp"
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/window_pose_estimate.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 

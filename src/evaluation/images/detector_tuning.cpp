@@ -12,7 +12,7 @@ namespace {
 
 using parameters::NamedField;
 
-constexpr double kLeastGain = 1e-6;
+constexpr double kMinGain = 1e-6;
 constexpr double kNotWorth = 0.003;  // of merit: a key that brings less is left as it was
 constexpr double kLargestFactor = 5.0, kLargestPart = 0.5;  // of a move: of the value, of the range
 
@@ -79,7 +79,7 @@ class Search {
     const double before = field.get();
     field.set(move.factor * before + move.summand);
     ++done_;
-    const bool better = field.get() != before && reaches(best_.merit() + kLeastGain);
+    const bool better = field.get() != before && reaches(best_.merit() + kMinGain);
     if (!better) field.set(before);
     progress_(done_, best_);
     return better;

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLeastStretch = 1.0 / 12.0;  // of the picture's longer side
-constexpr int kLeastSides = 2;
+constexpr double kMinStretch = 1.0 / 12.0;  // of the picture's longer side
+constexpr int kMinSides = 2;
 
 std::string number(const char* pattern, double value) {
   char text[48];
@@ -78,7 +78,7 @@ double worstSideDistance(const detection::WindowObservation& window, const geome
 }
 
 int sidesInView(const geometry::Quadrilateral& truth, const geometry::PinholeCamera& camera) {
-  const double least_px = kLeastStretch * std::max(camera.width, camera.height);
+  const double least_px = kMinStretch * std::max(camera.width, camera.height);
   int sides = 0;
   for (int side = 0; side < 4; ++side)
     sides += lengthWithin(truth[side], truth[(side + 1) % 4], camera) >= least_px;
@@ -122,7 +122,7 @@ void TrackSummary::add(const TrackResult& result) {
     swaps_ += target_id_ != 0 && result.window->target_id != target_id_;
     target_id_ = result.window->target_id;
   }
-  if (result.sides_in_view < kLeastSides && result.verdict <= TrackVerdict::kNothing) return;
+  if (result.sides_in_view < kMinSides && result.verdict <= TrackVerdict::kNothing) return;
   std::size_t i = 0;
   while (i + 1 < kFrom_m.size() && result.plane_m < kFrom_m[i]) ++i;
   Range& range = ranges_[i];

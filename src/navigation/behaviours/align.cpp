@@ -56,7 +56,7 @@ void Align::enter(double now_sec) {
   ambiguous_since_sec_ = now_sec;
 }
 
-Decision Align::step(const Situation& situation, MissionMemory& memory) {
+Decision Align::step(const Situation& situation, MissionState& memory) {
   if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const RelativeState relative = relate(*situation.vehicle, *situation.target);
   if (!situation.target->sign_trusted) return resolveSign(situation, relative);
@@ -94,7 +94,7 @@ bool Align::isNearAxis(const RelativeState& relative, const Contract& contract, 
   return std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
 }
 
-Decision Align::moveOntoAxis(const Situation& situation, MissionMemory& memory,
+Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
   const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);

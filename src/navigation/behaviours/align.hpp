@@ -62,12 +62,12 @@ class Align {
   explicit Align(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter(double now_sec);
-  Decision step(const Situation& situation, MissionMemory& memory);
+  Decision step(const Situation& situation, MissionState& memory);
 
  private:
   Decision resolveSign(const Situation& situation, const RelativeState& relative);
   bool isNearAxis(const RelativeState& relative, const Contract& contract, bool is_forbidden) const;
-  Decision moveOntoAxis(const Situation& situation, MissionMemory& memory, const RelativeState& relative);
+  Decision moveOntoAxis(const Situation& situation, MissionState& memory, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);
 
   const NavigatorParams* params_;

@@ -24,7 +24,7 @@ bool isOutside(const Contract& contract, double factor) { return contract.fullne
 
 void Approach::enter() { *this = Approach(*params_); }
 
-Decision Approach::step(const Situation& situation, MissionMemory& memory) {
+Decision Approach::step(const Situation& situation, MissionState& memory) {
   if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const auto& target = *situation.target;
   const RelativeState relative = relate(*situation.vehicle, target);

@@ -14,7 +14,7 @@ class Approach {
   explicit Approach(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter();
-  Decision step(const Situation& situation, MissionMemory& memory);
+  Decision step(const Situation& situation, MissionState& memory);
 
  private:
   double forwardSpeed(const Contract& contract, const RelativeState& relative) const;

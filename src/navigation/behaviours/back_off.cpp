@@ -7,7 +7,7 @@ namespace window_ingress::navigation {
 
 void BackOff::enter() { *this = BackOff(*params_); }
 
-Decision BackOff::step(const Situation& situation, const MissionMemory& memory) {
+Decision BackOff::step(const Situation& situation, const MissionState& memory) {
   if (!memory.trusted) return withoutNormal(memory);
   const auto& target = *memory.trusted;
   const RelativeState relative = relate(*situation.vehicle, target);
@@ -28,7 +28,7 @@ Decision BackOff::step(const Situation& situation, const MissionMemory& memory) 
   return decision;
 }
 
-Decision BackOff::withoutNormal(const MissionMemory& memory) const {
+Decision BackOff::withoutNormal(const MissionState& memory) const {
   Decision decision;
   decision.keeps_place = true;
   const bool has_tries = memory.back_offs <= params_->back_off.max_retries;
@@ -37,7 +37,7 @@ Decision BackOff::withoutNormal(const MissionMemory& memory) const {
   return decision;
 }
 
-std::optional<Event> BackOff::judge(const Situation& situation, const MissionMemory& memory,
+std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& memory,
                                     const RelativeState& relative, std::string& reason) {
   if (memory.back_offs > params_->back_off.max_retries) {
     reason = "given up after " + std::to_string(params_->back_off.max_retries) + " retries";

@@ -13,11 +13,11 @@ class BackOff {
   explicit BackOff(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter();
-  Decision step(const Situation& situation, const MissionMemory& memory);
+  Decision step(const Situation& situation, const MissionState& memory);
 
  private:
-  Decision withoutNormal(const MissionMemory& memory) const;
-  std::optional<Event> judge(const Situation& situation, const MissionMemory& memory,
+  Decision withoutNormal(const MissionState& memory) const;
+  std::optional<Event> judge(const Situation& situation, const MissionState& memory,
                              const RelativeState& relative, std::string& reason);
 
   const NavigatorParams* params_;

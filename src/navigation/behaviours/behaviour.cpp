@@ -14,7 +14,7 @@ namespace {
 constexpr double kMaxDisagreementMps = 0.35;
 constexpr double kMaxUnexplainedMps = 0.08;  // likewise, before a steady bias can be told from a slide
 
-std::string whyNoOdometryToCommitBy(const MissionMemory& memory) {
+std::string whyNoOdometryToCommitBy(const MissionState& memory) {
   char text[120] = "";
   if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
     std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
@@ -28,24 +28,24 @@ std::string whyNoOdometryToCommitBy(const MissionMemory& memory) {
 
 }  // namespace
 
-void MissionMemory::leaveWindow() {
+void MissionState::leaveWindow() {
   trusted.reset();
   window_odom_m.reset();
   opening_confirmed = false;
 }
 
-void MissionMemory::giveUpWindow(const TargetEstimate& window) {
+void MissionState::giveUpWindow(const TargetEstimate& window) {
   left_odom_m.push_back(window.T_odom_window.translation());
   if (window.window_id != 0) given_up.push_back(window.window_id);
   leaveWindow();
 }
 
-void MissionMemory::forgetWindow() {
+void MissionState::forgetWindow() {
   leaveWindow();
   others_odom_m.clear();
 }
 
-void MissionMemory::forgetPlaces() {
+void MissionState::forgetPlaces() {
   forgetWindow();
   committed.reset();
   left_odom_m.clear();
@@ -53,13 +53,13 @@ void MissionMemory::forgetPlaces() {
   keeping_since_sec.reset();
 }
 
-void noteSide(const Situation& situation, const NavigatorParams& params, MissionMemory& memory) {
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory) {
   if (!memory.trusted || !situation.vehicle) return;
   const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
   memory.was_in_front = distance_m > params.vehicle.half_length_m + params.approach.margin_m;
 }
 
-std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory) {
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& memory) {
   const auto& target = *situation.target;
   if (!target.other_window) return leaveClosedOpening(situation, memory);
   const Eigen::Vector3d position = situation.vehicle->T_odom_base.translation();
@@ -75,7 +75,7 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemo
   return decision;
 }
 
-bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory) {
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory) {
   if (wasLeftForGood(target, memory)) return true;
   constexpr double kSameDirectionRad = 0.12;
   const Eigen::Vector3d position = vehicle.T_odom_base.translation();
@@ -86,7 +86,7 @@ bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, con
                      });
 }
 
-Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory,
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory,
                       const NavigatorParams& params, double unseen_sec) {
   const Eigen::Matrix3d R_odom_window = uprightRotation(target);
   const auto along = [&](int axis) {
@@ -112,7 +112,7 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   return contract;
 }
 
-double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionMemory& memory) {
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& memory) {
   return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(memory.wind_odom_mps));
 }
 

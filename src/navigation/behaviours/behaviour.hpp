@@ -21,7 +21,7 @@ struct Decision {
 };
 
 /// What the mission knows beyond the present step.
-struct MissionMemory {
+struct MissionState {
   std::optional<TargetEstimate> trusted;         ///< last estimate whose normal was trusted
   std::optional<TargetEstimate> committed;       ///< what COMMIT flies by, in odom
   double committed_sec = 0.0;                    ///< as known at this time; its spread has grown since
@@ -58,23 +58,23 @@ struct MissionMemory {
 };
 
 /// On which side of the window the vehicle is, for when its place will be forgotten.
-void noteSide(const Situation& situation, const NavigatorParams& params, MissionMemory& memory);
+void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory);
 
 /// If the way flown has shown the target to be another window, or closed: remembers that, and says so.
-std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionMemory& memory);
+std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& memory);
 
 /// The target is known to be closed; or it lies where a window is that is known to be another one: in the
 /// same direction, for its distance is computed with a size that it does not have.
-bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory);
+bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory);
 
 /// Contract of this vehicle with this window, now. \param unseen_sec nothing is known of the
 /// window since so long
-Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionMemory& memory,
+Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory,
                       const NavigatorParams& params, double unseen_sec = 0.0);
 
 /// Forward velocity less what wind adds towards the window; wind that holds the vehicle back is not made up
 /// for.
-double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionMemory& memory);
+double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& memory);
 
 /// Yaw rate that takes the heading error away.
 double yawRateFor(double error_rad, const NavigatorParams& params);

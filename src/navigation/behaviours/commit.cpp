@@ -29,7 +29,7 @@ bool isBroken(const Contract& contract, const NavigatorParams& params) {
 
 /// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
 /// up.
-bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionMemory& memory,
+bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& memory,
              const NavigatorParams& params) {
   const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
   const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
@@ -38,7 +38,7 @@ bool canStop(const RelativeState& relative, const TargetEstimate& target, const 
 }
 
 /// Of the velocity that wind adds, what leads along the window's normal [m/s].
-double windAlong(const TargetEstimate& target, const MissionMemory& memory) {
+double windAlong(const TargetEstimate& target, const MissionState& memory) {
   return uprightRotation(target).col(0).dot(memory.wind_odom_mps);
 }
 
@@ -55,7 +55,7 @@ bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
 
 void Commit::enter() { *this = Commit(*params_); }
 
-Decision Commit::step(const Situation& situation, MissionMemory& memory) {
+Decision Commit::step(const Situation& situation, MissionState& memory) {
   refine(situation, memory);
   const TargetEstimate target = ahead(*memory.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, target);
@@ -100,7 +100,7 @@ void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decisi
   }
 }
 
-void Commit::refine(const Situation& situation, MissionMemory& memory) {
+void Commit::refine(const Situation& situation, MissionState& memory) {
   if (!entry_odom_m_) entry_odom_m_ = memory.committed->T_odom_window.translation();
   if (situation.target && situation.target_is_new) heedForbidden(*situation.target);
   if (!situation.target || !situation.target->sign_trusted) return;
@@ -137,7 +137,7 @@ double Commit::speedToExit(double room_m, const RelativeState& relative) const {
   return std::clamp(wish_mps, -params_->hold.speed_mps, params_->hold.speed_mps);
 }
 
-bool Commit::canResume(const Situation& situation, const MissionMemory& memory,
+bool Commit::canResume(const Situation& situation, const MissionState& memory,
                        const NavigatorParams& params) {
   if (!memory.committed || !situation.vehicle) return false;
   const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);

@@ -4,7 +4,7 @@
 
 namespace window_ingress::navigation {
 
-/// COMMIT: through the opening on `MissionMemory::committed`, which is frozen in odom; sightings on the way
+/// COMMIT: through the opening on `MissionState::committed`, which is frozen in odom; sightings on the way
 /// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back.
 /// Heading along the normal. Ends standing still behind the window; turns back only while the nose can still
 /// be stopped in front of the plane.
@@ -14,16 +14,16 @@ class Commit {
   explicit Commit(NavigatorParams&&) = delete;  ///< they are looked at in every step
 
   void enter();
-  Decision step(const Situation& situation, MissionMemory& memory);
+  Decision step(const Situation& situation, MissionState& memory);
 
   /// True, after odometry was gone, if the vehicle is through already, or if the contract with the committed
   /// window still holds, grown by the drift since; in front of the plane only while the window is seen there.
-  static bool canResume(const Situation& situation, const MissionMemory& memory,
+  static bool canResume(const Situation& situation, const MissionState& memory,
                         const NavigatorParams& params);
 
  private:
   void heedForbidden(const TargetEstimate& target);
-  void refine(const Situation& situation, MissionMemory& memory);
+  void refine(const Situation& situation, MissionState& memory);
   void turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const;
   double forwardSpeed(const Contract& contract, const RelativeState& relative);
   double speedToExit(double room_m, const RelativeState& relative) const;

@@ -9,7 +9,7 @@ void Hold::enter(State from) {
   from_ = from;
 }
 
-Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
+Decision Hold::step(const Situation& situation, const MissionState& memory) {
   held_sec_ += situation.dt_sec;
   const bool needs_image = from_ != State::kCommit;  // which flies on without
   const bool is_good = situation.vehicle && situation.setpoint_fault.empty() &&
@@ -36,14 +36,14 @@ Decision Hold::step(const Situation& situation, const MissionMemory& memory) {
 
 // Without pictures nothing leads on, but odometry and the normal still lead away from the wall: at once where
 // wind could carry the vehicle into it meanwhile.
-bool Hold::mayRetreat(const Situation& situation, const MissionMemory& memory) const {
+bool Hold::mayRetreat(const Situation& situation, const MissionState& memory) const {
   if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;
   const bool is_near = from_ != State::kCommit && relate(*situation.vehicle, *memory.trusted).distance() <
                                                       params_->limits.wall_distance_m;
   return is_near || held_sec_ > params_->hold.patience_sec;
 }
 
-std::optional<Event> Hold::wayOn(const Situation& situation, const MissionMemory& memory,
+std::optional<Event> Hold::wayOn(const Situation& situation, const MissionState& memory,
                                  std::string& reason) const {
   if (from_ == State::kCommit) {
     if (Commit::canResume(situation, memory, *params_)) return Event::kResumed;

@@ -14,11 +14,11 @@ class Hold {
 
   /// \param from the state that was left for the hold
   void enter(State from);
-  Decision step(const Situation& situation, const MissionMemory& memory);
+  Decision step(const Situation& situation, const MissionState& memory);
 
  private:
-  bool mayRetreat(const Situation& situation, const MissionMemory& memory) const;
-  std::optional<Event> wayOn(const Situation& situation, const MissionMemory& memory,
+  bool mayRetreat(const Situation& situation, const MissionState& memory) const;
+  std::optional<Event> wayOn(const Situation& situation, const MissionState& memory,
                              std::string& reason) const;
 
   const NavigatorParams* params_;

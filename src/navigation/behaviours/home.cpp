@@ -2,7 +2,7 @@
 
 namespace window_ingress::navigation {
 
-void Home::follow(const VehicleState& vehicle, MissionMemory& memory) {
+void Home::follow(const VehicleState& vehicle, MissionState& memory) {
   const Eigen::Vector3d position = vehicle.T_odom_base.translation();
   if (!memory.home_odom_m) from_home_m_ = Eigen::Vector3d::Zero();
   if (!position_odom_m_ || !memory.home_odom_m) memory.home_odom_m = position - from_home_m_;

@@ -11,8 +11,8 @@ namespace window_ingress::navigation {
 /// seen from the vehicle.
 class Home {
  public:
-  /// Keeps `MissionMemory::home_odom_m` right; the first call sets it.
-  void follow(const VehicleState& vehicle, MissionMemory& memory);
+  /// Keeps `MissionState::home_odom_m` right; the first call sets it.
+  void follow(const VehicleState& vehicle, MissionState& memory);
   void odometryJumped() { position_odom_m_.reset(); }
   double awayM() const { return from_home_m_.head<2>().norm(); }  ///< of the vehicle, along the ground
 

@@ -21,7 +21,7 @@ Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_m
 }
 
 /// Direction in which the window lies, where that is known and the vehicle in front of it.
-std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionMemory& memory) {
+std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionState& memory) {
   if (memory.trusted) {
     const Eigen::Vector3d normal = uprightRotation(*memory.trusted).col(0);
     const bool is_behind = normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
@@ -32,15 +32,14 @@ std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, 
 }
 
 /// Neither wind nor its own errors take a vehicle so far that keeps its place.
-bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionMemory& memory) {
+bool isTorn(const VehicleState& vehicle, const HoldParams& params, const MissionState& memory) {
   return memory.place_odom_m &&
          (*memory.place_odom_m - vehicle.T_odom_base.translation()).norm() > params.leash_m;
 }
 
 }  // namespace
 
-void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params,
-                   MissionMemory& memory) {
+void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& params, MissionState& memory) {
   if (!is_kept || !situation.vehicle || situation.vehicle_jumped ||
       isTorn(*situation.vehicle, params, memory)) {
     memory.place_odom_m.reset();
@@ -54,7 +53,7 @@ void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& p
     memory.place_odom_m = situation.vehicle->T_odom_base.translation();
 }
 
-Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionMemory& memory,
+Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionState& memory,
                                 const NavigatorParams& params) {
   if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d way = *memory.place_odom_m - vehicle.T_odom_base.translation() -
@@ -63,7 +62,7 @@ Eigen::Vector3d velocityToPlace(const VehicleState& vehicle, const MissionMemory
 }
 
 Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const VehicleState& vehicle,
-                            const MissionMemory& memory, const HoldParams& params) {
+                            const MissionState& memory, const HoldParams& params) {
   if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
   Eigen::Vector3d way = *memory.place_odom_m - position_m;

@@ -8,7 +8,7 @@
 
 namespace window_ingress::navigation {
 namespace {
-constexpr int kMostOthers = 8;
+constexpr int kMaxOthers = 8;
 }
 
 void Search::enter(bool may_climb) {
@@ -17,7 +17,7 @@ void Search::enter(bool may_climb) {
   looks_back_ = true;
 }
 
-Decision Search::step(const Situation& situation, MissionMemory& memory) {
+Decision Search::step(const Situation& situation, MissionState& memory) {
   const auto& vehicle = *situation.vehicle;
   const double height_m = vehicle.T_odom_base.translation().z();
   if (!height_m_) height_m_ = may_climb_ ? std::max(params_->search.height_m, height_m) : height_m;
@@ -33,7 +33,7 @@ Decision Search::step(const Situation& situation, MissionMemory& memory) {
   decision.keeps_place = true;
   decision.wish.velocity_odom_mps.z() =
       velocityTowards(*height_m_ - height_m, params_->search.climb_speed_mps, *params_);
-  if (turns_ >= params_->search.turns || memory.others > kMostOthers) {
+  if (turns_ >= params_->search.turns || memory.others > kMaxOthers) {
     decision.event = Event::kGiveUp;
     decision.reason = "window not found in " + std::to_string(turns_) + " turns";
     if (memory.others > 0) decision.reason += ", but others " + std::to_string(memory.others) + " times";
@@ -63,7 +63,7 @@ double Search::fastestTurn(double image_period_sec) const {
   return fastest;
 }
 
-double Search::sweep(const VehicleState& vehicle, MissionMemory& memory) {
+double Search::sweep(const VehicleState& vehicle, MissionState& memory) {
   const double heading_rad = geometry::yawOf(vehicle.T_odom_base.linear());
   if (looks_back_ && memory.window_odom_m) {
     const Eigen::Vector3d to_window = *memory.window_odom_m - vehicle.T_odom_base.translation();
@@ -76,7 +76,7 @@ double Search::sweep(const VehicleState& vehicle, MissionMemory& memory) {
   return direction_ * params_->search.yaw_rate_radps;
 }
 
-void Search::countTurn(double heading_rad, MissionMemory& memory) {
+void Search::countTurn(double heading_rad, MissionState& memory) {
   if (last_heading_rad_) turned_rad_ += geometry::wrapAngle(heading_rad - *last_heading_rad_);
   last_heading_rad_ = heading_rad;
   if (std::abs(turned_rad_) < 2.0 * M_PI) return;

@@ -15,14 +15,14 @@ class Search {
   /// \param may_climb false after a mission has been near the window: what is above is then not known to be
   /// free
   void enter(bool may_climb);
-  Decision step(const Situation& situation, MissionMemory& memory);
+  Decision step(const Situation& situation, MissionState& memory);
 
  private:
   Decision lookAt(const Situation& situation);
   /// So that a picture is neither smeared nor the window passed over between two (trap: faster finds less).
   double fastestTurn(double image_period_sec) const;
-  double sweep(const VehicleState& vehicle, MissionMemory& memory);
-  void countTurn(double heading_rad, MissionMemory& memory);
+  double sweep(const VehicleState& vehicle, MissionState& memory);
+  void countTurn(double heading_rad, MissionState& memory);
 
   const NavigatorParams* params_;
   bool may_climb_ = true;

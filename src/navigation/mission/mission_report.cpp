@@ -2,7 +2,7 @@
 
 namespace window_ingress::navigation {
 
-NavigatorReport reportOn(const Situation& situation, const MissionMemory& memory,
+NavigatorReport reportOn(const Situation& situation, const MissionState& memory,
                          const NavigatorParams& params) {
   NavigatorReport report;
   report.predicted_miss_m = memory.predicted_miss_m;

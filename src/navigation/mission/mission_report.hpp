@@ -5,7 +5,7 @@
 
 namespace window_ingress::navigation {
 
-NavigatorReport reportOn(const Situation& situation, const MissionMemory& memory,
+NavigatorReport reportOn(const Situation& situation, const MissionState& memory,
                          const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation

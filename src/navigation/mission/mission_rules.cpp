@@ -49,7 +49,7 @@ std::string missingInput(State state, const Situation& situation) {
 }
 
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
-                          const MissionMemory& memory, const InputParams& params) {
+                          const MissionState& memory, const InputParams& params) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
   const bool is_left = state == State::kHold || state == State::kBackOff;
   if (is_left && wasLeftForGood(target, memory)) return "a window that was left for good";

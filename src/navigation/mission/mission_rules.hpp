@@ -23,7 +23,7 @@ std::string missingInput(State state, const Situation& situation);
 /// Why a state other than COMMIT must not fly at this target: seen from behind, or another window than the
 /// one flown at before; empty if nothing speaks against it.
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
-                          const MissionMemory& memory, const InputParams& params);
+                          const MissionState& memory, const InputParams& params);
 
 /// For people: the vehicle goes beside what it is told.
 std::string goesAstray(double turned_rad);

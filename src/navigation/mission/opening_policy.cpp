@@ -29,7 +29,7 @@ std::string whyClosed(const TargetEstimate& target) {
   return is_closed ? "the opening is closed: " + target.openness.reason : "";
 }
 
-std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& memory,
+std::string whyNotEntered(const TargetEstimate& target, const MissionState& memory,
                           const CommitParams& params) {
   const std::string closed = whyClosed(target);
   if (!closed.empty() || memory.opening_confirmed) return closed;
@@ -54,7 +54,7 @@ std::string whatIsAssumed(const CommitParams& params) {
                       : "; will ask for ~confirm_opening where it is not seen to be open");
 }
 
-std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMemory& memory) {
+std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& memory) {
   const auto& target = *situation.target;
   const std::string why = whyClosed(target);
   if (why.empty()) return std::nullopt;

@@ -17,7 +17,7 @@ std::string whyClosed(const TargetEstimate& target);
 /// Why nobody may fly through it yet: it is closed; or the operator has not confirmed it, and it was not seen
 /// to be open (unless `commit/unverified_opening` allows that) or may be glazed (unless `commit/glass`
 /// excludes that: nothing aboard can). Empty if nothing speaks against it.
-std::string whyNotEntered(const TargetEstimate& target, const MissionMemory& memory,
+std::string whyNotEntered(const TargetEstimate& target, const MissionState& memory,
                           const CommitParams& params);
 
 /// How long to wait at the commit line: for the operator's answer, or for what is to be seen [s].
@@ -27,7 +27,7 @@ double waitAtLineSec(const TargetEstimate& target, const CommitParams& params);
 std::string whatIsAssumed(const CommitParams& params);
 
 /// If the target was seen to be closed: remembers where, and leaves it for good.
-std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionMemory& memory);
+std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionState& memory);
 
 /// Where to stand beside the window's axis to see more of what is behind it, waiting for so long: to one
 /// side, then to the other [m].

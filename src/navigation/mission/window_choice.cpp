@@ -14,13 +14,13 @@ bool inOnePlace(const TargetEstimate& a, const TargetEstimate& b) {
 
 }  // namespace
 
-bool wasLeftForGood(const TargetEstimate& target, const MissionMemory& memory) {
+bool wasLeftForGood(const TargetEstimate& target, const MissionState& memory) {
   return std::any_of(memory.left_odom_m.begin(), memory.left_odom_m.end(), [&](const Eigen::Vector3d& left) {
     return (left - target.T_odom_window.translation()).norm() < kSamePlaceM;
   });
 }
 
-std::string whySentElsewhere(const Situation& situation, State state, const MissionMemory& memory) {
+std::string whySentElsewhere(const Situation& situation, State state, const MissionState& memory) {
   if (state == State::kCommit || !situation.target || !memory.trusted) return "";
   const std::uint32_t now = situation.target->window_id, before = memory.trusted->window_id;
   if (now == 0 || now == before) return "";
@@ -30,7 +30,7 @@ std::string whySentElsewhere(const Situation& situation, State state, const Miss
          (before == 0 ? "the one flown at" : "window " + std::to_string(before));
 }
 
-void turnToNextWindow(State state, const NavigatorParams& params, MissionMemory& memory, Decision& decision) {
+void turnToNextWindow(State state, const NavigatorParams& params, MissionState& memory, Decision& decision) {
   const bool tried_in_vain = state == State::kBackOff && decision.event == Event::kGiveUp;
   if (!tried_in_vain || !params.search.next_window || !memory.trusted) return;
   decision.reason += "; the next window";

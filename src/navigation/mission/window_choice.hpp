@@ -8,14 +8,14 @@
 namespace window_ingress::navigation {
 
 /// At the place of a window that was left for good.
-bool wasLeftForGood(const TargetEstimate& target, const MissionMemory& memory);
+bool wasLeftForGood(const TargetEstimate& target, const MissionState& memory);
 
 /// The target is another window now than the one flown at: the operator, or the memory of all windows, has
 /// chosen it. COMMIT flies on. \return why the window before is left; empty if it is not
-std::string whySentElsewhere(const Situation& situation, State state, const MissionMemory& memory);
+std::string whySentElsewhere(const Situation& situation, State state, const MissionState& memory);
 
 /// Where the mission would end because a window was tried in vain, and `search/next_window` allows another
 /// one: gives up the window instead, and searches on.
-void turnToNextWindow(State state, const NavigatorParams& params, MissionMemory& memory, Decision& decision);
+void turnToNextWindow(State state, const NavigatorParams& params, MissionState& memory, Decision& decision);
 
 }  // namespace window_ingress::navigation

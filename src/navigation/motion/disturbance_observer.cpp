@@ -10,7 +10,7 @@ constexpr double kUsualGustMps = 0.06, kUsualSec = 0.3;
 constexpr double kStoodSec = 1.0;    // as if it had stood without wind for so long before
 constexpr double kEnoughM2ps = 0.2;  // a second of acceleration to 0.8 m/s
 constexpr double kGustsM2ps = 0.9;   // three times what gusts of 0.3 m/s that last a second turn, squared
-constexpr double kLeastShareGone = 0.6;
+constexpr double kMinShareGone = 0.6;
 constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
 
 /// Share of a first-order step that is made in this time.
@@ -56,7 +56,7 @@ double DisturbanceObserver::turnedRad() const {
   const double spread_m2ps = directions_.said_m2ps - std::norm(directions_.said_m) / sec;
   const std::complex<double> goes =
       directions_.both_m2ps - std::conj(directions_.said_m) * directions_.done_m / sec;
-  if (spread_m2ps < kEnoughM2ps || std::abs(goes) < kLeastShareGone * spread_m2ps) return 0.0;
+  if (spread_m2ps < kEnoughM2ps || std::abs(goes) < kMinShareGone * spread_m2ps) return 0.0;
   const double turned_rad = std::arg(goes);
   return turned_rad * turned_rad * spread_m2ps > kGustsM2ps ? turned_rad : 0.0;
 }

@@ -16,7 +16,7 @@ Eigen::Vector3d withoutForward(const Eigen::Vector3d& velocity, const TargetEsti
 
 /// Upward and downward as wished, sideways only back to the place that is kept.
 Eigen::Vector3d verticalAndToPlace(const Eigen::Vector3d& velocity, const Situation& situation,
-                                   const MissionMemory& memory, const NavigatorParams& params) {
+                                   const MissionState& memory, const NavigatorParams& params) {
   Eigen::Vector3d permitted =
       onlyToPlace({velocity.x(), velocity.y(), 0.0}, *situation.vehicle, memory, params.hold);
   permitted.z() = velocity.z();
@@ -47,7 +47,7 @@ Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& s
 }
 
 Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
-                                      const Situation& situation, const MissionMemory& memory,
+                                      const Situation& situation, const MissionState& memory,
                                       const NavigatorParams& params) {
   const auto& target = *situation.target;
   const Contract contract = contractWith(target, *situation.vehicle, memory, params);
@@ -61,7 +61,7 @@ Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State sta
 }
 
 Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situation& situation,
-                                   const MissionMemory& memory, const NavigatorParams& params) {
+                                   const MissionState& memory, const NavigatorParams& params) {
   if (!memory.trusted) return Eigen::Vector3d::Zero();
   const bool in_reveal =
       relate(*situation.vehicle, *memory.trusted).distance() < params.vehicle.half_length_m;
@@ -70,7 +70,7 @@ Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situat
 }
 
 Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, const Situation& situation,
-                                 const MissionMemory& memory, const NavigatorParams& params) {
+                                 const MissionState& memory, const NavigatorParams& params) {
   const auto& target = situation.target;
   const bool is_trusted = target && target->sign_trusted;
   switch (state) {
@@ -103,7 +103,7 @@ double withinHeights(double climb_mps, double height_m, const NavigatorParams& p
 
 /// The velocity less what of its way outward could not be stopped at the fence.
 Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector3d& position_m,
-                            const MissionMemory& memory, const NavigatorParams& params) {
+                            const MissionState& memory, const NavigatorParams& params) {
   if (!memory.home_odom_m) return velocity;
   Eigen::Vector3d outward = position_m - *memory.home_odom_m;
   outward.z() = 0.0;
@@ -118,7 +118,7 @@ Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector
 }  // namespace
 
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
-                                  const Situation& situation, const MissionMemory& memory,
+                                  const Situation& situation, const MissionState& memory,
                                   const NavigatorParams& params) {
   if (!situation.vehicle) return Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = permittedByState(velocity_odom_mps, state, situation, memory, params);

@@ -19,7 +19,7 @@ namespace window_ingress::navigation {
 /// - nowhere beyond the height limits and the fence, with room to stop
 /// Back to a place means: never towards a window in front.
 Eigen::Vector3d permittedVelocity(const Eigen::Vector3d& velocity_odom_mps, State state,
-                                  const Situation& situation, const MissionMemory& memory,
+                                  const Situation& situation, const MissionState& memory,
                                   const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<double, 7> kResponsesSec{0.12, 0.17, 0.24, 0.33, 0.46, 0.64, 0.9};
 constexpr std::array<double, 5> kAccelerationsMps2{std::numeric_limits<double>::infinity(), 1.4, 1.0, 0.7,
                                                    0.5};
-constexpr double kDeadTimeSec = 0.1, kLeastLagSec = 0.02;
+constexpr double kDeadTimeSec = 0.1, kMinLagSec = 0.02;
 constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
 constexpr double kExplains = 0.7;       // of the mean square that a vehicle which stands would leave
 constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
@@ -49,7 +49,7 @@ void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen:
   usual_command_mps_ += share(dt_sec, kChangeSec) * new_mps;
   excitation_ += dt_sec * new_mps.squaredNorm();
   for (Model& model : models_) {
-    const double lag_sec = std::max(kLeastLagSec, model.response_sec - kDeadTimeSec);
+    const double lag_sec = std::max(kMinLagSec, model.response_sec - kDeadTimeSec);
     Eigen::Vector3d change_mps = share(dt_sec, lag_sec) * (asked_mps - model.velocity_mps);
     const double most_mps = model.acceleration_mps2 * dt_sec;
     const double size_mps = change_mps.norm();

@@ -10,8 +10,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLeastDistance_m = 0.2;
-constexpr double kLeastGain_px = 0.5;
+constexpr double kMinDistance_m = 0.2;
+constexpr double kMinGain_px = 0.5;
 
 // How much each corner's error moves a point of the plane.
 Eigen::Vector4d weightsAt(const Vector2d& place) {
@@ -44,7 +44,7 @@ std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamer
   pair.distance_m_ = pair.normal_.dot(T_camera_window_key.translation());
   const double now_m = T_camera_window_now.linear().col(0).dot(T_camera_window_now.translation());
   const double determinant = H->determinant();
-  if (!(pair.distance_m_ > kLeastDistance_m && now_m > kLeastDistance_m && determinant > 0.0))
+  if (!(pair.distance_m_ > kMinDistance_m && now_m > kMinDistance_m && determinant > 0.0))
     return std::nullopt;
   // The homography of calibrated rays, R + t n^T / d, has the determinant d_now / d.
   pair.H_ = std::cbrt(now_m / pair.distance_m_ / determinant) * *H;
@@ -87,7 +87,7 @@ std::optional<PointParallax> PlaneParallax::of(const Vector2d& key_px, const Vec
   const double depth = plane.z() - point.part * shift.z();
   if (!std::isfinite(point.part) || !(depth > 0.05 * plane.z())) return std::nullopt;
   point.gain_px = std::sqrt(squares) / depth;
-  if (!(point.gain_px > kLeastGain_px)) return std::nullopt;
+  if (!(point.gain_px > kMinGain_px)) return std::nullopt;
   const Vector2d along = by_part.normalized(), across(-along.y(), along.x());
   point.across_px = across.dot(off) / depth;
   point.place = opening_.fromImage(now_px);

@@ -8,9 +8,9 @@
 namespace window_ingress::openness {
 namespace {
 
-constexpr int kMostIds = 1000;
-constexpr double kMostTooDeep = 0.3;  // of the points
-constexpr int kLeastToMove = 8;       // points, of which a part that moves tells something
+constexpr int kMaxIds = 1000;
+constexpr double kMaxTooDeep = 0.3;  // of the points
+constexpr int kMinToMove = 8;        // points, of which a part that moves tells something
 
 // How a depth moves with its part: D = d part / (1 - part).
 double depthOf(double part, double distance_m) { return distance_m * part / std::max(1e-3, 1.0 - part); }
@@ -26,7 +26,7 @@ void StretchEvidence::begin(double key_stamp_sec) {
 }
 
 void StretchEvidence::see(int id, const PointParallax& look, bool through, std::uint64_t beside) {
-  if (id < 0 || id >= kMostIds) return;
+  if (id < 0 || id >= kMaxIds) return;
   if (static_cast<std::size_t>(id) >= entries_.size()) entries_.resize(static_cast<std::size_t>(id) + 1);
   Entry& entry = entries_[static_cast<std::size_t>(id)];
   entry.track.see(look);
@@ -68,11 +68,11 @@ StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
   }
   says.points = static_cast<int>(odds.size());
   const int all = says.points + says.unsteady;
-  says.is_moving = all >= kLeastToMove && says.unsteady > params.max_unsteady * all;
+  says.is_moving = all >= kMinToMove && says.unsteady > params.max_unsteady * all;
   if (says.points < params.min_points) return says;
   says.depth_m = geometry::median(depths);
   says.depth_sigma_m = geometry::median(sigmas);
-  says.is_too_deep = says.too_deep > kMostTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
+  says.is_too_deep = says.too_deep > kMaxTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
   if (!says.is_moving)
     says.log_odds = std::clamp(geometry::median(odds), -params.max_log_odds, params.max_log_odds);
   if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);

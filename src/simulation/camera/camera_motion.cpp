@@ -6,7 +6,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kLeastDepth_m = 0.5;
+constexpr double kMinDepth_m = 0.5;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Eigen::Isometry3d CameraMotion::T_camera_window(double after_sec) const {
 }
 
 double CameraMotion::greatestShift(const geometry::PinholeCamera& camera, double duration_sec) const {
-  const double depth_m = std::max(kLeastDepth_m, std::abs(T_window_camera.translation().x()));
+  const double depth_m = std::max(kMinDepth_m, std::abs(T_window_camera.translation().x()));
   const Eigen::Vector3d velocity = T_window_camera.linear().transpose() * velocity_window_mps / depth_m;
   const Eigen::Vector3d& turn = angular_velocity_camera_radps;
   double greatest_px = 0.0;

@@ -10,7 +10,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kLeastDistance_m = 2.5;
+constexpr double kMinDistance_m = 2.5;
 constexpr double kGreatestPart = 0.5;  // of the picture's width or height that the opening may fill
 
 }  // namespace
@@ -18,9 +18,8 @@ constexpr double kGreatestPart = 0.5;  // of the picture's width or height that 
 cv::Mat referencePicture(const Scenario& scenario, geometry::Quadrilateral* corners) {
   const geometry::PinholeCamera ideal = scenario.camera.model().withoutDistortion();
   const geometry::OpeningSize size = scenario.opening();
-  const double distance_m =
-      std::max({kLeastDistance_m, ideal.fx * size.width_m / (kGreatestPart * ideal.width),
-                ideal.fy * size.height_m / (kGreatestPart * ideal.height)});
+  const double distance_m = std::max({kMinDistance_m, ideal.fx * size.width_m / (kGreatestPart * ideal.width),
+                                      ideal.fy * size.height_m / (kGreatestPart * ideal.height)});
   const Eigen::Isometry3d T_camera_window = geometry::makePose(geometry::R_optical_flu(), {0, 0, distance_m});
   cv::Mat picture;
   Renderer(buildScene(asPhotographed(scenario)), ideal).render(T_camera_window, picture);

@@ -11,14 +11,14 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kLeastWallAround_m = 0.02;
+constexpr double kMinWallAround_m = 0.02;
 
 void checkFits(const Scenario& s, std::vector<std::string>& faults) {
-  const double side_m = 0.5 * s.window.width_m + s.window.frame_width_m + kLeastWallAround_m;
+  const double side_m = 0.5 * s.window.width_m + s.window.frame_width_m + kMinWallAround_m;
   if (side_m > 0.5 * s.house.width_m) faults.push_back("window/width_m: the window is wider than the house");
-  const double top_m = s.window.sill_m + s.window.height_m + s.window.frame_width_m + kLeastWallAround_m;
+  const double top_m = s.window.sill_m + s.window.height_m + s.window.frame_width_m + kMinWallAround_m;
   if (top_m > s.house.eaves_m) faults.push_back("window/sill_m: the window reaches above house/eaves_m");
-  if (s.window.sill_m - s.window.frame_width_m < kLeastWallAround_m)
+  if (s.window.sill_m - s.window.frame_width_m < kMinWallAround_m)
     faults.push_back("window/sill_m: the window's frame reaches into the ground");
   if (s.window.bars != "none" && s.window.closed_by == "none")
     faults.push_back("window/bars: an open window has none; close it by glass or the like");
@@ -73,7 +73,7 @@ void checkOpenDecoys(const Scenario& s, std::vector<std::string>& faults) {
     const Patch patch = patchOf(s.decoys[i]);
     const double bottom_m = s.windowCentreHeight() + patch.z_m - patch.half_height_m;
     const bool fits = std::abs(patch.y_m) + patch.half_width_m + 0.2 <= 0.5 * s.house.width_m &&
-                      bottom_m >= kLeastWallAround_m &&
+                      bottom_m >= kMinWallAround_m &&
                       bottom_m + 2.0 * patch.half_height_m + 0.05 <= s.house.eaves_m;
     if (s.decoys[i].showsRoom() && !fits)
       faults.push_back("decoys[" + std::to_string(i) + "]: shows the room and reaches beyond the wall");

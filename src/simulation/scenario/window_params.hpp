@@ -42,9 +42,9 @@ struct WindowParams {
     field("dirt", self.dirt, 0.0, 0.3);
     field.choice("bars", self.bars, {"none", "vertical", "cross"});
   }
-  static constexpr double kLeastFrameDepth_m = 0.002;
+  static constexpr double kMinFrameDepth_m = 0.002;
   /// How far the wall's face lies behind the plane x = 0 of the window frame [m].
-  double wallFront() const { return frame_width_m > 0.0 ? std::max(frame_depth_m, kLeastFrameDepth_m) : 0.0; }
+  double wallFront() const { return frame_width_m > 0.0 ? std::max(frame_depth_m, kMinFrameDepth_m) : 0.0; }
   bool isOpen() const { return present && closed_by == "none"; }
   /// The room is seen through it: it is open, or of clear glass.
   bool showsRoom() const { return isOpen() || (present && closed_by == "glass"); }

@@ -13,8 +13,8 @@ int countFor(double shifts, int most) { return std::clamp(static_cast<int>(std::
 void Shutter::take(Renderer& renderer, const geometry::PinholeCamera& camera, const CameraMotion& motion,
                    cv::Mat& image) {
   const int pictures =
-      countFor(motion.greatestShift(camera, exposure_sec_) / kShiftOfPicture_px, kMostPictures);
-  const int bands = countFor(motion.greatestShift(camera, readout_sec_) / kShiftOfBand_px, kMostBands);
+      countFor(motion.greatestShift(camera, exposure_sec_) / kShiftOfPicture_px, kMaxPictures);
+  const int bands = countFor(motion.greatestShift(camera, readout_sec_) / kShiftOfBand_px, kMaxBands);
   for (int k = 0; k < pictures; ++k) {
     const double in_exposure_sec = ((k + 0.5) / pictures - 0.5) * exposure_sec_;
     cv::Mat& target = pictures == 1 ? image : one_;

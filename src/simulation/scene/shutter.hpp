@@ -12,8 +12,8 @@ namespace window_ingress::simulation {
 /// stamp. Few pictures are drawn when little moves, one when nothing does.
 class Shutter {
  public:
-  static constexpr int kMostPictures = 6;
-  static constexpr int kMostBands = 24;
+  static constexpr int kMaxPictures = 6;
+  static constexpr int kMaxBands = 24;
   static constexpr double kShiftOfPicture_px = 1.5;  ///< between two pictures
   static constexpr double kShiftOfBand_px = 0.75;    ///< between two bands of rows
 

@@ -48,11 +48,11 @@ class FaultLine {
   }
 
  private:
-  static constexpr std::size_t kMostReady = 1000;  // what nobody takes is forgotten
+  static constexpr std::size_t kMaxReady = 1000;  // what nobody takes is forgotten
 
   void makeReady(Value value) {
     ready_.push_back(std::move(value));
-    if (ready_.size() > kMostReady) ready_.pop_front();
+    if (ready_.size() > kMaxReady) ready_.pop_front();
   }
 
   void notice(const FaultParams* fault) {

@@ -8,7 +8,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kLeastTexture = 0.05;
+constexpr double kMinTexture = 0.05;
 
 Eigen::Vector3d horizontalTimes(double factor, const Eigen::Vector3d& v) {
   return {factor * v.x(), factor * v.y(), v.z()};
@@ -43,7 +43,7 @@ void OdometrySensor::update(double now_sec, const VehicleTruth& truth) {
   if (!periodic_.due(now_sec)) return;
   const double height_m = std::max(0.0, truth.T_odom_base.translation().z());
   flow_factor_ =
-      (1.0 + params_.height_factor_per_m * height_m) / std::max(params_.texture_quality, kLeastTexture);
+      (1.0 + params_.height_factor_per_m * height_m) / std::max(params_.texture_quality, kMinTexture);
   walk(truth.T_odom_base.translation());
   wander();
   deliver(now_sec, measure(now_sec, truth));

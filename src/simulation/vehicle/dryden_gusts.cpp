@@ -8,7 +8,7 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr double kFoot_m = 0.3048;
-constexpr double kLeastAirspeed_mps = 0.1;
+constexpr double kMinAirspeed_mps = 0.1;
 const double kRoot3 = std::sqrt(3.0);
 
 }  // namespace
@@ -52,7 +52,7 @@ double DrydenGusts::Across::output() const { return kRoot3 * first + (1.0 - kRoo
 
 Eigen::Vector3d DrydenGusts::step(double step_sec, const DrydenScale& scale, double airspeed_mps) {
   const Eigen::Vector3d steps =
-      step_sec * std::max(airspeed_mps, kLeastAirspeed_mps) * scale.length_m.cwiseInverse();
+      step_sec * std::max(airspeed_mps, kMinAirspeed_mps) * scale.length_m.cwiseInverse();
   const double kept = std::exp(-steps.x());
   along_ = kept * along_ + random_.normal(std::sqrt(1.0 - kept * kept));
   across_.step(steps.y(), random_);

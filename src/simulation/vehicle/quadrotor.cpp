@@ -9,8 +9,8 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr double kThrustTimeConstant_sec = 0.04;
-constexpr double kLeastThrust_mps2 = 0.2 * Quadrotor::kGravity_mps2;
-constexpr double kMostThrust_mps2 = 2.0 * Quadrotor::kGravity_mps2;
+constexpr double kMinThrust_mps2 = 0.2 * Quadrotor::kGravity_mps2;
+constexpr double kMaxThrust_mps2 = 2.0 * Quadrotor::kGravity_mps2;
 
 Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
   const double length = v.norm();
@@ -19,7 +19,7 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
 
 // Keeps the vertical part, shortens the horizontal one.
 Eigen::Vector3d limitTilt(Eigen::Vector3d force, double max_tilt_rad) {
-  force.z() = std::clamp(force.z(), kLeastThrust_mps2, kMostThrust_mps2);
+  force.z() = std::clamp(force.z(), kMinThrust_mps2, kMaxThrust_mps2);
   force.head<2>() *=
       std::min(1.0, std::tan(max_tilt_rad) * force.z() / std::max(force.head<2>().norm(), 1e-9));
   return force;
@@ -123,7 +123,7 @@ void Quadrotor::turn(const Eigen::Vector3d& force, double step_sec) {
 
 double Quadrotor::thrust(const Eigen::Vector3d& force, double step_sec) {
   const double wanted =
-      std::clamp(force.dot(truth_.T_odom_base.linear().col(2)), kLeastThrust_mps2, kMostThrust_mps2);
+      std::clamp(force.dot(truth_.T_odom_base.linear().col(2)), kMinThrust_mps2, kMaxThrust_mps2);
   wanted_thrust_mps2_ += lag(step_sec, kThrustTimeConstant_sec) * (wanted - wanted_thrust_mps2_);
   return thrust_factor_ * wanted_thrust_mps2_;
 }

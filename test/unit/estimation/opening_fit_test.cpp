@@ -8,7 +8,7 @@
 namespace window_ingress::estimation {
 namespace {
 
-SizeBelief opening(double width_m, double height_m, double sigma) {
+SizeEstimate opening(double width_m, double height_m, double sigma) {
   return {{width_m, height_m}, sigma * sigma * Eigen::Matrix2d::Identity()};
 }
 

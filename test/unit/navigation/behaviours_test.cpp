@@ -29,7 +29,7 @@ Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool wi
 }
 
 TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
-  MissionMemory memory;
+  MissionState memory;
   const NavigatorParams params = test::withoutGlass();
   Search search(params);
   search.enter(true);
@@ -49,7 +49,7 @@ TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
 }
 
 TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
-  MissionMemory memory;
+  MissionState memory;
   NavigatorParams params = test::withoutGlass();
   params.search.height_m = 3.0;
   Search search(params);
@@ -62,7 +62,7 @@ TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
 }
 
 TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
-  MissionMemory memory;
+  MissionState memory;
   for (const double yaw : {-1.0, 1.0}) {
     memory.window_odom_m = Eigen::Vector3d(0, 0, 1.5);
     Search search{kDefaults};
@@ -73,7 +73,7 @@ TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
 }
 
 TEST(SearchBehaviour, OneImageIsNoWindow) {
-  MissionMemory memory;
+  MissionState memory;
   Search search{kDefaults};
   search.enter(true);
   EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), memory).event);
@@ -106,7 +106,7 @@ TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
 
 TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   Align align{kDefaults};
-  MissionMemory memory;
+  MissionState memory;
   align.enter(0.0);
   bool climbed = false, gave_up = false;
   double height_m = 0.0;
@@ -127,7 +127,7 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
 TEST(AlignBehaviour, MakesRoomOnlyToMoveSideways) {
   for (const double lateral_m : {0.0, 1.0}) {
     Align align{kDefaults};
-    MissionMemory memory;
+    MissionState memory;
     align.enter(0.0);
     const double forward_mps =
         align.step(situationAt({-1.5, lateral_m, 1.5}, 0.0, true), memory).wish.velocity_odom_mps.x();
@@ -157,7 +157,7 @@ TEST(VelocityTowards, AsksForNoHarderBrakingThanTheVehicleHas) {
 TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   Approach approach{kDefaults};
   approach.enter();
-  MissionMemory memory;
+  MissionState memory;
   auto situation = situationAt({-3.0, 0.0, 0.0}, 1.0, true);
   EXPECT_NE(approach.step(situation, memory).event, Event::kMisaligned);
   situation.target->approach_forbidden = "fit NO_GO: width 0.50 m";
@@ -168,7 +168,7 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
 }
 
 TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
-  MissionMemory memory;
+  MissionState memory;
   Align align{kDefaults};
   align.enter(0.0);
   auto situation = situationAt({-5.0, 0.0, 1.5}, 0.0, true);
@@ -200,7 +200,7 @@ TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
 }
 
 TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
-  MissionMemory memory;
+  MissionState memory;
   memory.others_odom_m.push_back({0.0, 0.0, 1.5});
   Search search{kDefaults};
   search.enter(false);
@@ -243,7 +243,7 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
     search.enter(false);
     auto situation = situationAt({-4, 0, 1.5}, 0.0, false);
     situation.image_period_sec = image_period_sec;
-    MissionMemory memory;
+    MissionState memory;
     return search.step(situation, memory).wish.yaw_rate_radps;
   };
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.yaw_rate_radps);
@@ -253,7 +253,7 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
 }
 
 TEST(BackOffBehaviour, GoesBackAlongTheAxisAndDoesNotTurnInTheReveal) {
-  MissionMemory memory;
+  MissionState memory;
   memory.trusted = test::targetAtOrigin(0.0);
   memory.trusted->T_odom_window.linear() = geometry::yawRotation(0.4);
   BackOff back_off{kDefaults};
@@ -272,7 +272,7 @@ TEST(BackOffBehaviour, GoesBackAlongTheAxisAndDoesNotTurnInTheReveal) {
 }
 
 TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
-  MissionMemory memory;
+  MissionState memory;
   memory.trusted = test::targetAtOrigin(0.0);
   BackOff back_off{kDefaults};
   back_off.enter();
@@ -287,7 +287,7 @@ TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
 }
 
 TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
-  MissionMemory memory;
+  MissionState memory;
   BackOff back_off{kDefaults};
   back_off.enter();
   const auto decision = back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory);
@@ -298,7 +298,7 @@ TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
 }
 
 TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
-  MissionMemory memory;
+  MissionState memory;
   memory.committed = test::targetAtOrigin(0.0);
   memory.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
   Commit commit{kDefaults};
@@ -313,7 +313,7 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
 TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
   static constexpr double kBesideM = 0.8;  // no contract holds there
   const auto eventAt = [](double distance_m, double told_mps) {
-    MissionMemory memory;
+    MissionState memory;
     memory.committed = test::targetAtOrigin(0.0);
     memory.told_odom_mps = {told_mps, 0.0, 0.0};
     Commit commit{kDefaults};
@@ -329,7 +329,7 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
 }
 
 TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
-  MissionMemory memory;
+  MissionState memory;
   memory.committed = test::targetAtOrigin(0.0);
   Commit commit{kDefaults};
   commit.enter();
@@ -340,7 +340,7 @@ TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
 }
 
 TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
-  MissionMemory memory;
+  MissionState memory;
   memory.trusted = test::targetAtOrigin(0.0);
   for (const double distance_m : {0.5, 2.0}) {
     Hold hold{kDefaults};
@@ -352,7 +352,7 @@ TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
 
 TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyThePicturesAreMissing) {
   for (const auto from : {State::kAlign, State::kApproach, State::kSearch}) {
-    MissionMemory memory;
+    MissionState memory;
     memory.trusted = test::targetAtOrigin(0.0);
     Hold hold{kDefaults};
     hold.enter(from);
@@ -367,7 +367,7 @@ TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyThePicturesAreMissing) {
 }
 
 /// The first event of a hold that began at 0 s with these inputs standing still, or none within 10 s.
-std::optional<Event> wayOutOf(State from, const MissionMemory& memory, bool with_vehicle, bool with_target) {
+std::optional<Event> wayOutOf(State from, const MissionState& memory, bool with_vehicle, bool with_target) {
   Hold hold{kDefaults};
   hold.enter(from);
   for (double now = 0.0; now < 10.0; now += 0.03) {
@@ -381,7 +381,7 @@ std::optional<Event> wayOutOf(State from, const MissionMemory& memory, bool with
 }
 
 TEST(HoldBehaviour, GoesOnFromWhereItCan) {
-  MissionMemory nothing, known, committed;
+  MissionState nothing, known, committed;
   known.trusted = test::targetAtOrigin(0.0);
   committed.trusted = committed.committed = test::targetAtOrigin(0.0);
   EXPECT_EQ(wayOutOf(State::kApproach, known, true, true), Event::kReacquired);

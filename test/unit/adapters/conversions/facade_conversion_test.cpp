@@ -80,7 +80,7 @@ TEST(FacadeConversion, WindowsOfAPictureGoThereAndBackAndBadOnesAreLeftOut) {
   message.windows[1].corner_x.fill(0.0);
   message.windows[2].score = std::numeric_limits<double>::infinity();
   const auto windows = seenWindowsFrom(message);
-  ASSERT_EQ(windows.size(), kMostSeenWindows);
+  ASSERT_EQ(windows.size(), kMaxSeenWindows);
   EXPECT_EQ(windows[0].corners, window.corners);
   EXPECT_EQ(windows[0].bhattacharyya, 0.25);
   EXPECT_TRUE(windows[0].is_target);

@@ -66,7 +66,7 @@ TEST(WindowPose, CarriesSizeFitFramesAndConsistency) {
   filtered.consistency = {40, 1.5, true};
   window_ingress::WindowPose message;
   fill(message, filtered);
-  fill(message, estimation::SizeBelief{{1.31, 0.91}, 0.0001 * Eigen::Matrix2d::Identity()});
+  fill(message, estimation::SizeEstimate{{1.31, 0.91}, 0.0001 * Eigen::Matrix2d::Identity()});
   fill(message, estimation::FitVerdict{estimation::Fit::kNoGo, "too narrow"});
   fill(message, estimation::FramesVerdict{estimation::FramesVerdict::kWrong, "twist looks odd"});
   EXPECT_EQ(message.filtered_age, 0.25);

@@ -10,7 +10,7 @@ namespace {
 using namespace fixtures;
 
 const Eigen::Isometry3d kWindow = geometry::makePose(geometry::yawRotation(0.4), {4, 0.5, 1.5});
-const SizeBelief kKnown{kOpening};
+const SizeEstimate kKnown{kOpening};
 const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
 const Eigen::Isometry3d kCamera = geometry::makePose(geometry::R_optical_flu().transpose(), {0, 0, 1.5});
 

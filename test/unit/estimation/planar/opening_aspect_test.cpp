@@ -6,7 +6,7 @@
 
 #include "../pose_fixtures.hpp"
 #include "estimation/planar/homography.hpp"
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -106,27 +106,27 @@ TEST(OpeningAspect, ABeliefGivenAlongReplacesTheParameters) {
   std::mt19937 random(6);
   const auto window = bordersSeen(camera(), view(4.0, 0.4), 0.1, random);
   PoseHints hints;
-  hints.size = sizeBelief({1.2, 1.0}, 0.0, 0.0);
+  hints.size = sizeEstimate({1.2, 1.0}, 0.0, 0.0);
   const auto result = assuming("nothing", 0.5, 2.0).estimate(window, camera(), hints);
   ASSERT_TRUE(result.estimate) << result.detail;
   EXPECT_DOUBLE_EQ(result.estimate->opening.width_m, 1.2);
   EXPECT_NEAR(result.estimate->best.T_camera_window.translation().z(), 4.0, 0.05);
 }
 
-TEST(SizeBelief, RootsAndLimits) {
+TEST(SizeEstimate, RootsAndLimits) {
   const geometry::OpeningSize size{1.2, 1.0};
-  SizeBelief general{size, (Eigen::Matrix2d() << 0.04, 0.01, 0.01, 0.09).finished()};
-  for (const SizeBelief& belief :
-       {sizeBelief(size, 0.0, 0.0), sizeBelief(size, 0.3, 0.0), sizeBelief(size, 0.3, 0.2), general}) {
+  SizeEstimate general{size, (Eigen::Matrix2d() << 0.04, 0.01, 0.01, 0.09).finished()};
+  for (const SizeEstimate& belief :
+       {sizeEstimate(size, 0.0, 0.0), sizeEstimate(size, 0.3, 0.0), sizeEstimate(size, 0.3, 0.2), general}) {
     EXPECT_TRUE(isUsable(belief));
     const Eigen::Matrix2d root = rootOf(belief);
     EXPECT_EQ(root.isZero(0.0), belief.log_covariance.isZero(0.0));
     EXPECT_LT((root * root.transpose() - belief.log_covariance).norm(), 1e-12);
   }
   const Eigen::Vector2d aspect(1.0, -1.0);
-  EXPECT_NEAR(aspect.dot(sizeBelief(size, 0.3, 0.2).log_covariance * aspect), 0.04, 1e-12);
+  EXPECT_NEAR(aspect.dot(sizeEstimate(size, 0.3, 0.2).log_covariance * aspect), 0.04, 1e-12);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  SizeBelief bad = general;
+  SizeEstimate bad = general;
   bad.log_covariance(0, 1) = 0.5;
   EXPECT_FALSE(isUsable(bad));
   EXPECT_FALSE(isUsable({{nan, 1.0}, Eigen::Matrix2d::Zero()}));

@@ -12,7 +12,7 @@ namespace {
 
 TEST(Home, IsWhereTheMissionBeganAndStaysThereWhenTheOdometryJumps) {
   Home home;
-  MissionMemory memory;
+  MissionState memory;
   home.follow(test::vehicleAt({1, 2, 1}, 0.0), memory);
   home.follow(test::vehicleAt({4, 6, 1}, 1.0), memory);
   EXPECT_EQ(*memory.home_odom_m, Eigen::Vector3d(1, 2, 1));
@@ -25,10 +25,10 @@ TEST(Home, IsWhereTheMissionBeganAndStaysThereWhenTheOdometryJumps) {
 
 TEST(Home, ANewMissionHasANewHome) {
   Home home;
-  MissionMemory memory;
+  MissionState memory;
   home.follow(test::vehicleAt({1, 2, 1}, 0.0), memory);
   home.follow(test::vehicleAt({4, 6, 1}, 1.0), memory);
-  memory = MissionMemory();
+  memory = MissionState();
   home.follow(test::vehicleAt({4, 6, 1}, 2.0), memory);
   EXPECT_EQ(*memory.home_odom_m, Eigen::Vector3d(4, 6, 1));
   EXPECT_EQ(home.awayM(), 0.0);

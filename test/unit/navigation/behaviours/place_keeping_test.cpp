@@ -16,7 +16,7 @@ Situation standingAt(const Eigen::Vector3d& position_m, double speed_mps = 0.0) 
 
 TEST(PlaceKeeping, ThePlaceIsWhereTheVehicleFirstStands) {
   const HoldParams params;
-  MissionMemory memory;
+  MissionState memory;
   rememberPlace(true, standingAt({0, 0, 1}, 0.5), params, memory);
   EXPECT_FALSE(memory.place_odom_m) << "still moving";
   rememberPlace(true, standingAt({0.3, 0, 1}), params, memory);
@@ -27,7 +27,7 @@ TEST(PlaceKeeping, ThePlaceIsWhereTheVehicleFirstStands) {
 
 TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
   const HoldParams params;
-  MissionMemory memory;
+  MissionState memory;
   double now = 10.0;
   for (; !memory.place_odom_m && now < 20.0; now += 0.1) {
     auto situation = standingAt({0.5 * (now - 10.0), 0, 1}, 0.5);
@@ -40,7 +40,7 @@ TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
 
 TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
   const HoldParams params;
-  MissionMemory memory;
+  MissionState memory;
   const auto set = [&] {
     rememberPlace(true, standingAt({0, 0, 1}), params, memory);
     EXPECT_TRUE(memory.place_odom_m);
@@ -63,7 +63,7 @@ TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
 
 TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
   const NavigatorParams params = test::withoutGlass();
-  MissionMemory memory;
+  MissionState memory;
   EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params), Eigen::Vector3d(0, 0, 0));
   memory.place_odom_m = Eigen::Vector3d(0, 0, 1);
   for (double away = -3.0; away <= 3.0; away += 0.05) {
@@ -80,7 +80,7 @@ TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
 TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
   NavigatorParams params = test::withoutGlass();
   params.hold.speed_mps = 0.0;
-  MissionMemory memory;
+  MissionState memory;
   memory.place_odom_m = Eigen::Vector3d(0, 0, 1);
   EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params).norm(), 0.0);
 }

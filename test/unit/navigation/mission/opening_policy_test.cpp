@@ -23,7 +23,7 @@ NavigatorParams paramsFor(const std::string& unverified_opening, const std::stri
 
 enum class Answer { kEnters, kAsks, kRefuses };
 
-Answer answerTo(Openness verdict, const CommitParams& params, const MissionMemory& memory = {}) {
+Answer answerTo(Openness verdict, const CommitParams& params, const MissionState& memory = {}) {
   auto target = test::targetAtOrigin(0.0);
   target.openness.openness = verdict;
   const std::string why_not = whyNotEntered(target, memory, params);
@@ -48,7 +48,7 @@ TEST(OpeningPolicy, EveryVerdictHasItsAnswer) {
     EXPECT_EQ(answerTo(Openness::kOpen, params), row.open) << which;
     EXPECT_EQ(answerTo(Openness::kUnknown, params), row.unknown) << which;
     EXPECT_EQ(answerTo(Openness::kClosed, params), Answer::kRefuses) << which;
-    MissionMemory confirmed;
+    MissionState confirmed;
     confirmed.opening_confirmed = true;
     EXPECT_EQ(answerTo(Openness::kOpen, params, confirmed), Answer::kEnters) << which;
     EXPECT_EQ(answerTo(Openness::kUnknown, params, confirmed), Answer::kEnters) << which;
@@ -125,7 +125,7 @@ TEST(OpeningPolicy, IsPartOfTheContractAfterItsGeometry) {
 }
 
 TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
-  MissionMemory memory;
+  MissionState memory;
   Situation situation;
   situation.vehicle = test::vehicleAt({-4, 0, 1.5}, 0.0);
   situation.target = test::targetAtOrigin(0.0);

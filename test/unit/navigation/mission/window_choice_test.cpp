@@ -58,7 +58,7 @@ TEST(WindowChoice, CommitFliesOn) {
   Situation situation;
   situation.target = test::targetAtOrigin(1.0);
   situation.target->window_id = 2;
-  MissionMemory memory;
+  MissionState memory;
   memory.trusted = test::targetAtOrigin(1.0);
   memory.trusted->window_id = 1;
   EXPECT_EQ(whySentElsewhere(situation, State::kCommit, memory), "");
@@ -70,7 +70,7 @@ TEST(WindowChoice, AWindowTriedInVainIsLeftForTheNextOneOnlyIfThatIsAllowed) {
   for (const bool allowed : {false, true}) {
     NavigatorParams params = test::withoutGlass();
     params.search.next_window = allowed;
-    MissionMemory memory;
+    MissionState memory;
     memory.trusted = test::targetAtOrigin(1.0);
     memory.trusted->window_id = 7;
     memory.back_offs = 6;
@@ -87,7 +87,7 @@ TEST(WindowChoice, AWindowTriedInVainIsLeftForTheNextOneOnlyIfThatIsAllowed) {
 TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
   NavigatorParams params = test::withoutGlass();
   params.search.next_window = true;
-  MissionMemory memory;
+  MissionState memory;
   memory.trusted = test::targetAtOrigin(1.0);
   Decision decision;
   decision.event = Event::kGiveUp;  // a time-out

@@ -16,7 +16,7 @@ const Eigen::Vector3d kNothing = Eigen::Vector3d::Zero();
 class MotionGuard : public testing::Test {
  protected:
   NavigatorParams params_ = test::withoutGlass();
-  MissionMemory memory_;
+  MissionState memory_;
   Situation situation_;
 
   void SetUp() override {
@@ -74,7 +74,7 @@ TEST_F(MotionGuard, NearTheWallOutsideTheFunnelOnlyAway) {
 TEST_F(MotionGuard, APlaceIsGoneBackToSlowlyAndNotTowardsAWindow) {
   const auto position = situation_.vehicle->T_odom_base.translation();
   for (const auto state : {State::kSearch, State::kHold, State::kPassed}) {
-    memory_ = MissionMemory();
+    memory_ = MissionState();
     memory_.place_odom_m = position + Eigen::Vector3d(0.0, 0.5, 0.0);
     const Eigen::Vector3d sideways = permitted(state);
     EXPECT_NEAR(sideways.y(), std::min(kWish.y(), params_.hold.speed_mps), 1e-12) << toString(state);

@@ -7,9 +7,9 @@
 namespace window_ingress::estimation {
 
 /// The last second of a way, as a straight line in time: what of the odometry is motion, and what is jitter.
-class SmoothPath {
+class OdometrySmoother {
  public:
-  explicit SmoothPath(double span_sec = 1.0) : span_sec_(span_sec) {}
+  explicit OdometrySmoother(double span_sec = 1.0) : span_sec_(span_sec) {}
 
   struct Motion {
     Eigen::Vector3d position_m;  ///< on the line, at the time of the last sample

@@ -1,4 +1,4 @@
-#include "estimation/checks/smooth_path.hpp"
+#include "estimation/checks/odometry_smoother.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@ namespace {
 
 const Eigen::Vector3d kVelocity(0.5, -0.2, 0.1);
 
-TEST(SmoothPath, FollowsAStraightWayWithoutLag) {
-  SmoothPath path;
+TEST(OdometrySmoother, FollowsAStraightWayWithoutLag) {
+  OdometrySmoother path;
   for (int i = 0; i <= 60; ++i) path.add(i / 30.0, i / 30.0 * kVelocity);
   const auto motion = path.motion();
   ASSERT_TRUE(motion);
@@ -19,13 +19,13 @@ TEST(SmoothPath, FollowsAStraightWayWithoutLag) {
   EXPECT_LT((motion->velocity_mps - kVelocity).norm(), 1e-9);
 }
 
-TEST(SmoothPath, TakesMostOfTheJitterAway) {
+TEST(OdometrySmoother, TakesMostOfTheJitterAway) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, 0.01);
   double squares = 0.0;
   const int runs = 200;
   for (int run = 0; run < runs; ++run) {
-    SmoothPath path;
+    OdometrySmoother path;
     for (int i = 0; i <= 60; ++i)
       path.add(i / 30.0, i / 30.0 * kVelocity + Eigen::Vector3d(noise(random), noise(random), noise(random)));
     squares += (path.motion()->position_m - 2.0 * kVelocity).squaredNorm() / 3.0 / runs;
@@ -33,8 +33,8 @@ TEST(SmoothPath, TakesMostOfTheJitterAway) {
   EXPECT_LT(std::sqrt(squares), 0.005);
 }
 
-TEST(SmoothPath, SaysNothingOfTooLittle) {
-  SmoothPath path;
+TEST(OdometrySmoother, SaysNothingOfTooLittle) {
+  OdometrySmoother path;
   EXPECT_FALSE(path.motion());
   for (int i = 0; i < 4; ++i) path.add(0.2 * i, kVelocity);
   EXPECT_FALSE(path.motion()) << "four samples";
@@ -43,8 +43,8 @@ TEST(SmoothPath, SaysNothingOfTooLittle) {
   EXPECT_FALSE(path.motion()) << "a fifth of a second";
 }
 
-TEST(SmoothPath, StartsAnewWhenTimeGoesBackAndIgnoresWhatIsNotFinite) {
-  SmoothPath path;
+TEST(OdometrySmoother, StartsAnewWhenTimeGoesBackAndIgnoresWhatIsNotFinite) {
+  OdometrySmoother path;
   for (int i = 0; i <= 30; ++i) path.add(10.0 + i / 30.0, kVelocity);
   path.add(11.1, {0, std::numeric_limits<double>::quiet_NaN(), 0});
   path.add(std::numeric_limits<double>::infinity(), kVelocity);

@@ -8,20 +8,20 @@ namespace window_ingress::estimation {
 
 /// What is known of the opening's size: log width and log height are normal about those of `size`. A single
 /// image measures their ratio, never their common scale.
-struct SizeBelief {
+struct SizeEstimate {
   geometry::OpeningSize size;
   Eigen::Matrix2d log_covariance = Eigen::Matrix2d::Zero();  ///< of (log width, log height); zero: known
 };
 
 /// \param scale_sigma relative spread of width and height together; 0: known
 /// \param aspect_sigma relative spread of width over height; 0: known
-SizeBelief sizeBelief(const geometry::OpeningSize& size, double scale_sigma, double aspect_sigma);
+SizeEstimate sizeEstimate(const geometry::OpeningSize& size, double scale_sigma, double aspect_sigma);
 
 /// Finite, positive sizes; a finite covariance without negative variances.
-bool isUsable(const SizeBelief& belief);
+bool isUsable(const SizeEstimate& belief);
 
 /// A with A * A^T = log_covariance: log size = log of `size` + A * z, z of unit variance.
-Eigen::Matrix2d rootOf(const SizeBelief& belief);
+Eigen::Matrix2d rootOf(const SizeEstimate& belief);
 
 /// The size at log deviations from `size`.
 geometry::OpeningSize scaled(const geometry::OpeningSize& size, const Eigen::Vector2d& log_deviation);

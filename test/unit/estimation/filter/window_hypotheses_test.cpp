@@ -1,4 +1,4 @@
-#include "estimation/filter/window_beliefs.hpp"
+#include "estimation/filter/window_hypotheses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 using namespace fixtures;
 
 const auto kLens = camera();
-const SizeBelief kKnown{kOpening};
+const SizeEstimate kKnown{kOpening};
 
 Eigen::Isometry3d cameraAt(const Eigen::Vector3d& position) {
   return geometry::makePose(geometry::R_optical_flu().transpose(), position);
@@ -27,18 +27,18 @@ ImageMeasurement seen(const Eigen::Isometry3d& T_odom_camera, const Eigen::Isome
       .value();
 }
 
-double weightsOf(const WindowBeliefs& beliefs) {
+double weightsOf(const WindowHypotheses& beliefs) {
   double sum = 0.0;
   for (const auto& h : beliefs.hypotheses()) sum += std::exp(h.log_weight);
   return sum;
 }
 
-TEST(WindowBeliefs, FarAwayBothMirrorImagesLiveFromEitherStart) {
+TEST(WindowHypotheses, FarAwayBothMirrorImagesLiveFromEitherStart) {
   const auto T = cameraAt({0, 0, 0});
   const auto image = seen(T, windowAt(8.0, 0.25));
   const FilterView view{image, image, kLens, T};
   for (const double started : {0.25, -0.25}) {
-    WindowBeliefs beliefs{FilterParams{}};
+    WindowHypotheses beliefs{FilterParams{}};
     ASSERT_TRUE(beliefs.start(windowAt(8.0, started), kKnown, view));
     ASSERT_EQ(beliefs.hypotheses().size(), 2u);
     EXPECT_NEAR(weightsOf(beliefs), 1.0, 1e-12);
@@ -48,8 +48,8 @@ TEST(WindowBeliefs, FarAwayBothMirrorImagesLiveFromEitherStart) {
   }
 }
 
-TEST(WindowBeliefs, ParallaxKillsTheMirrorImage) {
-  WindowBeliefs beliefs{FilterParams{}};
+TEST(WindowHypotheses, ParallaxKillsTheMirrorImage) {
+  WindowHypotheses beliefs{FilterParams{}};
   const auto window = windowAt(8.0, 0.25);
   Eigen::Vector3d position(0, 0, 0);
   const auto first = seen(cameraAt(position), window);
@@ -68,8 +68,8 @@ TEST(WindowBeliefs, ParallaxKillsTheMirrorImage) {
   EXPECT_NEAR(beliefs.hypotheses()[0].window.state().yaw(), 0.25, 0.05);
 }
 
-TEST(WindowBeliefs, AnOutlierChangesNothing) {
-  WindowBeliefs beliefs{FilterParams{}};
+TEST(WindowHypotheses, AnOutlierChangesNothing) {
+  WindowHypotheses beliefs{FilterParams{}};
   const auto T = cameraAt({0, 0, 0});
   const auto image = seen(T, windowAt(3.0, 0.3));
   ASSERT_TRUE(beliefs.start(windowAt(3.0, 0.3), kKnown, {image, image, kLens, T}));
@@ -82,8 +82,8 @@ TEST(WindowBeliefs, AnOutlierChangesNothing) {
   EXPECT_EQ(beliefs.hypotheses()[0].window.state().values, before);
 }
 
-TEST(WindowBeliefs, AStartThatDoesNotExplainTheImageChangesNothing) {
-  WindowBeliefs beliefs{FilterParams{}};
+TEST(WindowHypotheses, AStartThatDoesNotExplainTheImageChangesNothing) {
+  WindowHypotheses beliefs{FilterParams{}};
   const auto T = cameraAt({0, 0, 0});
   auto leaning = windowAt(3.0, 0.3);
   leaning.linear() = leaning.linear() * geometry::rotationFromEuler({0.5, 0, 0});

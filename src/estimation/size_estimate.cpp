@@ -1,16 +1,16 @@
-#include "window_ingress/estimation/size_belief.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace window_ingress::estimation {
 
-SizeBelief sizeBelief(const geometry::OpeningSize& size, double scale_sigma, double aspect_sigma) {
+SizeEstimate sizeEstimate(const geometry::OpeningSize& size, double scale_sigma, double aspect_sigma) {
   const Eigen::Vector2d together(scale_sigma, scale_sigma), apart(0.5 * aspect_sigma, -0.5 * aspect_sigma);
   return {size, together * together.transpose() + apart * apart.transpose()};
 }
 
-bool isUsable(const SizeBelief& belief) {
+bool isUsable(const SizeEstimate& belief) {
   const auto& [size, covariance] = belief;
   const bool has_size = std::isfinite(size.width_m + size.height_m) && size.width_m > 0 && size.height_m > 0;
   if (!has_size || !covariance.allFinite()) return false;
@@ -20,7 +20,7 @@ bool isUsable(const SizeBelief& belief) {
          std::abs(covariance(0, 1) - covariance(1, 0)) <= allowed;
 }
 
-Eigen::Matrix2d rootOf(const SizeBelief& belief) {
+Eigen::Matrix2d rootOf(const SizeEstimate& belief) {
   if (belief.log_covariance.isZero(0.0)) return Eigen::Matrix2d::Zero();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(belief.log_covariance);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();

@@ -9,9 +9,9 @@
 namespace window_ingress::estimation {
 
 /// The window and its mirror image: one or two hypotheses with weights that sum to 1, the heavier first.
-class WindowBeliefs {
+class WindowHypotheses {
  public:
-  explicit WindowBeliefs(const FilterParams& params) : params_(params) {}
+  explicit WindowHypotheses(const FilterParams& params) : params_(params) {}
 
   struct Weighted {
     WindowHypothesis window;
@@ -25,7 +25,7 @@ class WindowBeliefs {
   /// Begins anew with a pose from one image, and with its mirror image.
   /// \return false, and nothing changed, if no upright window next to that pose, or to its mirror image,
   /// explains the image
-  bool start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size, const FilterView& view);
+  bool start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size, const FilterView& view);
 
   /// Time passes, the camera flies a way, and an image is applied to all hypotheses.
   /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
@@ -37,7 +37,7 @@ class WindowBeliefs {
   bool areUnambiguous() const;
 
  private:
-  void addMirrorImage(const FilterView& view, const SizeBelief& size, double squares);
+  void addMirrorImage(const FilterView& view, const SizeEstimate& size, double squares);
   void settle(const Eigen::Vector3d& camera_position);
   void normalise();
   void mergeOrDrop();

@@ -1,4 +1,4 @@
-#include "estimation/filter/window_beliefs.hpp"
+#include "estimation/filter/window_hypotheses.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +17,8 @@ double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)
 
 }  // namespace
 
-bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizeBelief& size,
-                          const FilterView& view) {
+bool WindowHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size,
+                             const FilterView& view) {
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   WindowHypothesis window(params_, T_odom_window, size, position);
   auto outcome = window.update(params_, view);
@@ -37,7 +37,7 @@ bool WindowBeliefs::start(const Eigen::Isometry3d& T_odom_window, const SizeBeli
 // The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
 // Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
 // belief.
-void WindowBeliefs::addMirrorImage(const FilterView& view, const SizeBelief& size, double squares) {
+void WindowHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate& size, double squares) {
   const WindowHypothesis& window = hypotheses_.front().window;
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   const Eigen::Isometry3d image = window.mirrored(position).T_odom_window();
@@ -53,8 +53,8 @@ void WindowBeliefs::addMirrorImage(const FilterView& view, const SizeBelief& siz
   hypotheses_.push_back({other, std::clamp(evidence, -params_.max_evidence, params_.max_evidence)});
 }
 
-std::optional<WindowHypothesis::Outcome> WindowBeliefs::apply(const FilterView& view, double elapsed_sec,
-                                                              double way_m) {
+std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterView& view, double elapsed_sec,
+                                                                 double way_m) {
   std::vector<Weighted> tried = hypotheses_;
   std::array<double, 2> evidence{kImpossible, kImpossible};
   std::optional<WindowHypothesis::Outcome> closest;
@@ -77,20 +77,20 @@ std::optional<WindowHypothesis::Outcome> WindowBeliefs::apply(const FilterView& 
   return closest;
 }
 
-bool WindowBeliefs::areUnambiguous() const {
+bool WindowHypotheses::areUnambiguous() const {
   if (hypotheses_.size() < 2) return true;
   const auto yaw = [](const Weighted& h) { return h.window.state().yaw(); };
   return std::abs(geometry::wrapAngle(yaw(hypotheses_[0]) - yaw(hypotheses_[1]))) < params_.harmless_yaw_rad;
 }
 
-void WindowBeliefs::settle(const Eigen::Vector3d& camera_position) {
+void WindowHypotheses::settle(const Eigen::Vector3d& camera_position) {
   normalise();
   mergeOrDrop();
   split(camera_position);
   normalise();
 }
 
-void WindowBeliefs::normalise() {
+void WindowHypotheses::normalise() {
   std::sort(hypotheses_.begin(), hypotheses_.end(),
             [](const Weighted& a, const Weighted& b) { return a.log_weight > b.log_weight; });
   const double heaviest = hypotheses_.front().log_weight;
@@ -99,7 +99,7 @@ void WindowBeliefs::normalise() {
   for (auto& h : hypotheses_) h.log_weight -= heaviest + std::log(sum);
 }
 
-void WindowBeliefs::mergeOrDrop() {
+void WindowHypotheses::mergeOrDrop() {
   if (hypotheses_.size() < 2) return;
   const double share = std::exp(hypotheses_[1].log_weight);
   if (hypotheses_[0].window.distanceTo(hypotheses_[1].window) < kMergeDistance) {
@@ -113,7 +113,7 @@ void WindowBeliefs::mergeOrDrop() {
 }
 
 // A single belief that lies between both mirror images holds some of the other one's mass: it becomes two.
-void WindowBeliefs::split(const Eigen::Vector3d& camera_position) {
+void WindowHypotheses::split(const Eigen::Vector3d& camera_position) {
   if (hypotheses_.size() != 1 || !may_split_) return;
   const WindowHypothesis window = hypotheses_.front().window;
   const double angle = std::abs(window.yawFromSight(camera_position)), sigmas = angle / window.yawSigma();
