@@ -221,6 +221,21 @@ def test_the_usb_camera_publishes_what_the_detector_takes():
     assert camera["params"]["/usb_cam/camera_frame_id"] == "camera_optical_frame"
 
 
+def test_a_rehearsal_commands_nobody_and_stands_in_for_what_a_webcam_lacks():
+    launch = dump("rehearse")
+    nodes, params = launch["nodes"], launch["params"]
+    assert CHAIN | {"usb_cam", "camera_mounting", "rehearsal", "rviz"} == {node[1:] for node in nodes}
+    sent = {to for node in nodes.values() for name, to in node["remaps"].items() if name in ("cmd_vel", "brake")}
+    assert sent == {"/rehearsal/cmd_vel", "ingress_navigator/cmd_vel"}
+    assert remaps(launch, "ingress_navigator")["odom"] == remaps(launch, "rehearsal")["odom"] == "/rehearsal/odom"
+    assert params["/rehearsal/odometry"] is True and params["/camera_mounting/pose"] == [0] * 6
+    assert params["/homography_pose/pose/opening_width_m"] == 0.6
+    with_odometry = dump("rehearse", "odom:=/t265/odom", "camera:=false", "rviz:=false", "window_size:=0.8,0.7")
+    assert remaps(with_odometry, "ingress_navigator")["odom"] == "/t265/odom" and with_odometry["params"]["/rehearsal/odometry"] is False
+    assert not {"/usb_cam", "/rviz"} & set(with_odometry["nodes"])
+    assert with_odometry["params"]["/homography_pose/pose/opening_width_m"] == 0.8
+
+
 def test_a_debugger_goes_before_the_nodes_but_not_before_the_guard():
     prefixes = {name: node["prefix"] for name, node in dump("ingress", "launch_prefix:=gdb -ex run --args")["nodes"].items()}
     assert prefixes.pop("/setpoint_guard") is None
@@ -242,6 +257,17 @@ def test_a_replay_plays_what_is_taken_and_commands_nobody():
     assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel" and launch["params"]["/homography_pose/odom_frame"] == "map"
     assert {"/rviz", "/ingress_navigator"} <= set(launch["nodes"])
     assert "/ingress_navigator" not in dump("replay")["nodes"]
+
+
+def test_a_recorded_flight_is_looked_at_without_commanding_anybody():
+    assert set(dump("view")["nodes"]) == {"/rviz"} and not dump("view")["params"]
+    launch = dump("view", "bag:=/tmp/flight.bag")
+    args = launch["nodes"]["/play"]["args"]
+    assert args.endswith("--bags /tmp/flight.bag")
+    assert set(args.split("--topics ")[1].split(" --bags")[0].split()) == {"/demo/detection", "/markers", "/window_polygon", "/odom", "/tf", "/tf_static"}
+    assert remaps(launch, "rviz")["/debug_image"] == "/demo/detection"
+    for node in launch["nodes"].values():
+        assert (node["remaps"]["/clock"], node["remaps"]["/use_sim_time"]) == ("/replay/clock", "/replay/use_sim_time")
 
 
 def test_a_replay_leaves_the_clock_of_others_alone():
