@@ -1,4 +1,6 @@
 /// Whether a file may be laid over the defaults; see --help. Launch files ask before they start anything.
+#include <yaml-cpp/yaml.h>
+
 #include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
@@ -18,7 +20,7 @@ using namespace window_ingress;
 using tools::UsageError;
 
 struct Options {
-  std::string file, reference, corners, window_size, camera_pose;
+  std::string file, reference, corners, window_size, camera_pose, needs_window_size;
 };
 
 po::options_description describe(Options& o) {
@@ -35,6 +37,7 @@ po::options_description describe(Options& o) {
       ("reference", po::value(&o.reference), "picture of the target")                                    //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
+      ("needs-window-size", po::value(&o.needs_window_size), "true: refused if nobody says it")          //
       ("camera-pose", po::value(&o.camera_pose), "x,y,z,yaw,pitch,roll in base_link [m, rad]");
   return description;
 }
@@ -72,6 +75,21 @@ void checkWindowSize(const std::string& text, estimation::PoseParams pose) {
   if (!faults.empty()) throw UsageError("window_size " + text + ": " + parameters::joined(faults));
 }
 
+// A drone does not fly by the size of somebody else's window.
+void checkSizeIsSaid(const Options& o) {
+  if (o.needs_window_size != "true" || !given(o.window_size).empty()) return;
+  const std::string file = given(o.file);
+  const YAML::Node all = file.empty() ? YAML::Node() : YAML::LoadFile(file);
+  const YAML::Node node = all.IsMap() ? all["homography_pose"] : YAML::Node();
+  const YAML::Node pose = node && node.IsMap() ? node["pose"] : YAML::Node();
+  const auto has = [&](const char* key) { return pose && pose.IsMap() && pose[key]; };
+  const bool is_found_out = has("scale_sigma") && pose["scale_sigma"].as<double>() > 0.0;
+  if (!is_found_out && !(has("opening_width_m") && has("opening_height_m")))
+    throw UsageError(
+        "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
+        "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
+}
+
 void checkCameraPose(const std::string& text) {
   if (text.empty()) return;
   try {
@@ -83,12 +101,13 @@ void checkCameraPose(const std::string& text) {
 
 int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
-                            o.window_size.empty() && o.camera_pose.empty();
+                            o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty();
   if (asks_nothing) throw UsageError("no file given; see --help");
   const std::string file = given(o.file);
   const auto overlay = configuration::readOverlay(file);
   checkReference(o, overlay.window_detector);
   checkWindowSize(given(o.window_size), overlay.homography_pose.pose);
+  checkSizeIsSaid(o);
   checkCameraPose(given(o.camera_pose));
   std::cout << file;
   return 0;

@@ -3,6 +3,7 @@ import importlib.machinery
 import importlib.util
 import os
 import pathlib
+import re
 import subprocess
 import types
 
@@ -54,6 +55,14 @@ def test_a_transform_that_the_pose_node_has_is_not_missed(doctor, mounting, wind
 def test_each_remedy_is_reached(doctor):
     for number, (words, mend) in enumerate(doctor.REMEDIES):
         assert doctor.remedy(f"so {words} it is") == mend, number
+
+
+def test_the_programs_that_are_advised_are_installed(doctor):
+    advised = {match for _, mend in doctor.REMEDIES for match in re.findall(r"rosrun (\w+) (\w+)", mend)}
+    assert ("tf2_ros", "static_transform_publisher") in advised
+    for package, program in advised:
+        folders = [pathlib.Path(root) / "lib" / package for root in ("/usr", "/opt/ros/noetic")]
+        assert any((folder / program).is_file() for folder in folders), f"{package} {program}: scripts/setup does not install it"
 
 
 @pytest.mark.parametrize("simulated, clocks, heard, said", [

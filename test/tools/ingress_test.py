@@ -73,7 +73,7 @@ def test_a_group_alone_says_what_it_has():
 
 def test_completion_lists_everything():
     assert complete("") == [*[words for words in ingress.COMMANDS if " " not in words], *ingress.GROUPS]
-    assert complete("p") == ["plot"]
+    assert complete("p") == ["print-window", "plot"]
     for group in ingress.GROUPS:
         assert complete(group, "") == [words.split()[1] for words in ingress.COMMANDS if words.startswith(f"{group} ")]
     assert "--sshloginfile" in complete("campaign", "--ss")

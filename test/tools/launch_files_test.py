@@ -11,6 +11,8 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAUNCH_FILES = sorted((ROOT / "launch").glob("*.launch"))
 NEEDED = {"replay": ["bag:=/tmp/none.bag"], "record": ["name:=/tmp/none"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
+SIZE = ["window_size:=1.2,1.0"]
+GIVEN = {**NEEDED, "px4": SIZE, "ardupilot": SIZE, "mavros": [*NEEDED["mavros"], *SIZE]}  # and without which nothing is flown
 CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"}
 
 
@@ -20,7 +22,9 @@ def run(*command):
 
 
 def dump(name, *arguments):
-    done = run("python3", ROOT / "test/tools/dump_launch.py", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), *arguments)
+    named = {text.split(":=")[0] for text in arguments}
+    given = [text for text in GIVEN.get(name, []) if text.split(":=")[0] not in named]
+    done = run("python3", ROOT / "test/tools/dump_launch.py", ROOT / f"launch/{name}.launch", *given, *arguments)
     assert done.returncode == 0, done.stderr
     launch = json.loads(done.stdout)
     assert launch["errors"] == []
@@ -44,11 +48,10 @@ def remaps(launch, node):
 def test_each_is_xml_and_loads(file):
     root = ElementTree.parse(file).getroot()
     assert root.tag == "launch"
-    arguments = NEEDED.get(file.stem, [])
     required = [arg.get("name") for arg in root.findall("arg") if arg.get("default") is None and arg.get("value") is None]
-    assert sorted(required) == sorted(text.split(":=")[0] for text in arguments)
+    assert sorted(required) == sorted(text.split(":=")[0] for text in NEEDED.get(file.stem, []))
     for option in ("--nodes", "--files"):
-        done = run("roslaunch", option, file, *arguments)
+        done = run("roslaunch", option, file, *GIVEN.get(file.stem, []))
         assert done.returncode == 0 and done.stdout.strip(), done.stderr
     assert dump(file.stem)["nodes"]
 
@@ -117,9 +120,27 @@ def test_an_argument_that_cannot_be_ends_the_launch_before_anything_starts(name,
     assert done.returncode == 1 and said in done.stderr, done.stderr
 
 
+@pytest.mark.parametrize("name", ["px4", "ardupilot", "mavros"])
+def test_a_drone_does_not_fly_by_a_size_that_nobody_said(name, tmp_path):
+    config = tmp_path / "drone.yaml"
+
+    def launched(text, *arguments):
+        config.write_text(text)
+        return run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), f"config:={config}", *arguments)
+    for text in ("{}", "vehicle: {half_width_m: 0.3}", "homography_pose: {pose: {opening_width_m: 1.3}}", "homography_pose: {odom_wait_sec: 0.1}",
+                 "homography_pose: {pose: {scale_sigma: 0.0}}"):
+        done = launched(text)
+        assert done.returncode == 1 and "the opening's size is not said: window_size:=W,H" in done.stderr, done.stderr
+        assert launched(text, *SIZE).returncode == 0
+    for text in ("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}", "homography_pose: {pose: {scale_sigma: 0.5, aspect_sigma: 0.3}}"):
+        assert launched(text).returncode == 0
+    done = run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []))
+    assert done.returncode == 1 and "the opening's size is not said" in done.stderr
+
+
 @pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers")])
 def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, said):
-    done = run("roslaunch", "--nodes", ROOT / "launch/px4.launch", f"camera_pose:={pose}")
+    done = run("roslaunch", "--nodes", ROOT / "launch/px4.launch", *SIZE, f"camera_pose:={pose}")
     assert done.returncode == 1 and "camera_pose" in done.stderr and said in done.stderr, done.stderr
 
 
@@ -155,7 +176,7 @@ def test_what_is_given_as_an_argument_counts_more_than_the_file(tmp_path, name):
     config.write_text("homography_pose: {pose: {opening_width_m: 2.0, opening_height_m: 1.9}}\n"
                       f"window_detector: {{reference: {{picture: {in_file}, corners: [60, 50, 260, 50, 260, 190, 60, 190]}}}}\n")
     size, reference = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/{}"
-    params = dump(name, f"config:={config}")["params"]
+    params = dump(name, f"config:={config}", "window_size:=none")["params"]
     assert (params[size.format("width")], params[size.format("height")]) == (2.0, 1.9)
     assert params[reference.format("picture")] == in_file
     params = dump(name, f"config:={config}", "window_size:=1.3,1.1", f"reference:={given}")["params"]
@@ -200,6 +221,21 @@ def test_the_usb_camera_publishes_what_the_detector_takes():
     assert camera["params"]["/usb_cam/camera_frame_id"] == "camera_optical_frame"
 
 
+def test_a_rehearsal_commands_nobody_and_stands_in_for_what_a_webcam_lacks():
+    launch = dump("rehearse")
+    nodes, params = launch["nodes"], launch["params"]
+    assert CHAIN | {"usb_cam", "camera_mounting", "rehearsal", "rviz"} == {node[1:] for node in nodes}
+    sent = {to for node in nodes.values() for name, to in node["remaps"].items() if name in ("cmd_vel", "brake")}
+    assert sent == {"/rehearsal/cmd_vel", "ingress_navigator/cmd_vel"}
+    assert remaps(launch, "ingress_navigator")["odom"] == remaps(launch, "rehearsal")["odom"] == "/rehearsal/odom"
+    assert params["/rehearsal/odometry"] is True and params["/camera_mounting/pose"] == [0] * 6
+    assert params["/homography_pose/pose/opening_width_m"] == 0.6
+    with_odometry = dump("rehearse", "odom:=/t265/odom", "camera:=false", "rviz:=false", "window_size:=0.8,0.7")
+    assert remaps(with_odometry, "ingress_navigator")["odom"] == "/t265/odom" and with_odometry["params"]["/rehearsal/odometry"] is False
+    assert not {"/usb_cam", "/rviz"} & set(with_odometry["nodes"])
+    assert with_odometry["params"]["/homography_pose/pose/opening_width_m"] == 0.8
+
+
 def test_a_debugger_goes_before_the_nodes_but_not_before_the_guard():
     prefixes = {name: node["prefix"] for name, node in dump("ingress", "launch_prefix:=gdb -ex run --args")["nodes"].items()}
     assert prefixes.pop("/setpoint_guard") is None
@@ -221,6 +257,17 @@ def test_a_replay_plays_what_is_taken_and_commands_nobody():
     assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel" and launch["params"]["/homography_pose/odom_frame"] == "map"
     assert {"/rviz", "/ingress_navigator"} <= set(launch["nodes"])
     assert "/ingress_navigator" not in dump("replay")["nodes"]
+
+
+def test_a_recorded_flight_is_looked_at_without_commanding_anybody():
+    assert set(dump("view")["nodes"]) == {"/rviz"} and not dump("view")["params"]
+    launch = dump("view", "bag:=/tmp/flight.bag")
+    args = launch["nodes"]["/play"]["args"]
+    assert args.endswith("--bags /tmp/flight.bag")
+    assert set(args.split("--topics ")[1].split(" --bags")[0].split()) == {"/demo/detection", "/markers", "/window_polygon", "/odom", "/tf", "/tf_static"}
+    assert remaps(launch, "rviz")["/debug_image"] == "/demo/detection"
+    for node in launch["nodes"].values():
+        assert (node["remaps"]["/clock"], node["remaps"]["/use_sim_time"]) == ("/replay/clock", "/replay/use_sim_time")
 
 
 def test_a_replay_leaves_the_clock_of_others_alone():

@@ -61,5 +61,5 @@ def test_names_what_the_system_does_not_have_and_installs_nothing(setup):
 
 @pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])
 def test_check_platform_refuses_what_it_cannot_do(arguments):
-    done = subprocess.run([SETUP.parent / "check_platform", *arguments], capture_output=True, text=True, check=False)
+    done = subprocess.run([SETUP.parents[1] / "dev/check_platform", *arguments], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, demo" in done.stderr

@@ -33,14 +33,14 @@ std::vector<detection::WindowObservation> look(WindowPerception& perception) {
 }
 
 bool areTheSame(const detection::WindowObservation& a, const detection::WindowObservation& b) {
-  return a.corners == b.corners && a.interior.size() == b.interior.size() && a.stamp_sec == b.stamp_sec;
+  return a.corners == b.corners && a.interior.points.size() == b.interior.points.size() && a.stamp_sec == b.stamp_sec;
 }
 
 TEST(WindowPerception, FindsTheWindowAndFollowsWhatLiesInIt) {
   WindowPerception perception({}, {});
   const auto seen = look(perception);
   ASSERT_EQ(seen.size(), static_cast<std::size_t>(kFrames)) << perception.trace().detail;
-  EXPECT_GT(seen.back().interior.size(), 10u);
+  EXPECT_GT(seen.back().interior.points.size(), 10u);
   EXPECT_TRUE(perception.window());
   EXPECT_FALSE(perception.windows().empty());
 }

@@ -1,0 +1,98 @@
+"""print_window: the printed frame is true to scale, whole, and is the one that its reference and parameter file describe."""
+import importlib.machinery
+import importlib.util
+import pathlib
+import re
+import subprocess
+
+import cv2
+import numpy
+import pytest
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TOOL = ROOT / "tools/print_window"
+LOADER = importlib.machinery.SourceFileLoader("print_window", str(TOOL))
+printer = importlib.util.module_from_spec(importlib.util.spec_from_loader("print_window", LOADER))
+LOADER.exec_module(printer)
+
+ORANGE, DPI = "#e15f14", 50.8  # two pixels a millimetre
+
+
+def run(*arguments):
+    return subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
+
+
+def printed(figure):
+    """The sheet as it comes out of the printer: true where there is colour; its rows from above."""
+    figure.set_dpi(DPI)
+    figure.canvas.draw()
+    pixels = numpy.asarray(figure.canvas.buffer_rgba())[:, :, :3].astype(int)
+    printer.plt.close(figure)
+    return (pixels[:, :, 0] - pixels[:, :, 2]) > 100
+
+
+def glued(window):
+    """The sheets cut along their dashed lines and put together, as the plan says; two pixels a millimetre."""
+    left, below = (printer.PAGE_MM[0] - printer.TILE_MM[0]) / 2, (printer.PAGE_MM[1] - printer.TILE_MM[1]) / 2 + 4
+    width, height = (round(2 * side) for side in printer.TILE_MM)
+    top = round(2 * (printer.PAGE_MM[1] - below)) - height
+    whole = numpy.zeros((window.rows() * height, window.columns() * width), bool)
+    for name, column, row in window.sheets():
+        sheet = printed(printer.draw_sheet(window, ORANGE, name, column, row))
+        assert sheet.shape == (594, 420)  # A4
+        at = (window.rows() - 1 - row) * height
+        whole[at:at + height, column * width:(column + 1) * width] = sheet[top:, round(2 * left):][:height, :width]
+    return whole
+
+
+@pytest.mark.parametrize("width, height, frame", [(600, 450, 50), (300, 200, 30), (800, 1000, 60)])
+def test_the_sheets_together_are_the_frame_true_to_scale(width, height, frame):
+    window = printer.Window(width, height, frame)
+    rows, columns = numpy.nonzero(glued(window))
+    assert columns.max() - columns.min() + 1 == pytest.approx(2 * (width + 2 * frame), abs=2)
+    assert rows.max() - rows.min() + 1 == pytest.approx(2 * (height + 2 * frame), abs=2)
+    assert len(rows) == pytest.approx(4 * ((width + 2 * frame) * (height + 2 * frame) - width * height), rel=0.02)
+
+
+def test_sheets_without_a_bit_of_the_frame_are_left_out():
+    window = printer.Window(800, 1000, 60)
+    names = [name for name, _, _ in window.sheets()]
+    assert (window.columns(), window.rows()) == (5, 5)
+    assert {"A1", "E1", "A5", "C1", "A3"} <= set(names) and not {"B3", "C3", "D3"} & set(names)
+
+
+def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
+    done = run("--output", tmp_path / "window.pdf", "--size", "0.5,0.4")
+    assert done.returncode == 0 and "at 100 %" in done.stdout, done.stderr
+    pdf = (tmp_path / "window.pdf").read_bytes()
+    boxes = re.findall(rb"/MediaBox \[ ?0 0 ([\d.]+) ([\d.]+) ?\]", pdf)
+    sheets = len(list(printer.Window(500, 400, 50).sheets()))
+    assert len(boxes) == 1 + sheets and f"{sheets} sheets" in done.stdout
+    for box in boxes:
+        assert [float(side) for side in box] == pytest.approx([595.28, 841.89], abs=0.1)
+    parameters = yaml.safe_load((tmp_path / "window.yaml").read_text())
+    assert parameters["homography_pose"]["pose"] == {"opening_width_m": 0.5, "opening_height_m": 0.4}
+    reference = parameters["window_detector"]["reference"]
+    picture = cv2.imread(reference["picture"])
+    left, top, right, _, _, bottom, _, _ = reference["corners"]
+    assert (right - left) / (bottom - top) == pytest.approx(1.25, abs=0.01)
+    middle = picture[round(top) + 40]
+    edge = round(left)
+    assert middle[edge - 3][2] > 200 and middle[edge - 3][0] < 40 and max(middle[edge + 3]) < 100  # frame, opening
+    checked = subprocess.run([ROOT / "scripts/run", "check_overlay", tmp_path / "window.yaml"], capture_output=True, text=True, check=False)
+    assert checked.returncode == 0, checked.stderr
+
+
+@pytest.mark.parametrize("arguments, said", [
+    (["--output", "window.svg"], "does not end in .pdf"), (["--output", "w.pdf", "--size", "1"], "'1' is not W,H"),
+    (["--output", "w.pdf", "--size", "0.01,1"], "0.1 to 3 m"), (["--output", "w.pdf", "--frame", "wide"], "'wide' is no number"),
+    (["--output", "w.pdf", "--frame", "1"], "0.01 to 0.3 m"), (["--output", "w.pdf", "--colour", "mud"], "'mud' is no colour"), ([], "--output")])
+def test_wrong_usage_is_one_line(arguments, said):
+    done = run(*arguments)
+    assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
+
+
+def test_a_place_that_cannot_be_written_is_said():
+    done = run("--output", "/nowhere/window.pdf")
+    assert done.returncode == 1 and "/nowhere/window.pdf" in done.stderr and done.stderr.count("\n") == 1
