@@ -121,21 +121,23 @@ def test_an_argument_that_cannot_be_ends_the_launch_before_anything_starts(name,
 
 
 @pytest.mark.parametrize("name", ["px4", "ardupilot", "mavros"])
-def test_a_drone_does_not_fly_by_a_size_that_nobody_said(name, tmp_path):
-    config = tmp_path / "drone.yaml"
-
-    def launched(text, *arguments):
-        config.write_text(text)
-        return run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), f"config:={config}", *arguments)
-    for text in ("{}", "vehicle: {half_width_m: 0.3}", "homography_pose: {pose: {opening_width_m: 1.3}}", "homography_pose: {odom_wait_sec: 0.1}",
-                 "homography_pose: {pose: {scale_sigma: 0.0}}"):
-        done = launched(text)
-        assert done.returncode == 1 and "the opening's size is not said: window_size:=W,H" in done.stderr, done.stderr
-        assert launched(text, *SIZE).returncode == 0
-    for text in ("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}", "homography_pose: {pose: {scale_sigma: 0.5, aspect_sigma: 0.3}}"):
-        assert launched(text).returncode == 0
+def test_a_drone_does_not_fly_by_a_size_that_nobody_said(name):
     done = run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *NEEDED.get(name, []))
-    assert done.returncode == 1 and "the opening's size is not said" in done.stderr
+    assert done.returncode == 1 and "the opening's size is not said: window_size:=W,H" in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize("text, is_said", [
+    ("{}", False), ("vehicle: {half_width_m: 0.3}", False), ("homography_pose: {pose: {opening_width_m: 1.3}}", False),
+    ("homography_pose: {odom_wait_sec: 0.1}", False), ("homography_pose: {pose: {scale_sigma: 0.0}}", False),
+    ("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}", True),
+    ("homography_pose: {pose: {scale_sigma: 0.5, aspect_sigma: 0.3}}", True)])
+def test_the_size_is_said_by_the_file_or_by_the_argument(tmp_path, text, is_said):
+    config = tmp_path / "drone.yaml"
+    config.write_text(text)
+    done = run("check_overlay", config, "--needs-window-size", "true")
+    assert done.returncode == (0 if is_said else 2) and ("the opening's size is not said" in done.stderr) != is_said, done.stderr
+    for arguments in (("--needs-window-size", "true", "--window-size", "1.3,1.1"), ("--needs-window-size", "false")):
+        assert run("check_overlay", config, *arguments).returncode == 0
 
 
 @pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers")])
@@ -226,7 +228,7 @@ def test_a_rehearsal_commands_nobody_and_stands_in_for_what_a_webcam_lacks():
     nodes, params = launch["nodes"], launch["params"]
     assert CHAIN | {"usb_cam", "camera_mounting", "rehearsal", "rviz"} == {node[1:] for node in nodes}
     sent = {to for node in nodes.values() for name, to in node["remaps"].items() if name in ("cmd_vel", "brake")}
-    assert sent == {"/rehearsal/cmd_vel", "ingress_navigator/cmd_vel"}
+    assert sent == {"/rehearsal/cmd_vel", "/ingress_navigator/cmd_vel"}
     assert remaps(launch, "ingress_navigator")["odom"] == remaps(launch, "rehearsal")["odom"] == "/rehearsal/odom"
     assert params["/rehearsal/odometry"] is True and params["/camera_mounting/pose"] == [0] * 6
     assert params["/homography_pose/pose/opening_width_m"] == 0.6
