@@ -53,6 +53,8 @@ TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& fil
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
 
 TargetEstimator::~TargetEstimator() = default;
+TargetEstimator::TargetEstimator(TargetEstimator&&) noexcept = default;
+TargetEstimator& TargetEstimator::operator=(TargetEstimator&&) noexcept = default;
 
 void TargetEstimator::forgetPlaces() {
   filter_.forgetPlaces();

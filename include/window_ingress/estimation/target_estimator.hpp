@@ -74,6 +74,8 @@ class TargetEstimator {
   /// \throws std::invalid_argument that lists every parameter out of range
   TargetEstimator(const PoseParams& pose, const FilterParams& filter, const TargetEstimatorParams& params);
   ~TargetEstimator();
+  TargetEstimator(TargetEstimator&&) noexcept;
+  TargetEstimator& operator=(TargetEstimator&&) noexcept;
 
   /// \param velocity_odom_mps if reported: turned to odom axes with the pose's attitude
   void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,

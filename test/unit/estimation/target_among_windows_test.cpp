@@ -4,7 +4,7 @@
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_row.hpp"
 
-namespace window_ingress::navigation {
+namespace window_ingress::estimation {
 namespace {
 
 /// A vehicle that stands before a row of windows and sways a little, and a detector that follows one of them.
@@ -76,4 +76,4 @@ TEST(TargetAmongWindows, TheOneInUseIsGivenUpAndTheNextTakenWhereThatIsAllowed) 
 }
 
 }  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::estimation

@@ -7,7 +7,7 @@
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::navigation {
+namespace window_ingress::estimation {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -160,4 +160,4 @@ TEST(TargetEstimatorOddInput, WhateverComesWhatLeavesIsSoundAndTheWindowIsFoundA
 }
 
 }  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::estimation

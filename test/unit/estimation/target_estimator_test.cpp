@@ -7,7 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::navigation {
+namespace window_ingress::estimation {
 namespace {
 
 const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
@@ -323,4 +323,4 @@ TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
 }
 
 }  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::estimation
