@@ -17,9 +17,9 @@ constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller pict
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
-constexpr int kFewestFitted =
+constexpr int kFewestSeen =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
-constexpr double kFaithful = 0.75;       ///< see RingMatch: then its colours may be others
+constexpr double kAlignedShiftPx = 0.8;  ///< and from where the wall round a hole was aligned, to count
 constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
 
 void check(const DetectorParams& params) {
@@ -51,7 +51,6 @@ struct WindowDetector::Impl {
                                                      const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> choose(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera);
-  bool isUnlikeInColour(const ScoredCandidate& rival) const;
   std::optional<Rejection> objection(const ScoredCandidate& rival) const;
   std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
@@ -75,19 +74,10 @@ double WindowDetector::Impl::leastScore(const ScoredCandidate& rival) const {
   return rival.appearance ? params.min_score_reference : params.min_score;
 }
 
-// Light of another colour changes the colours, and leaves the contrasts of a ring.
-bool WindowDetector::Impl::isUnlikeInColour(const ScoredCandidate& rival) const {
-  if (!rival.appearance) return false;
-  const bool is_unlike = rival.appearance->distance > rival.appearance->limit;
-  if (!rival.correlation) return is_unlike;
-  return rival.faithful < kFaithful && (is_unlike || !reference.frameless());
-}
-
 std::optional<Rejection> WindowDetector::Impl::objection(const ScoredCandidate& rival) const {
-  if (isUnlikeInColour(rival))
+  if (rival.correlation) return reference.objectionTo(rival.match);
+  if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
     return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
-  if (rival.correlation && *rival.correlation < params.min_correlation)
-    return Rejection{RejectReason::kUnlike, *rival.correlation, params.min_correlation};
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
   if (const double least = leastScore(rival); rival.score < least)
     return Rejection{RejectReason::kScore, rival.score, least};
@@ -101,7 +91,9 @@ std::optional<RefinedBorders> WindowDetector::Impl::refine(const ScoredCandidate
   start.quad = rival.quad;
   start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search.factor() + 1.0;
   if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
-  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
+  if (!rival.correlation) return refinement.run(image, start, camera, &inliers);
+  start.max_stray_px = kAlignedStrayPx;
+  if (reference.frameless()) start.max_shift_px = kAlignedShiftPx;
   return refinement.run(image, start, camera, &inliers);
 }
 
@@ -134,11 +126,14 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
-      if (rival.correlation && fitted->fitted < kFewestFitted) {
+      if (rival.correlation && fitted->seen < kFewestSeen) {
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
-      if (const auto fault = reference.objectionTo(*fitted, image, camera)) {
+      auto fault = reference.objectionTo(*fitted, image, camera);
+      if (!fault && !rival.correlation)
+        fault = reference.objectionToSurroundings(fitted->corners, image, camera);
+      if (fault) {
         record(rival, fault->reason, fault->value, fault->limit);
         continue;
       }

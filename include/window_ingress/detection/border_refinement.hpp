@@ -15,7 +15,7 @@ struct RefinedBorders {
       corners;  ///< intersections of neighbouring borders, canonical order, pixels as they came
   std::array<Eigen::Matrix2d, 4> corner_covariance;  ///< [px^2]
   std::array<Edge, 4> edges;
-  int fitted = 4;              ///< sides; the others are where they started
+  int seen = 4;                ///< sides at which there is a border, see `max_stray_px`
   double worst_inliers = 0.0;  ///< part of the profiles on the line, of the worst side
 };
 
@@ -26,8 +26,11 @@ struct BorderStart {
   /// Standard deviation of the start: a side whose border cannot be fitted stays where it started; 0: no
   /// result then.
   double fallback_sigma_px = 0.0;
-  /// Furthest that an end of a fitted border may lie from the start and be believed [px].
+  /// Furthest that an end of a fitted border may lie from the start and be the border [px].
   double max_stray_px = 1e3;
+  /// Likewise, to move the side there: nearer than it the start is the more exact one where there is a
+  /// reveal.
+  double max_shift_px = 1e3;
 };
 
 /// Sub-pixel fit of the four borders on the gradient of the full image, undilated, corners by intersection.

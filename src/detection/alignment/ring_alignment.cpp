@@ -28,6 +28,7 @@ constexpr float kLeastGain = 0.15F;  ///< a segment that shows less of the refer
 constexpr float kMostGain = 2.0F;
 constexpr double kGainSpread =
     0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
+constexpr double kMostCovered = 1.0 / 3.0;                    ///< of the ring
 constexpr double kLeastContrast = 0.8, kMostContrast = 1.25;  ///< of the ring: another exposure or tone curve
 constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;            ///< least depth, relative to the centre's
 constexpr float kFirstScale = 0.2F;                           ///< of the residuals, before they are known
@@ -156,28 +157,49 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   likeness_ = {};
   shares_.clear();
   for (int s = 0; s < scale.ring->segmentCount(); ++s) {
-    const double before = likeness_.alike;
+    const Likeness before = likeness_;
     const Segment segment = measure(*scale.ring, s);
-    const double alike = likeness_.alike - before;
-    if (alike > 0.0 && segment.gain > 0.0F)
-      shares_.push_back({alike, segment.gain, kGainSpread * kGainSpread + segment.noise / segment.xx});
+    if (likeness_.most > before.most)
+      shares_.push_back({likeness_.alike - before.alike, likeness_.most - before.most, segment.gain,
+                         kGainSpread * kGainSpread + segment.noise / segment.xx, 0.0});
   }
-  return {likeness_.correlation(), seen, faithful()};
+  RingMatch match{likeness_.correlation(), seen};
+  if (!(likeness_.most > 0.0)) return match;
+  match.contrast = weighContrasts();
+  for (const Share& share : shares_) match.faithful += share.faithful / likeness_.most;
+  match.uncovered = uncovered(&Share::alike);
+  match.faithful_uncovered = uncovered(&Share::faithful);
+  return match;
 }
 
 // A frame in another paint correlates with the reference's; its contrast with the wall is another.
-double RingAlignment::faithful() {
-  if (shares_.empty()) return 0.0;
-  const auto middle = shares_.begin() + static_cast<std::ptrdiff_t>(shares_.size() / 2);
-  std::nth_element(shares_.begin(), middle, shares_.end(),
-                   [](const Share& a, const Share& b) { return a.gain < b.gain; });
-  const double contrast = std::clamp(middle->gain, kLeastContrast, kMostContrast);
-  double sum = 0.0;
-  for (const Share& share : shares_) {
+double RingAlignment::weighContrasts() {
+  scratch_.clear();
+  for (const Share& share : shares_)
+    if (share.alike > 0.0 && share.gain > 0.0) scratch_.push_back(static_cast<float>(share.gain));
+  if (scratch_.empty()) return 1.0;
+  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
+  std::nth_element(scratch_.begin(), middle, scratch_.end());
+  const double contrast = std::clamp<double>(*middle, kLeastContrast, kMostContrast);
+  for (Share& share : shares_) {
+    if (share.alike <= 0.0 || share.gain <= 0.0) continue;
     const double off = std::log(share.gain / contrast);
-    sum += share.alike * std::exp(-0.5 * off * off / share.variance);
+    share.faithful = share.alike * std::exp(-0.5 * off * off / share.variance);
   }
-  return sum / likeness_.most;
+  return *middle;
+}
+
+// Without the segments that fit worst: something may stand before them.
+double RingAlignment::uncovered(double Share::*part) {
+  std::sort(shares_.begin(), shares_.end(),
+            [part](const Share& a, const Share& b) { return a.*part * b.weight < b.*part * a.weight; });
+  double covered = kMostCovered * likeness_.most, sum = 0.0;
+  for (const Share& share : shares_) {
+    const double hidden = std::min(covered, share.weight);
+    covered -= hidden;
+    sum += share.*part * (1.0 - hidden / share.weight);
+  }
+  return sum / ((1.0 - kMostCovered) * likeness_.most);
 }
 
 // What one segment shows of the reference, channel by channel and in all.

@@ -9,19 +9,12 @@
 #include <vector>
 
 #include "detection/alignment/homography_sums.hpp"
+#include "detection/alignment/ring_match.hpp"
 #include "detection/alignment/ring_model.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
-
-/// How far what lies round a quadrilateral is what lies round the opening in the reference picture.
-struct RingMatch {
-  double correlation =
-      -1.0;           ///< of logarithms of colours, each segment with a gain and offset of its own; at most 1
-  double seen = 0.0;  ///< part of the ring that lies in the picture
-  double faithful = 0.0;  ///< correlation of which only counts what has the contrast of the reference, too
-};
 
 /// Where the ring fits best.
 struct AlignedRing {
@@ -66,9 +59,10 @@ class RingAlignment {
     float noise;                     ///< part of `xx`
   };
 
-  /// What a segment adds to the likeness, and with which contrast, beside the reference's.
+  /// What a segment adds to the likeness of its weight, and with which contrast, beside the reference's.
   struct Share {
-    double alike, gain, variance;  ///< variance: of the logarithm of the gain
+    double alike, weight, gain, variance;  ///< variance: of the logarithm of the gain
+    double faithful;                       ///< of `alike`
   };
 
   /// Mean of the segments' correlations, each weighed by what it can tell: that grows with its samples, and
@@ -91,7 +85,8 @@ class RingAlignment {
   void place(const Scale& scale, const Eigen::Matrix3d& map);
   template <int kChannels>
   int readPixels(const cv::Mat& picture);
-  double faithful();
+  double weighContrasts();
+  double uncovered(double Share::*part);
   Segment measure(const RingLevel& ring, int s);
   void accumulate(const RingLevel& ring, const Segment& segment, NormalSum& normal, DerivativeSum& right,
                   Matrix8f& explained);

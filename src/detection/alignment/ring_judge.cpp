@@ -62,6 +62,15 @@ void RingJudge::keep(const ScoredCandidate& rival) {
     *same = rival;
 }
 
+std::optional<RingMatch> RingJudge::matchAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                            const geometry::Quadrilateral& quad) {
+  if (!known() || image.channels() != model_.channels()) return std::nullopt;
+  alignment_.set(model_, image, camera);
+  const auto found = alignment_.align(quad, kFinestPx);
+  if (!found) return std::nullopt;
+  return alignment_.compare(found->quad, kFinestPx);
+}
+
 const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
                                                      const geometry::PinholeCamera* camera,
                                                      std::vector<ScoredCandidate>& rivals) {
@@ -90,7 +99,7 @@ const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
   for (std::size_t i = 0; i < std::min(aligned_.size(), kFinePlaces); ++i)
     if (const auto rival = aligned(aligned_[i], kFinestPx)) aligned_[i] = *rival;
   sortByScore(aligned_);
-  for (ScoredCandidate& rival : aligned_) rival.faithful = alignment_.compare(rival.quad, kFinestPx).faithful;
+  for (ScoredCandidate& rival : aligned_) rival.match = alignment_.compare(rival.quad, kFinestPx);
   return aligned_;
 }
 

@@ -23,6 +23,10 @@ class RingJudge {
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
+  /// How well it fits where it fits best near this place; nothing where it does not.
+  std::optional<RingMatch> matchAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                   const geometry::Quadrilateral& quad);
+
  private:
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
   void keep(const ScoredCandidate& rival);

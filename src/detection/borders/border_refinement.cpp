@@ -59,6 +59,7 @@ class Side {
     fitted_ = found && inliers_ > kMostInliers;
   }
   bool fitted() const { return fitted_; }
+  bool seen() const { return seen_; }
   double inliers() const { return inliers_; }
   Line line() const { return border_.inImage(memory_.profiles); }
   // The start as an answer; the less certain the further off the edge that was found and not believed.
@@ -91,7 +92,8 @@ class Side {
     if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > radius_px) return false;
     toFront();
     stray_px_ = stray();
-    fitted_ = stray_px_ <= start_.max_stray_px;
+    seen_ = stray_px_ <= start_.max_stray_px;
+    fitted_ = seen_ && stray_px_ <= start_.max_shift_px;
     return fitted_;
   }
 
@@ -164,7 +166,7 @@ class Side {
   const BorderStart& start_;
   int count_ = 0;
   FittedBorder border_;
-  bool fitted_ = false;
+  bool fitted_ = false, seen_ = false;
   double stray_px_ = 0.0, inliers_ = 0.0;
   Vector3f colour_ = Vector3f::Constant(1.0f / std::sqrt(3.0f));
 };
@@ -212,7 +214,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
   std::array<Line, 4> lines;
   RefinedBorders borders;
   borders.worst_inliers = 1.0;
-  borders.fitted = 0;
+  borders.seen = 0;
   bool good = true;
   for (int i = 0; i < 4 && good; ++i) {
     const Vector2d& from = start.quad[i];
@@ -224,7 +226,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     good = side.run(image, lens, a, b) || start.fallback_sigma_px > 0.0;
     if (good && !side.fitted()) side.runWider(image, lens, a, b);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
-    borders.fitted += side.fitted();
+    borders.seen += side.seen();
     lines[i] = side.fitted() ? side.line() : side.start();
     const auto [begin, end] = side.ends();
     borders.edges[i] = edgeThroughLens(lines[i], begin, end, lens);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "detection/alignment/ring_match.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
@@ -48,7 +49,7 @@ struct ScoredCandidate {
   std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
   bool located = false;                       ///< its borders are where the reference's are
   std::optional<double> correlation;          ///< with the reference's surroundings, where they were aligned
-  double faithful = 0.0;                      ///< see RingMatch
+  RingMatch match;                            ///< of that place, finely compared
   double geometry = 0.0;                      ///< then: its score by geometry alone
   double worth = 0.0;  ///< then: how far the colours about its borders are those of the reference, 0 to 1
 

@@ -16,7 +16,10 @@ constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
-constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
+constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
+constexpr double kLeastContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
+constexpr double kUncovered = 0.82;     ///< where there is no frame
+constexpr double kSureWorth = 0.3;      ///< of located borders; then loops about the same place are forgotten
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
 
@@ -39,7 +42,7 @@ void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::s
 }  // namespace
 
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
-    : appearance_(params.appearance), shape_(params.shape) {}
+    : appearance_(params.appearance), min_correlation_(params.min_correlation), shape_(params.shape) {}
 
 // A grey picture as one of three equal channels.
 const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
@@ -149,6 +152,25 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
   for (ScoredCandidate& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
   rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
+}
+
+std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) const {
+  const double least = frameless() ? min_correlation_ : kFaithful;
+  const double least_uncovered = frameless() ? kUncovered : kFaithfulUncovered;
+  const double value = frameless() ? match.correlation : match.faithful;
+  if (value >= least || (frameless() ? match.uncovered : match.faithful_uncovered) >= least_uncovered)
+    return std::nullopt;
+  return Rejection{RejectReason::kUnlike, value, least};
+}
+
+std::optional<Rejection> ReferenceJudge::objectionToSurroundings(const geometry::Quadrilateral& corners,
+                                                                 const cv::Mat& image,
+                                                                 const geometry::PinholeCamera* camera) {
+  if (!compares(image)) return std::nullopt;
+  const auto match = ring_.matchAt(inChannels(image), camera, corners);
+  if (!match || match->correlation < min_correlation_) return std::nullopt;
+  if (match->contrast < kLeastContrast * match->correlation) return std::nullopt;
+  return objectionTo(*match);
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,

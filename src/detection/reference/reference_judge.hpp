@@ -48,6 +48,15 @@ class ReferenceJudge {
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                          std::vector<ScoredCandidate>& rivals);
 
+  /// Why what lies round a place is not what lies round the reference's opening.
+  std::optional<Rejection> objectionTo(const RingMatch& match) const;
+
+  /// The same for a window that was found by its frame; nothing where there is something else behind that
+  /// frame, as behind a gate.
+  std::optional<Rejection> objectionToSurroundings(const geometry::Quadrilateral& corners,
+                                                   const cv::Mat& image,
+                                                   const geometry::PinholeCamera* camera);
+
   /// Why fitted borders cannot be the reference's, if they cannot.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera);
@@ -62,6 +71,7 @@ class ReferenceJudge {
   void weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const;
 
   AppearanceParams appearance_;
+  double min_correlation_;
   ReferenceBorders borders_;
   RingJudge ring_;
   ReferenceShape shape_;

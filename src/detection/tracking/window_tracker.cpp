@@ -111,7 +111,7 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
   start.fallback_sigma_px = kAlignedSigmaPx;
   start.max_stray_px = kAlignedStrayPx;
   const auto borders = refinement.run(input.image, start, input.camera);
-  if (!borders || borders->fitted < 3) return;
+  if (!borders || borders->seen < 3) return;
   const Quadrilateral quad = undistorted(borders->corners, pictures.lens());
   motion.place(quad);
   quartet.learn(input.image, pictures.lens(), quad);
