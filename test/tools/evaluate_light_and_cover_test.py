@@ -6,7 +6,7 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "tools"))
 np = pytest.importorskip("numpy")
 cv2 = pytest.importorskip("cv2")
 import evaluate_light_and_cover as drawing  # noqa: E402

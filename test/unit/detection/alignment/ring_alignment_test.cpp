@@ -30,6 +30,7 @@ struct Scene {
     const auto aligned = alignment.align(start, 400.0);
     if (!aligned) return 1e9;
     correlation = aligned->match.correlation;
+    match = alignment.compare(aligned->quad, 200.0);
     return test::worstCorner(aligned->quad, opening);
   }
 
@@ -38,6 +39,7 @@ struct Scene {
   cv::Mat image;
   Quadrilateral opening;
   double correlation = 0.0;
+  RingMatch match;
 };
 
 TEST(RingAlignment, FindsTheCornersOfAHoleWithoutAFrameToAFractionOfAPixel) {
@@ -82,6 +84,18 @@ TEST(RingAlignment, AThirdOfTheRingMayBeCovered) {
                  cv::Scalar(40, 90, 60));
   EXPECT_LT(scene.found(3.0), 0.3);
   EXPECT_GT(scene.correlation, 0.5);
+  EXPECT_GT(scene.match.uncovered, scene.match.correlation + 0.1) << "what is not covered fits";
+  EXPECT_GT(scene.match.faithful_uncovered, scene.match.faithful + 0.1);
+}
+
+TEST(RingAlignment, HazeTakesContrast) {
+  Scene scene{PatchedWall(7)};
+  scene.look(seenFrom(3.0, 0.2));
+  scene.found(2.0);
+  EXPECT_NEAR(scene.match.contrast, 1.0, 0.2);
+  scene.image = 0.3 * scene.image + cv::Scalar::all(150);
+  scene.found(2.0);
+  EXPECT_LT(scene.match.contrast, 0.6 * scene.match.correlation);
 }
 
 TEST(RingAlignment, ExposureAndWhiteBalanceChangeNothing) {

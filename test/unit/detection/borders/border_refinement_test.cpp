@@ -111,6 +111,20 @@ TEST(BorderRefinement, ASideThatCannotBeFittedStaysWhereItStartedIfAsked) {
   EXPECT_LT(borders->edges[geometry::kTop].sigma_px, 0.1);
 }
 
+TEST(BorderRefinement, ABorderBeyondTheShiftIsSeenAndDoesNotMoveItsSide) {
+  cv::Mat image(240, 320, CV_8UC1, cv::Scalar(170));
+  const auto opening = test::rectangle(80, 60, 240, 180);
+  test::fillQuad(image, opening, cv::Scalar(60));
+  BorderStart start{opening, 3.0, 0.7};
+  start.quad[0].x() += 1.5, start.quad[3].x() += 1.5;
+  start.max_stray_px = 2.0, start.max_shift_px = 0.8;
+  const auto borders = BorderRefinement().run(image, start, nullptr);
+  ASSERT_TRUE(borders);
+  EXPECT_EQ(borders->seen, 4);
+  EXPECT_NEAR(borders->corners[0].x(), start.quad[0].x(), 0.1);
+  EXPECT_GT(borders->edges[geometry::kLeft].sigma_px, 0.7);
+}
+
 TEST(BorderRefinement, NothingFromPlainImagesTinyOrOutsideQuads) {
   const BorderRefinement refinement;
   const cv::Mat plain(100, 100, CV_8UC3, cv::Scalar::all(80));

@@ -25,7 +25,7 @@ import cv2
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-import package_paths  # noqa: E402
+from ingress_tools import package_paths  # noqa: E402
 
 RING = 0.22  # width of the ring of which a part is hidden [sides of the opening]
 LEAST_HIDDEN, MOST_HIDDEN = 0.10, 0.33
