@@ -14,6 +14,8 @@ function(add_adapters name)
                              ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
   target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} opencv_imgcodecs ${catkin_LIBRARIES})
   add_dependencies(${name} ${${PROJECT_NAME}_EXPORTED_TARGETS})
+  install(TARGETS ${name} ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+          LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
 add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources world
@@ -35,7 +37,7 @@ foreach(source ${node_sources})
   install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()
 
-install(TARGETS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_bags ${PROJECT_NAME}_nodelets
+install(TARGETS ${PROJECT_NAME}_nodelets
         ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
         LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
         RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})

@@ -152,13 +152,6 @@ TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
   }
 }
 
-TEST(WindowDetector, ALikeFrameInAnotherWallIsNotTheTarget) {
-  Detected detected(PatchedWall(3, 0.07, 25.0));
-  Quadrilateral opening;
-  for (double yaw : {-0.3, 0.0, 0.3})
-    EXPECT_FALSE(detected.look(PatchedWall(4, 0.07, 25.0), yaw, &opening)) << yaw;
-}
-
 TEST(RingJudge, TellsHowWellAPlaceFits) {
   Known known{PatchedWall(3)};
   const auto right = known.judge.matchAt(known.image, nullptr, test::grown(known.opening, 2.0));
