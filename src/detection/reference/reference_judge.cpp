@@ -155,8 +155,8 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) const {
-  const double least = frameless() ? min_correlation_ : kFaithful;
-  const double least_uncovered = frameless() ? kUncovered : kFaithfulUncovered;
+  const double least = std::max(min_correlation_, frameless() ? 0.0 : kFaithful);
+  const double least_uncovered = std::max(min_correlation_, frameless() ? kUncovered : kFaithfulUncovered);
   const double value = frameless() ? match.correlation : match.faithful;
   if (value >= least || (frameless() ? match.uncovered : match.faithful_uncovered) >= least_uncovered)
     return std::nullopt;
