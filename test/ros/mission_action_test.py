@@ -52,6 +52,8 @@ class MissionActionTest(unittest.TestCase):
         call("abort")
         call("reset")
         enable(True)
+        under_way = (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.PREEMPTING, GoalStatus.RECALLING)
+        support.wait_for(lambda: self.client.get_state() not in under_way, "the end of the goal before")
         self.plant.restart()
         self.feedback = []
         self.wait_for_state("IDLE")

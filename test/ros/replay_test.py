@@ -81,14 +81,16 @@ class ReplayTest(unittest.TestCase):
         self.windows.wait(lambda m: m.detected, "a window in a later loop", UP_WITHIN_S)
 
     def poses_of_two_loops(self):
-        """Filtered poses before and after the first jump back, once there are some of both."""
-        poses = self.poses.since(0.0)
-        stamps = [m.header.stamp.to_sec() for m in poses]
-        jump = next((i for i in range(1, len(stamps)) if stamps[i] < stamps[i - 1] - 0.5 * SECONDS), None)
-        if jump is None:
-            return None
-        before, after = ([m for m in part if m.filtered_valid] for part in (poses[:jump], poses[jump:]))
-        return (before, after) if before and after else None
+        """Filtered poses of two loops, one after the other, once there are some of both."""
+        loops, last_sec = [[]], 0.0
+        for pose in self.poses.since(0.0):
+            stamp_sec = pose.header.stamp.to_sec()
+            if stamp_sec < last_sec - 0.5 * SECONDS:
+                loops.append([])
+            last_sec = stamp_sec
+            if pose.filtered_valid:
+                loops[-1].append(pose)
+        return next(((before, after) for before, after in zip(loops, loops[1:]) if before and after), None)
 
 
 if __name__ == "__main__":
