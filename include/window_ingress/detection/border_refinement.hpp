@@ -26,10 +26,10 @@ struct BorderStart {
   /// Standard deviation of the start: a side whose border cannot be fitted stays where it started; 0: no
   /// result then.
   double fallback_sigma_px = 0.0;
-  /// Furthest that an end of a fitted border may lie from the start and be the border [px].
+  /// A fitted border with an end farther from the start than this is another edge [px].
   double max_stray_px = 1e3;
-  /// Likewise, to move the side there: nearer than it the start is the more exact one where there is a
-  /// reveal.
+  /// A fitted border with an end farther from the start than this is seen, but does not move the side: where
+  /// there is a reveal, the start is the more exact one [px].
   double max_shift_px = 1e3;
 };
 
