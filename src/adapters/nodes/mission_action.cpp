@@ -114,7 +114,7 @@ void MissionAction::receiveFacade(const window_ingress::Facade& facade) {
 void MissionAction::start() {
   const navigation::Reply reply = mission_.start(policyOf(*goal_.getGoal()));
   if (!reply.success) return refuse(goal_, reply.message);
-  phase_ = Phase::kStarted;
+  phase_ = Phase::kFlying;
   goal_.setAccepted(reply.message);
 }
 
@@ -142,8 +142,11 @@ void MissionAction::hear(const window_ingress::IngressState& state) {
   }
   if (state.state == State::PASSED) return finish(Result::PASSED, state.reason);
   if (state.state == State::ABORTED) return finish(Result::ABORTED, state.reason);
-  if (state.state != State::IDLE) phase_ = Phase::kFlying;
-  if (state.state == State::IDLE && phase_ == Phase::kFlying) return finish(Result::TAKEN_OVER, state.reason);
+  if (state.state == State::IDLE && mission_.flying().empty()) finish(Result::TAKEN_OVER, state.reason);
+}
+
+void MissionAction::feedBack(const window_ingress::IngressState& state) {
+  if (phase_ != Phase::kFlying) return;
   window_ingress::IngressFeedback feedback;
   feedback.state = state;
   goal_.publishFeedback(feedback);

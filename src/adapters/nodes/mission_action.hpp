@@ -30,9 +30,10 @@ class MissionAction {
   /// \param diagnostics outlives this
   MissionAction(ros::NodeHandle& nh, Diagnostics& diagnostics, Mission mission);
 
-  void hear(const window_ingress::IngressState& state);  ///< as published: feedback, and the result
-  void hear(const window_ingress::WindowPose& pose);     ///< which size the window is taken for
-  void stop();                                           ///< the node ends
+  void hear(const window_ingress::IngressState& state);      ///< of every step: what ends the goal
+  void feedBack(const window_ingress::IngressState& state);  ///< as published
+  void hear(const window_ingress::WindowPose& pose);         ///< which size the window is taken for
+  void stop();                                               ///< the node ends
 
  private:
   using Goal = window_ingress::IngressGoal;
@@ -50,7 +51,7 @@ class MissionAction {
   void refuse(Server::GoalHandle& goal, const std::string& why);
   void finish(std::uint8_t outcome, const std::string& why);
 
-  enum class Phase { kNone, kChoosing, kStarted, kFlying };
+  enum class Phase { kNone, kChoosing, kFlying };
 
   Mission mission_;
   Phase phase_ = Phase::kNone;

@@ -248,6 +248,7 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
 
 void NavigatorNode::publishState(const navigation::NavigatorOutput& output, const ros::Time& now) {
   window_ingress::IngressState message = toMsg(output);
+  if (action_) action_->hear(message);
   const bool news =
       message.state != said_.state || message.reason != said_.reason || message.enabled != said_.enabled;
   const double period_sec = output.enabled ? kStatePeriodEnabledSec : kStatePeriodIdleSec;
@@ -259,7 +260,7 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
   message.header.stamp = now;
   message.header.frame_id = params_.frames.odom;
   state_publisher_.publish(message);
-  if (action_) action_->hear(message);
+  if (action_) action_->feedBack(message);
   said_ = message;
   said_sec_ = steadyNowSec();
 }

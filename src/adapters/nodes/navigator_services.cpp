@@ -69,7 +69,9 @@ bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBoo
                 response);
 }
 
+// How a mission ended is published before it is forgotten, however soon the reset comes.
 bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
+  if (!lockstep_ && navigation::isEnd(navigator_.state())) step();
   return answer("reset", navigator_.reset(), response);
 }
 
