@@ -50,7 +50,7 @@ def followed_times(times):
 
 
 def read_instructions(folder):
-    """{"subject/sequence": instructions a picture}; a track that was lost is left out"""
+    """{"subject/sequence": instructions an image}; a track that was lost is left out"""
     counted = os.path.join(folder, "callgrind", "counted.log")
     if not os.path.exists(counted):
         return {}
@@ -101,11 +101,11 @@ def as_fraction(ratio):
 def cost_table(title, costs, form):
     columns = [name for name in OURS + list(PEERS) if any(key.startswith(name + "/") for key in costs)]
     rows = [[sequence] + [form(costs.get(f"{name}/{sequence}")) for name in columns] for sequence in sequences_of(costs)]
-    return table(title, ["pictures"] + [PEERS.get(name, name) for name in columns], rows)
+    return table(title, ["images"] + [PEERS.get(name, name) for name in columns], rows)
 
 
 def ratio_table(title, ratios):
-    rows, head = [], ["pictures"]
+    rows, head = [], ["images"]
     peers = [peer for peer in COMPARED if any(peer in of_ours for s in ratios.values() for of_ours in s.values())]
     ours = [name for name in OURS if any(name in of_sequence for of_sequence in ratios.values())]
     head += [f"{name} / {PEERS[peer]}" for name in ours for peer in peers]
@@ -118,14 +118,14 @@ def found_table(times):
     columns = OURS + ["composition", "composition_without_hough"]
     rows = [[sequence] + [percent(times.get(f"{name}/{sequence}", {}).get("found")) for name in columns]
             for sequence in sequences_of(times)]
-    head = ["pictures", "search: something found", "track: followed"]
-    return table("What came of it, % of the pictures", head + [f"{PEERS[name]}: something found" for name in columns[2:]], rows)
+    head = ["images", "search: something found", "track: followed"]
+    return table("What came of it, % of the images", head + [f"{PEERS[name]}: something found" for name in columns[2:]], rows)
 
 
 def stage_table(times):
     rows = [[sequence] + [milliseconds(times.get(f"stage_{stage}/{sequence}", {}).get("ms")) for stage in STAGES]
             for sequence in sequences_of(times)]
-    return table("Stages, ms a picture", ["pictures"] + [stage.replace("_", " ") for stage in STAGES], rows)
+    return table("Stages, ms an image", ["images"] + [stage.replace("_", " ") for stage in STAGES], rows)
 
 
 def percent(value):
@@ -157,7 +157,7 @@ def pose_table(pose):
 def allocation_table(allocations):
     rows = [[name.replace("/", ", "), f"{a['ours']:.1f}", f"{a['opencv']:.1f}", f"{a['bytes'] / 1e3:.0f}"]
             for name, a in allocations.items() if name.split("/")[0] in OURS]
-    return table("Allocations a picture in steady state", ["what", "ours", "inside OpenCV", "kB of all"], rows)
+    return table("Allocations an image in steady state", ["what", "ours", "inside OpenCV", "kB of all"], rows)
 
 
 def memory_lines(memory, node):
@@ -180,7 +180,7 @@ def broken_bounds(ratios, times, pose):
                 broken.append(f"{ours} on {sequence}: {as_fraction(ratio)} of {PEERS[peer]}, more than {as_fraction(limit)}")
     for name, of in times.items():
         if is_lost(name, of["found"]):
-            broken.append(f"{name.replace('/', ' on ')} follows {100 * of['found']:.0f} % of the pictures")
+            broken.append(f"{name.replace('/', ' on ')} follows {100 * of['found']:.0f} % of the images")
     return broken
 
 
@@ -189,11 +189,11 @@ def tables_of(result):
     if result["times"]:
         costs = followed_times(result["times"])
         lines += ratio_table("Ratios of processor time, same run", result["ratios"])
-        lines += cost_table("Processor time, ms a picture (medians; only their ratios carry over)", costs, milliseconds)
+        lines += cost_table("Processor time, ms an image (medians; only their ratios carry over)", costs, milliseconds)
         lines += found_table(result["times"]) + stage_table(result["times"])
     if result["instructions"]:
         lines += ratio_table("Ratios of instructions", result["instruction_ratios"])
-        lines += cost_table("Instructions, millions a picture", result["instructions"], millions)
+        lines += cost_table("Instructions, millions an image", result["instructions"], millions)
     if result["pose"]:
         lines += pose_table(result["pose"])
     if result["allocations"]:

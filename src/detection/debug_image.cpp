@@ -45,7 +45,7 @@ void write(cv::Mat& canvas, const std::string& text, int height) {
               cv::LINE_AA);
 }
 
-constexpr double kDim = 0.8;    ///< of the picture's brightness remains, so that lines stand out
+constexpr double kDim = 0.8;    ///< of the image's brightness remains, so that lines stand out
 constexpr double kFaint = 0.4;  ///< strength of candidates that failed before they had a score
 constexpr int kLabels = 5;      ///< candidates that are explained in words
 

@@ -13,7 +13,7 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller picture [px]
+constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller image [px]
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located

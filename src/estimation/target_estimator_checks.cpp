@@ -29,7 +29,7 @@ void TargetEstimator::checkSize(const ObservedImage& picture, const Eigen::Isome
                         T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
-// Pictures that the filter refuses count, too: that they come at the wrong time may be why.
+// Images that the filter refuses count, too: that they come at the wrong time may be why.
 void TargetEstimator::checkClocks(const ObservedImage& picture) {
   constexpr double kRateSec = 0.1;
   const auto window = filter_.state(picture.stamp_sec);

@@ -11,7 +11,7 @@
 namespace window_ingress::facade {
 namespace {
 
-constexpr double kLongestGapSec = 0.5;   // between pictures; longer ones show nothing
+constexpr double kLongestGapSec = 0.5;   // between images; longer ones show nothing
 constexpr double kNearestSigmaM = 0.03;  // of a place in odom, however well the filter knows it
 
 FacadeParams checked(const FacadeParams& params) {

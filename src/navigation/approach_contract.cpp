@@ -27,7 +27,7 @@ constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
 constexpr double kUsualOdometryMps =
     0.06;  // between position and velocity over two seconds, where all is well
 
-/// From here on the opening is larger than the picture. Nobody commits from further off the axis than half of
+/// From here on the opening is larger than the image. Nobody commits from further off the axis than half of
 /// the opening; there, yaw and height keep it in view.
 double viewDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                     const VehicleParams& vehicle) {

@@ -72,7 +72,7 @@ const char* toString(Event event) {
 
 namespace {
 
-/// Events that lead to the same state from nearly everywhere: in the table, not in the picture.
+/// Events that lead to the same state from nearly everywhere: in the table, not in the image.
 bool isEverywhere(Event event) {
   return event == Event::kAbort || event == Event::kGiveUp || event == Event::kDisengaged;
 }

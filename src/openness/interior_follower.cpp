@@ -18,10 +18,10 @@ using geometry::Quadrilateral;
 
 constexpr int kReach = 13, kLevels = 2;  // of Lucas-Kanade: side of its patch [px], further halvings
 constexpr double kMinSide_px = 24.0;
-constexpr double kSpacing = 0.05;    // between points, part of the straightened picture's longer side
-constexpr double kMinAge_sec = 0.3;  // of a key picture whose points were lost
+constexpr double kSpacing = 0.05;    // between points, part of the straightened image's longer side
+constexpr double kMinAge_sec = 0.3;  // of a key image whose points were lost
 constexpr int kGradientBlock = 5;
-constexpr double kBlur_px = 0.8;  // against the noise of dark pictures
+constexpr double kBlur_px = 0.8;  // against the noise of dark images
 
 cv::Point2f toCv(const Eigen::Vector2d& p) { return {static_cast<float>(p.x()), static_cast<float>(p.y())}; }
 
@@ -33,7 +33,7 @@ cv::Size straightenedSize(const Quadrilateral& corners, double most_px) {
   return {static_cast<int>(std::lround(scale * width)), static_cast<int>(std::lround(scale * height))};
 }
 
-// From the picture to its straightened opening; outer borders of the outermost pixels lie on the opening's.
+// From the image to its straightened opening; outer borders of the outermost pixels lie on the opening's.
 cv::Matx33d straightening(const Quadrilateral& corners, const cv::Size& size) {
   const std::array<cv::Point2f, 4> from{toCv(corners[0]), toCv(corners[1]), toCv(corners[2]),
                                         toCv(corners[3])};
@@ -66,7 +66,7 @@ bool isUsable(const WindowObservation& window) {
 struct InteriorFollower::Impl {
   struct Track {
     std::uint16_t id;
-    cv::Point2f key, now;  // in the straightened pictures
+    cv::Point2f key, now;  // in the straightened images
     cv::Point2f normal;    // of an edge; zero of a corner
     bool isEdge() const { return normal.x != 0.0f || normal.y != 0.0f; }
   };
@@ -93,10 +93,10 @@ struct InteriorFollower::Impl {
   bool has_key = false;
   std::uint32_t target_id = 0;
   double last_sec = 0.0;
-  int channel = 1;          // of the picture, that is looked at
-  cv::Size size;            // of the straightened pictures
-  double key_scale = 1.0;   // pixels of the key picture a straightened one
-  cv::Matx33d to_straight;  // of the picture looked at last
+  int channel = 1;          // of the image, that is looked at
+  cv::Size size;            // of the straightened images
+  double key_scale = 1.0;   // pixels of the key image a straightened one
+  cv::Matx33d to_straight;  // of the image looked at last
   cv::Matx33d key_to_picture;
   cv::Mat cut, straight, key_straight, mask, contrast;
   SlopePicture slopes;

@@ -164,7 +164,7 @@ struct World::Impl {
   geometry::PinholeCamera model;
   Eigen::Isometry3d T_base_camera, T_odom_window;  ///< the house at its resting place
   Sway sway;
-  std::unique_ptr<CameraSensor> camera;  ///< null: no pictures
+  std::unique_ptr<CameraSensor> camera;  ///< null: no images
   Wind wind;
   Quadrotor quadrotor;
   OdometrySensor odometry;

@@ -17,7 +17,7 @@
 
 namespace window_ingress::simulation {
 
-/// A picture as the camera delivers it.
+/// An image as the camera delivers it.
 struct CameraFrame {
   double stamp_sec = 0.0;  ///< of the exposure
   cv::Mat image;  ///< CV_8UC3, BGR; valid until the next call of `World::takeFrame`; empty: not drawn
@@ -30,11 +30,11 @@ struct CameraFrame {
 ///
 /// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` hands out what became
 /// due and forgets it, one at a time and in order: ask until there is none, they may come in bursts. A
-/// picture is drawn only when it is taken. A vehicle that touched anything solid stops there, with its motors
+/// image is drawn only when it is taken. A vehicle that touched anything solid stops there, with its motors
 /// off, and falls. Not for use from several threads, but several worlds may live in several threads.
 class World {
  public:
-  /// Whether frames have pictures. Without, no renderer is needed, and nothing that becomes of a picture
+  /// Whether frames have images. Without, no renderer is needed, and nothing that becomes of an image
   /// matters: light, noise, faults that spoil it.
   enum class Pictures { kDrawn, kNone };
 
@@ -53,19 +53,19 @@ class World {
   void command(const VelocityCommand& command);
 
   /// For `vehicle: external`: the vehicle is there at that time; until then, `advance` moves it evenly.
-  /// How fast it is, the referee sees by its places; the twist only blurs pictures.
+  /// How fast it is, the referee sees by its places; the twist only blurs images.
   /// \param stamp_sec after the time of the call before; the first one also says where it has been so far
   void follow(const VehicleTruth& truth, double stamp_sec);
 
   double timeSec() const;
   const VehicleTruth& truth() const;
   std::optional<CameraFrame> takeFrame();
-  /// The same in two steps, for whoever cannot draw every picture in time.
+  /// The same in two steps, for whoever cannot draw every image in time.
   std::optional<Exposure> takeExposure();
   CameraFrame draw(const Exposure& exposure);
   std::optional<OdometrySample> takeOdometry();
   std::optional<ImuSample> takeImu();
-  /// What camera_info says: one sample a picture, however the picture fares. May be spoilt, see `validate`.
+  /// What camera_info says: one sample an image, however the image fares. May be spoilt, see `validate`.
   std::optional<CalibrationSample> takeCalibration();
   /// The odometry as the source of the transform odom -> base_link.
   std::optional<OdometrySample> takeTransform();

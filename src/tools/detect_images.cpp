@@ -1,4 +1,4 @@
-/// Finds the window in single pictures; one csv row each. See --help.
+/// Finds the window in single images; one csv row each. See --help.
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cctype>
@@ -47,7 +47,7 @@ struct Options {
   double rate_hz = 30.0;
 };
 
-/// What is the same for all pictures.
+/// What is the same for all images.
 struct Job {
   detection::DetectorParams params;
   std::optional<geometry::PinholeCamera> camera;
@@ -164,7 +164,7 @@ Job prepare(const Options& o) {
   return job;
 }
 
-/// Looks for the window in each picture by itself, or follows it from picture to picture.
+/// Looks for the window in each image by itself, or follows it from image to image.
 class Finder {
  public:
   Finder(const Job& job, const Options& o) : frame_sec_(1.0 / o.rate_hz) {

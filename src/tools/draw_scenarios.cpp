@@ -1,4 +1,4 @@
-/// Draws one picture of each scenario, as the camera delivers it from the start, on one sheet.
+/// Draws one image of each scenario, as the camera delivers it from the start, on one sheet.
 #include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>

@@ -1,4 +1,4 @@
-/// Draws the stages of the detector on one picture, as the paper's figures 1 and 2, on one sheet.
+/// Draws the stages of the detector on one image, as the paper's figures 1 and 2, on one sheet.
 #include <boost/program_options.hpp>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>

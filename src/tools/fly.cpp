@@ -261,7 +261,7 @@ class Results {
     return {job_.scenario_file, evaluation::seedsText(seeds),  job_.draws_file,
             job_.params_file,   !job_.params.without_pictures, WINDOW_INGRESS_VERSION};
   }
-  // Of a flight whose scenario stands for all in the picture; there may be none in a shard.
+  // Of a flight whose scenario stands for all in the image; there may be none in a shard.
   std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
     return flights.empty() ? 1u : flights.front().seed;
   }

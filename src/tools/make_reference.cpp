@@ -1,4 +1,4 @@
-/// Makes the operator's reference from a picture of the target: four corners, clicked or given. See --help.
+/// Makes the operator's reference from an image of the target: four corners, clicked or given. See --help.
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace options = boost::program_options;
 using namespace window_ingress;
 using tools::UsageError;
 
-constexpr double kMaxPx = 1200.0;       // of the picture on the screen
+constexpr double kMaxPx = 1200.0;       // of the image on the screen
 constexpr double kFitRadiusPx = 6.0;    // on the screen
 constexpr double kMaxMovedPx = 4.0;     // of a side by the fit, on the screen: clicks are better than that
 constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side
@@ -197,7 +197,7 @@ class Clicking {
     cv::imshow(kWindow, canvas);
   }
 
-  // Beside the picture, so that no corner is ever covered: what is under the mouse, and what everything
+  // Beside the image, so that no corner is ever covered: what is under the mouse, and what everything
   // means.
   void drawPanel(cv::Mat panel) const {
     cv::Mat part, lens;

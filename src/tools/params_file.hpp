@@ -1,4 +1,4 @@
-/// What the file behind --params holds for tools that look at pictures.
+/// What the file behind --params holds for tools that look at images.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline void takeReference(const std::string& file, const configuration::Referenc
   corners = kept.corners;
 }
 
-/// The detector's parameters; picture and corners of the reference, too. \throws UsageError, YamlError
+/// The detector's parameters; image and corners of the reference, too. \throws UsageError, YamlError
 inline detection::DetectorParams readParams(const std::string& file, std::string& picture,
                                             std::vector<double>& corners) {
   const configuration::Overlay overlay = configuration::readOverlay(file);

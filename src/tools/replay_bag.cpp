@@ -1,4 +1,4 @@
-/// Detector, pose and filter over a bag; one csv row a picture, and a plot. See --help.
+/// Detector, pose and filter over a bag; one csv row an image, and a plot. See --help.
 #include <sys/wait.h>
 #include <unistd.h>
 

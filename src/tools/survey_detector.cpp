@@ -104,7 +104,7 @@ void check(const Options& o) {
   if (o.frames < 1) throw UsageError("--frames: needs 1 at least");
 }
 
-/// Looks for the window in one picture after the other.
+/// Looks for the window in one image after the other.
 class Survey {
  public:
   explicit Survey(const Options& o) : options_(o), detector_(paramsOf(o)), table_(binsOf(o)) {

@@ -110,7 +110,7 @@ int surveyNoise(const Options& o) {
   return 0;
 }
 
-/// Looks for the window in one picture after the other, and estimates its pose.
+/// Looks for the window in one image after the other, and estimates its pose.
 class Chain {
  public:
   explicit Chain(const Options& o)

@@ -1,4 +1,4 @@
-/// Trackbars over the detector's stages, on pictures, a bag or a live camera; saves the yaml that nodes and
+/// Trackbars over the detector's stages, on images, a bag or a live camera; saves the yaml that nodes and
 /// tools load. See
 /// --help.
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Fits thresholds of the detector to pictures whose windows are known, and says what that is worth on
+/// Fits thresholds of the detector to images whose windows are known, and says what that is worth on
 /// others. See
 /// --help.
 #include <boost/program_options.hpp>

@@ -1,4 +1,4 @@
-/// Where tune_detector has its pictures from: files, a bag, or a camera that runs.
+/// Where tune_detector has its images from: files, a bag, or a camera that runs.
 #pragma once
 
 #include <ros/ros.h>
@@ -19,7 +19,7 @@
 
 namespace window_ingress::tools {
 
-/// Pictures with a place among them, or the newest of a camera.
+/// Images with a place among them, or the newest of a camera.
 class TuningSource {
  public:
   virtual ~TuningSource() = default;
@@ -83,8 +83,8 @@ inline void addFile(const std::filesystem::path& path, StoredPictures& pictures)
   if (!picture.empty()) pictures.add(path.filename().string(), picture);
 }
 
-/// \param source picture, folder, bag, or the name of a topic
-/// \param every, most of a bag: one picture in so many, and no more than so many. \throws UsageError
+/// \param source image, folder, bag, or the name of a topic
+/// \param every, most of a bag: one image in so many, and no more than so many. \throws UsageError
 inline std::unique_ptr<TuningSource> openSource(const std::string& source, const std::string& image_topic,
                                                 int every, int most) {
   namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-/// The parameters of one group as a picture: name, value and unit; what differs from the default stands out.
+/// The parameters of one group as an image: name, value and unit; what differs from the default stands out.
 #pragma once
 
 #include <window_ingress/WindowDetectorConfig.h>
@@ -43,7 +43,7 @@ inline std::string valueText(const parameters::NamedField& field, const paramete
   return text;
 }
 
-/// \param width of the picture [px]
+/// \param width of the image [px]
 inline cv::Mat valueTable(const std::vector<const parameters::NamedField*>& fields, int width) {
   constexpr int kRowPx = 20, kColumnPx = 560;
   const int columns = std::max(1, width / kColumnPx), count = static_cast<int>(fields.size());

@@ -1,6 +1,6 @@
-/// Allocations a picture in steady state, by who asks for them.
+/// Allocations an image in steady state, by who asks for them.
 /// Usage: benchmark_allocations [--frames=FOLDER] [--sites=N] [SUBJECT...]
-/// Prints JSON: for each subject/sequence the counts a picture of "ours", "opencv" (inside a function of
+/// Prints JSON: for each subject/sequence the counts an image of "ours", "opencv" (inside a function of
 /// OpenCV that we call) and "other", and the N sites that ask most often.
 #include <algorithm>
 #include <cstdio>

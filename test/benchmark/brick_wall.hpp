@@ -34,7 +34,7 @@ inline cv::Mat drawBrickWall(const BrickWall& wall, const geometry::PinholeCamer
                   cv::FILLED);
   };
   cv::Mat fine(kFine * camera.height, kFine * camera.width, CV_8UC3, cv::Scalar(165, 170, 175));
-  cv::RNG clay(1);  // the wall is the same in all its pictures
+  cv::RNG clay(1);  // the wall is the same in all its images
   for (int row = -100; row < 100; ++row)
     for (int column = -40; column < 40; ++column) {
       const double left = (column + (row % 2 ? 0.5 : 0.0)) * wall.brick_m, top = row * wall.course_m;
@@ -53,7 +53,7 @@ inline cv::Mat drawBrickWall(const BrickWall& wall, const geometry::PinholeCamer
   return image;
 }
 
-/// The camera drifts a few pixels from picture to picture, 4 m before a window 1 m wide; f = 554 px.
+/// The camera drifts a few pixels from image to image, 4 m before a window 1 m wide; f = 554 px.
 inline Sequence brickWallSequence(int pictures) {
   Sequence sequence;
   sequence.name = "brick_wall", sequence.kind = "drawn";

@@ -1,6 +1,6 @@
-/// Time of the detector, its stages and its peers on the same pictures, one thread, in one run.
+/// Time of the detector, its stages and its peers on the same images, one thread, in one run.
 /// Usage: benchmark_detection --frames=FOLDER [options of Google Benchmark]
-/// Rows are called subject/sequence. Counter `found`: part of the pictures in which it found something.
+/// Rows are called subject/sequence. Counter `found`: part of the images in which it found something.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-/// Writes the pictures of the measurements that need no recordings: scenarios rendered from a moving vehicle,
+/// Writes the images of the measurements that need no recordings: scenarios rendered from a moving vehicle,
 /// and a drawn wall of bricks. Usage: benchmark_draw_frames FOLDER
 #include <cstdio>
 #include <exception>

@@ -1,4 +1,4 @@
-/// The pictures that all measurements share, in a folder: lossless files and an index.
+/// The images that all measurements share, in a folder: lossless files and an index.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@
 
 namespace window_ingress::bench {
 
-/// Successive pictures of one camera before one target.
+/// Successive images of one camera before one target.
 struct Sequence {
   std::string name;                ///< of the rows in the tables
   std::string kind;                ///< "rendering", "drawn", "recording" or "photograph"
-  double period_sec = 1.0 / 30.0;  ///< between the pictures [s]
+  double period_sec = 1.0 / 30.0;  ///< between the images [s]
   std::vector<cv::Mat> images;     ///< CV_8UC3, BGR; at least one
   std::optional<geometry::PinholeCamera> camera;
   std::optional<detection::ReferenceAppearance> reference;
@@ -25,14 +25,14 @@ struct Sequence {
 };
 
 /// Reads `folder`/frames.json: a list of {name, kind, period_sec, images: [files], camera: {width, height,
-/// fx, fy, cx, cy, distortion: [5]} or null, reference: {picture: file, corners: [8] or null} or null}.
+/// fx, fy, cx, cy, distortion: [5]} or null, reference: {image: file, corners: [8] or null} or null}.
 /// \param wanted whether to read the sequence of that name
 /// \throws std::runtime_error, one line "file: what is wrong"
 std::vector<Sequence> readFrameSet(
     const std::string& folder,
     const std::function<bool(const std::string&)>& wanted = [](const std::string&) { return true; });
 
-/// Adds one sequence to the index, made if need be, and writes its pictures as PNG.
+/// Adds one sequence to the index, made if need be, and writes its images as PNG.
 void addToFrameSet(const std::string& folder, const Sequence& sequence);
 
 }  // namespace window_ingress::bench

@@ -1,7 +1,7 @@
-/// Instructions a picture: the figure that does not depend on the machine's load. Under callgrind, which
+/// Instructions an image: the figure that does not depend on the machine's load. Under callgrind, which
 /// writes one file for each subject and sequence, with "subject/sequence" in its head:
 ///   valgrind --tool=callgrind --instr-atstart=no benchmark_instructions --frames=FOLDER [SUBJECT...]
-/// The first pictures of each sequence are used, after some for warming up; how many are counted, it prints.
+/// The first images of each sequence are used, after some for warming up; how many are counted, it prints.
 #include <valgrind/callgrind.h>
 
 #include <algorithm>

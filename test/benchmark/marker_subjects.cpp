@@ -1,5 +1,5 @@
 /// Detectors of printed markers: they look for quadrilaterals, too, and are known for being fast. Both get
-/// the grey picture ready made. Each is left out where its library is not installed.
+/// the grey image ready made. Each is left out where its library is not installed.
 #include <memory>
 #include <opencv2/imgproc.hpp>
 

@@ -1,5 +1,5 @@
-/// Memory of search and track over many pictures, as fast as it goes, as JSON: resident size at the start,
-/// after a tenth and at the end. Every picture goes through track, every tenth through search, the sequences
+/// Memory of search and track over many images, as fast as it goes, as JSON: resident size at the start,
+/// after a tenth and at the end. Every image goes through track, every tenth through search, the sequences
 /// in turn. Exit code 1 if it grows or is more than what is allowed.
 ///
 /// Usage: benchmark_memory [--frames=FOLDER] [--pictures=108000] [SEQUENCE...]
@@ -19,7 +19,7 @@ namespace {
 
 using namespace window_ingress::bench;
 
-constexpr double kMaxMegabytes = 150.0;  ///< of the detector's process, the pictures in memory included
+constexpr double kMaxMegabytes = 150.0;  ///< of the detector's process, the images in memory included
 constexpr double kMaxGrowth = 1.0;       ///< from a tenth to the end [MB]
 constexpr std::size_t kSearchEvery = 10;
 

@@ -9,11 +9,11 @@
 
 namespace window_ingress::bench {
 
-/// Handles one picture, the next of its sequence, to and fro. \return whether it found something; of `track`:
+/// Handles one image, the next of its sequence, to and fro. \return whether it found something; of `track`:
 /// whether it followed the window without a search
 using Step = std::function<bool()>;
 
-/// The number of the next picture: 0, 1, .. n-1, n-2, .. 0, and so on, so that the camera never jumps.
+/// The number of the next image: 0, 1, .. n-1, n-2, .. 0, and so on, so that the camera never jumps.
 class ToAndFro {
  public:
   explicit ToAndFro(std::size_t count) : count_(count) {}

@@ -11,7 +11,7 @@ namespace window_ingress::fuzz {
 /// Sizes, step, encoding and number of bytes that need not fit each other.
 sensor_msgs::ImagePtr anyImage(Bytes& bytes);
 
-/// A picture of at most 96 x 96 pixels whose layout is right; the bytes are its pattern, repeated.
+/// An image of at most 96 x 96 pixels whose layout is right; the bytes are its pattern, repeated.
 sensor_msgs::ImagePtr smallImage(Bytes& bytes);
 
 }  // namespace window_ingress::fuzz

@@ -11,8 +11,8 @@ namespace window_ingress::fuzz {
 
 using Target = void(const std::uint8_t* data, std::size_t size);
 
-Target image;        ///< raw and compressed pictures of any encoding, size and step: guard
-Target detection;    ///< small pictures that the guard lets through: guard, detector, tracker
+Target image;        ///< raw and compressed images of any encoding, size and step: guard
+Target detection;    ///< small images that the guard lets through: guard, detector, tracker
 Target camera_info;  ///< any calibration: conversion, projection
 Target corners;      ///< any detection message: conversion, pose, filter
 Target scenario;     ///< scenario files

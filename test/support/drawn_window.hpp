@@ -1,4 +1,4 @@
-/// Pictures of windows for tests, drawn antialiased by area coverage.
+/// Images of windows for tests, drawn antialiased by area coverage.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -84,7 +84,7 @@ struct WindowPicture {
   }
 };
 
-/// The same picture before a wall of bricks with pale joints.
+/// The same image before a wall of bricks with pale joints.
 inline cv::Mat drawnBricks(const WindowPicture& window, int brick_px = 32, int course_px = 12) {
   cv::Mat image(window.height, window.width, CV_8UC3, cv::Scalar(60, 75, 140));
   const cv::Scalar joint(150, 155, 160);

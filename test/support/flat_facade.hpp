@@ -56,7 +56,7 @@ class FlatFacade {
     cv::add(image, noise, image, cv::noArray(), CV_8U);
     return image;
   }
-  /// Corners of a window in the picture; nothing if one lies behind the camera.
+  /// Corners of a window in the image; nothing if one lies behind the camera.
   std::optional<geometry::Quadrilateral> corners(int window, const Camera& from,
                                                  const geometry::PinholeCamera& camera) const {
     const Eigen::Matrix3d H = homography(from, camera);

@@ -28,7 +28,7 @@ struct StampLimits {
 };
 
 struct ImageLimits {
-  int max_pixels = 8000000;  ///< larger pictures are refused [px]
+  int max_pixels = 8000000;  ///< larger images are refused [px]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("max_pixels", self.max_pixels, 1, 100000000);

@@ -9,12 +9,12 @@
 
 namespace window_ingress::configuration {
 
-/// The operator's picture of the target.
+/// The operator's image of the target.
 struct ReferenceParams {
   std::string picture;          ///< file; empty: no reference
   std::vector<double> corners;  ///< of the opening's inner border in it, x1 y1 .. x4 y4 from top left,
-                                ///< clockwise [px]; empty: the whole picture is the target with its frame
-  std::string capture_file;     ///< picture that ~capture_reference writes; beside it .yaml, these parameters
+                                ///< clockwise [px]; empty: the whole image is the target with its frame
+  std::string capture_file;     ///< image that ~capture_reference writes; beside it .yaml, these parameters
                              ///< for it, and _understood.png, what is made of it; empty: nothing is written
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -26,11 +26,11 @@ struct ReferenceParams {
 
 struct DetectorNodeParams {
   std::string image_transport = "raw";   ///< raw, compressed, or a plugin of image_transport
-  bool image_is_rectified = false;       ///< pictures are rectified: P of camera_info counts
+  bool image_is_rectified = false;       ///< images are rectified: P of camera_info counts
   bool use_imu = true;                   ///< tracks are led by the attitude on `imu`, where there is one
   std::string base_frame = "base_link";  ///< the vehicle's, in which `imu` must be
   double budget_ms =
-      0.0;  ///< diagnostics warn if a picture takes longer; 0: the time between two pictures [ms]
+      0.0;  ///< diagnostics warn if an image takes longer; 0: the time between two images [ms]
   bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
   ImageLimits image;
   StampLimits stamps;

@@ -11,7 +11,7 @@
 namespace window_ingress::configuration {
 
 struct PoseNodeParams {
-  bool image_is_rectified = false;      ///< the detector works on rectified pictures: use P of camera_info
+  bool image_is_rectified = false;      ///< the detector works on rectified images: use P of camera_info
   std::string gravity_source = "imu";   ///< where "up" comes from: imu, odom or tf
   double odom_wait_sec = 0.05;          ///< an image waits this long for odometry as new as itself [s]
   bool lockstep = false;                ///< with the simulated world, step by step; only with use_sim_time

@@ -19,7 +19,7 @@ struct WorldNodeParams {
   double wait_sec =
       0.0;  ///< time starts when images and odometry are subscribed to, at the latest after this [s]
   bool lockstep =
-      false;  ///< the world waits at each picture until the vehicle has answered: runs repeat exactly
+      false;  ///< the world waits at each image until the vehicle has answered: runs repeat exactly
   bool realtime = false;  ///< in lockstep: not faster than real_time_factor, instead of as fast as it goes
   double lockstep_timeout_sec =
       2.0;                      ///< in lockstep, on the steady clock: longer than this it does not wait [s]

@@ -13,7 +13,7 @@ namespace window_ingress::detection {
 
 /// The reference as it is understood, for people: the inner border in green, corner 1 marked; the two bands
 /// whose colours are compared, the frame's tinted orange and the surround's blue, everything else faded;
-/// below, a line of text. \return CV_8UC3, higher than the picture by that line
+/// below, a line of text. \return CV_8UC3, higher than the image by that line
 cv::Mat drawReference(const ReferenceAppearance& reference, const AppearanceParams& params);
 
 /// Draws what happened to each candidate of an image (P10): rejected ones thin, in the colour of their gate
@@ -29,7 +29,7 @@ void drawDetection(const cv::Mat& image, const DetectionTrace& trace, const Wind
 /// Writes a text about the target, such as its relative yaw, below it, as far as there is room.
 void drawYaw(cv::Mat& canvas, const WindowObservation& window, const std::string& text);
 
-/// Colour of a gate in these pictures.
+/// Colour of a gate in these images.
 cv::Scalar colourOf(RejectReason reason);
 
 }  // namespace window_ingress::detection

@@ -134,7 +134,7 @@ struct AppearanceParams {
 struct TrackParams {
   double reach = 0.0094;  ///< furthest a border may lie from where it is predicted [longer image sides]
   double turn = 0.12;     ///< unforeseen motion of the window's place without attitude [longer image sides/s]
-  double max_gap_sec = 0.5;      ///< pictures further apart start anew [s]
+  double max_gap_sec = 0.5;      ///< images further apart start anew [s]
   double reacquire_sec = 0.6;    ///< a lost window found again in its place within this time is the same [s]
   double reacquire_gate = 0.35;  ///< furthest from its place to be the same [window sides]
   int appearance_every = 15;     ///< frames between comparisons with the reference

@@ -20,24 +20,24 @@ struct AppearanceMatch {
   double odds = 1.0;      ///< how much likelier such a distance is for the target than for something else
 };
 
-/// True if no pixel of a grid over the picture has a colour: then no comparison of colours means anything.
+/// True if no pixel of a grid over the image has a colour: then no comparison of colours means anything.
 bool isGrey(const cv::Mat& image);
 
 /// How the target looks (P9): made once from a picture of it.
 ///
-/// The limit on the distance comes from the reference picture: the distance of nine tenths of the other
+/// The limit on the distance comes from the reference image: the distance of nine tenths of the other
 /// places in it lies further away. So a frame that stands out may look quite different in another light, and
 /// one that hardly differs from what is round it must match well. Where the other places look the same,
 /// colour tells nothing, and the odds stay near 1.
 class ReferenceAppearance {
  public:
   /// \param picture CV_8UC3 (a grey one gives a reference without colour, which rejects nothing)
-  /// \param opening inner border of the opening in the picture, canonical order; frame and surround lie
+  /// \param opening inner border of the opening in the image, canonical order; frame and surround lie
   /// outside
   ReferenceAppearance(const cv::Mat& picture, const geometry::Quadrilateral& opening);
 
-  /// The whole picture is the target with its frame; `frame_width` is that of the frame, in mean sides of the
-  /// picture. Where the opening lies in it is a guess then, see `openingIsKnown`.
+  /// The whole image is the target with its frame; `frame_width` is that of the frame, in mean sides of the
+  /// image. Where the opening lies in it is a guess then, see `openingIsKnown`.
   explicit ReferenceAppearance(const cv::Mat& picture, double frame_width = 0.05);
 
   /// The same, the opening found by its geometry alone.
@@ -46,7 +46,7 @@ class ReferenceAppearance {
   /// False if somebody guessed where the opening is: its colours may be compared, its shape may not.
   bool openingIsKnown() const { return opening_is_known_; }
 
-  /// Why a picture with this opening in it cannot be a reference; empty if it can.
+  /// Why an image with this opening in it cannot be a reference; empty if it can.
   static std::string faultOf(const cv::Mat& picture, const geometry::Quadrilateral& opening);
 
   /// Compares a candidate's ring; nothing if there is no colour to compare.
@@ -78,7 +78,7 @@ class ReferenceAppearance {
   bool opening_is_known_ = true;
   // Made when they are first asked for, with the parameters given then.
   mutable std::shared_ptr<const RingColours> colours_;
-  mutable double elsewhere_ = 1.0;  ///< distance that most other places of the picture exceed
+  mutable double elsewhere_ = 1.0;  ///< distance that most other places of the image exceed
   mutable std::optional<AppearanceParams> prepared_;
   std::shared_ptr<const RingColours> adapted_;
 };

@@ -4,7 +4,7 @@
 
 namespace window_ingress::detection {
 
-/// What the time of one picture went into, in the order of the pipeline.
+/// What the time of one image went into, in the order of the pipeline.
 enum class Stage {
   kTrack,       ///< following a window that is known
   kPreprocess,  ///< pyramid, blur, equalisation
@@ -19,7 +19,7 @@ constexpr int kStages = static_cast<int>(Stage::kBorders) + 1;
 
 const char* toString(Stage stage);
 
-/// Adds up the time of each stage of one picture. The detector has no clock of its own: who wants times gives
+/// Adds up the time of each stage of one image. The detector has no clock of its own: who wants times gives
 /// one.
 class StageWatch {
  public:
@@ -27,7 +27,7 @@ class StageWatch {
 
   explicit StageWatch(Clock clock) : clock_(clock) {}
 
-  void begin();            ///< a new picture
+  void begin();            ///< a new image
   void done(Stage stage);  ///< all time since the last call was spent in this stage
   double milliseconds(Stage stage) const { return 1e3 * sec_[static_cast<int>(stage)]; }
   Stage slowest() const;

@@ -8,7 +8,7 @@
 
 namespace window_ingress::detection {
 
-/// Writes on pictures, in a size that follows theirs, and keeps texts off each other.
+/// Writes on images, in a size that follows theirs, and keeps texts off each other.
 class TextOverlay {
  public:
   /// \param canvas CV_8UC3; must outlive this object
@@ -48,7 +48,7 @@ class TextOverlay {
   std::vector<cv::Rect> taken_;
 };
 
-/// Sides of a quadrilateral, antialiased; nothing if it is not finite or far outside any picture.
+/// Sides of a quadrilateral, antialiased; nothing if it is not finite or far outside any image.
 void drawQuad(cv::Mat& canvas, const geometry::Quadrilateral& quad, const cv::Scalar& colour, int thickness);
 
 }  // namespace window_ingress::detection

@@ -53,8 +53,8 @@ class WindowDetector {
 WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
                                 double stamp_sec);
 
-/// Reference from a picture that is the target with its frame, without corners given: the detector looks for
-/// the inner border in the picture; where it finds none, the frame is taken to be a twentieth of the picture
+/// Reference from an image that is the target with its frame, without corners given: the detector looks for
+/// the inner border in the image; where it finds none, the frame is taken to be a twentieth of the image
 /// wide.
 ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorParams& params);
 

@@ -10,13 +10,13 @@
 
 namespace window_ingress::detection {
 
-/// One point of the texture within the opening, in two pictures. Pixels of the images as they came
+/// One point of the texture within the opening, in two images. Pixels of the images as they came
 /// (distorted).
 struct InteriorPoint {
-  std::uint16_t id = 0;  ///< the same in all pictures that are compared with one key picture
+  std::uint16_t id = 0;  ///< the same in all images that are compared with one key image
   Eigen::Vector2d key_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d now_px = Eigen::Vector2d::Zero();
-  /// Of a point on an edge: the direction across it in this picture, in which alone its place is known. Zero
+  /// Of a point on an edge: the direction across it in this image, in which alone its place is known. Zero
   /// of a corner, whose place is known in both directions.
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
   /// Cells of the opening, 6 x 6, one bit each, row by row from the top left one, that are filled by a region
@@ -24,16 +24,16 @@ struct InteriorPoint {
   std::uint64_t beside = 0;
 };
 
-/// What became, since a key picture, of the texture that is seen within the opening. Without points: nothing
+/// What became, since a key image, of the texture that is seen within the opening. Without points: nothing
 /// to compare with.
 struct InteriorTracks {
-  double key_stamp_sec = 0.0;  ///< exposure of the key picture; that of this one: it is the key itself
-  /// The opening's inner border in the key picture, all four corners of it, and their covariances [px^2].
+  double key_stamp_sec = 0.0;  ///< exposure of the key image; that of this one: it is the key itself
+  /// The opening's inner border in the key image, all four corners of it, and their covariances [px^2].
   geometry::Quadrilateral key_corners = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
                                          Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   std::array<Eigen::Matrix2d, 4> key_covariance = {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(),
                                                    Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
-  double sigma_px = 0.0;  ///< of the way of a point from the key picture to this one, each axis [px]
+  double sigma_px = 0.0;  ///< of the way of a point from the key image to this one, each axis [px]
   std::vector<InteriorPoint> points;
 
   bool empty() const { return points.empty(); }
@@ -52,7 +52,7 @@ struct Edge {
 
 /// The target window in one image: what the detector knows and nothing that it guesses.
 ///
-/// A *partial* observation has borders but not all corners: near the window its sides leave the picture. A
+/// A *partial* observation has borders but not all corners: near the window its sides leave the image. A
 /// corner that was not seen is zero, its covariance too, and must not be read; its borders remain.
 struct WindowObservation {
   double stamp_sec = 0.0;  ///< exposure time of the image it was seen in

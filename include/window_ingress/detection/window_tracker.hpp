@@ -17,7 +17,7 @@
 
 namespace window_ingress::detection {
 
-/// One picture and what else is known about its moment.
+/// One image and what else is known about its moment.
 struct TrackInput {
   cv::Mat image;                                    ///< CV_8UC1 or CV_8UC3 (BGR); not kept
   double stamp_sec = 0.0;                           ///< exposure
@@ -41,13 +41,13 @@ struct TrackInput {
 /// Near the window its sides leave the view: then the observation is partial (`WindowObservation::whole`). At
 /// least two sides must be seen. What can be known from three and from two sides: see `QuadMotion`.
 ///
-/// A new track is verified by searches in the pictures that follow (`SecondOpinion`). The reference is shared
+/// A new track is verified by searches in the images that follow (`SecondOpinion`). The reference is shared
 /// with the search; it follows the light slowly (`ReferenceAppearance::adapt`) while a confirmed track is
 /// certain. A track that no longer looks like the reference is doubtful, and searches are asked; that alone
 /// never ends it.
 ///
 /// Where something else knows the place of the target (`TrackInput::expected`), the search waits for it
-/// there, and a track of another window is given up for it. While a window is followed, the picture is
+/// there, and a track of another window is given up for it. While a window is followed, the image is
 /// searched every `TrackParams::survey_sec` all the same: for the other windows in it, not for the track.
 ///
 /// `target_id`: see `TargetIdentity`. While a settled track is lost, another window in view is no target
@@ -63,8 +63,8 @@ class WindowTracker {
   void setParams(const DetectorParams& params);  ///< \throws std::invalid_argument, and keeps the old ones
   void setReference(const ReferenceAppearance& reference);  ///< the next frame is searched
   void clearReference();
-  /// Forgets the track, not the reference. Happens by itself when time jumps back, when pictures are further
-  /// apart than `TrackParams::max_gap_sec`, or when size or calibration of the picture change.
+  /// Forgets the track, not the reference. Happens by itself when time jumps back, when images are further
+  /// apart than `TrackParams::max_gap_sec`, or when size or calibration of the image change.
   void reset();
 
   /// \return nothing if the target is not seen; `trace()` then says why

@@ -6,13 +6,13 @@
 
 namespace window_ingress::estimation {
 
-/// By how much the stamps of pictures and those of odometry differ. While a vehicle turns at w, odometry at a
+/// By how much the stamps of images and those of odometry differ. While a vehicle turns at w, odometry at a
 /// stamp that is late by d has turned on by w d: the direction in which a window that stands still is seen
 /// moves by as much. The slope of that over the rate is d. It needs a turn that begins or ends while the
 /// window is seen whole, as after every search.
 class ClockCheck {
  public:
-  /// One picture of the window, whole.
+  /// One image of the window, whole.
   struct Sight {
     double stamp_sec = 0.0;
     Eigen::Vector2d camera_odom_m = Eigen::Vector2d::Zero();  ///< by odometry at the stamp, seen from above
@@ -20,7 +20,7 @@ class ClockCheck {
     double yaw_rate_radps = 0.0;                              ///< by odometry at the stamp
   };
   struct Offset {
-    double late_sec = 0.0;  ///< stamps of pictures beside those of odometry; negative: early
+    double late_sec = 0.0;  ///< stamps of images beside those of odometry; negative: early
     double sigma_sec = 0.0;
   };
 

@@ -43,7 +43,7 @@ struct TargetEstimatorParams {
   }
 };
 
-/// What the detector says of one picture, and from where it was taken.
+/// What the detector says of one image, and from where it was taken.
 struct ObservedImage {
   double stamp_sec = 0.0;
   geometry::PinholeCamera camera;
@@ -85,7 +85,7 @@ class TargetEstimator {
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const std::optional<Eigen::Isometry3d>& T_base_camera);
   void see(
-      ObservedImage picture);  ///< the same with all windows of the picture, whether or not one is the target
+      ObservedImage picture);  ///< the same with all windows of the image, whether or not one is the target
   /// An observation that still waits for odometry is processed with what there is.
   void flush();
   void reset();
@@ -96,7 +96,7 @@ class TargetEstimator {
   /// get another one in place of the last of them.
   void heed(std::uint32_t flown_at, const std::vector<std::uint32_t>& given_up, bool next_one);
   const facade::FacadeMemory& facade() const { return facade_; }
-  /// Where the target must be in a picture taken at that time, if that is known and in view (distorted
+  /// Where the target must be in an image taken at that time, if that is known and in view (distorted
   /// pixels).
   std::optional<geometry::Quadrilateral> expected(double stamp_sec, const geometry::PinholeCamera& camera,
                                                   const Eigen::Isometry3d& T_base_camera) const;
@@ -112,7 +112,7 @@ class TargetEstimator {
   FramesVerdict frames() const;
   /// The opening's size as measured on the way flown, whatever it is said to be.
   const std::optional<SizeEstimate>& measuredSize() const;
-  /// By how much the stamps of pictures and odometry differ, once a turn has shown it.
+  /// By how much the stamps of images and odometry differ, once a turn has shown it.
   const std::optional<ClockCheck::Offset>& clockOffset() const { return clocks_.offset(); }
   /// Why nobody should fly towards this window; empty if there is no reason.
   std::string approachForbidden(const FilteredWindow& window) const;

@@ -18,27 +18,27 @@ struct KnownWindow {
   std::uint32_t id = 0;  ///< from 1; never given to another one, but after a reset
   WindowPlace place;
   double last_seen_sec = 0.0;
-  int sights = 0;                       ///< pictures that showed it
+  int sights = 0;                       ///< images that showed it
   double score = 0.0;                   ///< of the last of them, 0 to 1
   std::optional<double> bhattacharyya;  ///< least distance to the reference so far
-  bool may_be_target = false;           ///< nothing in the last picture spoke against its look
+  bool may_be_target = false;           ///< nothing in the last image spoke against its look
   openness::OpennessVerdict openness;
   int visits = 0;    ///< how often it was flown at
   int failures = 0;  ///< how often it was given up: closed, or tried in vain
 };
 
-/// One picture, and from where it was taken.
+/// One image, and from where it was taken.
 struct FacadeView {
   double stamp_sec = 0.0;
   Viewpoint from;
   std::vector<detection::SeenWindow> windows;
-  std::uint32_t track_id = 0;  ///< of the one that is the target by the picture; 0: none
+  std::uint32_t track_id = 0;  ///< of the one that is the target by the image; 0: none
 };
 
 /// All windows seen, in the odometry frame, each with a number of its own.
 ///
 /// A sight belongs to the window whose place it fits (Mahalanobis distance, odometry's drift included), each
-/// sight to one window and each window to one sight of a picture, the nearest first. Two windows that come to
+/// sight to one window and each window to one sight of an image, the nearest first. Two windows that come to
 /// lie in one place without ever having been seen side by side are one. So neighbours of the same look stay
 /// apart, and a window is found again after a loss where it was.
 class FacadeMap {
@@ -56,7 +56,7 @@ class FacadeMap {
 
   /// The window that one at this place is; nothing if it is none of those known.
   const KnownWindow* at(const WindowPlace& place, double stamp_sec) const;
-  /// The window of the last picture's target.
+  /// The window of the last image's target.
   std::optional<std::uint32_t> followed() const { return followed_id_; }
   KnownWindow* find(std::uint32_t id);
   const KnownWindow* find(std::uint32_t id) const;

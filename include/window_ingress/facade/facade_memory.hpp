@@ -32,7 +32,7 @@ class FacadeMemory {
   /// The odometry frame is another one: places are void. A window that was chosen stays so if it is followed
   /// on; else nothing is the target until one is chosen again.
   void forgetPlaces();
-  /// \param filtered what the filter knows of the window that is the target in this picture, if it was used
+  /// \param filtered what the filter knows of the window that is the target in this image, if it was used
   /// \param looked_for size of the target, known or believed
   void see(const FacadeView& view, const std::optional<estimation::FilteredWindow>& filtered,
            const geometry::OpeningSize& looked_for);
@@ -40,7 +40,7 @@ class FacadeMemory {
   /// Why a window seen is not the target; empty if it may be. One that is not whole is not judged.
   std::string whyNotTarget(const detection::WindowObservation& window, const Viewpoint& from,
                            const geometry::OpeningSize& looked_for) const;
-  /// Where in the picture the target must be, as it comes (distorted); nothing if it is not wholly in view.
+  /// Where in the image the target must be, as it comes (distorted); nothing if it is not wholly in view.
   std::optional<geometry::Quadrilateral> expected(const Viewpoint& from) const;
 
   Answer select(std::uint32_t id);

@@ -9,7 +9,7 @@ struct FacadeParams {
   double wall_sigma_m = 0.15;          ///< how far windows lie before or behind the plane of the target [m]
   double drift_m_per_sqrt_sec = 0.02;  ///< of the odometry between two sights [m/sqrt(s)]
   double max_deviation = 3.5;          ///< furthest that a sight lies from the window it belongs to [sigmas]
-  int confirmations = 3;               ///< pictures that must show a window before it has a number
+  int confirmations = 3;               ///< images that must show a window before it has a number
   double forget_sec = 2.0;             ///< one that has none yet is forgotten when unseen for so long [s]
   int settled_updates = 15;            ///< of the filter, after which the window followed is the target
   double release_sec = 8.0;       ///< in view and not seen for so long, the target is no target any more [s]

@@ -27,7 +27,7 @@ struct Wall {
   double heading_sigma_rad = 0.0;
 };
 
-/// From where a picture was taken.
+/// From where an image was taken.
 struct Viewpoint {
   geometry::PinholeCamera camera;
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();

@@ -36,9 +36,9 @@ struct InputParams {
 
 /// SEARCH: turning on the spot, climbing to a height from which to look.
 struct SearchParams {
-  double yaw_rate_radps = 0.5;       ///< at most; slower where blur or few pictures ask for it [rad/s]
-  double max_blur_px = 2.0;          ///< that turning may bring into a picture [px]
-  double max_turn_per_image = 0.25;  ///< of the field of view, from picture to picture
+  double yaw_rate_radps = 0.5;       ///< at most; slower where blur or few images ask for it [rad/s]
+  double max_blur_px = 2.0;          ///< that turning may bring into an image [px]
+  double max_turn_per_image = 0.25;  ///< of the field of view, from image to image
   double height_m = 1.0;             ///< climb to this height of odom first; never down [m]
   double height_step_m = 0.6;        ///< climb by this much after each turn without success [m]
   double climb_speed_mps = 0.3;      ///< [m/s]

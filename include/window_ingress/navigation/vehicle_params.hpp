@@ -12,9 +12,9 @@ struct VehicleParams {
   double camera_forward_m = 0.1;     ///< camera ahead of the body's centre; where tf says it, tf counts [m]
   double horizontal_fov_rad = 1.39;  ///< of the camera; where camera_info says it, that counts [rad]
   double vertical_fov_rad = 1.12;    ///< of the camera; where camera_info says it, that counts [rad]
-  double pixel_rad = 0.0018;  ///< angle that a pixel in the picture's middle covers, 1 / focal length; where
+  double pixel_rad = 0.0018;  ///< angle that a pixel in the image's middle covers, 1 / focal length; where
                               ///< camera_info says it, that counts [rad]
-  double exposure_sec = 0.004;  ///< of a picture, at the darkest [s]
+  double exposure_sec = 0.004;  ///< of an image, at the darkest [s]
   double response_sec = 0.3;    ///< from a setpoint to the velocity following it, latency included [s]
   double braking_mps2 = 1.2;    ///< deceleration that can be relied upon [m/s^2]
 

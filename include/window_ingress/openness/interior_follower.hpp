@@ -8,16 +8,16 @@
 
 namespace window_ingress::openness {
 
-/// Follows the texture within the opening from a key picture to each later one.
+/// Follows the texture within the opening from a key image to each later one.
 ///
-/// The opening is straightened by the homography of its four corners, in both pictures to the same rectangle:
+/// The opening is straightened by the homography of its four corners, in both images to the same rectangle:
 /// what lies in the plane of the border stays where it is in there, what lies behind moves. So the flow
 /// between the two (pyramidal Lucas-Kanade, forth and back) is small whatever the vehicle does, and starts
-/// where the picture before ended. The straightening is but an aid: what is handed out are points of the
-/// images as they came. A new key picture is taken when the points get lost, the window has grown, or the key
-/// is old; so the stretches of the flight between key pictures are disjoint.
+/// where the image before ended. The straightening is but an aid: what is handed out are points of the
+/// images as they came. A new key image is taken when the points get lost, the window has grown, or the key
+/// is old; so the stretches of the flight between key images are disjoint.
 ///
-/// Keeps its memory from picture to picture. One object a thread.
+/// Keeps its memory from image to image. One object a thread.
 class InteriorFollower {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range

@@ -21,10 +21,10 @@ class OpeningCells {
   /// \param place within the opening, 0 to 1, right and down; outside of it nothing happens
   void see(const Eigen::Vector2d& place, double log_odds);
   /// The same of whole cells in which nothing is seen that ends: what is there is as deep as the point beside
-  /// them at least. It takes several points, on several pictures, and none of them in the plane.
+  /// them at least. It takes several points, on several images, and none of them in the plane.
   /// \param cells as in `InteriorPoint::beside`
   void seeBeside(std::uint64_t cells, double log_odds);
-  /// Takes what was seen beside the points of one picture.
+  /// Takes what was seen beside the points of one image.
   void endPicture();
   void clear() { *this = OpeningCells(); }
 
@@ -43,10 +43,10 @@ class OpeningCells {
   bool isBetweenOpen(int x, int y) const;
   static constexpr float kMost = 12.0f;
   static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
-  static constexpr int kMinBeside = 3;  // points on one picture
+  static constexpr int kMinBeside = 3;  // points on one image
   static constexpr int kMinPictures = 5;
   std::array<float, kSide * kSide> open_{}, closed_{};
-  std::array<int, kSide * kSide> deep_{}, shallow_{};  // points beside the cell, on this picture
+  std::array<int, kSide * kSide> deep_{}, shallow_{};  // points beside the cell, on this image
   std::array<int, kSide * kSide> pictures_{};          // on which the cell was beside deep points alone
 };
 

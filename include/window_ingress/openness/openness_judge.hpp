@@ -15,7 +15,7 @@
 
 namespace window_ingress::openness {
 
-/// One picture of the target, with what filter and odometry say of it.
+/// One image of the target, with what filter and odometry say of it.
 struct OpennessView {
   const detection::WindowObservation& window;
   const geometry::PinholeCamera& camera;
@@ -26,13 +26,13 @@ struct OpennessView {
 
 /// Whether the opening is open, by how the texture within it moves against the plane of its border.
 ///
-/// The flight falls into stretches, one from each key picture to the next. Within a stretch nothing adds up:
+/// The flight falls into stretches, one from each key image to the next. Within a stretch nothing adds up:
 /// the best look at each point counts, its median is the stretch's word, and that word is capped. Stretches
 /// do add up, for each has borders of its own; an opening is never called open or closed by a single one.
 /// Open needs more: seen through all four quarters of the middle that the vehicle needs, hardly anything of
 /// it closed, no deeper than a room is.
 ///
-/// No clock, no picture. The caller resets it when the odometry is another one.
+/// No clock, no image. The caller resets it when the odometry is another one.
 class OpennessJudge {
  public:
   /// \param needed size of the middle of the opening that the vehicle needs

@@ -7,9 +7,9 @@ struct OpennessParams {
   double max_depth_closed_m = 0.35;  ///< a surface that far behind the front border still closes it [m]
   double min_depth_behind_m = 0.7;   ///< what is seen must lie that far behind for an open way [m]
   double max_depth_behind_m = 10.0;  ///< deeper than any room: mirrored, or stuck to the lens [m]
-  double border_sigma_px = 0.4;      ///< of a border beyond its own covariance, in each picture [px]
-  double position_sigma_m = 0.02;    ///< of the odometry's position at a picture [m]
-  double min_baseline_m = 0.12;      ///< between two pictures that are compared [m]
+  double border_sigma_px = 0.4;      ///< of a border beyond its own covariance, in each image [px]
+  double position_sigma_m = 0.02;    ///< of the odometry's position at an image [m]
+  double min_baseline_m = 0.12;      ///< between two images that are compared [m]
   double max_border_misfit = 0.05;   ///< of the corners against the filtered window, part of its size
   double max_sigmas = 3.0;           ///< by which a point may leave the way of anything that stands still
   double max_unsteady = 0.3;         ///< part of the points that may do so

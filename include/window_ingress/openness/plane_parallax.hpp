@@ -10,18 +10,18 @@
 
 namespace window_ingress::openness {
 
-/// The opening's four corners in one picture, undistorted [px], and their covariances [px^2].
+/// The opening's four corners in one image, undistorted [px], and their covariances [px^2].
 struct SeenBorder {
   geometry::Quadrilateral corners;
   std::array<Eigen::Matrix2d, 4> covariance;
 };
 
-/// The homography by which a plane's picture becomes another, from four corners of it in both. Nothing if
+/// The homography by which a plane's image becomes another, from four corners of it in both. Nothing if
 /// they determine none.
 std::optional<Eigen::Matrix3d> homographyBetween(const geometry::Quadrilateral& from,
                                                  const geometry::Quadrilateral& to);
 
-/// How far behind the plane a point lies, by two pictures of it.
+/// How far behind the plane a point lies, by two images of it.
 struct PointParallax {
   /// Depth D behind the plane over its distance from the key camera: D / (d + D), 0 in the plane, 1 at
   /// infinity.
@@ -34,7 +34,7 @@ struct PointParallax {
       Eigen::Vector2d::Zero();  ///< where the sight crosses the plane now: 0 to 1, right, down
 };
 
-/// Plane and parallax between a key picture and a later one: a point at depth D behind the plane moves to
+/// Plane and parallax between a key image and a later one: a point at depth D behind the plane moves to
 /// H p - part * K t (n . x) / d (Irani and Anandan 1996), where the plane moves by H. H comes from the
 /// borders alone and so bears no error of attitude; the odometry gives the way t, which only scales the
 /// depth.
@@ -58,14 +58,14 @@ class PlaneParallax {
                                   const Eigen::Vector2d& normal = Eigen::Vector2d::Zero()) const;
 
   double distanceM() const { return distance_m_; }  ///< of the key camera from the plane
-  double baselineM() const { return baseline_m_; }  ///< length of the way between the two pictures
+  double baselineM() const { return baseline_m_; }  ///< length of the way between the two images
 
  private:
   explicit PlaneParallax(const geometry::Quadrilateral& now) : opening_(now) {}
   double borderVariance(const Eigen::Vector2d& place, const Eigen::Vector2d& along) const;
 
   Eigen::Matrix3d H_, K_inverse_;
-  geometry::UnitSquare opening_;  ///< in the later picture
+  geometry::UnitSquare opening_;  ///< in the later image
   Eigen::Vector3d epipole_, normal_;
   SeenBorder key_, now_;
   Errors errors_;

@@ -9,7 +9,7 @@
 
 namespace window_ingress::openness {
 
-/// What one stretch of the flight, from a key picture to the next, says.
+/// What one stretch of the flight, from a key image to the next, says.
 struct StretchSays {
   double log_odds = 0.0;  ///< open over closed, within `OpennessParams::max_log_odds`; 0: nothing
   int points = 0;         ///< that stand still and were seen from places enough

@@ -18,8 +18,8 @@ struct DepthParts {
   double logOdds(double part, double sigma) const;
 };
 
-/// What one point within the opening has shown since its key picture. All of it bears the same errors of the
-/// key picture, so the best look counts and no sum of looks; the others must agree with it, each by the way
+/// What one point within the opening has shown since its key image. All of it bears the same errors of the
+/// key image, so the best look counts and no sum of looks; the others must agree with it, each by the way
 /// that had been flown by then. A border that jumps to another edge, or texture that moves by itself, does
 /// not.
 class TrackEvidence {

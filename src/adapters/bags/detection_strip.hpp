@@ -1,4 +1,4 @@
-/// Some pictures of a replay with what the detector made of them, evenly over time, for a page to show.
+/// Some images of a replay with what the detector made of them, evenly over time, for a page to show.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace window_ingress::adapters {
 
-/// Writes pictures/NNNNN.jpg, at most `kMost` of them and one at each change between found and not found, and
+/// Writes images/NNNNN.jpg, at most `kMost` of them and one at each change between found and not found, and
 /// strip.csv: stamp, file, why it is there, and what it shows.
 class DetectionStrip {
  public:
@@ -21,7 +21,7 @@ class DetectionStrip {
   /// \throws std::runtime_error if the folder cannot be made
   DetectionStrip(const std::filesystem::path& folder, std::size_t images);
 
-  void add(const ReplayedFrame& frame);  ///< \throws std::runtime_error if a picture cannot be written
+  void add(const ReplayedFrame& frame);  ///< \throws std::runtime_error if an image cannot be written
 
  private:
   const char* whyShown(const ReplayedFrame& frame);

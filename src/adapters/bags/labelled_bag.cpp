@@ -16,7 +16,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-/// Calls `each` with every picture that can be read, until it says false.
+/// Calls `each` with every image that can be read, until it says false.
 void forEachPicture(const rosbag::Bag& bag, const std::string& topic, int every,
                     const std::function<bool(const std_msgs::Header&, const cv::Mat&)>& each) {
   int number = 0;
@@ -56,7 +56,7 @@ geometry::PinholeCamera cameraOf(const rosbag::Bag& bag, const std::string& topi
   throw BagError(bag.getFileName() + ": " + topic + ": " + reason);
 }
 
-// Pictures of one second look alike.
+// Images of one second look alike.
 std::string groupOf(const rosbag::Bag& bag, const ros::Time& stamp) {
   return bag.getFileName() + "/" + std::to_string(stamp.sec);
 }

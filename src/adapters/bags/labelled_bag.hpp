@@ -9,14 +9,14 @@
 
 namespace window_ingress::adapters {
 
-/// Pictures of a bag with what they show, by a topic with the true pose of the window.
+/// Images of a bag with what they show, by a topic with the true pose of the window.
 /// \param topics as chosen by `chooseTopics`, `truth` among them
-/// \param every take one picture of so many
+/// \param every take one image of so many
 /// \throws BagError if the bag is damaged, or nothing in it can be used
 std::vector<evaluation::LabelledPicture> labelledPictures(const rosbag::Bag& bag, const BagTopics& topics,
                                                           const geometry::OpeningSize& opening, int every);
 
-/// Pictures of a bag alone, decoded. \param most stop after so many
+/// Images of a bag alone, decoded. \param most stop after so many
 std::vector<cv::Mat> picturesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most);
 
 }  // namespace window_ingress::adapters

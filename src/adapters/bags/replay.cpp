@@ -90,7 +90,7 @@ class Replay {
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
-  std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the picture before
+  std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the image before
   double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };

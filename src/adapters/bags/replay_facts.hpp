@@ -13,7 +13,7 @@ namespace window_ingress::adapters {
 /// How many messages of a topic lie in the bag.
 std::size_t messagesIn(const rosbag::Bag& bag, const std::string& topic);
 
-/// Writes folder/replay.json: the command, the bag with its topics and which of them were used, pictures with
+/// Writes folder/replay.json: the command, the bag with its topics and which of them were used, images with
 /// and without calibration, odometry and attitude, messages refused and why.
 /// \throws std::runtime_error if it cannot be written
 void writeFacts(const std::filesystem::path& folder, const std::string& command, const rosbag::Bag& bag,

@@ -1,4 +1,4 @@
-/// What a replay leaves behind as csv: a row a picture in each of three files.
+/// What a replay leaves behind as csv: a row an image in each of three files.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace window_ingress::adapters {
 
 /// frames.csv: detection, pose, filtered pose, and the errors where the truth is known. details.csv: what a
-/// picture came with, its angles and widths, and why it did not contribute. latency.csv: milliseconds. The
+/// image came with, its angles and widths, and why it did not contribute. latency.csv: milliseconds. The
 /// same bag gives the same bytes in the first two.
 class ReplayTables {
  public:

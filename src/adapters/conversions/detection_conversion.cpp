@@ -93,7 +93,7 @@ void fillInterior(DetectionMsg& message, const detection::InteriorTracks& interi
   }
 }
 
-// None if the lists are not of one length or there is no key picture.
+// None if the lists are not of one length or there is no key image.
 detection::InteriorTracks readInterior(const DetectionMsg& m) {
   detection::InteriorTracks interior;
   const std::size_t points = m.interior_id.size();

@@ -131,7 +131,7 @@ cv::Mat converted(const sensor_msgs::ImageConstPtr& message, const Encoding& enc
 
 }  // namespace
 
-// A prime stride: every row and every column is sampled, some ten thousand bytes of a usual picture.
+// A prime stride: every row and every column is sampled, some ten thousand bytes of a usual image.
 double StuckWatch::sameForSec(const cv::Mat& image, double now_sec) {
   constexpr std::size_t kStride = 101;
   std::uint64_t checksum = 1469598103934665603ULL;  // FNV-1a

@@ -1,4 +1,4 @@
-/// Pictures from messages, checked before any library touches them: cv_bridge computes sizes in 32 bits and
+/// Images from messages, checked before any library touches them: cv_bridge computes sizes in 32 bits and
 /// lets a crafted message crash the process.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace window_ingress::adapters {
 
 using configuration::ImageLimits;
 
-/// A picture as the detector takes it, or why there is none.
+/// An image as the detector takes it, or why there is none.
 struct GuardedImage {
   cv::Mat image;  ///< CV_8UC1 or CV_8UC3 (BGR); empty if refused. Shares the message's bytes if it can.
   std::shared_ptr<const void> owner;  ///< keeps shared bytes alive
@@ -25,10 +25,10 @@ struct GuardedImage {
   double decode_ms = 0.0;             ///< what it took to decode it [ms]
 };
 
-/// Notices pictures that stay the same to the last bit, as those of a stuck camera do under new stamps.
+/// Notices images that stay the same to the last bit, as those of a stuck camera do under new stamps.
 class StuckWatch {
  public:
-  /// \return how long the picture has been the same [s]
+  /// \return how long the image has been the same [s]
   double sameForSec(const cv::Mat& image, double now_sec);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace window_ingress::adapters {
 
-/// A picture as a message; the bytes are copied. \param image CV_8UC1 or CV_8UC3 (BGR)
+/// An image as a message; the bytes are copied. \param image CV_8UC1 or CV_8UC3 (BGR)
 sensor_msgs::ImagePtr toImageMsg(const cv::Mat& image, const std_msgs::Header& header);
 
 }  // namespace window_ingress::adapters

@@ -61,8 +61,8 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector);
 // --- sensors
 // -----------------------------------------------------------------------------------------------------
 
-/// \param rectified the pictures are rectified: P is used instead of K and D
-/// Binning and region of interest are applied: the camera is that of the picture as it comes (REP 104).
+/// \param rectified the images are rectified: P is used instead of K and D
+/// Binning and region of interest are applied: the camera is that of the image as it comes (REP 104).
 Converted<geometry::PinholeCamera> cameraFromMsg(const sensor_msgs::CameraInfo& message, bool rectified);
 sensor_msgs::CameraInfo toMsg(const geometry::PinholeCamera& camera);  ///< without header
 
@@ -76,7 +76,7 @@ Converted<Eigen::Quaterniond> attitudeFromMsg(const sensor_msgs::Imu& message);
 // ------------------------------------------------------------------------------------------------------
 
 window_ingress::WindowDetection toMsg(
-    const detection::WindowObservation& window);  ///< without header and picture
+    const detection::WindowObservation& window);  ///< without header and image
 /// Refuses `detected == false` with the message's own reason.
 Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDetection& message);
 window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window);
@@ -93,7 +93,7 @@ void fill(window_ingress::WindowPose& message, const estimation::FitVerdict& fit
 void fill(window_ingress::WindowPose& message, const estimation::FramesVerdict& frames);
 void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);
 void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target);
-/// \param expected where the target must be in the picture
+/// \param expected where the target must be in the image
 void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected);
 void fill(window_ingress::WindowPose& message, const navigation::CameraInBody& camera);
 /// Nothing where the message does not know, or says why no image can give a pose. Its numbers are judged by

@@ -14,7 +14,7 @@ std_msgs::ColorRGBA colourOf(int rgb, double alpha = 1.0);
 std_msgs::ColorRGBA colourOf(navigation::State state, double alpha = 1.0);
 
 constexpr int kTrustedRgb = 0x2ecc40;   ///< the window, its normal being certain
-constexpr int kOpenRgb = 0xffa500;      ///< the likelier of two windows that the pictures do not tell apart
+constexpr int kOpenRgb = 0xffa500;      ///< the likelier of two windows that the images do not tell apart
 constexpr int kMirroredRgb = 0xb05cff;  ///< the other one
 constexpr int kWallRgb = 0xd8c8ab;      ///< the wall's plane
 constexpr int kSetpointRgb = 0xff3fa4;  ///< what the navigator wishes

@@ -15,7 +15,7 @@ struct CameraMountingParams {
   /// forward, y left, z up
   std::vector<double> pose;
   std::string base_frame = "base_link";               ///< of the body
-  std::string camera_frame = "camera_optical_frame";  ///< of the pictures
+  std::string camera_frame = "camera_optical_frame";  ///< of the images
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("pose", self.pose);

@@ -13,7 +13,7 @@
 
 namespace window_ingress::adapters {
 namespace {
-constexpr double kLateSec = 0.5;  // a pose so much older than a picture says nothing of it
+constexpr double kLateSec = 0.5;  // a pose so much older than an image says nothing of it
 }
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
@@ -56,7 +56,7 @@ void DetectorNode::receivePose(const window_ingress::WindowPoseConstPtr& message
   if (lockstep_) lockstep_->check();
 }
 
-// The pose of the picture before says where the target is expected in this one.
+// The pose of the image before says where the target is expected in this one.
 bool DetectorNode::hasPoseOfLastPicture() const {
   if (pose_subscriber_.getNumPublishers() == 0 || looked_.isZero()) return true;
   return last_pose_ && last_pose_->header.stamp >= looked_;
@@ -70,7 +70,7 @@ bool DetectorNode::isComplete(const Lockstep::Step& step) const {
          reference_stamp_ >= step.reference && hasPoseOfLastPicture();
 }
 
-// Before the first picture there is an answer, too: those who wait for it learn that this node is there.
+// Before the first image there is an answer, too: those who wait for it learn that this node is there.
 void DetectorNode::lookInStep(const Lockstep::Step& step) {
   if (waiting_) look(waiting_header_, *waiting_);
   waiting_.reset();
@@ -136,7 +136,7 @@ void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::M
   debug_publisher_.publish(toImageMsg(canvas_, header));
 }
 
-// Where the memory of all windows says the target is: as of the picture before.
+// Where the memory of all windows says the target is: as of the image before.
 std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::Header& header) const {
   if (!last_pose_ || last_pose_->has_expected == 0 || last_pose_->header.frame_id != header.frame_id ||
       std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
@@ -146,7 +146,7 @@ std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::
   return expected;
 }
 
-// That of the picture before: the pose of this one is not known yet. Empty if there is none of late.
+// That of the image before: the pose of this one is not known yet. Empty if there is none of late.
 std::string DetectorNode::yawAt(const ros::Time& stamp) const {
   if (!last_pose_ || last_pose_->reject != window_ingress::WindowPose::OK ||
       std::abs(stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)

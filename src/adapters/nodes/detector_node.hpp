@@ -73,11 +73,11 @@ class DetectorNode : public Node {
   std::string reference_from_;  // empty: there is no reference
   PictureTimes times_;
   std::optional<Lockstep> lockstep_;
-  std_msgs::Header waiting_header_;  // in lockstep: of the picture that waits for its step
+  std_msgs::Header waiting_header_;  // in lockstep: of the image that waits for its step
   std::optional<GuardedImage> waiting_;
   ros::Time reference_stamp_, announced_, looked_;
 
-  window_ingress::WindowPose::ConstPtr last_pose_;  // of a picture before the present one
+  window_ingress::WindowPose::ConstPtr last_pose_;  // of an image before the present one
   ros::Subscriber reference_subscriber_, pose_subscriber_;
   ros::Publisher window_publisher_, debug_publisher_;
   ros::ServiceServer capture_, reset_;

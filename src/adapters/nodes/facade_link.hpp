@@ -25,7 +25,7 @@ class FacadeLink {
   FacadeLink(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
              estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf, const std::string& odom_frame);
 
-  /// After a picture; sends a few times a second. \param markers where rviz looks
+  /// After an image; sends a few times a second. \param markers where rviz looks
   void publish(const ros::Time& stamp, ros::Publisher& markers);
   /// At once, to who hears of windows only now and then: after all have been forgotten.
   void tellAnew(const ros::Time& stamp);

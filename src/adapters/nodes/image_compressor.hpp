@@ -23,14 +23,14 @@ struct ImageCompressorParams {
   }
 };
 
-/// A picture as JPEG under the same header, or why there is none.
+/// An image as JPEG under the same header, or why there is none.
 struct CompressedPicture {
   std::optional<sensor_msgs::CompressedImage> message;
   std::string reason;  ///< empty if there is one
 };
 CompressedPicture compress(const sensor_msgs::ImageConstPtr& image, const ImageCompressorParams& params);
 
-/// Pictures as JPEG, for recordings of cameras whose driver does not compress: image_raw to compressed.
+/// Images as JPEG, for recordings of cameras whose driver does not compress: image_raw to compressed.
 /// Silent, saying so, where somebody publishes there already.
 class ImageCompressorNode : public Node {
  public:

@@ -19,7 +19,7 @@ void PictureTimes::begin(const std_msgs::Header& header, double decode_ms) {
   watch_.begin();
 }
 
-// Pictures that are dropped for want of time are counted by their numbers.
+// Images that are dropped for want of time are counted by their numbers.
 void PictureTimes::notePeriod(const std_msgs::Header& header) {
   if (before_) {
     const double since_ms = 1e3 * (header.stamp.toSec() - before_->stamp.toSec());

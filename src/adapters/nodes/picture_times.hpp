@@ -10,21 +10,21 @@
 
 namespace window_ingress::adapters {
 
-/// What the detector's pictures cost, stage by stage, beside what they may cost.
+/// What the detector's images cost, stage by stage, beside what they may cost.
 class PictureTimes {
  public:
-  /// \param budget_ms for one picture; 0: the time between two pictures of the camera
+  /// \param budget_ms for one image; 0: the time between two images of the camera
   /// \param clock seconds that never go back
   PictureTimes(double budget_ms, detection::StageWatch::Clock clock)
       : watch_(clock), clock_(clock), budget_ms_(budget_ms) {}
 
   detection::StageWatch& watch() { return watch_; }
 
-  /// A picture has come. \param decode_ms spent on it before
+  /// An image has come. \param decode_ms spent on it before
   void begin(const std_msgs::Header& header, double decode_ms);
   /// \return milliseconds since `begin`
   double sinceBegin() const { return 1e3 * (clock_() - begun_sec_); }
-  /// The picture is done, drawing it for people included.
+  /// The image is done, drawing it for people included.
   void end();
 
   Health health() const;

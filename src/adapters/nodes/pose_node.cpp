@@ -198,7 +198,7 @@ void PoseNode::estimate(const window_ingress::WindowDetection& message, window_i
     out.reject = window_ingress::WindowPose::NO_WINDOW;
     out.reject_reason = out.filtered_reason = window.reason;
   }
-  if (message.image_width == 0) return;  // there was no picture
+  if (message.image_width == 0) return;  // there was no image
   const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
                                        static_cast<int>(message.image_height), message.header);
   const auto stamp_sec = stampSec(message.header.stamp);

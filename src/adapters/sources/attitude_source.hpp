@@ -20,7 +20,7 @@ namespace window_ingress::adapters {
 Converted<Eigen::Isometry3d> mountingOf(const tf2_ros::Buffer& tf, const std::string& base_frame,
                                         const std::string& camera_frame);
 
-/// Attitude of the camera at the exposure of a picture: `imu`, interpolated, and the camera's mounting in tf.
+/// Attitude of the camera at the exposure of an image: `imu`, interpolated, and the camera's mounting in tf.
 /// Help, no need: who asks does without where it is not known, and diagnostics say why.
 class AttitudeSource {
  public:

@@ -9,7 +9,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kNearSec = 0.2;   // stamps of a picture and of its calibration, be it one frame off
+constexpr double kNearSec = 0.2;   // stamps of an image and of its calibration, be it one frame off
 constexpr double kApartSec = 1.2;  // so long may no stamp be near: camera_info may come once a second
 
 std::string size(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
@@ -61,7 +61,7 @@ Converted<geometry::PinholeCamera> CameraSource::cameraOf(int width_px, int heig
   return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
 }
 
-// Nothing in a picture tells whether its lens was taken out of it; the name of its topic may.
+// Nothing in an image tells whether its lens was taken out of it; the name of its topic may.
 std::string CameraSource::undoneTwice() const {
   const auto& lens = camera_.value->distortion;
   const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });

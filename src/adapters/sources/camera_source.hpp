@@ -19,10 +19,10 @@ namespace window_ingress::adapters {
 class CameraSource {
  public:
   /// Subscribes to `camera_info`.
-  /// \param rectified pictures are rectified, see `cameraFromMsg`
+  /// \param rectified images are rectified, see `cameraFromMsg`
   CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified);
 
-  /// The camera of a picture of this size, or why there is none. An empty `frame_id` fits every frame.
+  /// The camera of an image of this size, or why there is none. An empty `frame_id` fits every frame.
   Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& picture);
 
   void receive(const sensor_msgs::CameraInfo& message);

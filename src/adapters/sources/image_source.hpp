@@ -12,7 +12,7 @@
 
 namespace window_ingress::adapters {
 
-/// Pictures of the topic `image_raw`, by any transport: those that image_transport has, and "compressed",
+/// Images of the topic `image_raw`, by any transport: those that image_transport has, and "compressed",
 /// which is read here, because its plugin decodes without looking at sizes and is not in every distribution.
 class ImageSource {
  public:

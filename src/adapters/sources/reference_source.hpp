@@ -14,15 +14,15 @@ namespace window_ingress::adapters {
 
 using configuration::ReferenceParams;
 
-/// A reference from a picture and eight numbers, or none for the whole picture. \throws ParameterError
+/// A reference from an image and eight numbers, or none for the whole image. \throws ParameterError
 detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
                                              const detection::DetectorParams& params);
 
-/// Reads the operator's picture. \throws ParameterError that says what is wrong with it
+/// Reads the operator's image. \throws ParameterError that says what is wrong with it
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params);
 
-/// Writes a reference: the picture; in a file of the same name that ends in .yaml the parameters that load
+/// Writes a reference: the image; in a file of the same name that ends in .yaml the parameters that load
 /// it, below the node's name, so that it can be laid over the defaults as `config:=`; and in one that ends in
 /// _understood.png what is made of it (`detection::drawReference`). \throws ParameterError that says which
 /// file could not be written

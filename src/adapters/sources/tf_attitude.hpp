@@ -10,7 +10,7 @@
 
 namespace window_ingress::adapters {
 
-/// The vehicle's attitude at the time of a picture, from tf. A transform may come later than the picture:
+/// The vehicle's attitude at the time of an image, from tf. A transform may come later than the image:
 /// that one goes without, and only what lasts is told.
 class TfAttitude {
  public:

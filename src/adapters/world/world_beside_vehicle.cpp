@@ -35,7 +35,7 @@ void WorldNode::begin(const navigation::VehicleState& vehicle) {
   running_ = true;
 }
 
-// Time is that of the stamps; where none come it stands still, and no picture shows what nobody said.
+// Time is that of the stamps; where none come it stands still, and no image shows what nobody said.
 void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
   const double passed_sec = vehicle.stamp_sec - followed_sec_;
   const bool leaps = running_ && (passed_sec <= 0.0 || passed_sec > kMaxSilenceSec);

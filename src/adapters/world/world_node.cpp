@@ -124,7 +124,7 @@ void WorldNode::tickLockstep() {
   if (lockstep_->goesOn(state_subscriber_.getNumPublishers() > 0, may_give_up)) advanceToNextStep();
 }
 
-// Pictures leave when the vehicle has answered to all that came before them.
+// Images leave when the vehicle has answered to all that came before them.
 void WorldNode::advanceToNextStep() {
   if (answer_) world_->command(*answer_);
   answer_.reset();

@@ -21,7 +21,7 @@ class WorldPublishers {
   void advertiseVehicle(ros::NodeHandle& nh);
 
   void clock(const ros::Time& now);
-  /// The picture, if somebody listens, and the truth that belongs to it. \return whether it was sent
+  /// The image, if somebody listens, and the truth that belongs to it. \return whether it was sent
   bool frame(const simulation::CameraFrame& frame, const ros::Time& stamp);
   void cameraInfo(sensor_msgs::CameraInfo info, const ros::Time& stamp);
   void odometry(const simulation::OdometrySample& sample, const ros::Time& stamp);

@@ -12,8 +12,8 @@ Monomials monomialsOf(float x, float y);
 using Vector8f = Eigen::Matrix<float, 8, 1>;
 using Matrix8f = Eigen::Matrix<float, 8, 8>;
 
-/// Derivatives of a picture by the eight parameters of a homography near the identity,
-/// (1 + p0, p1, p2; p3, 1 + p4, p5; p6, p7, 1), summed over its points. Such a derivative is the picture's
+/// Derivatives of an image by the eight parameters of a homography near the identity,
+/// (1 + p0, p1, p2; p3, 1 + p4, p5; p6, p7, 1), summed over its points. Such a derivative is the image's
 /// slope (a, b) times polynomials of the place, so that sums of slopes times monomials hold all that is
 /// needed: 8 a vector and 48 the normal equations, whatever the number of channels.
 struct DerivativeSum {

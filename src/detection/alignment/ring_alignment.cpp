@@ -86,7 +86,7 @@ RingAlignment::Scale RingAlignment::scaleFor(double quad_side_px, double wanted_
   return {&model_->level(quad_side_px / (1 << level)), &pyramid_.level(level), level};
 }
 
-// Where the ring's samples lie on the picture's level.
+// Where the ring's samples lie on the image's level.
 void RingAlignment::place(const Scale& scale, const Matrix3d& map) {
   const RingLevel& ring = *scale.ring;
   const int count = ring.size();
@@ -137,7 +137,7 @@ int RingAlignment::readPixels(const cv::Mat& picture) {
   return seen;
 }
 
-// The picture under the ring's samples; returns the part of them that lies in it.
+// The image under the ring's samples; returns the part of them that lies in it.
 double RingAlignment::read(const Scale& scale, const Matrix3d& map) {
   place(scale, map);
   const std::size_t count = at_x_.size();

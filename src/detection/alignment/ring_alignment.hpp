@@ -18,17 +18,17 @@ namespace window_ingress::detection {
 
 /// Where the ring fits best.
 struct AlignedRing {
-  geometry::Quadrilateral quad;  ///< order as the start, pixels of the picture as it came
+  geometry::Quadrilateral quad;  ///< order as the start, pixels of the image as it came
   RingMatch match;
 };
 
-/// Compares the reference's ring with places in a picture, and moves a quadrilateral to where it fits best:
+/// Compares the reference's ring with places in an image, and moves a quadrilateral to where it fits best:
 /// Gauss and Newton on the homography, inverse compositional, coarse to fine, with robust weights. A segment
 /// of the ring has a gain and, channel by channel, an offset of its own: exposure, white balance and cast
 /// shadows change nothing. Keeps its memory; one object a thread.
 class RingAlignment {
  public:
-  /// \param model, image outlive the comparisons \param camera null: the picture is taken as free of
+  /// \param model, image outlive the comparisons \param camera null: the image is taken as free of
   /// distortion
   void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
 
@@ -39,7 +39,7 @@ class RingAlignment {
   std::optional<AlignedRing> align(const geometry::Quadrilateral& start, double finest_px);
 
  private:
-  /// Weighted moments of ring (x) and picture (y) over one segment and one channel.
+  /// Weighted moments of ring (x) and image (y) over one segment and one channel.
   struct Moments {
     float n = 0.0F, x = 0.0F, y = 0.0F, xx = 0.0F, yy = 0.0F, xy = 0.0F;
 
@@ -73,7 +73,7 @@ class RingAlignment {
     double correlation() const { return most > 0.0 ? alike / most : -1.0; }
   };
 
-  /// One resolution of model and picture.
+  /// One resolution of model and image.
   struct Scale {
     const RingLevel* ring;
     const cv::Mat* picture;
@@ -98,9 +98,9 @@ class RingAlignment {
   const geometry::PinholeCamera* lens_ = nullptr;
   ImagePyramid pyramid_;
   int channels_ = 0;
-  std::vector<float> at_x_, at_y_;  ///< the ring's samples on the picture's level
-  std::vector<float> values_;       ///< of the picture, as those of the ring's level
-  std::vector<float> weights_;      ///< 0 where the ring lies beside the picture
+  std::vector<float> at_x_, at_y_;  ///< the ring's samples on the image's level
+  std::vector<float> values_;       ///< of the image, as those of the ring's level
+  std::vector<float> weights_;      ///< 0 where the ring lies beside the image
   std::vector<float> residuals_, scratch_;
   std::vector<Share> shares_;
   Likeness likeness_;

@@ -19,7 +19,7 @@ class RingJudge {
   bool known() const { return model_.known(); }
 
   /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
-  /// correlation of every rival as it is. \param image with as many channels as the reference picture
+  /// correlation of every rival as it is. \param image with as many channels as the reference image
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 

@@ -23,7 +23,7 @@ constexpr double kSteepPart = 0.67;  ///< of them those with the largest slopes;
 constexpr float kDark = 4.0F;        ///< added to colours: the least light that counts [grey levels]
 constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: small numbers are summed more exactly [grey levels]
 
-/// One sample of the picture, before they are sorted by segments.
+/// One sample of the image, before they are sorted by segments.
 struct Sample {
   float x, y;
   std::array<float, 3> value, slope_x, slope_y;
@@ -57,7 +57,7 @@ int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side)
   return side * a_side + std::clamp(static_cast<int>(part * a_side), 0, a_side - 1);
 }
 
-/// The picture, smoothed for one level, read between its pixels.
+/// The image, smoothed for one level, read between its pixels.
 class Reader {
  public:
   Reader(const cv::Mat& picture, const geometry::UnitSquare& map, int level, const RingModel& model)

@@ -8,18 +8,18 @@
 
 namespace window_ingress::detection {
 
-/// A picture at full, half, quarter ... size; each level is made when it is first asked for. Keeps its
+/// An image at full, half, quarter ... size; each level is made when it is first asked for. Keeps its
 /// memory.
 class ImagePyramid {
  public:
   /// \param image CV_8UC1 or CV_8UC3; shared, not copied
   void set(const cv::Mat& image);
 
-  /// \param k 0: the picture itself; clamped to what is left of it
+  /// \param k 0: the image itself; clamped to what is left of it
   const cv::Mat& level(int k);
   int deepest() const { return deepest_; }  ///< level of which the shorter side has 16 pixels or so
 
-  /// Pixel of a level under a pixel of the picture: pixel centres are integers on both.
+  /// Pixel of a level under a pixel of the image: pixel centres are integers on both.
   static Eigen::Vector2d onLevel(const Eigen::Vector2d& pixel, int k) {
     const double factor = 1 << k;
     return (pixel.array() - 0.5 * (factor - 1.0)) / factor;
@@ -47,9 +47,9 @@ struct RingLevel {
   int segmentCount() const { return static_cast<int>(segments.size()) - 1; }
 };
 
-/// What lies around the opening in the operator's picture, at several resolutions: a ring of frame and wall,
-/// flat, so that a homography takes it into any picture. Nothing within the opening counts, and nothing that
-/// the picture does not show.
+/// What lies around the opening in the operator's image, at several resolutions: a ring of frame and wall,
+/// flat, so that a homography takes it into any image. Nothing within the opening counts, and nothing that
+/// the image does not show.
 class RingModel {
  public:
   static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]

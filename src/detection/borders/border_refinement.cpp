@@ -18,7 +18,7 @@ using Eigen::Vector3f;
 constexpr int kSamples = 80;    ///< profiles across each side, at most one a pixel
 constexpr double kSkip = 0.06;  ///< left out at both ends of a side, in its lengths
 constexpr double kNominalSide =
-    640.0;  ///< longer side of a picture up to which pixel parameters hold as they are
+    640.0;  ///< longer side of an image up to which pixel parameters hold as they are
 constexpr double kFaintestChange =
     3.0;                             ///< of the mean colour over two pixels that may be an edge [grey levels]
 constexpr double kWidePx = 1e3;      ///< no prior

@@ -11,7 +11,7 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of a picture, standard deviation [px]
+constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of an image, standard deviation [px]
 constexpr double kSoftest = 2.0;                        // of an edge that may be two
 constexpr double kLeastBlur = 0.35, kLeastApart = 0.15, kMostApart = 4.5;
 constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
@@ -177,7 +177,7 @@ bool isNextTo(const float* mean, int channels, int half, const Eigen::Vector3f& 
   return strangeness(2) < std::max(4.0f, kAlike * strangeness(-2));
 }
 
-// A picture that was sharpened overshoots beside its edges: no strip of its own.
+// An image that was sharpened overshoots beside its edges: no strip of its own.
 bool isOvershoot(const Fit& two) {
   const Eigen::Vector3f over = two.reveal - two.outside, change = two.outside - two.within;
   return over.dot(change) > kCollinear * over.norm() * change.norm() &&

@@ -74,7 +74,7 @@ class EdgeProfiles {
   std::vector<unsigned char> inside_;
 };
 
-/// Many pictures have their colour at half of their size (JPEG and most video, cameras with a Bayer pattern):
+/// Many images have their colour at half of their size (JPEG and most video, cameras with a Bayer pattern):
 /// there it is brightness that says where an edge is, to a pixel and better; colour lags behind by a pixel.
 
 /// Brightness of a colour or a change of it, BGR (ITU-R BT.601).

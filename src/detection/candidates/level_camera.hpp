@@ -13,7 +13,7 @@ namespace window_ingress::detection {
 /// only. Points are undistorted, never the image. Without a camera, or without distortion, nothing changes.
 class LevelCamera {
  public:
-  /// For pictures of this camera, reduced by this factor. Costs something only when camera or factor change.
+  /// For images of this camera, reduced by this factor. Costs something only when camera or factor change.
   void set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor);
 
   Eigen::Vector2d undistort(int x, int y) const {

@@ -50,7 +50,7 @@ bool touchesFrame(const Vector2d& centre) {
   return std::abs(off) < 0.5 * kElsewhereScale + kOwnRing * kElsewhereScale;
 }
 
-// Distances of rings at other places of the picture, whether there is something or not.
+// Distances of rings at other places of the image, whether there is something or not.
 std::vector<double> distancesElsewhere(const cv::Mat& picture, const Quadrilateral& opening,
                                        const RingColours& colours, const AppearanceParams& params) {
   std::vector<double> distances;

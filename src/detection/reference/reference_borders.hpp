@@ -14,7 +14,7 @@ namespace window_ingress::detection {
 
 /// Which of the borders that lie in each other, frame's outer and inner one, far edge of the reveal, panes,
 /// is the front inner border of the opening: side by side the one from which outwards the colours follow each
-/// other as they do in the reference picture. Frame and wall lie in the plane of the opening, so that the
+/// other as they do in the reference image. Frame and wall lie in the plane of the opening, so that the
 /// order and the widths of their colours are the same from any direction; what is seen through the opening is
 /// not looked at.
 class ReferenceBorders {
@@ -22,7 +22,7 @@ class ReferenceBorders {
   static constexpr int kBands = 7;            ///< outwards from the border
   static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
 
-  /// \param opening inner border in the picture, canonical order. Without colour nothing is learned.
+  /// \param opening inner border in the image, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
   void forget() { known_ = false; }
   bool known() const { return known_; }

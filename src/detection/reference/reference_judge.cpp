@@ -44,7 +44,7 @@ void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::s
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
     : appearance_(params.appearance), min_correlation_(params.min_correlation), shape_(params.shape) {}
 
-// A grey picture as one of three equal channels.
+// A grey image as one of three equal channels.
 const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
   if (picture.channels() != 1) return picture;
   cv::cvtColor(picture, channels_, cv::COLOR_GRAY2BGR);

@@ -35,7 +35,7 @@ class ReferenceJudge {
   /// Colour of the reference's frame, see `RingMeans::paint`; nothing where it has none.
   const std::optional<Eigen::Vector3f>& paint() const { return paint_; }
 
-  /// False if there is no reference or only one of reference and picture has colours.
+  /// False if there is no reference or only one of reference and image has colours.
   bool compares(const cv::Mat& image) const;
 
   /// Weighs the rivals by their frames; adds those whose borders it located. False, and nothing changed, if

@@ -125,9 +125,9 @@ constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;          ///< and the frame's o
 constexpr float kLeastContrast = 20.0F;                   ///< of frame and wall [grey levels]
 constexpr std::size_t kFewestSides = 3;
 constexpr double kScatter = 0.1;                               ///< of the difference of the middle two widths
-constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the picture
+constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the image
 
-// NaN for what is no rectangle's picture.
+// NaN for what is no rectangle's image.
 double aspectOf(const Quadrilateral& ideal, const PinholeCamera& camera) {
   Quadrilateral rays = ideal;
   for (Vector2d& p : rays) p = {(p.x() - camera.cx) / camera.fx, (p.y() - camera.cy) / camera.fy};

@@ -22,7 +22,7 @@ struct RectangleMisfit {
   double log_aspect_sigma = 0.0;  ///< of its logarithm; above 0
   double least_px = 0.3;          ///< at least this standard deviation of each coordinate [px]
 
-  /// \param ideal pixels of the undistorted picture, canonical order
+  /// \param ideal pixels of the undistorted image, canonical order
   /// \param covariance of each corner [px^2]
   /// \return nothing for what is not convex or not finite
   std::optional<double> of(const geometry::Quadrilateral& ideal,
@@ -30,13 +30,13 @@ struct RectangleMisfit {
                            const geometry::PinholeCamera& camera) const;
 };
 
-/// A value as far as a picture tells.
+/// A value as far as an image tells.
 struct Measured {
   double value = 0.0, sigma = 0.0;
 };
 
-/// The target's shape as the reference picture shows it: aspect of the opening, and the width of its frame
-/// relative to the opening's sides. Both stay the same from anywhere; size does not show in one picture.
+/// The target's shape as the reference image shows it: aspect of the opening, and the width of its frame
+/// relative to the opening's sides. Both stay the same from anywhere; size does not show in one image.
 class ReferenceShape {
  public:
   explicit ReferenceShape(const ReferenceShapeParams& params) : params_(params) {}

@@ -26,7 +26,7 @@ struct RingHistogram {
   struct Band {
     std::array<float, kCells>
         share{};          ///< of the band's pixels; their sum is 1, or 0 if the band is not seen
-    double pixels = 0.0;  ///< different pixels of the picture in it; 0: too few to count
+    double pixels = 0.0;  ///< different pixels of the image in it; 0: too few to count
   };
   std::array<Band, kBands> bands;
 };
@@ -51,7 +51,7 @@ struct RingColours {
 /// Measures a ring; allocates nothing.
 /// \param image CV_8UC3; anything else has no colour
 /// \param min_pixels a band with fewer is not seen
-/// \return nothing if the frame's band is not seen, or the whole picture is grey
+/// \return nothing if the frame's band is not seen, or the whole image is grey
 std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                        const RingWidths& widths, int min_pixels);
 

@@ -51,7 +51,7 @@ SampleLine lineBetween(const geometry::UnitSquare& map, const Vector2d& from, co
   return {a + 0.5 * step, step, count};
 }
 
-// Calls `use` with each pixel of the line that lies within the picture.
+// Calls `use` with each pixel of the line that lies within the image.
 template <typename Use>
 void forEachPixel(const cv::Mat& image, const SampleLine& line, const Use& use) {
   constexpr float kFar = 1e6F;

@@ -16,8 +16,8 @@ struct RingSamples {
 
   struct Band {
     std::array<cv::Vec3b, kMost> pixels;  ///< BGR; the first `count` are filled
-    int count = 0;                        ///< samples within the picture that are not clipped
-    int asked = 0;                        ///< samples, also those outside the picture
+    int count = 0;                        ///< samples within the image that are not clipped
+    int asked = 0;                        ///< samples, also those outside the image
     double area_px = 0.0;                 ///< of the whole band [px]
   };
   std::array<Band, kBands> bands;

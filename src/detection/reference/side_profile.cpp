@@ -30,7 +30,7 @@ Vector2d beside(int i, double t, double out) {
   }
 }
 
-// Mean along side `i`; false if less than a third of it lies within the picture.
+// Mean along side `i`; false if less than a third of it lies within the image.
 bool meanAlong(const cv::Mat& image, const geometry::UnitSquare& map, const geometry::PinholeCamera* lens,
                int i, double out, int along, Vector3f& mean) {
   const double right = image.cols - 0.5, bottom = image.rows - 0.5;

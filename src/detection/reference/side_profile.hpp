@@ -35,7 +35,7 @@ struct ProfileReach {
   int across = 140;                    ///< samples across it, at most; no more than one a pixel
 };
 
-/// Measures the profiles of all four sides. A profile ends where the picture does.
+/// Measures the profiles of all four sides. A profile ends where the image does.
 /// \param image CV_8UC3
 /// \param ideal convex, canonical order, pixels of the undistorted image
 /// \param lens nullptr: no distortion

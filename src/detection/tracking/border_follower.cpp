@@ -18,7 +18,7 @@ constexpr int kFineProfiles = 40;       ///< across each side to fit its line
 constexpr double kMinSimilarity = 0.5;  ///< correlation of a side's profile with the remembered one, 0 to 1
 constexpr double kMinInliers = 0.4;     ///< part of a side's profiles that must lie on its line
 constexpr double kMinStretch =
-    0.06;  ///< shortest part of a side in the picture that is a border [longer image sides]
+    0.06;  ///< shortest part of a side in the image that is a border [longer image sides]
 constexpr int kSteps = 64;
 
 bool isInside(const Vector2d& p, const cv::Size& image, double margin) {
@@ -35,7 +35,7 @@ bool clip(double from, double span, double low, double high, double& begin, doub
   return begin < end;
 }
 
-// Far outside the picture a lens model folds back into it.
+// Far outside the image a lens model folds back into it.
 double largestRadius(const cv::Size& image, const geometry::PinholeCamera& lens) {
   double radius = 0.0;
   for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(image.width - 1, 0), Vector2d(0, image.height - 1),
@@ -63,7 +63,7 @@ std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, 
 constexpr int kNextTo = 2;            // offset of the colour next to a border, clear of its blur [px]
 constexpr float kLeastChange = 6.0f;  // of colour that is an edge, over all channels [grey levels]
 constexpr float kAlike = 0.4f;        // of the change across an edge: colours nearer than this are the same
-constexpr float kAdaption = 0.05f;    // of the colour outside, a picture
+constexpr float kAdaption = 0.05f;    // of the colour outside, an image
 constexpr float kRisesAgain = 1.4f;   // an edge is so much steeper than what lies before it
 constexpr int kTimes = 3;
 
@@ -73,17 +73,17 @@ Vector3f colourAt(const float* mean, int channels, int half, int offset) {
   return colour;
 }
 
-constexpr double kNominalSide = 640.0;  // longer side of a picture at which pixel parameters hold
+constexpr double kNominalSide = 640.0;  // longer side of an image at which pixel parameters hold
 constexpr double kSkip = 0.06;          // of a side at its ends
-constexpr double kViewMarginPx = 3.0;   // of a side from the border of the picture
-constexpr double kMostOfASide = 0.8;    // of a short side must be in the picture
+constexpr double kViewMarginPx = 3.0;   // of a side from the border of the image
+constexpr double kMostOfASide = 0.8;    // of a short side must be in the image
 constexpr double kSigmas = 3.0;
 constexpr double kLeastReachPx = 2.5;
-constexpr double kLearningRate = 0.15;  // a picture
+constexpr double kLearningRate = 0.15;  // an image
 constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
 constexpr double kFrontReachPx = 3.2;   // of the front edge of a reveal from what was fitted
-constexpr int kLookEvery = 6;           // pictures, for a reveal beside the border
+constexpr int kLookEvery = 6;           // images, for a reveal beside the border
 constexpr int kLeastProfiles = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }

@@ -19,7 +19,7 @@ struct Stretch {
   double length() const { return (to - from).norm(); }
 };
 
-/// The part of a stretch that the picture shows, `margin_px` from its border; the longest part if a lens cuts
+/// The part of a stretch that the image shows, `margin_px` from its border; the longest part if a lens cuts
 /// it into several. Nothing if it shows none.
 /// \param lens null where the image is free of distortion
 std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image, double margin_px,
@@ -56,7 +56,7 @@ class FrontBorder {
 
 /// One border looked for where it is predicted.
 struct FollowedBorder {
-  bool in_view = false;  ///< enough of it should be in the picture
+  bool in_view = false;  ///< enough of it should be in the image
   bool fitted = false;   ///< it is there, looks as before, and a line fits it
   Line line;             ///< in the undistorted image, its point in the middle between a and b
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  ///< ends of what was seen
@@ -75,7 +75,7 @@ class BorderFollower {
   FollowedBorder follow(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& predicted,
                         double size_px, double sigma_px);
   /// Takes the border as followed last into memory; or, where it turned out not to be the front one, the
-  /// front one, which is then found in the next picture.
+  /// front one, which is then found in the next image.
   void keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px);
   /// Takes a border that is known to lie there into memory, in place of everything else.
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,

@@ -10,16 +10,16 @@
 
 namespace window_ingress::detection {
 
-/// A picture that can be looked at: CV_8UC1 or CV_8UC3, not empty.
+/// An image that can be looked at: CV_8UC1 or CV_8UC3, not empty.
 bool isPicture(const cv::Mat& image);
 
 /// The same size, focal lengths, principal point and distortion.
 bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b);
 
-/// Pictures of one camera one after the other: what lies between the last two.
+/// Images of one camera one after the other: what lies between the last two.
 class ImageSequence {
  public:
-  /// \param max_gap_sec pictures further apart do not continue each other
+  /// \param max_gap_sec images further apart do not continue each other
   explicit ImageSequence(double max_gap_sec) : max_gap_sec_(max_gap_sec) {}
 
   /// \return false if it does not continue the last one: no time went by or too much, or size or calibration
@@ -27,12 +27,12 @@ class ImageSequence {
   bool take(const TrackInput& input);
   void forget();
 
-  double elapsedSec() const { return elapsed_sec_; }  ///< since the picture before; 0 at the first [s]
+  double elapsedSec() const { return elapsed_sec_; }  ///< since the image before; 0 at the first [s]
   cv::Size size() const { return size_; }
   int longerSide() const;
   /// The camera if it distorts, null if not.
   const geometry::PinholeCamera* lens() const;
-  /// Homography of the undistorted image by the turn since the picture before; nothing where an attitude of
+  /// Homography of the undistorted image by the turn since the image before; nothing where an attitude of
   /// the two or the camera is not known.
   const std::optional<Eigen::Matrix3d>& turn() const { return turn_; }
   /// How far the jitter of the attitudes moves what `turn` says [px]: noise makes each turn the opposite of

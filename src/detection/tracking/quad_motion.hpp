@@ -7,7 +7,7 @@
 
 namespace window_ingress::detection {
 
-/// How far a quadrilateral may move unforeseen between two pictures, as standard deviations.
+/// How far a quadrilateral may move unforeseen between two images, as standard deviations.
 struct QuadSpread {
   double place_px = 1.0;    ///< of its two coordinates
   double reshape_px = 1.0;  ///< of size and roll, at its corners
@@ -15,7 +15,7 @@ struct QuadSpread {
 };
 
 /// Where the four corners of a window are in the undistorted image, seen or not: a linear estimate of their
-/// eight coordinates with a covariance, moved from picture to picture and corrected by the borders that are
+/// eight coordinates with a covariance, moved from image to image and corrected by the borders that are
 /// seen (each gives an offset and a direction).
 ///
 /// Eight numbers describe the change of a quadrilateral: two of place, size, roll, aspect, skew, two of
@@ -35,7 +35,7 @@ class QuadMotion {
   /// All corners known; nothing known of their motion.
   void start(const geometry::Quadrilateral& quad, double sigma_px);
 
-  /// To the next picture: through the homography of the turn in between, then at constant velocity.
+  /// To the next image: through the homography of the turn in between, then at constant velocity.
   void predict(const Eigen::Matrix3d& turn, double elapsed_sec, const QuadSpread& spread);
 
   /// The border of a side as seen. \return squared distance from the prediction in standard deviations, of
@@ -43,7 +43,7 @@ class QuadMotion {
   double distance(int side, const Line& line) const;
   void correct(int side, const Line& line);
 
-  /// After the corrections of a picture: how fast it moves. \param elapsed_sec as in `predict`
+  /// After the corrections of an image: how fast it moves. \param elapsed_sec as in `predict`
   void settle(double elapsed_sec);
 
   /// All four seen: they are where their borders meet.

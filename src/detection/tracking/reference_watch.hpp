@@ -25,7 +25,7 @@ class ReferenceWatch {
   void start();                        ///< another window is followed
   void restart() { unlike_ = false; }  ///< the same one, as a search has just seen it
 
-  /// Called with each picture in which all sides are in view; looks every `TrackParams::appearance_every`.
+  /// Called with each image in which all sides are in view; looks every `TrackParams::appearance_every`.
   /// \param followed pixels of the image as it came
   /// \param window as observed; takes the appearance
   /// \return false: it looks otherwise, or the borders are elsewhere
@@ -38,8 +38,8 @@ class ReferenceWatch {
   std::optional<geometry::Quadrilateral> align(const TrackInput& input,
                                                const geometry::Quadrilateral& followed);
 
-  bool hasCompared() const { return compared_; }  ///< `look` has compared the last picture
-  bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last picture, and it was alike
+  bool hasCompared() const { return compared_; }  ///< `look` has compared the last image
+  bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last image, and it was alike
   bool isUnlike() const { return unlike_; }       ///< the last time that it was looked at
   double drift() const { return reference_ ? reference_->drift() : 0.0; }
 

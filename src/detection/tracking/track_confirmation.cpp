@@ -17,7 +17,7 @@ constexpr int kEnough = 3;       // comparisons
 constexpr double kWeight = 0.3;  // of the last one
 
 constexpr double kAgreePx = 2.5, kAgreePart = 0.02;  // corners of one window, the larger; in its sizes
-constexpr double kSameRival = 0.08;                  // corners of one rival in two pictures, in sizes
+constexpr double kSameRival = 0.08;                  // corners of one rival in two images, in sizes
 constexpr double kSamePlace = 0.12;                  // corners of other borders of the same window, in sizes
 constexpr int kMostQuestions = 4;                    // times the confirmations; then it rests
 constexpr int kPauseFrames = 60;

@@ -71,10 +71,10 @@ class KnownLikeness {
   int notes_ = 0;
 };
 
-/// Whether a track follows what the search finds. A search can be wrong in the one picture in which a track
-/// starts; over several pictures the place that it finds again and again is the right one.
+/// Whether a track follows what the search finds. A search can be wrong in the one image in which a track
+/// starts; over several images the place that it finds again and again is the right one.
 ///
-/// A new track is on probation: every few pictures the search is asked as well. As many answers as
+/// A new track is on probation: every few images the search is asked as well. As many answers as
 /// `TrackParams::confirmations` that agree confirm it; as many in a row that name one other place end it. A
 /// confirmed track is asked about again only while it is doubtful, and then only its borders are corrected:
 /// another window never takes its place.
@@ -90,9 +90,9 @@ class SecondOpinion {
   /// Something else says that the track may be wrong: the search is asked until it has confirmed it anew.
   void doubt() { doubtful_ = true; }
 
-  /// Called in each picture in which the window is followed whole. \return true: ask the search
+  /// Called in each image in which the window is followed whole. \return true: ask the search
   bool isDue();
-  /// \param searched its answer in the same picture, if it has one; both undistorted
+  /// \param searched its answer in the same image, if it has one; both undistorted
   /// \return true: it is to be followed in place of the track
   bool prefers(const std::optional<geometry::Quadrilateral>& searched,
                const geometry::Quadrilateral& followed);

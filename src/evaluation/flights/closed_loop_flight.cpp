@@ -173,7 +173,7 @@ void Flight::look(const simulation::CameraFrame& frame) {
   timing_.lap(Stage::kPose);
 }
 
-// As the nodes do: said with the pose of a picture, heard with the next one.
+// As the nodes do: said with the pose of an image, heard with the next one.
 void Flight::expectTarget() {
   expected_.reset();
   if (camera_ && last_seen_sec_)

@@ -28,7 +28,7 @@ struct FlightParams {
   estimation::TargetEstimatorParams tracker;
   navigation::NavigatorParams navigator;
   double step_rate_hz = 30.0;     ///< of the navigator [1/s]
-  bool without_pictures = false;  ///< the window is seen by `ProjectedSight`, no picture is drawn
+  bool without_pictures = false;  ///< the window is seen by `ProjectedSight`, no image is drawn
   SightParams sight;
   std::set<std::string>
       said;  ///< by the operator: "vehicle/half_width_m"; what is not is taken from the world
@@ -37,12 +37,12 @@ struct FlightParams {
 /// What a user's file says to the nodes, for a flight. \throws parameters::YamlError
 FlightParams readFlightParams(const std::string& file);
 
-/// One flight in one process, by the objects that the nodes use: the world's pictures through detector, pose
+/// One flight in one process, by the objects that the nodes use: the world's images through detector, pose
 /// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
 /// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
 /// from the world, unless the operator says otherwise. \param timing the flight's is added to it \throws
 /// simulation::ScenarioError, std::invalid_argument (parameters), std::runtime_error (no renderer). Without
-/// pictures, observers are not shown any.
+/// images, observers are not shown any.
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
                      const std::vector<FlightObserver*>& observers = {}, FlightTiming* timing = nullptr);
 

@@ -33,7 +33,7 @@ struct FlightResult {
   double blind_sec = 0.0;  ///< longest time without sight of the window before the plane
   std::optional<double> predicted_miss_m;  ///< by the navigator, at its last commit
   std::optional<estimation::ClockCheck::Offset>
-      clock_offset;  ///< of pictures beside odometry, as found on the way
+      clock_offset;  ///< of images beside odometry, as found on the way
   std::string reason;
   std::vector<TrackPoint> track;  ///< ten points a second
 };

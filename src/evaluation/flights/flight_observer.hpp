@@ -18,7 +18,7 @@ class FlightObserver {
 
   /// Once, before everything else.
   virtual void onStart(const simulation::World&) {}
-  /// Each picture, with what the detector made of it.
+  /// Each image, with what the detector made of it.
   virtual void onImage(const simulation::CameraFrame&, const detection::DetectionTrace&,
                        const std::optional<detection::WindowObservation>&) {}
   virtual void onCalibration(const simulation::CalibrationSample&) {}

@@ -1,4 +1,4 @@
-/// Pictures of flights for people.
+/// Images of flights for people.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -22,17 +22,17 @@ struct WallOutline {
 cv::Mat drawTracks(const std::vector<FlightResult>& flights, const WallOutline& wall,
                    const std::string& title);
 
-/// Keeps what the camera saw, with the detector's drawing on it: the first picture of each state of the
+/// Keeps what the camera saw, with the detector's drawing on it: the first image of each state of the
 /// navigator, and the last one of all.
 class FlightStrip : public FlightObserver {
  public:
-  static constexpr std::size_t kMost = 11;  ///< pictures besides the last one
+  static constexpr std::size_t kMost = 11;  ///< images besides the last one
 
   void onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace& trace,
                const std::optional<detection::WindowObservation>& window) override;
   void onStep(const FlightRecord& record, const navigation::NavigatorOutput& output) override;
 
-  /// All of them with time and state below the flight's track. CV_8UC3; empty if there was no picture.
+  /// All of them with time and state below the flight's track. CV_8UC3; empty if there was no image.
   cv::Mat draw(const FlightResult& flight, const WallOutline& wall) const;
 
  private:

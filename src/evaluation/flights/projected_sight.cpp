@@ -10,9 +10,9 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr int kPoints = 64;  // along a side, at which it is asked whether it is in the picture
+constexpr int kPoints = 64;  // along a side, at which it is asked whether it is in the image
 
-/// The stretch of a side that lies in the picture.
+/// The stretch of a side that lies in the image.
 struct Stretch {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
   int first = -1, last = -1;  ///< of its points; -1: none
@@ -25,7 +25,7 @@ std::optional<Eigen::Vector2d> pixelOf(const geometry::PinholeCamera& camera, co
                                        double margin_px) {
   const auto pixel = camera.project(p_camera);
   if (!pixel || !camera.contains(*pixel, margin_px)) return std::nullopt;
-  // Far outside its picture a lens may fold rays back into it.
+  // Far outside its image a lens may fold rays back into it.
   const Eigen::Vector3d ray = camera.ray(*pixel);
   return ray.dot(p_camera.normalized()) > 0.9999 ? pixel : std::nullopt;
 }

@@ -12,15 +12,15 @@
 
 namespace window_ingress::evaluation {
 
-/// How the window is seen where no picture is drawn.
+/// How the window is seen where no image is drawn.
 struct SightParams {
   double sample_sigma_px = 0.5;    ///< noise of a border across itself, in each of its pixels [px]
-  double lasting_sigma_px = 0.1;   ///< of each border, the same in all pictures from one place [px]
+  double lasting_sigma_px = 0.1;   ///< of each border, the same in all images from one place [px]
   double lasting_m = 0.5;          ///< one place is this large [m]
-  double miss_rate = 0.0;          ///< share of pictures in which nothing is found
+  double miss_rate = 0.0;          ///< share of images in which nothing is found
   double least_side_px = 24.0;     ///< smaller openings are not found [px]
-  double least_part_px = 40.0;     ///< a side with less than this in the picture is not seen [px]
-  double picture_margin_px = 4.0;  ///< nor is what lies this near the picture's border [px]
+  double least_part_px = 40.0;     ///< a side with less than this in the image is not seen [px]
+  double picture_margin_px = 4.0;  ///< nor is what lies this near the image's border [px]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -34,14 +34,14 @@ struct SightParams {
   }
 };
 
-/// What a detector that never errs would say: the true borders of the opening's front, cut by the picture's
+/// What a detector that never errs would say: the true borders of the opening's front, cut by the image's
 /// border, each with the noise of a line fit. It knows no wall, no light, no decoy and no other window. Not a
 /// measure of the whole: only of what comes behind the detector.
 class ProjectedSight {
  public:
   ProjectedSight(const SightParams& params, std::uint32_t seed);
 
-  /// \param T_camera_window of the exposure \return nothing from behind or beside, out of the picture, or
+  /// \param T_camera_window of the exposure \return nothing from behind or beside, out of the image, or
   /// missed
   std::optional<detection::WindowObservation> look(const geometry::PinholeCamera& camera,
                                                    const Eigen::Isometry3d& T_camera_window,
@@ -55,7 +55,7 @@ class ProjectedSight {
   std::optional<Eigen::Vector3d> lasting_from_m_;
   Eigen::Vector4d lasting_px_ = Eigen::Vector4d::Zero();
   bool seen_whole_ =
-      false;  ///< since it was last out of the picture: only then parts of it are known as such
+      false;  ///< since it was last out of the image: only then parts of it are known as such
 };
 
 }  // namespace window_ingress::evaluation

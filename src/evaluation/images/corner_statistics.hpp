@@ -9,7 +9,7 @@
 
 namespace window_ingress::evaluation {
 
-/// How far found corners lie from the true ones, over many pictures. Both in canonical order, in pixels.
+/// How far found corners lie from the true ones, over many images. Both in canonical order, in pixels.
 class CornerStatistics {
  public:
   void add(const geometry::Quadrilateral& found, const geometry::Quadrilateral& truth);

@@ -14,7 +14,7 @@
 
 namespace window_ingress::evaluation {
 
-/// What the detector made of one picture.
+/// What the detector made of one image.
 enum class SurveyVerdict {
   kHit,          ///< the inner border, every corner within `hitTolerance`
   kInexact,      ///< the inner border, but a corner is farther away
@@ -32,7 +32,7 @@ const char* toString(SurveyVerdict verdict);
 /// covers half of their union at least.
 SurveyVerdict judge(const std::optional<geometry::Quadrilateral>& found, const SurveyTruth& truth);
 
-/// One picture of the survey.
+/// One image of the survey.
 struct SurveyResult {
   std::string scenario;
   std::uint32_t seed = 0;
@@ -40,7 +40,7 @@ struct SurveyResult {
   SurveyTruth truth;
   std::optional<detection::WindowObservation> window;
   SurveyVerdict verdict = SurveyVerdict::kMissed;
-  std::string outcome;  ///< of the whole picture, for people
+  std::string outcome;  ///< of the whole image, for people
   /// What stopped the best candidate that lies on the inner border; "unseen" if none does.
   std::string true_candidate;
 };

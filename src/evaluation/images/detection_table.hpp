@@ -26,7 +26,7 @@ std::string detectionColumns();
 /// line end.
 std::string detectionValues(const DetectionRow& row);
 
-/// Columns of a table of all candidates, after the picture's name:
+/// Columns of a table of all candidates, after the image's name:
 /// rank,proposed,source,reason,value,limit,score,bhattacharyya,x1,y1,...,x4,y4.
 /// `rank` is the place by the last word about it, the target first; `proposed` the place that the search gave
 /// it before anything was compared, empty for one stopped at the gates or located afterwards. Both count

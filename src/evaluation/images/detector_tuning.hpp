@@ -20,13 +20,13 @@ struct TuningOptions {
 /// scores.
 std::vector<std::string> usualFields();
 
-/// Called after each trial: how many are done, and the best so far on the pictures tuned on.
+/// Called after each trial: how many are done, and the best so far on the images tuned on.
 using TuningProgress = std::function<void(int done, const DetectionCounts& best)>;
 
 /// Random coordinate search: one field after the other is moved, and the move kept if the merit grows; what
 /// worked is repeated. In the end each change without which the merit is the same is taken back.
-/// Deterministic. \return settings at least as good on these pictures as `start` \throws
-/// std::invalid_argument for a name that is none, or an empty list of pictures
+/// Deterministic. \return settings at least as good on these images as `start` \throws
+/// std::invalid_argument for a name that is none, or an empty list of images
 detection::DetectorParams tuneDetector(const std::vector<LabelledPicture>& pictures,
                                        const detection::DetectorParams& start,
                                        const detection::ReferenceAppearance* reference,

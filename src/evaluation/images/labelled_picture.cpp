@@ -22,7 +22,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr double kOverlapPart = 0.05;  // of the merit: a whole picture more counts for more
+constexpr double kOverlapPart = 0.05;  // of the merit: a whole image more counts for more
 
 std::vector<std::string> cellsOf(const std::string& line) {
   std::vector<std::string> cells(1);

@@ -15,21 +15,21 @@
 
 namespace window_ingress::evaluation {
 
-/// A picture, and where the opening is in it.
+/// An image, and where the opening is in it.
 struct LabelledPicture {
   std::string name;   ///< for people
-  std::string group;  ///< pictures that look alike, such as neighbours in a video, are of one group
+  std::string group;  ///< images that look alike, such as neighbours in a video, are of one group
   cv::Mat image;      ///< CV_8UC1 or CV_8UC3
   std::vector<geometry::Quadrilateral> targets;  ///< inner borders; any of them may be found; none: no window
   std::optional<geometry::PinholeCamera> camera;
 };
 
-/// What the detector made of some pictures. Found: a detection whose overlap with a target is at least
+/// What the detector made of some images. Found: a detection whose overlap with a target is at least
 /// `kSameIou`; any other detection is false.
 struct DetectionCounts {
   static constexpr double kSameIou = 0.7;
 
-  int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed`: of the pictures with a target
+  int found = 0, missed = 0, wrong = 0;  ///< `found` and `missed`: of the images with a target
   double overlap = 0.0;                  ///< sum of the overlaps of those found
 
   double recall() const;     ///< 1 where there is nothing to find
@@ -46,8 +46,8 @@ DetectionCounts countDetections(const std::vector<LabelledPicture>& pictures,
                                 const detection::ReferenceAppearance* reference);
 
 /// Reads annotations: a csv file with columns file, x1, y1 .. x4, y4, in any order and beside others; a row a
-/// target, without numbers: no target in that picture. Labels that begin with "pose_only_" are left out.
-/// \param folder where the pictures are
+/// target, without numbers: no target in that image. Labels that begin with "pose_only_" are left out.
+/// \param folder where the images are
 /// \throws TableError that says what is wrong, and in which line
 std::vector<LabelledPicture> readLabelled(const std::string& csv_file, const std::string& folder);
 

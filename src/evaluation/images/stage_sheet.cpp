@@ -18,7 +18,7 @@ using detection::DetectorParams;
 using geometry::Quadrilateral;
 
 constexpr int kColumns = 3, kGap_px = 6, kSmallest_px = 64;
-constexpr double kBackground = 0.35;  ///< brightness of the picture behind what was found in it
+constexpr double kBackground = 0.35;  ///< brightness of the image behind what was found in it
 const cv::Scalar kGreen(60, 230, 60), kOrange(60, 170, 255), kBlue(255, 190, 90), kWhite(255, 255, 255);
 
 cv::Mat coloured(const cv::Mat& image) {
@@ -30,7 +30,7 @@ cv::Mat coloured(const cv::Mat& image) {
   return result;
 }
 
-/// Collects the pictures, all in one size, each with a line of text below.
+/// Collects the images, all in one size, each with a line of text below.
 class Sheet {
  public:
   Sheet(const cv::Size& picture, int cell_width_px)
@@ -145,7 +145,7 @@ void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet)
   detection::EdgeDetector edges(params.edges);
   detection::EdgeChains runs;
   detection::HoughSegments lines(params.lines);
-  detection::LevelCamera lens;  // no calibration: the picture is taken as free of distortion
+  detection::LevelCamera lens;  // no calibration: the image is taken as free of distortion
   detection::Closing closing(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);

@@ -7,9 +7,9 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr double kSettling = 60.0;  // time constants of the automatic gains between two pictures
+constexpr double kSettling = 60.0;  // time constants of the automatic gains between two images
 
-// The gains follow what the picture before showed: once the time between is long, they have settled.
+// The gains follow what the image before showed: once the time between is long, they have settled.
 cv::Mat expose(const simulation::Scenario& scenario, const simulation::Scene& scene,
                const simulation::CameraMotion& motion, std::uint32_t seed) {
   simulation::CameraSensor sensor(scene, scenario.camera, seed);

@@ -13,7 +13,7 @@
 
 namespace window_ingress::evaluation {
 
-/// The borders of the window in one picture, canonical order, in pixels of the picture as it came.
+/// The borders of the window in one image, canonical order, in pixels of the image as it came.
 struct SurveyTruth {
   bool present = true;            ///< false: there is no window, and the borders are those where it would be
   geometry::Quadrilateral inner;  ///< front inner border of the opening: what is to be found
@@ -26,7 +26,7 @@ std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, con
                                        const geometry::PinholeCamera& camera,
                                        const simulation::CameraMotion& motion);
 
-/// One picture with all that is known about it.
+/// One image with all that is known about it.
 struct SurveyPicture {
   std::string scenario;  ///< name of its file, without folder and ending
   std::uint32_t seed = 0;
@@ -38,7 +38,7 @@ struct SurveyPicture {
   geometry::Quadrilateral reference_corners;
 };
 
-/// Draws a picture of the scenario as its camera delivers it, exposure and white balance settled.
+/// Draws an image of the scenario as its camera delivers it, exposure and white balance settled.
 /// \param scenario loaded with the same seed
 /// \throws as `drawView` and `simulation::CameraSensor`
 SurveyPicture takePicture(const simulation::Scenario& scenario, std::uint32_t seed, const ViewRange& range,

@@ -16,7 +16,7 @@ struct ViewRange {
   double nearest_m = 2.0,
          farthest_m = 8.0;  ///< horizontal distance of the camera from the opening's centre [m]
   double off_axis_rad = 0.7853981633974483;  ///< to either side of the opening's normal, at most [rad]
-  double margin_px = 4.0;                    ///< the opening lies that far within the picture, at least [px]
+  double margin_px = 4.0;                    ///< the opening lies that far within the image, at least [px]
   bool still = false;                        ///< the camera does not move
 };
 
@@ -28,7 +28,7 @@ struct SurveyView {
 
 /// Draws a view as a flight has it: 0.4 m above or below the opening's centre at most, tilted and rolled by
 /// up to 0.15 rad, moving at 0.25 m/s and turning at 0.08 rad/s a axis (standard deviations, at most twice
-/// that). The opening lies anywhere in the picture, but whole; where there is none, the place where it would
+/// that). The opening lies anywhere in the image, but whole; where there is none, the place where it would
 /// be. Views from which anything hides a part of its border are drawn again. The same seed gives the same
 /// view. \throws std::runtime_error if no such view is found
 SurveyView drawView(const simulation::Scenario& scenario, const simulation::Scene& scene,

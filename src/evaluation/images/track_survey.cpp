@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMinStretch = 1.0 / 12.0;  // of the picture's longer side
+constexpr double kMinStretch = 1.0 / 12.0;  // of the image's longer side
 constexpr int kMinSides = 2;
 
 std::string number(const char* pattern, double value) {
@@ -21,7 +21,7 @@ std::string number(const char* pattern, double value) {
   return text;
 }
 
-// Length of a segment's part within the picture, by clipping along both axes (Liang and Barsky).
+// Length of a segment's part within the image, by clipping along both axes (Liang and Barsky).
 double lengthWithin(const Vector2d& from, const Vector2d& to, const geometry::PinholeCamera& camera) {
   const Vector2d way = to - from, end(camera.width - 1.0, camera.height - 1.0);
   double first = 0.0, last = 1.0;

@@ -25,11 +25,11 @@ enum class TrackVerdict {
 constexpr int kTrackVerdicts = static_cast<int>(TrackVerdict::kWrong) + 1;
 const char* toString(TrackVerdict verdict);
 
-/// Greatest distance of the ends of the sides seen from the true sides, in the undistorted picture [px].
+/// Greatest distance of the ends of the sides seen from the true sides, in the undistorted image [px].
 double worstSideDistance(const detection::WindowObservation& window, const geometry::Quadrilateral& truth,
                          const geometry::PinholeCamera& camera);
 
-/// How many sides of the true border show in the picture, each by a twelfth of the picture's longer side at
+/// How many sides of the true border show in the image, each by a twelfth of the image's longer side at
 /// least.
 int sidesInView(const geometry::Quadrilateral& truth, const geometry::PinholeCamera& camera);
 

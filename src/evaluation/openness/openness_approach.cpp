@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSeen_px = 3.0;  // of each corner from the picture's border
+constexpr double kSeen_px = 3.0;  // of each corner from the image's border
 
 const geometry::OpeningSize kNeeded{0.6, 0.34};
 

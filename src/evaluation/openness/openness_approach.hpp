@@ -22,7 +22,7 @@ class OpennessApproach {
   double timeSec(int step) const { return kFirstStamp_sec + step / range_.rate_hz; }
   simulation::CameraMotion motion(int step) const { return flight_.motion(step / range_.rate_hz); }
 
-  /// The opening's border as a detector sees it, with noise. Nothing if it is not whole in the picture.
+  /// The opening's border as a detector sees it, with noise. Nothing if it is not whole in the image.
   /// \param grown by so much of its size the border seen is larger than the true one
   std::optional<detection::WindowObservation> look(const geometry::PinholeCamera& camera, int step,
                                                    double grown = 0.0);

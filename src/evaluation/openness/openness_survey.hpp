@@ -19,7 +19,7 @@ namespace window_ingress::evaluation {
 /// How the approaches of a survey of openness are flown, and what is wrong with what is known on them.
 struct OpennessRange {
   FlightRange flight{3.5, 6.0, 0.5, 1.2, 1.0, 0.05};
-  double rate_hz = 10.0;         ///< of the pictures [1/s]
+  double rate_hz = 10.0;         ///< of the images [1/s]
   double decide_m = 1.75;        ///< before the plane: the point of no return [m]
   double border_noise_px = 0.3;  ///< of each sample of a border, one a pixel [px]
   double border_bias_px = 0.3;   ///< of each border, lasting through the approach [px]
@@ -39,7 +39,7 @@ struct OpennessResult {
   openness::OpennessVerdict at_decision;
   bool ever_open = false, ever_closed = false;
   double open_from_m = 0.0;  ///< distance from the plane at which it was first called open; 0: never
-  double milliseconds = 0.0, slowest_ms = 0.0;  ///< for following and judging a picture, mean and most
+  double milliseconds = 0.0, slowest_ms = 0.0;  ///< for following and judging an image, mean and most
 };
 
 /// One step of an approach, for those who plot it.
@@ -67,7 +67,7 @@ enum class Interior {
 constexpr int kInteriors = static_cast<int>(Interior::kRoom) + 1;
 const char* toString(Interior interior);
 
-/// The same without pictures: points with noise, some of them wrong.
+/// The same without images: points with noise, some of them wrong.
 OpennessResult flySynthetic(Interior interior, std::uint32_t seed, const OpennessRange& range,
                             const openness::OpennessParams& params, const OpennessStep& each = {});
 

@@ -31,7 +31,7 @@ std::optional<Eigen::Isometry3d> poseOfTrueCorners(const geometry::Quadrilateral
                                                    const geometry::PinholeCamera& camera,
                                                    const geometry::OpeningSize& opening);
 
-/// One picture, from its pixels to the pose, against the truth.
+/// One image, from its pixels to the pose, against the truth.
 struct PoseChainResult {
   std::string scenario;
   std::uint32_t seed = 0;
@@ -53,7 +53,7 @@ PoseChainResult chainResult(const SurveyPicture& picture,
 std::string poseChainColumns();
 std::string poseChainRow(const PoseChainResult& result);  ///< no line end
 
-/// Pictures grouped by their distance, rounded to a metre. For people: errors of the pose, then of the
+/// Images grouped by their distance, rounded to a metre. For people: errors of the pose, then of the
 /// borders.
 std::string poseChainTable(const std::vector<PoseChainResult>& results);
 

@@ -35,7 +35,7 @@ struct ApproachScript {
 /// From `distance_m` and `off_axis_rad` onto the axis and then in, to `end_m` before the plane.
 ApproachScript ontoAxisAndIn(double distance_m, double off_axis_rad, double height_m, double end_m);
 
-/// An approach without pictures: what odometry, attitude estimator and an ideal border detector would say,
+/// An approach without images: what odometry, attitude estimator and an ideal border detector would say,
 /// with errors drawn as `FilterParams` states them (drift in place and heading, jitter, lasting errors of
 /// attitude and of corners) and white noise of each border sample. For Monte Carlo: some 10,000 images a
 /// second.

@@ -34,7 +34,7 @@ Decision Hold::step(const Situation& situation, const MissionState& memory) {
   return decision;
 }
 
-// Without pictures nothing leads on, but odometry and the normal still lead away from the wall: at once where
+// Without images nothing leads on, but odometry and the normal still lead away from the wall: at once where
 // wind could carry the vehicle into it meanwhile.
 bool Hold::mayRetreat(const Situation& situation, const MissionState& memory) const {
   if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;

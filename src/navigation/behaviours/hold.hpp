@@ -4,7 +4,7 @@
 
 namespace window_ingress::navigation {
 
-/// HOLD: zero velocity. Where pictures alone are missing, back from the window after a while. Once the inputs
+/// HOLD: zero velocity. Where images alone are missing, back from the window after a while. Once the inputs
 /// are back for a while, goes on from where it can: the commit, the window, its memory, or a new search.
 /// Gives up when they do not come back.
 class Hold {

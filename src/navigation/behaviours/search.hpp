@@ -19,7 +19,7 @@ class Search {
 
  private:
   Decision lookAt(const Situation& situation);
-  /// So that a picture is neither smeared nor the window passed over between two (trap: faster finds less).
+  /// So that an image is neither smeared nor the window passed over between two (trap: faster finds less).
   double fastestTurn(double image_period_sec) const;
   double sweep(const VehicleState& vehicle, MissionState& memory);
   void countTurn(double heading_rad, MissionState& memory);

@@ -11,7 +11,7 @@ struct EdgePoint {
   cv::Point2f place, normal;  ///< the normal has length 1 and points to the brighter side
 };
 
-/// Slopes of a grey picture.
+/// Slopes of a grey image.
 class SlopePicture {
  public:
   void take(const cv::Mat& grey);                                                   ///< CV_8UC1

@@ -58,7 +58,7 @@ std::optional<PlaneParallax> PlaneParallax::between(const geometry::PinholeCamer
   return pair;
 }
 
-// Both pictures' borders, as they move this point along a direction.
+// Both images' borders, as they move this point along a direction.
 double PlaneParallax::borderVariance(const Vector2d& place, const Vector2d& along) const {
   const Eigen::Vector4d weights = weightsAt(place);
   const double common = std::pow(errors_.border_sigma_px, 2);

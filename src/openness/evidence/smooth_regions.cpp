@@ -8,7 +8,7 @@ namespace window_ingress::openness {
 namespace {
 
 constexpr int kSide = OpeningCells::kSide;
-constexpr int kShrink = 2;        // of the picture: faint edges part regions, noise does not
+constexpr int kShrink = 2;        // of the image: faint edges part regions, noise does not
 constexpr int kReach_px = 8;      // of a point to the regions beside its edge
 constexpr double kFilled = 0.75;  // of a cell's pixels
 constexpr double kDarkest = 16.0, kBrightest = 244.0;  // mean of a region in which an edge would be seen

@@ -7,7 +7,7 @@
 
 namespace window_ingress::simulation {
 
-/// Where the camera is at a picture's stamp and how it moves then. For the few milliseconds around it the
+/// Where the camera is at an image's stamp and how it moves then. For the few milliseconds around it the
 /// velocities are constant.
 struct CameraMotion {
   Eigen::Isometry3d T_window_camera = Eigen::Isometry3d::Identity();
@@ -21,7 +21,7 @@ struct CameraMotion {
   /// So long after the stamp, or before it if negative.
   Eigen::Isometry3d T_camera_window(double after_sec) const;
 
-  /// The most that anything moves in the picture during `duration_sec`, taken to be at least as far as the
+  /// The most that anything moves in the image during `duration_sec`, taken to be at least as far as the
   /// plane of the window, and no nearer than 0.5 m [px].
   double greatestShift(const geometry::PinholeCamera& camera, double duration_sec) const;
 };

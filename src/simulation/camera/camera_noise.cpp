@@ -9,7 +9,7 @@
 namespace window_ingress::simulation {
 namespace {
 
-// The noise is larger than the picture; each picture takes it from elsewhere.
+// The noise is larger than the image; each image takes it from elsewhere.
 constexpr int kMargin_px = 97;
 constexpr int kUnit = 32, kScale = 256;
 

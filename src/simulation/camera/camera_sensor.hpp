@@ -20,8 +20,8 @@ class CameraSensor {
   CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed);
   ~CameraSensor();
 
-  /// The picture number `index` of the flight; the noise depends on seed and index alone, automatic gains on
-  /// the pictures exposed before. The picture is valid until the next call.
+  /// The image number `index` of the flight; the noise depends on seed and index alone, automatic gains on
+  /// the images exposed before. The image is valid until the next call.
   cv::Mat expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec);
 
  private:
@@ -29,11 +29,11 @@ class CameraSensor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// When pictures arrive, and which ones do not.
+/// When images arrive, and which ones do not.
 class CameraTransport {
  public:
   CameraTransport(const CameraParams& params, std::uint32_t seed);
-  /// Of the next picture, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::pushUntil` sees to it
+  /// Of the next image, exposed at `stamp_sec`; nothing if it is lost. `DelayLine::pushUntil` sees to it
   /// that none overtakes another.
   std::optional<double> arrivalOf(double stamp_sec);
 

@@ -7,14 +7,14 @@
 namespace window_ingress::simulation {
 
 /// Brightness and colour: gain and white balance, fixed or automatic with a lag. The automatic ones follow
-/// what the pictures before this one needed, exponentially in the logarithm of the gains.
+/// what the images before this one needed, exponentially in the logarithm of the gains.
 class ExposureControl {
  public:
   explicit ExposureControl(const CameraParams& params);
 
-  /// Of blue, green and red, for the picture with this stamp, the light's colour included.
+  /// Of blue, green and red, for the image with this stamp, the light's colour included.
   cv::Vec3d gainsAt(double stamp_sec);
-  /// What the picture looks like before its gains, light's colour not included: mean of blue, green, red.
+  /// What the image looks like before its gains, light's colour not included: mean of blue, green, red.
   void observe(const cv::Vec3d& mean_grey);
   bool automatic() const { return params_.auto_exposure || params_.auto_white_balance; }
 

@@ -6,18 +6,18 @@
 
 namespace window_ingress::simulation {
 
-/// Bends an ideal picture as a lens with distortion does, by maps computed once.
+/// Bends an ideal image as a lens with distortion does, by maps computed once.
 class Lens {
  public:
   /// \throws std::invalid_argument if the distortion cannot be inverted over the image, or needs an ideal
-  /// picture of more than twice the width or height
+  /// image of more than twice the width or height
   explicit Lens(const geometry::PinholeCamera& camera);
 
   /// The camera without distortion, wide enough to see all that the distorted one sees; the same one if there
   /// is no distortion.
   const geometry::PinholeCamera& idealCamera() const { return ideal_; }
 
-  /// Of the pictures that `distort` makes.
+  /// Of the images that `distort` makes.
   cv::Size size() const { return size_; }
 
   /// `image` shares its pixels with `ideal_image` if there is no distortion.

@@ -12,11 +12,11 @@
 
 namespace window_ingress::simulation {
 
-/// Smooths the edges of surfaces in a picture that was drawn with one sample a pixel, by exact coverage.
+/// Smooths the edges of surfaces in an image that was drawn with one sample a pixel, by exact coverage.
 ///
 /// Where the projected side of a face passes between two neighbouring pixels, one of which shows the face's
 /// surface and the other does not, each of the two is mixed with the other by the area that the side cuts
-/// off from it. Which surface a pixel shows stands in the picture's alpha channel, so that hidden sides, and
+/// off from it. Which surface a pixel shows stands in the image's alpha channel, so that hidden sides, and
 /// those within a surface, do nothing. (Persson, Geometric Post-process Anti-Aliasing, 2011, mixes likewise,
 /// one pixel an edge.)
 class EdgeSmoother {

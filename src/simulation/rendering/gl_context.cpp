@@ -12,7 +12,7 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr int kDummySize_px =
-    16;  // pictures are drawn into framebuffer objects; OSMesa wants a buffer all the same
+    16;  // images are drawn into framebuffer objects; OSMesa wants a buffer all the same
 
 std::mutex& contextMutex() {
   static std::mutex mutex;

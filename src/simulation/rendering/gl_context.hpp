@@ -16,7 +16,7 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// To be called in each thread and before each picture: another context may have been current.
+  /// To be called in each thread and before each image: another context may have been current.
   const GlFunctions& makeCurrent();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace window_ingress::simulation {
 
-/// What is drawn into: a picture and its depths, with one or several samples a pixel.
+/// What is drawn into: an image and its depths, with one or several samples a pixel.
 class GlTarget {
  public:
   /// \throws std::runtime_error if OpenGL refuses

@@ -23,7 +23,7 @@ namespace {
 constexpr double kNear_m = 0.03;
 constexpr double kFar_m = 1000.0;
 
-// From the optical frame to clip coordinates. Row 0 of the picture is OpenGL's lowest, so that no row needs
+// From the optical frame to clip coordinates. Row 0 of the image is OpenGL's lowest, so that no row needs
 // to be moved after reading; pixel u has its centre at u + 0.5 in OpenGL's window.
 Eigen::Matrix4d projectionOf(const geometry::PinholeCamera& camera) {
   Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
@@ -110,7 +110,7 @@ struct Renderer::Impl {
     return texture;
   }
 
-  // The surface's number takes the place of the colour's fourth component, to be read back with the picture.
+  // The surface's number takes the place of the colour's fourth component, to be read back with the image.
   void upload(const GlFunctions& gl, const Scene& scene) {
     std::vector<Vertex> vertices;
     for (const auto& [batch, corners] : scene.mesh.batches()) {
@@ -140,7 +140,7 @@ struct Renderer::Impl {
     for (const GLenum ability : {GL_DEPTH_TEST, GL_CULL_FACE, GL_MULTISAMPLE, GL_SCISSOR_TEST})
       gl.Enable(ability);
     gl.Disable(GL_DITHER);
-    gl.FrontFace(GL_CW);  // the picture stands on its head
+    gl.FrontFace(GL_CW);  // the image stands on its head
     gl.DepthFunc(GL_LESS);
     gl.Viewport(0, 0, camera.width, camera.height);
     gl.MatrixMode(GL_PROJECTION);
@@ -167,7 +167,7 @@ struct Renderer::Impl {
     gl.Fogf(GL_FOG_START, (kept - 1.0F) * kRange_m);
   }
 
-  // Part of the picture in which the room can be seen: seen from outside, what the opening spans.
+  // Part of the image in which the room can be seen: seen from outside, what the opening spans.
   cv::Rect roomIn(const Eigen::Isometry3d& T_camera_window) const {
     const cv::Rect picture(0, 0, camera.width, camera.height);
     if (other_clear_holes) return picture;

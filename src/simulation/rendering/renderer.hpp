@@ -15,10 +15,10 @@ enum class Antialiasing {
   kMultisampling  ///< four samples a pixel; four times slower: the reference
 };
 
-/// Pictures of a scene by an ideal camera, drawn in software.
+/// Images of a scene by an ideal camera, drawn in software.
 ///
 /// The projection is built from K itself: the point that `PinholeCamera::project` sends to (u, v) lies at (u,
-/// v) of the picture, pixel centres at integers. Distortion is not drawn here; see `Lens`. One renderer per
+/// v) of the image, pixel centres at integers. Distortion is not drawn here; see `Lens`. One renderer per
 /// thread at a time; several may exist. Drawing runs in the calling thread; a process that flies one
 /// world in real time may set LP_NUM_THREADS in its environment before the first one is made.
 class Renderer {

@@ -10,8 +10,8 @@ namespace window_ingress::simulation {
 
 /// The camera and how it is mounted.
 struct CameraParams {
-  int width_px = 640;                 ///< of the picture [px]
-  int height_px = 480;                ///< of the picture [px]
+  int width_px = 640;                 ///< of the image [px]
+  int height_px = 480;                ///< of the image [px]
   double horizontal_fov_rad = 1.20;   ///< of the lens without its distortion [rad]
   double k1 = 0.0;                    ///< radial distortion of the model plumb_bob
   double k2 = 0.0;                    ///< radial distortion
@@ -27,17 +27,17 @@ struct CameraParams {
   double told_pitch_error_rad =
       0.0;                          ///< of what the vehicle is told of its mounting, beside `pitch_rad` [rad]
   double told_yaw_error_rad = 0.0;  ///< likewise, beside `yaw_rad` [rad]
-  double rate_hz = 30.0;            ///< pictures a second [1/s]
+  double rate_hz = 30.0;            ///< images a second [1/s]
   double latency_sec = 0.03;        ///< from exposure to delivery [s]
-  double latency_jitter_sec = 0.0;  ///< a picture takes up to so much longer, evenly distributed [s]
-  double drop_probability = 0.0;    ///< that a picture is lost
-  double exposure_sec = 0.004;      ///< the shutter is open so long, around the picture's stamp [s]
+  double latency_jitter_sec = 0.0;  ///< an image takes up to so much longer, evenly distributed [s]
+  double drop_probability = 0.0;    ///< that an image is lost
+  double exposure_sec = 0.004;      ///< the shutter is open so long, around the image's stamp [s]
   double readout_sec = 0.0;      ///< the last row is exposed so much later than the first; 0: all at once [s]
   double noise_grey = 2.0;       ///< of a black pixel, standard deviation of each channel [grey levels]
   double shot_noise_grey = 0.0;  ///< added in squares, times grey / 255: that of white [grey levels]
   double blur_px = 0.6;          ///< standard deviation of the lens's blur [px]
-  double gain = 1.0;             ///< all brightness times this; with auto exposure: of the first picture
-  bool auto_exposure = false;    ///< brings the picture's mean to `target_grey`
+  double gain = 1.0;             ///< all brightness times this; with auto exposure: of the first image
+  bool auto_exposure = false;    ///< brings the image's mean to `target_grey`
   double target_grey = 110.0;    ///< of the auto exposure [grey levels]
   double auto_exposure_sec = 0.3;        ///< time constant of auto exposure and auto white balance [s]
   double least_gain = 0.25;              ///< of the auto exposure

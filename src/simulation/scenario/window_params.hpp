@@ -107,7 +107,7 @@ struct PosterParams {
   double height_m = 0.9;             ///< with its border [m]
   double border_m = 0.05;            ///< width of its border [m]
   ColourParams border{30, 60, 150};  ///< of its border
-  std::string look = "picture";      ///< printed: a picture, the view through an open window, a chessboard
+  std::string look = "picture";      ///< printed: an image, the view through an open window, a chessboard
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("y_m", self.y_m, -20.0, 20.0);

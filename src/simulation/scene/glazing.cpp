@@ -11,7 +11,7 @@ namespace {
 constexpr int kCells = 16;  // along each side of a pane: between their corners the mirrored part is linear
 constexpr double kNear_m = 0.03;
 
-// From clip coordinates to those of a texture that is the whole picture.
+// From clip coordinates to those of a texture that is the whole image.
 Eigen::Matrix4d textureFromClip() {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() *= 0.5;

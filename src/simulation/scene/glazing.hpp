@@ -18,14 +18,14 @@ class Glazing {
   /// \throws std::runtime_error if OpenGL refuses
   void create(const GlFunctions& gl, const geometry::PinholeCamera& camera, const std::vector<Pane>& panes);
 
-  /// Part of the picture in which panes may be seen; nothing of them is seen from the room.
+  /// Part of the image in which panes may be seen; nothing of them is seen from the room.
   cv::Rect partIn(const Eigen::Isometry3d& T_camera_window) const;
   Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) const;
 
   /// What is drawn between these two is what the panes mirror: only what lies before them.
   void beginMirror(const GlFunctions& gl, const Eigen::Isometry3d& T_camera_mirrored) const;
   void endMirror(const GlFunctions& gl) const;
-  /// Over the picture as drawn; leaves its alpha channel as it is, and OpenGL's arrays pointing elsewhere.
+  /// Over the image as drawn; leaves its alpha channel as it is, and OpenGL's arrays pointing elsewhere.
   void draw(const GlFunctions& gl, const Eigen::Matrix4d& projection,
             const Eigen::Isometry3d& T_camera_window);
 
@@ -44,7 +44,7 @@ class Glazing {
   std::vector<GLuint> corners_;
 };
 
-/// The smallest part of the picture that holds all these points; all of it if one of them is not in front of
+/// The smallest part of the image that holds all these points; all of it if one of them is not in front of
 /// the camera.
 cv::Rect partAround(const geometry::PinholeCamera& camera, const std::vector<Eigen::Vector3d>& points_camera);
 

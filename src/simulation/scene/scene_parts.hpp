@@ -60,7 +60,7 @@ void addFrame(Mesh& mesh, const Rectangle& opening, double width_m, double x0, d
               const Surface& surface);
 /// The inner faces of an opening from x0 to x1.
 void addReveal(Mesh& mesh, const Rectangle& opening, double x0, double x1, const Surface& surface);
-/// A picture over a rectangle, towards the outside.
+/// An image over a rectangle, towards the outside.
 void addPane(Mesh& mesh, double x_m, const Rectangle& face, const Surface& surface);
 /// What is solid of a wall between x0 and x1.
 void addSolidWall(std::vector<Obstacle>& obstacles, const std::string& name, const Rectangle& wall,

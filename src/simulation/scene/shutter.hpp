@@ -7,14 +7,14 @@
 
 namespace window_ingress::simulation {
 
-/// Pictures by a camera that moves while it takes them: the mean of several over the time in which the
+/// Images by a camera that moves while it takes them: the mean of several over the time in which the
 /// shutter is open, row by row as they are read out. The middle row's middle of exposure is the motion's
-/// stamp. Few pictures are drawn when little moves, one when nothing does.
+/// stamp. Few images are drawn when little moves, one when nothing does.
 class Shutter {
  public:
   static constexpr int kMaxPictures = 6;
   static constexpr int kMaxBands = 24;
-  static constexpr double kShiftOfPicture_px = 1.5;  ///< between two pictures
+  static constexpr double kShiftOfPicture_px = 1.5;  ///< between two images
   static constexpr double kShiftOfBand_px = 0.75;    ///< between two bands of rows
 
   Shutter(double exposure_sec, double readout_sec) : exposure_sec_(exposure_sec), readout_sec_(readout_sec) {}

@@ -36,12 +36,12 @@ class FaultPlan {
   std::deque<FaultParams> faults_;  // a deque: those that act keep their address
 };
 
-/// A moment at which the shutter was open, on its way to the picture.
+/// A moment at which the shutter was open, on its way to the image.
 struct Exposure {
-  std::uint64_t index = 0;  ///< of the picture that is shown, for its noise
+  std::uint64_t index = 0;  ///< of the image that is shown, for its noise
   double stamp_sec = 0.0;
   VehicleTruth truth;  ///< at the stamp
-  VehicleTruth shown;  ///< from where the picture shows the world, as beside a house at its resting place
+  VehicleTruth shown;  ///< from where the image shows the world, as beside a house at its resting place
   enum class Spoilt { kNot, kGarbage, kMirrored } spoilt = Spoilt::kNot;
 };
 
@@ -50,7 +50,7 @@ struct ImageTraits {
   void spoil(Exposure& exposure, const FaultParams& fault) const;
 };
 
-/// Does to the picture what the exposure says.
+/// Does to the image what the exposure says.
 void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed);
 
 /// Odometry, and the transform made of it.
@@ -64,7 +64,7 @@ struct ImuTraits {
   void spoil(ImuSample& sample, const FaultParams& fault) const;
 };
 
-/// What stands in camera_info beside a picture.
+/// What stands in camera_info beside an image.
 struct CalibrationSample {
   double stamp_sec = 0.0;
   geometry::PinholeCamera camera;

@@ -32,7 +32,7 @@ Face faceOf(const Mesh::Batch& batch, const Vertex* vertices) {
   return face;
 }
 
-// The planes through the picture's sides (half a pixel outside of the outermost centres), pointing inwards.
+// The planes through the image's sides (half a pixel outside of the outermost centres), pointing inwards.
 std::array<Eigen::Vector3d, 5> frustum(const geometry::PinholeCamera& camera) {
   const double left = (-1.0 - camera.cx) / camera.fx, right = (camera.width - camera.cx) / camera.fx;
   const double top = (-1.0 - camera.cy) / camera.fy, bottom = (camera.height - camera.cy) / camera.fy;

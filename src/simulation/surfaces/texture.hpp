@@ -1,4 +1,4 @@
-/// Procedural surfaces, drawn from a seed. All of them tile without a seam, except the pictures: glass,
+/// Procedural surfaces, drawn from a seed. All of them tile without a seam, except the images: glass,
 /// curtain, poster, printed window, chessboard.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// What the patterns of `makeTexture` are made of. All pictures are of kTextureSize.
+/// What the patterns of `makeTexture` are made of. All images are of kTextureSize.
 #pragma once
 
 #include <initializer_list>
@@ -26,7 +26,7 @@ cv::Mat siding(cv::RNG& random);
 cv::Mat louvres(cv::RNG& random);
 cv::Mat wood(cv::RNG& random);
 
-// --- pictures (texture_pictures.cpp)
+// --- images (texture_pictures.cpp)
 cv::Mat glass(cv::RNG& random);
 cv::Mat curtain(cv::RNG& random);
 cv::Mat poster(cv::RNG& random);

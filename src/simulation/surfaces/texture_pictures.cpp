@@ -85,7 +85,7 @@ cv::Mat poster(cv::RNG& random) {
   return image;
 }
 
-// A room seen through an open window from some metres away, printed: the back wall with its picture, and the
+// A room seen through an open window from some metres away, printed: the back wall with its image, and the
 // inner faces of the opening as a narrow border, lit from the left.
 cv::Mat printedWindow(cv::RNG& random, const cv::Mat& picture_on_wall) {
   constexpr int kFace_px = 14;

@@ -133,7 +133,7 @@ double worstAgainstOpenCv(const geometry::PinholeCamera& camera, const CameraInf
   return worst;
 }
 
-// The picture that this lens makes of what an ideal camera of the same K would see.
+// The image that this lens makes of what an ideal camera of the same K would see.
 cv::Mat bent(const cv::Mat& ideal, const geometry::PinholeCamera& camera) {
   cv::Mat map(ideal.size(), CV_32FC2), seen;
   for (int y = 0; y < map.rows; ++y)
@@ -184,7 +184,7 @@ TEST(Fault, M32_SizesThatAreNone) {
   expectRefused(all);
 }
 
-// Where the pixel of the full picture comes to lie in the picture as it is sent.
+// Where the pixel of the full image comes to lie in the image as it is sent.
 Eigen::Vector2d cropped(const Eigen::Vector2d& full, double x, double y, double binning) {
   return {(full.x() - x + 0.5) / binning - 0.5, (full.y() - y + 0.5) / binning - 0.5};
 }

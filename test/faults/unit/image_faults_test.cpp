@@ -1,4 +1,4 @@
-/// M01 to M14: pictures as they should not come.
+/// M01 to M14: images as they should not come.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 

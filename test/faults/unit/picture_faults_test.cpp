@@ -1,4 +1,4 @@
-/// M03, M05, M11, M13, M16: what the detector makes of odd pictures that could be read.
+/// M03, M05, M11, M13, M16: what the detector makes of odd images that could be read.
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
@@ -74,7 +74,7 @@ TEST(Fault, M05_PaddedRows) {
   RecordProperty("seen", "1, 2 and 64 bytes more a row: the same corners to the last bit");
 }
 
-// The sensor's own picture, one colour a pixel.
+// The sensor's own image, one colour a pixel.
 cv::Mat mosaic(const cv::Mat& bgr, const std::string& pattern) {
   cv::Mat result(bgr.size(), CV_8UC1);
   for (int y = 0; y < bgr.rows; ++y)
@@ -164,7 +164,7 @@ cv::Mat salt(double part) {
   return picture;
 }
 
-// Small boxes on the whole picture, as many as there are places.
+// Small boxes on the whole image, as many as there are places.
 cv::Mat boxes(int pitch_px, int line_px) {
   cv::Mat picture(480, 640, CV_8UC3, cv::Scalar::all(200));
   const int side = pitch_px - std::max(1, pitch_px / 3);

@@ -37,7 +37,7 @@ TEST(OpencvComposition, WithoutHoughItFindsAPlainWindow) {
   EXPECT_TRUE(isNear(found, kFramePx + kLinePx)) << cv::boundingRect(found);
 }
 
-// Redrawn segments leave gaps at corners in most pictures: the weakness of the literal chain. In a clean one
+// Redrawn segments leave gaps at corners in most images: the weakness of the literal chain. In a clean one
 // it works.
 TEST(OpencvComposition, WithHoughItFindsAWindowInAPictureWithoutNoise) {
   OpencvComposition composition;

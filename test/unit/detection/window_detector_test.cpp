@@ -47,7 +47,7 @@ class Views {
     return image;
   }
 
-  /// 2 to 7 m away, up to 45 degrees off its axis, near the middle of the picture.
+  /// 2 to 7 m away, up to 45 degrees off its axis, near the middle of the image.
   Eigen::Isometry3d pose() {
     const double distance = uniform(2.0, 7.0), yaw = uniform(-0.78, 0.78);
     const Eigen::Matrix3d rotation =

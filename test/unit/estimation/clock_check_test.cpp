@@ -10,7 +10,7 @@
 namespace window_ingress::estimation {
 namespace {
 
-/// A vehicle that turns towards a window 4 m ahead, stands, and turns on a little; 20 pictures a second.
+/// A vehicle that turns towards a window 4 m ahead, stands, and turns on a little; 20 images a second.
 struct Turning {
   double late_sec = 0.0, sideways_mps = 0.0, believed_off_m = 0.0;
   std::mt19937 random{5};

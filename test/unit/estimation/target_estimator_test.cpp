@@ -83,7 +83,7 @@ TEST(TargetEstimator, AJumpOfTheOdometryStartsAnew) {
   EXPECT_FALSE(track.target(0.3));
 }
 
-/// 2 m sideways past the window, each picture as it would be; the mounting told may be another.
+/// 2 m sideways past the window, each image as it would be; the mounting told may be another.
 TargetEstimator flownSideways(const estimation::PoseParams& pose, const TargetEstimatorParams& params,
                               const Eigen::Isometry3d& mounting_told, double velocity_factor = 1.0) {
   TargetEstimator track(pose, estimation::FilterParams(), params);
@@ -156,7 +156,7 @@ TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
 }
 
 TEST(TargetEstimator, ForbidsTheApproachWhileManyPicturesContradictTheWindow) {
-  for (const double aside_m : {0.0, 0.5}) {  // every second picture shows another place
+  for (const double aside_m : {0.0, 0.5}) {  // every second image shows another place
     auto track = tracker();
     for (int i = 0; i <= 60; ++i) {
       const double now = i / 30.0;

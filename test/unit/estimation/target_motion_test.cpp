@@ -52,7 +52,7 @@ TEST(MotionModel, ForgetsInTheLongRunAndGoesOnInTheShort) {
   EXPECT_NEAR(model.over(1e-4).place_variance, 2.0 / 3.0 * 0.04 / 2.0 * 1e-12, 1e-16);
 }
 
-/// A camera that comes nearer at 0.5 m/s, 30 pictures a second, and a window that swings along its wall.
+/// A camera that comes nearer at 0.5 m/s, 30 images a second, and a window that swings along its wall.
 struct Approach {
   double amplitude_m = 0.1, period_sec = 4.0;
   std::mt19937 random{3};

@@ -175,7 +175,7 @@ TEST(NavigatorEdges, ApproachLeavesAnotherWindow) {
   EXPECT_EQ(mission.output.state, State::kSearch);
 }
 
-/// Odometry is gone for a moment during COMMIT; there are no pictures any more, before or after.
+/// Odometry is gone for a moment during COMMIT; there are no images any more, before or after.
 NavigatorOutput interruptedAt(const Eigen::Vector3d& place, int step) {
   Mission mission;
   mission.leadInto(State::kCommit);

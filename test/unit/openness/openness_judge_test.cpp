@@ -24,7 +24,7 @@ const auto kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 struct Approach {
   double depth_m = 3.0, sideways_m = 0.0;
   std::uint32_t target_id = 1;
-  double moving = 0.0;  // part of the points that swirl around the picture's middle
+  double moving = 0.0;  // part of the points that swirl around the image's middle
 
   Isometry3d camera(double plane_m) const {
     return geometry::makePose(geometry::R_optical_flu().transpose(),
@@ -205,7 +205,7 @@ TEST(OpennessJudge, parametersOutOfRangeAreNamed) {
   }
 }
 
-// More than a hundred thousand pictures, with all noise: see evaluation/openness_survey.hpp.
+// More than a hundred thousand images, with all noise: see evaluation/openness_survey.hpp.
 TEST(OpennessJudge, nothingClosedIsEverCalledOpen) {
   const evaluation::OpennessRange range;
   for (const Interior interior : {Interior::kPoster, Interior::kPane, Interior::kTilted, Interior::kCurtain,

@@ -1,4 +1,4 @@
-/// An independent measurement of a dark opening's corners in a picture, for tests of the renderer.
+/// An independent measurement of a dark opening's corners in an image, for tests of the renderer.
 #pragma once
 
 #include <Eigen/Dense>

@@ -38,7 +38,7 @@ cv::Mat firstPicture(Scenario scenario, std::uint32_t seed) {
   }
 }
 
-// Part of a picture of the scene, square on, without sensor.
+// Part of an image of the scene, square on, without sensor.
 double brightness(const Scenario& scenario, double y_m, double z_m) {
   const cv::Mat image = views::photograph(buildScene(scenario), views::lookAt({-3, 0, 0}, {0, 0, 0}));
   const auto camera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.0);

@@ -14,7 +14,7 @@ class PictureTimesTest : public testing::Test {
  protected:
   void SetUp() override { now_sec = 1000.0; }
 
-  // One picture; number and stamp go on by one picture of the camera for each that was dropped.
+  // One image; number and stamp go on by one image of the camera for each that was dropped.
   void picture(PictureTimes& times, double edges_ms, int dropped = 0) {
     header_.seq += 1 + dropped;
     header_.stamp += ros::Duration((1 + dropped) * 0.05);

@@ -11,7 +11,7 @@ using geometry::Quadrilateral;
 using test::PatchedWall;
 using test::seenFrom;
 
-/// A reference picture, and views of the same wall.
+/// A reference image, and views of the same wall.
 struct Scene {
   explicit Scene(const PatchedWall& drawn) : wall(drawn) {
     Quadrilateral opening;

@@ -30,7 +30,7 @@ cv::Mat drawn(double noise) {
   return picture;
 }
 
-// Colour at half of the size, as a compressed picture has it.
+// Colour at half of the size, as a compressed image has it.
 cv::Mat withSoftColour(const cv::Mat& picture) {
   cv::Mat planes[3], small, converted;
   cv::cvtColor(picture, converted, cv::COLOR_BGR2YCrCb);

@@ -1,4 +1,4 @@
-// Preprocess, edges, closing, contours: the first half of the pipeline on drawn pictures.
+// Preprocess, edges, closing, contours: the first half of the pipeline on drawn images.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>

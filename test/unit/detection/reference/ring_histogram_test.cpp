@@ -145,7 +145,7 @@ TEST(RingHistogram, BadQuadrilateralsHaveNoAnswer) {
   EXPECT_FALSE(ringColours(cv::Mat(), kOpening, {}, kFew));
 }
 
-// Steep perspectives, partly outside and beyond the horizon: never a pixel outside the picture.
+// Steep perspectives, partly outside and beyond the horizon: never a pixel outside the image.
 TEST(RingSamples, StayWithinThePicture) {
   cv::RNG random(3);
   const cv::Mat image = noisyWindow(1, 5.0);

@@ -168,7 +168,7 @@ int shown(const FlatFacade& wall, const FlatFacade::Camera& from, const WindowOb
   return -1;
 }
 
-// A row of equal windows; the camera moves past them and turns, and now and then pictures are lost.
+// A row of equal windows; the camera moves past them and turns, and now and then images are lost.
 TEST(WindowTracker, InARowOfEqualWindowsANumberNeverChangesItsWindow) {
   const FlatFacade wall(3, 1.5, 1.0, 0.9, 0.06);
   for (int seed = 1; seed <= 4; ++seed) {

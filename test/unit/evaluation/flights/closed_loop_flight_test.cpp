@@ -71,7 +71,7 @@ TEST(ClosedLoopFlight, UnderTheDefaultsNobodyEntersACleanPaneThatLooksOpen) {
   EXPECT_NE(wrong.reason.find("touched glass"), std::string::npos) << wrong.reason;
 }
 
-/// Of stamps of pictures beside those of odometry, as the flight found it, for odometry's stamps so much
+/// Of stamps of images beside those of odometry, as the flight found it, for odometry's stamps so much
 /// ahead.
 std::optional<double> lateSecFound(double odometry_ahead_sec) {
   auto scenario = shortFlight();

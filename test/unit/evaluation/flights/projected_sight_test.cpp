@@ -48,7 +48,7 @@ TEST(ProjectedSight, CornersAreTheTrueOnesWithTheSpreadTheyState) {
 
 TEST(ProjectedSight, NearTheWindowSidesLeaveThePicture) {
   EXPECT_EQ(seenFrom({-4.0, 0.0, 0.0})->visibleSides(), 4);
-  const auto near = seenFrom({-0.92, 0.0, 0.0});  // higher than the picture, not yet wider
+  const auto near = seenFrom({-0.92, 0.0, 0.0});  // higher than the image, not yet wider
   ASSERT_TRUE(near);
   EXPECT_EQ(near->visibleSides(), 2);
   EXPECT_FALSE(near->whole());

@@ -11,7 +11,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-/// Small pictures of a window, and of walls.
+/// Small images of a window, and of walls.
 std::vector<LabelledPicture> pictures(int count, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<LabelledPicture> result;
@@ -30,7 +30,7 @@ std::vector<LabelledPicture> pictures(int count, unsigned seed) {
 
 detection::DetectorParams blinded() {
   detection::DetectorParams params;
-  params.gates.min_area = 0.5;  // of the picture
+  params.gates.min_area = 0.5;  // of the image
   return params;
 }
 

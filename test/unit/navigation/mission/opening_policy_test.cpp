@@ -310,7 +310,7 @@ TEST(OpeningPolicy, NoSequenceOfVerdictsLeadsIntoWhatMayBeGlazedUnlessConfirmed)
 TEST(OpeningPolicy, TurnsBackFromOneThatTurnsOutToBeClosedOnTheWayIn) {
   test::KinematicPlant plant{test::PlantParams()};
   NavigatorParams params = paramsFor("allow");
-  params.commit.view_margin_m = 0.8;  // it is seen for some more pictures
+  params.commit.view_margin_m = 0.8;  // it is seen for some more images
   Navigator navigator(params);
   bool committed = false;
   const Flight flight = flown(plant, navigator, [&](const NavigatorOutput& output) {

@@ -17,7 +17,7 @@ std::uint64_t column(int x) {
   return cells;
 }
 
-// Two halves of a plain picture, parted by an upright edge in the middle, with noise.
+// Two halves of a plain image, parted by an upright edge in the middle, with noise.
 cv::Mat halves(double left, double right, double sigma) {
   cv::Mat picture(120, 160, CV_8UC1, cv::Scalar(left));
   picture.colRange(80, 160).setTo(right);

@@ -147,7 +147,7 @@ TEST(CameraSensor, BlurMovesNoCorner) {
   EXPECT_LT((sum / corners).norm(), 0.02);
 }
 
-// Mean grey of pictures of a standing camera, over time.
+// Mean grey of images of a standing camera, over time.
 std::vector<double> meansOver(const CameraParams& params, int pictures, cv::Scalar* last = nullptr) {
   CameraSensor camera(buildScene(Scenario()), params, 1);
   std::vector<double> means;

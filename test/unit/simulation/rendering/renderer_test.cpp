@@ -46,7 +46,7 @@ struct Errors {
   int corners = 0;
 };
 
-// Differences between corners measured in pictures and projected ones, over random views.
+// Differences between corners measured in images and projected ones, over random views.
 Errors compareCorners(const PinholeCamera& camera, int views,
                       Antialiasing antialiasing = Antialiasing::kEdges) {
   Scenario scenario;
@@ -119,7 +119,7 @@ TEST(Renderer, RenderedCornersEqualProjectedCornersWithMultisampling) {
       compareCorners(PinholeCamera::fromFieldOfView(640, 480, 1.2), 15, Antialiasing::kMultisampling));
 }
 
-// Fraction of the pixels in which two pictures differ by more than `limit` grey levels in any channel.
+// Fraction of the pixels in which two images differ by more than `limit` grey levels in any channel.
 double differing(const cv::Mat& a, const cv::Mat& b, int limit) {
   cv::Mat difference;
   cv::absdiff(a, b, difference);
