@@ -76,8 +76,8 @@ double WindowDetector::Impl::leastScore(const ScoredCandidate& rival) const {
 
 std::optional<Rejection> WindowDetector::Impl::objection(const ScoredCandidate& rival) const {
   if (rival.correlation) return reference.objectionTo(rival.match);
-  if (rival.appearance && rival.appearance->distance > rival.appearance->limit)
-    return Rejection{RejectReason::kAppearance, rival.appearance->distance, rival.appearance->limit};
+  if (rival.appearance)
+    if (const auto refused = reference.objectionTo(*rival.appearance)) return refused;
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
   if (const double least = leastScore(rival); rival.score < least)
     return Rejection{RejectReason::kScore, rival.score, least};

@@ -14,7 +14,7 @@
 
 #include "adapters/bags/bag_topics.hpp"
 #include "adapters/bags/labelled_bag.hpp"
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "command_line.hpp"
 
 namespace window_ingress::tools {
@@ -68,7 +68,7 @@ class Camera : public TuningSource {
   std::string name() override { return topic_ + (refusal_.empty() ? "" : ", refused: " + refusal_); }
 
  private:
-  void take(const adapters::GuardedImage& guarded) {
+  void take(const adapters::DecodedImage& guarded) {
     refusal_ = guarded.reason;
     if (!guarded.image.empty()) picture_ = guarded.image.clone();
   }

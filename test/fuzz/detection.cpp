@@ -1,7 +1,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "pictures.hpp"
 #include "targets.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
@@ -52,7 +52,7 @@ void detection(const std::uint8_t* data, std::size_t size) {
   Bytes scene = bytes;  // the same for every image but for what is drawn on it
   for (int i = 0; i < pictures; ++i) {
     Bytes drawing = bytes;
-    const adapters::GuardedImage guarded = adapters::decode(smallImage(scene), {});
+    const adapters::DecodedImage guarded = adapters::decode(smallImage(scene), {});
     scene = bytes;
     if (guarded.image.empty()) return;
     cv::Mat image = guarded.image.clone();

@@ -1,11 +1,11 @@
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "pictures.hpp"
 #include "targets.hpp"
 
 namespace window_ingress::fuzz {
 namespace {
 
-void check(const adapters::GuardedImage& picture, const adapters::ImageLimits& limits) {
+void check(const adapters::DecodedImage& picture, const adapters::ImageLimits& limits) {
   require(picture.image.empty() == !picture.reason.empty(), "a picture or a reason, not both or none");
   if (picture.image.empty()) return;
   require(picture.image.type() == CV_8UC1 || picture.image.type() == CV_8UC3, "8 bits, grey or colour");

@@ -17,14 +17,14 @@ enum class Event {
   kWindowFound,    ///< the target was seen often enough
   kAligned,        ///< normal trusted and the vehicle within the funnel
   kMisaligned,     ///< out of the funnel, or the normal no longer trusted
-  kCommitReached,  ///< the window is about to leave the view and the contract holds
+  kCommitReached,  ///< the window is about to leave the view and the criterion holds
   kContractUnmet,  ///< close to the window and the predicted miss exceeds the clearance
   kCrossed,        ///< behind the window, standing still
   kOtherWindow,    ///< the way flown has shown that it is not the window looked for, or that it is closed
   kWindowLost,     ///< not seen for long, its normal is known
   kBackedOff,      ///< far enough away, the window still not in view
   kReacquired,     ///< seen again
-  kResumed,        ///< inputs are back during a commit whose contract still holds
+  kResumed,        ///< inputs are back during a commit whose criterion still holds
   kInputStale,     ///< an input that this state needs is old, missing, not finite or has jumped
   kInputFresh,     ///< inputs are back, no window known
   kGiveUp,         ///< time-out, retries used up, nothing left to search, opening too small

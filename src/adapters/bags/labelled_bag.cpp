@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 
 namespace window_ingress::adapters {
@@ -22,7 +22,7 @@ void forEachPicture(const rosbag::Bag& bag, const std::string& topic, int every,
   int number = 0;
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     if (number++ % every != 0) continue;
-    GuardedImage picture;
+    DecodedImage picture;
     std_msgs::Header header;
     if (const auto image = message.instantiate<sensor_msgs::Image>()) {
       header = image->header;

@@ -55,10 +55,10 @@ class Replay {
  private:
   struct Waiting {
     std_msgs::Header header;
-    std::function<GuardedImage()> decode;
+    std::function<DecodedImage()> decode;
   };
 
-  void takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode);
+  void takeImage(const std_msgs::Header& header, std::function<DecodedImage()> decode);
   void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec);
   void takeImu(const sensor_msgs::Imu& message);
   void takeCamera(const sensor_msgs::CameraInfo& message) { camera_ = cameraFromMsg(message, false); }
@@ -125,7 +125,7 @@ void Replay::take(const rosbag::MessageInstance& message) {
   }
 }
 
-void Replay::takeImage(const std_msgs::Header& header, std::function<GuardedImage()> decode) {
+void Replay::takeImage(const std_msgs::Header& header, std::function<DecodedImage()> decode) {
   if (!stampSec(header.stamp)) return refuse("image", "header.stamp is zero or not normalised");
   noticeJump(header.stamp);
   waiting_.push_back({header, std::move(decode)});
@@ -211,7 +211,7 @@ Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) c
 void Replay::processFirst() {
   const Waiting waiting = std::move(waiting_.front());
   waiting_.pop_front();
-  const GuardedImage picture = waiting.decode();
+  const DecodedImage picture = waiting.decode();
   if (!picture.reason.empty()) return refuse("image", picture.reason);
   ReplayedFrame frame;
   frame.stamp = waiting.header.stamp;

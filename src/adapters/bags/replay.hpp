@@ -12,7 +12,7 @@
 #include <string>
 
 #include "adapters/bags/bag_topics.hpp"
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 #include "evaluation/images/detection_table.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"

@@ -5,7 +5,7 @@
 
 #include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -119,18 +119,18 @@ void FlightTrail::add(const Eigen::Vector3d& position_odom_m, navigation::State 
 
 std::vector<FunnelSection> funnelOf(const navigation::VehicleState& vehicle,
                                     const navigation::TargetEstimate& target, const NavigatorParams& params) {
-  navigation::ContractInput input;
+  navigation::CommitCriterionInput input;
   input.relative = navigation::relate(vehicle, target);
   input.opening = target.opening;
   input.pitch_rad = navigation::pitchOf(vehicle);
-  const double line_m = navigation::evaluateContract(input, params).commit_distance_m;
+  const double line_m = navigation::evaluateCommitCriterion(input, params).commit_distance_m;
   std::vector<FunnelSection> sections;
   for (const double distance_m : {0.0, line_m, line_m + kFunnelM}) {
     input.relative.position_window_m.x() = -distance_m;
-    const navigation::Contract contract = navigation::evaluateContract(input, params);
-    if (!(contract.clearance_lateral_m > 0.0 && contract.clearance_vertical_m > 0.0)) return {};
-    sections.push_back({distance_m, contract.clearance_lateral_m + contract.funnel_m,
-                        contract.clearance_vertical_m + contract.funnel_m});
+    const navigation::CommitCriterion criterion = navigation::evaluateCommitCriterion(input, params);
+    if (!(criterion.clearance_lateral_m > 0.0 && criterion.clearance_vertical_m > 0.0)) return {};
+    sections.push_back({distance_m, criterion.clearance_lateral_m + criterion.funnel_m,
+                        criterion.clearance_vertical_m + criterion.funnel_m});
   }
   return sections;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/conversions/image_message.hpp"
+#include "adapters/conversions/image_to_msg.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"
@@ -83,7 +83,7 @@ void DetectorNode::lookInStep(const Lockstep::Step& step) {
   window_publisher_.publish(message);
 }
 
-void DetectorNode::receive(const std_msgs::Header& header, const GuardedImage& picture) {
+void DetectorNode::receive(const std_msgs::Header& header, const DecodedImage& picture) {
   if (!lockstep_) return look(header, picture);
   waiting_header_ = header;
   waiting_ = picture;
@@ -97,7 +97,7 @@ void DetectorNode::restartIfClockJumpedBack() {
   last_pose_.reset();
 }
 
-void DetectorNode::look(const std_msgs::Header& header, const GuardedImage& picture) {
+void DetectorNode::look(const std_msgs::Header& header, const DecodedImage& picture) {
   restartIfClockJumpedBack();
   times_.begin(header, picture.decode_ms);
   const cv::Mat& image = picture.image;
@@ -155,7 +155,7 @@ std::string DetectorNode::yawAt(const ros::Time& stamp) const {
 }
 
 void DetectorNode::receiveReference(const window_ingress::ReferencePicture& message) {
-  const GuardedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.picture), params_.image);
+  const DecodedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.picture), params_.image);
   if (!picture.reason.empty()) throw ParameterError("reference picture: " + picture.reason);
   std::vector<double> corners;
   for (std::size_t i = 0; i < 4; ++i)

@@ -40,9 +40,9 @@ class DetectorNode : public Node {
   using Trigger = std_srvs::Trigger;
   using Tuning = Reconfigure<window_ingress::WindowDetectorConfig, detection::DetectorParams>;
 
-  void receive(const std_msgs::Header& header, const GuardedImage& picture);
+  void receive(const std_msgs::Header& header, const DecodedImage& picture);
   void restartIfClockJumpedBack();
-  void look(const std_msgs::Header& header, const GuardedImage& picture);
+  void look(const std_msgs::Header& header, const DecodedImage& picture);
   bool isComplete(const Lockstep::Step& step) const;
   void lookInStep(const Lockstep::Step& step);
   void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image, double milliseconds);
@@ -67,14 +67,14 @@ class DetectorNode : public Node {
   ImageSource images_;
   Tuning tuning_;
   cv::Mat canvas_;
-  GuardedImage last_picture_;
+  DecodedImage last_picture_;
   double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
   bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference
   PictureTimes times_;
   std::optional<Lockstep> lockstep_;
   std_msgs::Header waiting_header_;  // in lockstep: of the image that waits for its step
-  std::optional<GuardedImage> waiting_;
+  std::optional<DecodedImage> waiting_;
   ros::Time reference_stamp_, announced_, looked_;
 
   window_ingress::WindowPose::ConstPtr last_pose_;  // of an image before the present one

@@ -21,7 +21,7 @@ bool isPublished(const std::string& topic) {
 }  // namespace
 
 CompressedPicture compress(const sensor_msgs::ImageConstPtr& image, const ImageCompressorParams& params) {
-  const GuardedImage picture = decode(image, params.image);
+  const DecodedImage picture = decode(image, params.image);
   if (!picture.reason.empty()) return {std::nullopt, picture.reason};
   sensor_msgs::CompressedImage message;
   message.header = image->header;

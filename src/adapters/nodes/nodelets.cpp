@@ -12,7 +12,7 @@
 #include "adapters/nodes/detector_node.hpp"
 #include "adapters/nodes/navigator_node.hpp"
 #include "adapters/nodes/pose_node.hpp"
-#include "adapters/sources/output_pump.hpp"
+#include "adapters/sources/console_pump.hpp"
 
 namespace window_ingress::adapters {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "adapters/sources/output_pump.hpp"
+#include "adapters/sources/console_pump.hpp"
 #include "window_ingress/parameters/text.hpp"
 
 namespace window_ingress::adapters {

@@ -61,12 +61,12 @@ void ImageSource::subscribePlugin(const std::string& transport) {
                 [this] { return static_cast<int>(plugin_subscriber_.getNumPublishers()); });
 }
 
-void ImageSource::receive(const std_msgs::Header& header, const std::function<GuardedImage()>& decode) {
+void ImageSource::receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode) {
   health_.arrived();
   const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
   if (late) return health_.refused(*late);
   const double begun_sec = steadyNowSec();
-  GuardedImage picture = decode();
+  DecodedImage picture = decode();
   picture.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
   if (!picture.reason.empty()) return health_.refused(picture.reason);
   if (stuck_.sameForSec(picture.image, steadyNowSec()) > kStuckSec)

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/sources/diagnostics.hpp"
 
@@ -16,7 +16,7 @@ namespace window_ingress::adapters {
 /// which is read here, because its plugin decodes without looking at sizes and is not in every distribution.
 class ImageSource {
  public:
-  using Callback = std::function<void(const std_msgs::Header&, const GuardedImage&)>;
+  using Callback = std::function<void(const std_msgs::Header&, const DecodedImage&)>;
 
   /// \throws ParameterError that lists the transports if there is no such one
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
@@ -27,7 +27,7 @@ class ImageSource {
  private:
   void subscribeCompressed(ros::NodeHandle& nh);
   void subscribePlugin(const std::string& transport);
-  void receive(const std_msgs::Header& header, const std::function<GuardedImage()>& decode);
+  void receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode);
 
   ImageLimits limits_;
   StampGate gate_;

@@ -154,12 +154,19 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
   return true;
 }
 
+std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& match) const {
+  if (match.distance <= match.limit) return std::nullopt;
+  return Rejection{RejectReason::kAppearance, match.distance, match.limit};
+}
+
+// Without a frame the ring is nothing but wall: what correlates there need not have the same contrasts.
 std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) const {
-  const double least = std::max(min_correlation_, frameless() ? 0.0 : kFaithful);
-  const double least_uncovered = std::max(min_correlation_, frameless() ? kUncovered : kFaithfulUncovered);
-  const double value = frameless() ? match.correlation : match.faithful;
-  if (value >= least || (frameless() ? match.uncovered : match.faithful_uncovered) >= least_uncovered)
-    return std::nullopt;
+  const bool bare = frameless();
+  const double value = bare ? match.correlation : match.faithful;
+  const double uncovered = bare ? match.uncovered : match.faithful_uncovered;
+  const double least = std::max(min_correlation_, bare ? 0.0 : kFaithful);
+  const double least_uncovered = std::max(min_correlation_, bare ? kUncovered : kFaithfulUncovered);
+  if (value >= least || uncovered >= least_uncovered) return std::nullopt;
   return Rejection{RejectReason::kUnlike, value, least};
 }
 

@@ -48,6 +48,9 @@ class ReferenceJudge {
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                          std::vector<ScoredCandidate>& rivals);
 
+  /// Why the colours of a frame are not the reference's (P9).
+  std::optional<Rejection> objectionTo(const AppearanceMatch& match) const;
+
   /// Why what lies round a place is not what lies round the reference's opening.
   std::optional<Rejection> objectionTo(const RingMatch& match) const;
 

@@ -22,11 +22,11 @@ bool WindowHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeE
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   WindowHypothesis window(params_, T_odom_window, size, position);
   auto outcome = window.update(params_, view);
-  if (!outcome || outcome->squares > params_.gate_squares) {
+  if (!passesGate(outcome, params_)) {
     window = WindowHypothesis(params_, window.mirrored(position).T_odom_window(), size, position);
     outcome = window.update(params_, view);
   }
-  if (!outcome || outcome->squares > params_.gate_squares) return false;
+  if (!passesGate(outcome, params_)) return false;
   hypotheses_.assign(1, {window, 0.0});
   may_split_ = true;
   addMirrorImage(view, size, outcome->squares);
@@ -63,7 +63,7 @@ std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterVie
     window.predict(params_, elapsed_sec, way_m, view.T_odom_camera.translation());
     WindowHypothesis updated = window;
     const auto outcome = updated.update(params_, view);
-    if (!outcome || outcome->squares > params_.gate_squares) continue;
+    if (!passesGate(outcome, params_)) continue;
     evidence[i] = outcome->log_evidence;
     window = updated;
     if (!closest || outcome->squares < closest->squares) closest = outcome;

@@ -72,4 +72,9 @@ class WindowHypothesis {
   WindowState::Matrix covariance_;
 };
 
+/// Whether an image that was applied is near enough to what the belief expected.
+inline bool passesGate(const std::optional<WindowHypothesis::Outcome>& outcome, const FilterParams& params) {
+  return outcome && outcome->squares <= params.gate_squares;
+}
+
 }  // namespace window_ingress::estimation

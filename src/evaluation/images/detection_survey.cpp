@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kSameWindowIou = 0.5, kOnBorderIou = 0.8;
+constexpr double kOnTargetIou = 0.5, kOnBorderIou = 0.8;
 constexpr double kDegreesPerRad = 57.29577951308232;
 
 std::string number(const char* pattern, double value) {
@@ -63,7 +63,7 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   };
   if (truth.outer) consider(*truth.outer, SurveyVerdict::kOuterBorder);
   consider(truth.far, SurveyVerdict::kFarBorder);
-  if (geometry::intersectionOverUnion(*found, *nearest) < kSameWindowIou) return SurveyVerdict::kWrongTarget;
+  if (geometry::intersectionOverUnion(*found, *nearest) < kOnTargetIou) return SurveyVerdict::kWrongTarget;
   if (border != SurveyVerdict::kInexact) return border;
   return worstCornerDistance(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit : border;
 }

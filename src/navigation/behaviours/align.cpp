@@ -88,25 +88,26 @@ Decision Align::resolveSign(const Situation& situation, const RelativeState& rel
   return decision;
 }
 
-bool Align::isNearAxis(const RelativeState& relative, const Contract& contract, bool is_forbidden) const {
+bool Align::isNearAxis(const RelativeState& relative, const CommitCriterion& criterion,
+                       bool is_forbidden) const {
   if (is_forbidden && std::abs(relative.lateral()) < kNearAxisM) return true;
-  if (!pacer_.isStepped()) return contract.openness >= kWellInFunnel;
+  if (!pacer_.isStepped()) return criterion.openness >= kWellInFunnel;
   return std::max(std::abs(relative.lateral()), std::abs(relative.vertical())) < kNearAxisM;
 }
 
 Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
                              const RelativeState& relative) {
   const auto& target = *situation.target;
-  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_);
   Decision decision;
   const bool has_size = target.fit != estimation::Fit::kUnknown;
-  if (has_size && std::min(contract.clearance_lateral_m, contract.clearance_vertical_m) <= 0.0) {
+  if (has_size && std::min(criterion.clearance_lateral_m, criterion.clearance_vertical_m) <= 0.0) {
     decision.event = Event::kGiveUp;
     decision.reason = "the opening is too small for the vehicle";
     return decision;
   }
   const bool is_forbidden = !target.approach_forbidden.empty();
-  const bool near_axis = isNearAxis(relative, contract, is_forbidden);
+  const bool near_axis = isNearAxis(relative, criterion, is_forbidden);
   const double retreat_mps = -velocityTowards(params_->align.min_distance_m - relative.distance(),
                                               params_->align.lateral_speed_mps, *params_);
   const double forward_mps = near_axis && !is_forbidden ? 0.0 : std::min(0.0, retreat_mps);

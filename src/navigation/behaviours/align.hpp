@@ -66,7 +66,7 @@ class Align {
 
  private:
   Decision resolveSign(const Situation& situation, const RelativeState& relative);
-  bool isNearAxis(const RelativeState& relative, const Contract& contract, bool is_forbidden) const;
+  bool isNearAxis(const RelativeState& relative, const CommitCriterion& criterion, bool is_forbidden) const;
   Decision moveOntoAxis(const Situation& situation, MissionState& memory, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);
 

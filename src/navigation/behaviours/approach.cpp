@@ -18,7 +18,7 @@ double heldSec(bool condition, double now_sec, std::optional<double>& since_sec)
 }
 
 /// Beyond the funnel's wall by this factor.
-bool isOutside(const Contract& contract, double factor) { return contract.fullness > factor; }
+bool isOutside(const CommitCriterion& criterion, double factor) { return criterion.fullness > factor; }
 
 }  // namespace
 
@@ -40,56 +40,57 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
     decision.reason = "approach forbidden: " + target.approach_forbidden;
     return decision;
   }
-  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_);
   RelativeState to_goal = relative;
-  to_goal.position_window_m.y() -= asideM(contract, situation);
+  to_goal.position_window_m.y() -= asideM(criterion, situation);
   decision.wish.velocity_odom_mps = pacer_.pace(
-      velocityAlongAxis(to_goal, target, againstTailwind(forwardSpeed(contract, relative), target, memory),
+      velocityAlongAxis(to_goal, target, againstTailwind(forwardSpeed(criterion, relative), target, memory),
                         memory.wind_odom_mps, *params_),
       uprightRotation(target), situation);
-  decision.reason = contract.holds ? "on the window's normal" : contract.unmet;
-  if (!contract.holds) memory.unmet = contract.unmet;
-  decision.event = judge(contract, relative, situation, decision.reason);
+  decision.reason = criterion.holds ? "on the window's normal" : criterion.unmet;
+  if (!criterion.holds) memory.unmet = criterion.unmet;
+  decision.event = judge(criterion, relative, situation, decision.reason);
   if (decision.event == Event::kCommitReached) {
     memory.committed = target;
     memory.committed_sec = situation.now_sec;
-    memory.predicted_miss_m = contract.missM();
+    memory.predicted_miss_m = criterion.missM();
     memory.blind_sec = 0.0;
   }
   return decision;
 }
 
-double Approach::forwardSpeed(const Contract& contract, const RelativeState& relative) const {
+double Approach::forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) const {
   const double in_view = std::clamp(1.5 - std::abs(relative.bearing_rad) / 0.3, 0.0, 1.0);
-  const double speed_mps = params_->approach.speed_mps * contract.openness * in_view;
-  const double end_m = contract.holds ? params_->vehicle.half_length_m : contract.commit_distance_m;
+  const double speed_mps = params_->approach.speed_mps * criterion.openness * in_view;
+  const double end_m = criterion.holds ? params_->vehicle.half_length_m : criterion.commit_distance_m;
   return std::min(speed_mps, stoppingSpeed(relative.distance() - end_m, params_->vehicle.braking_mps2,
                                            params_->vehicle.response_sec));
 }
 
-double Approach::asideM(const Contract& contract, const Situation& situation) const {
-  const bool knows = !contract.opening_unverified || isSeenOpen(*situation.target);
+double Approach::asideM(const CommitCriterion& criterion, const Situation& situation) const {
+  const bool knows = !criterion.opening_unverified || isSeenOpen(*situation.target);
   if (!looks_ || !waiting_since_sec_ || knows) return 0.0;
-  return lookAside(situation.now_sec - *waiting_since_sec_, contract, params_->commit);
+  return lookAside(situation.now_sec - *waiting_since_sec_, criterion, params_->commit);
 }
 
 double Approach::patienceSec(const TargetEstimate& target) const {
   return looks_ ? waitAtLineSec(target, params_->commit) : params_->approach.patience_sec;
 }
 
-std::optional<Event> Approach::judge(const Contract& contract, const RelativeState& relative,
+std::optional<Event> Approach::judge(const CommitCriterion& criterion, const RelativeState& relative,
                                      const Situation& situation, std::string& reason) {
-  const bool at_line = relative.distance() <= contract.commit_distance_m + 0.05;
-  if (at_line && contract.holds) return Event::kCommitReached;
+  const bool at_line = relative.distance() <= criterion.commit_distance_m + 0.05;
+  if (at_line && criterion.holds) return Event::kCommitReached;
   const double outside_sec =
-      heldSec(isOutside(contract, params_->approach.leave_factor), situation.now_sec, outside_since_sec_);
+      heldSec(isOutside(criterion, params_->approach.leave_factor), situation.now_sec, outside_since_sec_);
   // Aside the line is further away from the window.
-  const bool waits = at_line || (looks_ && relative.distance() <= contract.commit_distance_m + kLooksWithinM);
+  const bool waits =
+      at_line || (looks_ && relative.distance() <= criterion.commit_distance_m + kLooksWithinM);
   const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);
-  looks_ = waits && (looks_ || contract.opening_unverified);
+  looks_ = waits && (looks_ || criterion.opening_unverified);
   if (waiting_sec > patienceSec(*situation.target)) return Event::kContractUnmet;
   if (outside_sec > params_->approach.leave_sec) {
-    reason = "out of the funnel: " + contract.unmet;
+    reason = "out of the funnel: " + criterion.unmet;
     return at_line ? Event::kContractUnmet : Event::kMisaligned;
   }
   return std::nullopt;

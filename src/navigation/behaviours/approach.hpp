@@ -7,7 +7,7 @@ namespace window_ingress::navigation {
 
 /// APPROACH (P16): forward along the normal, still correcting sideways and in height. The forward speed
 /// shrinks to nothing at the wall of the funnel, and so that the vehicle can stop at the commit line as long
-/// as the contract does not hold.
+/// as the criterion does not hold.
 class Approach {
  public:
   explicit Approach(const NavigatorParams& params) : params_(&params), pacer_(params) {}
@@ -17,11 +17,11 @@ class Approach {
   Decision step(const Situation& situation, MissionState& memory);
 
  private:
-  double forwardSpeed(const Contract& contract, const RelativeState& relative) const;
+  double forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) const;
   /// Beside the axis, to see whether the opening is open.
-  double asideM(const Contract& contract, const Situation& situation) const;
+  double asideM(const CommitCriterion& criterion, const Situation& situation) const;
   double patienceSec(const TargetEstimate& target) const;
-  std::optional<Event> judge(const Contract& contract, const RelativeState& relative,
+  std::optional<Event> judge(const CommitCriterion& criterion, const RelativeState& relative,
                              const Situation& situation, std::string& reason);
 
   const NavigatorParams* params_;

@@ -86,14 +86,14 @@ bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, con
                      });
 }
 
-Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory,
-                      const NavigatorParams& params, double unseen_sec) {
+CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& vehicle,
+                              const MissionState& memory, const NavigatorParams& params, double unseen_sec) {
   const Eigen::Matrix3d R_odom_window = uprightRotation(target);
   const auto along = [&](int axis) {
     const Eigen::Vector3d direction = R_odom_window.col(axis);
     return std::sqrt(std::max(0.0, direction.dot(memory.gusts_odom * direction)));
   };
-  ContractInput input;
+  CommitCriterionInput input;
   input.relative = relate(vehicle, target);
   input.opening = target.opening;
   input.pitch_rad = pitchOf(vehicle);
@@ -103,13 +103,13 @@ Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle,
   input.gust_vertical_mps = along(2);
   input.odometry_mps = memory.odometry_unexplained_mps;
   input.drift_m_per_sqrt_sec = memory.odometry_drift_m_per_sqrt_sec;
-  Contract contract = evaluateContract(input, params);
+  CommitCriterion criterion = evaluateCommitCriterion(input, params);
   const std::string why_not = whyNotEntered(target, memory, params.commit);
-  contract.opening_unverified = !why_not.empty();
-  if (contract.holds) contract.unmet = whyNoOdometryToCommitBy(memory);
-  if (contract.unmet.empty()) contract.unmet = why_not;
-  contract.holds = contract.unmet.empty();
-  return contract;
+  criterion.opening_unverified = !why_not.empty();
+  if (criterion.holds) criterion.unmet = whyNoOdometryToCommitBy(memory);
+  if (criterion.unmet.empty()) criterion.unmet = why_not;
+  criterion.holds = criterion.unmet.empty();
+  return criterion;
 }
 
 double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& memory) {

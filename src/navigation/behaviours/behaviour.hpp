@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "navigation/motion/input_monitor.hpp"
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
 
 namespace window_ingress::navigation {
@@ -43,7 +43,7 @@ struct MissionState {
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
   int others = 0;            ///< how often one of these was flown at
   int back_offs = 0;
-  std::string unmet;              ///< why the contract was not met, of late
+  std::string unmet;              ///< why the criterion was not met, of late
   double predicted_miss_m = 0.0;  ///< of the commit, as of the last moment at which it could be broken off
   double blind_sec = 0.0;         ///< longest time without sight of the window during COMMIT, up to the plane
 
@@ -67,10 +67,11 @@ std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionStat
 /// same direction, for its distance is computed with a size that it does not have.
 bool isKnownOther(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory);
 
-/// Contract of this vehicle with this window, now. \param unseen_sec nothing is known of the
+/// CommitCriterion of this vehicle with this window, now. \param unseen_sec nothing is known of the
 /// window since so long
-Contract contractWith(const TargetEstimate& target, const VehicleState& vehicle, const MissionState& memory,
-                      const NavigatorParams& params, double unseen_sec = 0.0);
+CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& vehicle,
+                              const MissionState& memory, const NavigatorParams& params,
+                              double unseen_sec = 0.0);
 
 /// Forward velocity less what wind adds towards the window; wind that holds the vehicle back is not made up
 /// for.

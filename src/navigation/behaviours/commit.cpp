@@ -21,10 +21,10 @@ std::string text(const char* pattern, double value) {
 
 /// The predicted miss exceeds the clearance by half of the margin that was kept: less is no reason to turn
 /// back.
-bool isBroken(const Contract& contract, const NavigatorParams& params) {
+bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
   const double given_m = params.approach.margin_m / 2.0;
-  return contract.miss_lateral_m > contract.clearance_lateral_m + given_m ||
-         contract.miss_vertical_m > contract.clearance_vertical_m + given_m;
+  return criterion.miss_lateral_m > criterion.clearance_lateral_m + given_m ||
+         criterion.miss_vertical_m > criterion.clearance_vertical_m + given_m;
 }
 
 /// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
@@ -61,12 +61,12 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
   const RelativeState relative = relate(*situation.vehicle, target);
   const double blind_sec = std::max(0.0, situation.now_sec - target.stamp_sec);
   const double unknown_sec = std::max(0.0, situation.now_sec - memory.committed_sec);
-  const Contract contract = contractWith(target, *situation.vehicle, memory, *params_, unknown_sec);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, *params_, unknown_sec);
   if (relative.distance() > 0.0) memory.blind_sec = std::max(memory.blind_sec, blind_sec);
 
   Decision decision;
   decision.wish.velocity_odom_mps =
-      velocityAlongAxis(relative, target, forwardSpeed(contract, relative), memory.wind_odom_mps, *params_);
+      velocityAlongAxis(relative, target, forwardSpeed(criterion, relative), memory.wind_odom_mps, *params_);
   decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, *params_);
   decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
@@ -78,16 +78,16 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
     const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
     if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
   } else if (canStop(relative, target, memory, *params_)) {
-    memory.predicted_miss_m = contract.missM();
-    turnBackIfUnsafe(contract, blind_sec, decision);
+    memory.predicted_miss_m = criterion.missM();
+    turnBackIfUnsafe(criterion, blind_sec, decision);
   }
   return decision;
 }
 
-void Commit::turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const {
-  if (isBroken(contract, *params_)) {
+void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const {
+  if (isBroken(criterion, *params_)) {
     decision.event = Event::kContractUnmet;
-    decision.reason = "turning back: " + contract.unmet;
+    decision.reason = "turning back: " + criterion.unmet;
   } else if (disagreements_ >= kDisagreementsToTurnBack) {
     decision.event = Event::kContractUnmet;
     decision.reason = text("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
@@ -121,11 +121,11 @@ void Commit::heedForbidden(const TargetEstimate& target) {
   if (!why.empty()) why_forbidden_ = why;
 }
 
-double Commit::forwardSpeed(const Contract& contract, const RelativeState& relative) {
+double Commit::forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) {
   const double room_m = params_->commit.exit_distance_m + relative.distance();
   if (room_m < 0.1) is_through_ = true;
   const double stop_mps = stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
-  const double off_axis = std::abs(relative.lateral()) / std::max(0.01, contract.clearance_lateral_m);
+  const double off_axis = std::abs(relative.lateral()) / std::max(0.01, criterion.clearance_lateral_m);
   const double slowed = relative.distance() > 0.0 ? std::clamp(2.0 - 1.5 * off_axis, 0.2, 1.0) : 1.0;
   return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps * slowed);
 }
@@ -146,7 +146,7 @@ bool Commit::canResume(const Situation& situation, const MissionState& memory,
   if (relative.distance() < -params.vehicle.half_length_m) return true;
   if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed, params))
     return false;
-  return !isBroken(contractWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
+  return !isBroken(criterionWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
 }
 
 }  // namespace window_ingress::navigation

@@ -16,7 +16,7 @@ class Commit {
   void enter();
   Decision step(const Situation& situation, MissionState& memory);
 
-  /// True, after odometry was gone, if the vehicle is through already, or if the contract with the committed
+  /// True, after odometry was gone, if the vehicle is through already, or if the criterion with the committed
   /// window still holds, grown by the drift since; in front of the plane only while the window is seen there.
   static bool canResume(const Situation& situation, const MissionState& memory,
                         const NavigatorParams& params);
@@ -24,8 +24,8 @@ class Commit {
  private:
   void heedForbidden(const TargetEstimate& target);
   void refine(const Situation& situation, MissionState& memory);
-  void turnBackIfUnsafe(const Contract& contract, double blind_sec, Decision& decision) const;
-  double forwardSpeed(const Contract& contract, const RelativeState& relative);
+  void turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const;
+  double forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative);
   double speedToExit(double room_m, const RelativeState& relative) const;
 
   const NavigatorParams* params_;

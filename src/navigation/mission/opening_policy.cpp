@@ -66,10 +66,10 @@ std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionSt
   return decision;
 }
 
-double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params) {
+double lookAside(double waiting_sec, const CommitCriterion& criterion, const CommitParams& params) {
   constexpr double kPeriodSec = 5.0, kPartOfClearance = 0.7;
   const double aside_m =
-      std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, contract.clearance_lateral_m));
+      std::min(params.look_aside_m, kPartOfClearance * std::max(0.0, criterion.clearance_lateral_m));
   return aside_m * std::sin(2.0 * M_PI * waiting_sec / kPeriodSec);
 }
 

@@ -31,6 +31,6 @@ std::optional<Decision> leaveClosedOpening(const Situation& situation, MissionSt
 
 /// Where to stand beside the window's axis to see more of what is behind it, waiting for so long: to one
 /// side, then to the other [m].
-double lookAside(double waiting_sec, const Contract& contract, const CommitParams& params);
+double lookAside(double waiting_sec, const CommitCriterion& criterion, const CommitParams& params);
 
 }  // namespace window_ingress::navigation

@@ -40,24 +40,24 @@ Eigen::Vector3d awayAndToAxis(const Eigen::Vector3d& velocity, const VehicleStat
 
 /// Of a velocity that leads nowhere forward, what is permitted this near the wall outside the funnel.
 Eigen::Vector3d awayFromWall(const Eigen::Vector3d& velocity, const Situation& situation,
-                             const Contract& contract, const NavigatorParams& params) {
+                             const CommitCriterion& criterion, const NavigatorParams& params) {
   const auto& target = *situation.target;
   const bool is_near = relate(*situation.vehicle, target).distance() < params.limits.wall_distance_m;
-  return is_near && !contract.in_funnel ? awayAndToAxis(velocity, *situation.vehicle, target) : velocity;
+  return is_near && !criterion.in_funnel ? awayAndToAxis(velocity, *situation.vehicle, target) : velocity;
 }
 
 Eigen::Vector3d permittedBeforeWindow(const Eigen::Vector3d& velocity, State state,
                                       const Situation& situation, const MissionState& memory,
                                       const NavigatorParams& params) {
   const auto& target = *situation.target;
-  const Contract contract = contractWith(target, *situation.vehicle, memory, params);
+  const CommitCriterion criterion = criterionWith(target, *situation.vehicle, memory, params);
   const double distance_m = relate(*situation.vehicle, target).distance();
   if (distance_m <= 0.0) return verticalAndToPlace(velocity, situation, memory, params);
-  const bool before_line = distance_m > contract.commit_distance_m;
+  const bool before_line = distance_m > criterion.commit_distance_m;
   const bool may_advance = state == State::kApproach && target.approach_forbidden.empty() &&
-                           (contract.holds || (before_line && contract.in_funnel));
+                           (criterion.holds || (before_line && criterion.in_funnel));
   if (may_advance) return velocity;
-  return awayFromWall(withoutForward(velocity, target), situation, contract, params);
+  return awayFromWall(withoutForward(velocity, target), situation, criterion, params);
 }
 
 Eigen::Vector3d permittedBackwards(const Eigen::Vector3d& velocity, const Situation& situation,

@@ -4,7 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -31,7 +31,7 @@ sensor_msgs::ImagePtr made(const BadImage& bad) {
 void expectRefused(const std::vector<BadImage>& all, const ImageLimits& limits = kLimits) {
   std::string last;
   for (const BadImage& bad : all) {
-    const GuardedImage result = decode(made(bad), limits);
+    const DecodedImage result = decode(made(bad), limits);
     EXPECT_TRUE(result.image.empty()) << bad.encoding;
     EXPECT_NE(result.reason.find(bad.word), std::string::npos) << bad.word << " is not in: " << result.reason;
     last = result.reason;
@@ -96,7 +96,7 @@ TEST(Fault, M08_TypesWithoutAColour) {
     const auto typed = made({m.type, 8, 6, 8 * m.bytes, 48 * m.bytes, ""}),
                named = made({m.like, 8, 6, 8 * m.bytes, 48 * m.bytes, ""});
     for (std::size_t i = 0; i < typed->data.size(); ++i) typed->data[i] = named->data[i] = 5 * i;
-    const GuardedImage a = decode(typed, kLimits), b = decode(named, kLimits);
+    const DecodedImage a = decode(typed, kLimits), b = decode(named, kLimits);
     ASSERT_FALSE(a.image.empty()) << m.type << ": " << a.reason;
     EXPECT_EQ(cv::norm(a.image, b.image, cv::NORM_INF), 0.0) << m.type << " is read as " << m.like;
   }
@@ -106,12 +106,12 @@ TEST(Fault, M08_TypesWithoutAColour) {
 TEST(Fault, M09_SixteenBits) {
   const auto image = made({"mono16", 8, 6, 16, 96, ""});
   for (std::size_t i = 0; i < 48; ++i) image->data[2 * i + 1] = static_cast<std::uint8_t>(5 * i);
-  const GuardedImage full = decode(image, kLimits);
+  const DecodedImage full = decode(image, kLimits);
   ASSERT_EQ(full.image.type(), CV_8UC1) << full.reason;
   for (int i = 0; i < 48; ++i) EXPECT_NEAR(full.image.data[i], 5 * i, 1.0);
   EXPECT_EQ(full.warning, "");
   for (std::size_t i = 0; i < 48; ++i) image->data[2 * i + 1] = static_cast<std::uint8_t>(i % 16);  // 12 bits
-  const GuardedImage dark = decode(image, kLimits);
+  const DecodedImage dark = decode(image, kLimits);
   EXPECT_FALSE(dark.image.empty());
   EXPECT_NE(dark.warning.find("lower 12 bits"), std::string::npos) << dark.warning;
   RecordProperty("seen", "scaled by 1/257; " + dark.warning);
@@ -122,7 +122,7 @@ TEST(Fault, M10_BigEndian) {
   for (const std::string encoding : {"mono16", "16UC1", "rgb16", "bayer_rggb16"}) {
     const auto image = made({encoding, 64, 48, 512, 512 * 48, ""});
     image->is_bigendian = 1;
-    const GuardedImage result = decode(image, kLimits);
+    const DecodedImage result = decode(image, kLimits);
     EXPECT_TRUE(result.image.empty());
     EXPECT_NE(result.reason.find("big-endian"), std::string::npos) << encoding << ": " << result.reason;
     reason = result.reason;
@@ -150,7 +150,7 @@ TEST(Fault, M14_FramesTooLarge) {
   const long before_kb = residentKb();
   for (int i = 0; i < 20; ++i)
     for (const auto& image : {large, giant}) {
-      const GuardedImage result = decode(image, kLimits);
+      const DecodedImage result = decode(image, kLimits);
       ASSERT_TRUE(result.image.empty());
       ASSERT_NE(result.reason.find("max_pixels = 8000000"), std::string::npos) << result.reason;
     }

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 #include "drawn_window.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
@@ -34,7 +34,7 @@ sensor_msgs::ImagePtr message(const cv::Mat& mat, const std::string& encoding, s
 }
 
 std::optional<detection::WindowObservation> detect(const sensor_msgs::ImagePtr& image) {
-  const GuardedImage guarded = decode(image, {});
+  const DecodedImage guarded = decode(image, {});
   EXPECT_EQ(guarded.reason, "");
   if (guarded.image.empty()) return std::nullopt;
   return detection::WindowDetector(detection::DetectorParams()).detect(guarded.image, 1.0);
@@ -48,7 +48,7 @@ TEST(Fault, M03_EmptyAndTinyPictures) {
       for (const int type : {CV_8UC1, CV_8UC3}) {
         if (width * height > 640 * 7) continue;
         const cv::Mat picture(height, width, type, cv::Scalar::all(90));
-        const GuardedImage guarded = decode(message(picture, type == CV_8UC1 ? "mono8" : "bgr8"), {});
+        const DecodedImage guarded = decode(message(picture, type == CV_8UC1 ? "mono8" : "bgr8"), {});
         detection::TrackInput input;
         input.stamp_sec = ++searched;
         input.image = width * height > 0 ? guarded.image : picture;  // past the guard, too

@@ -311,7 +311,7 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
 
 // A vehicle that was told to go on does so until it answers: it stands too late.
 TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
-  static constexpr double kBesideM = 0.8;  // no contract holds there
+  static constexpr double kBesideM = 0.8;  // no criterion holds there
   const auto eventAt = [](double distance_m, double told_mps) {
     MissionState memory;
     memory.committed = test::targetAtOrigin(0.0);

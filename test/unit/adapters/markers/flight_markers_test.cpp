@@ -11,7 +11,7 @@
 #include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "navigation_samples.hpp"
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -136,15 +136,15 @@ TEST(Funnel, IsTheOneThatTheNavigatorFliesBy) {
     const double wall_m =
         sections[1].half_width_m + along * (sections[2].half_width_m - sections[1].half_width_m);
     for (const double factor : {0.95, 1.05}) {
-      navigation::ContractInput input;
+      navigation::CommitCriterionInput input;
       input.opening = target.opening;
       input.relative.position_window_m =
           Eigen::Vector3d(-distance_m, std::copysign(factor * wall_m, side(random)), 0.0);
-      const navigation::Contract contract = navigation::evaluateContract(input, params);
-      const double line_moved_m = contract.commit_distance_m - sections[1].distance_m;
+      const navigation::CommitCriterion criterion = navigation::evaluateCommitCriterion(input, params);
+      const double line_moved_m = criterion.commit_distance_m - sections[1].distance_m;
       if (line_moved_m * params.approach.funnel_slope > 0.04 * wall_m)
         continue;  // off the axis it is further out
-      EXPECT_EQ(contract.fullness < 1.0, factor < 1.0) << "round " << round << ", " << contract.fullness;
+      EXPECT_EQ(criterion.fullness < 1.0, factor < 1.0) << "round " << round << ", " << criterion.fullness;
     }
   }
 }

@@ -29,7 +29,7 @@ TEST(Compress, ComesBackAsTheSamePictureUnderTheSameHeader) {
     ASSERT_TRUE(picture.message) << picture.reason;
     EXPECT_EQ(picture.message->header.stamp, ros::Time(7.25));
     EXPECT_EQ(picture.message->header.frame_id, "eye");
-    const GuardedImage before = decode(image, {}), after = decode(*picture.message, {});
+    const DecodedImage before = decode(image, {}), after = decode(*picture.message, {});
     ASSERT_TRUE(after.reason.empty()) << after.reason;
     ASSERT_EQ(after.image.type(), before.image.type()) << encoding;
     EXPECT_LT(cv::norm(before.image, after.image, cv::NORM_L1) / static_cast<double>(image->data.size()),

@@ -116,11 +116,11 @@ TEST(OpeningPolicy, IsPartOfTheContractAfterItsGeometry) {
   const auto params = paramsFor("ask");
   auto target = test::targetAtOrigin(0.0);
   target.openness.openness = Openness::kUnknown;
-  const Contract on_axis = contractWith(target, test::vehicleAt({-1.5, 0, 1.5}, 0.0), {}, params);
+  const CommitCriterion on_axis = criterionWith(target, test::vehicleAt({-1.5, 0, 1.5}, 0.0), {}, params);
   EXPECT_TRUE(on_axis.opening_unverified);
   EXPECT_FALSE(on_axis.holds);
   EXPECT_NE(on_axis.unmet.find("is it open?"), std::string::npos);
-  const Contract aside = contractWith(target, test::vehicleAt({-1.5, 0.4, 1.5}, 0.0), {}, params);
+  const CommitCriterion aside = criterionWith(target, test::vehicleAt({-1.5, 0.4, 1.5}, 0.0), {}, params);
   EXPECT_NE(aside.unmet.find("lateral offset"), std::string::npos);
 }
 
@@ -146,15 +146,15 @@ TEST(OpeningPolicy, ClosedOnesAreLeftForTheWholeMissionButNotTheirNeighbours) {
 }
 
 TEST(OpeningPolicy, LooksToBothSidesWithinTheClearance) {
-  Contract contract;
-  contract.clearance_lateral_m = 0.3;
+  CommitCriterion criterion;
+  criterion.clearance_lateral_m = 0.3;
   CommitParams params;
-  EXPECT_GT(lookAside(0.5, contract, params), 0.0);
-  EXPECT_NEAR(lookAside(3.0, contract, params), -lookAside(0.5, contract, params), 1e-9);
+  EXPECT_GT(lookAside(0.5, criterion, params), 0.0);
+  EXPECT_NEAR(lookAside(3.0, criterion, params), -lookAside(0.5, criterion, params), 1e-9);
   for (const double clearance_m : {-0.1, 0.0, 0.05, 0.3, 2.0}) {
-    contract.clearance_lateral_m = clearance_m;
-    EXPECT_LE(std::abs(lookAside(1.0, contract, params)), std::max(0.0, clearance_m));
-    EXPECT_LE(std::abs(lookAside(1.0, contract, params)), params.look_aside_m);
+    criterion.clearance_lateral_m = clearance_m;
+    EXPECT_LE(std::abs(lookAside(1.0, criterion, params)), std::max(0.0, clearance_m));
+    EXPECT_LE(std::abs(lookAside(1.0, criterion, params)), params.look_aside_m);
   }
 }
 

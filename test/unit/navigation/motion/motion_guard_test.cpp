@@ -100,9 +100,10 @@ TEST_F(MotionGuard, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
   situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
   for (const double disagreement_mps : {0.0, 0.3, 0.4, 2.0}) {
     memory_.odometry_disagreement_mps = disagreement_mps;
-    const Contract contract = contractWith(*situation_.target, *situation_.vehicle, memory_, params_);
-    EXPECT_EQ(contract.holds, disagreement_mps < 0.35) << disagreement_mps;
-    EXPECT_EQ(contract.unmet.find("odometry") != std::string::npos, !contract.holds) << contract.unmet;
+    const CommitCriterion criterion =
+        criterionWith(*situation_.target, *situation_.vehicle, memory_, params_);
+    EXPECT_EQ(criterion.holds, disagreement_mps < 0.35) << disagreement_mps;
+    EXPECT_EQ(criterion.unmet.find("odometry") != std::string::npos, !criterion.holds) << criterion.unmet;
   }
 }
 
@@ -112,9 +113,10 @@ TEST_F(MotionGuard, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeSteady) {
     for (const double unexplained_mps : {0.0, 0.05, 0.1}) {
       memory_.odometry_bias_known = is_known;
       memory_.odometry_unexplained_mps = unexplained_mps;
-      const Contract contract = contractWith(*situation_.target, *situation_.vehicle, memory_, params_);
-      EXPECT_EQ(contract.holds, is_known || unexplained_mps < 0.08) << unexplained_mps;
-      EXPECT_EQ(contract.unmet.find("steadily") != std::string::npos, !contract.holds) << contract.unmet;
+      const CommitCriterion criterion =
+          criterionWith(*situation_.target, *situation_.vehicle, memory_, params_);
+      EXPECT_EQ(criterion.holds, is_known || unexplained_mps < 0.08) << unexplained_mps;
+      EXPECT_EQ(criterion.unmet.find("steadily") != std::string::npos, !criterion.holds) << criterion.unmet;
     }
   }
 }
@@ -150,7 +152,7 @@ TEST_F(MotionGuard, ApproachHeedsWhatForbidsIt) {
 TEST_F(MotionGuard, AtTheCommitLineOnlyByTheContract) {
   for (const double y_m : {0.0, 0.33}) {
     situation_.vehicle = test::vehicleAt({-1.0, y_m, 1.5}, 0.0);
-    const bool holds = contractWith(*situation_.target, *situation_.vehicle, memory_, params_).holds;
+    const bool holds = criterionWith(*situation_.target, *situation_.vehicle, memory_, params_).holds;
     ASSERT_EQ(holds, y_m == 0.0);
     EXPECT_EQ(permitted(State::kApproach).x() > 0.0, holds);
   }
@@ -158,8 +160,8 @@ TEST_F(MotionGuard, AtTheCommitLineOnlyByTheContract) {
 
 TEST_F(MotionGuard, BehindTheCommitLineTheFunnelIsNotEnough) {
   situation_.vehicle = test::vehicleAt({-1.0, 0.0, 1.5}, 0.0, 0.5);  // heading off the normal
-  const Contract contract = contractWith(*situation_.target, *situation_.vehicle, memory_, params_);
-  ASSERT_TRUE(contract.in_funnel && !contract.holds);
+  const CommitCriterion criterion = criterionWith(*situation_.target, *situation_.vehicle, memory_, params_);
+  ASSERT_TRUE(criterion.in_funnel && !criterion.holds);
   EXPECT_EQ(permitted(State::kApproach).x(), 0.0);
 }
 

@@ -9,7 +9,7 @@
 #include "navigation/behaviours/behaviour.hpp"
 #include "navigation/motion/input_monitor.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -86,17 +86,17 @@ TEST(MovingTarget, IsFollowedSidewaysToItsOwnSide) {
 
 TEST(MovingTarget, IsCommittedToOnlyIfItCannotMoveAway) {
   NavigatorParams params;
-  ContractInput input;
+  CommitCriterionInput input;
   input.relative = relate(standingAt(1.4), swinging());
   input.relative.velocity_window_mps.setZero();
   input.opening = {1.2, 1.0};
-  const Contract standing = evaluateContract(input, params);
+  const CommitCriterion standing = evaluateCommitCriterion(input, params);
   input.motion = swinging().motion;
-  const Contract slow = evaluateContract(input, params);
+  const CommitCriterion slow = evaluateCommitCriterion(input, params);
   EXPECT_GT(slow.miss_lateral_m, standing.miss_lateral_m);
   input.motion.model.speed_mps = 0.5;
   input.motion.velocity_sigma_mps = 0.4;
-  const Contract wild = evaluateContract(input, params);
+  const CommitCriterion wild = evaluateCommitCriterion(input, params);
   EXPECT_FALSE(wild.holds);
   EXPECT_NE(wild.unmet.find("predicted"), std::string::npos) << wild.unmet;
 }

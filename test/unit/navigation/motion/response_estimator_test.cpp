@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 
 namespace window_ingress::navigation {
 namespace {

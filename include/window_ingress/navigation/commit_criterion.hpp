@@ -24,8 +24,8 @@ double stoppingDistance(double speed_mps, double braking_mps2, double response_s
 double commitDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                       const NavigatorParams& params);
 
-/// What the contract is made on.
-struct ContractInput {
+/// What the criterion depends on.
+struct CommitCriterionInput {
   RelativeState relative;
   geometry::OpeningSize opening;
   double pitch_rad = 0.0;           ///< of the vehicle, nose down positive
@@ -38,8 +38,8 @@ struct ContractInput {
       0.0;  ///< of the odometry, as measured; at least that of the parameters counts
 };
 
-/// The bargain with the wall, at this moment.
-struct Contract {
+/// Whether the vehicle may commit at this moment, and by what margin.
+struct CommitCriterion {
   double clearance_lateral_m = 0.0;  ///< half the opening less half the body less the margin
   double clearance_vertical_m = 0.0;
   /// Predicted at the plane: what is left of the offset by then, and `sigma_factor` times the spread of
@@ -61,6 +61,6 @@ struct Contract {
   double missM() const { return miss_lateral_m > miss_vertical_m ? miss_lateral_m : miss_vertical_m; }
 };
 
-Contract evaluateContract(const ContractInput& input, const NavigatorParams& params);
+CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation

@@ -1,5 +1,5 @@
 // A write never waits for what is behind it, and what was written before it stood still comes out whole.
-#include "adapters/sources/output_pump.hpp"
+#include "adapters/sources/console_pump.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 }
 
 /// A pipe that is read by the test, or by nobody.
-class OutputPump : public testing::Test {
+class ConsolePump : public testing::Test {
  protected:
   void SetUp() override {
     int ends[2];
@@ -53,12 +53,12 @@ class OutputPump : public testing::Test {
   int reader_ = -1, output_ = -1;
 };
 
-TEST_F(OutputPump, PassesOnWhatIsWrittenAndEnds) {
+TEST_F(ConsolePump, PassesOnWhatIsWrittenAndEnds) {
   ASSERT_EQ(writeLines(2), 2);
   EXPECT_EQ(readToTheEnd(), "0" + kLine + "\n1" + kLine + "\n");
 }
 
-TEST_F(OutputPump, NeverWaitsForOneThatDoesNotRead) {
+TEST_F(ConsolePump, NeverWaitsForOneThatDoesNotRead) {
   const auto begin = std::chrono::steady_clock::now();
   const int written = writeLines(kMany);
   EXPECT_LT(secondsSince(begin), 2.0);
@@ -69,7 +69,7 @@ TEST_F(OutputPump, NeverWaitsForOneThatDoesNotRead) {
   EXPECT_EQ(text.back(), '\n') << "lines are lost whole";
 }
 
-TEST_F(OutputPump, SurvivesThatNobodyIsThere) {
+TEST_F(ConsolePump, SurvivesThatNobodyIsThere) {
   close(reader_);
   reader_ = -1;
   EXPECT_GT(writeLines(100), 0);

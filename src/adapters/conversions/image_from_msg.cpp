@@ -1,4 +1,4 @@
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
@@ -115,8 +115,8 @@ std::string unusedRange(const sensor_msgs::Image& message, const Encoding& encod
              : "";
 }
 
-GuardedImage refusal(const std::string& reason) {
-  GuardedImage result;
+DecodedImage refusal(const std::string& reason) {
+  DecodedImage result;
   result.reason = reason;
   return result;
 }
@@ -154,12 +154,12 @@ std::string whyRefused(const sensor_msgs::Image& message, const ImageLimits& lim
   return large.empty() ? badLayout(message, *encoding) : large;
 }
 
-GuardedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits) {
+DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits) {
   const std::string reason = whyRefused(*message, limits);
   if (!reason.empty()) return refusal(reason);
   const Encoding& encoding = *find(message->encoding);
   try {
-    GuardedImage result;
+    DecodedImage result;
     result.image = converted(message, encoding, result.owner);
     result.warning = unusedRange(*message, encoding);
     if (result.image.type() == CV_8UC1 || result.image.type() == CV_8UC3) return result;
@@ -169,14 +169,14 @@ GuardedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits
   }
 }
 
-GuardedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits) {
+DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits) {
   const auto size = compressedSize(message.data);
   if (!size) return refusal("compressed image is neither JPEG nor PNG, or its header is broken");
   const std::string large = tooLarge(size->width, size->height, limits);
   if (!large.empty()) return refusal(large);
   if (isCutOff(message.data)) return refusal("compressed image is cut off: it has no end mark");
   try {
-    GuardedImage result;
+    DecodedImage result;
     result.image = cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
     if (result.image.empty()) return refusal("compressed image cannot be decoded: truncated or damaged");
     return result;

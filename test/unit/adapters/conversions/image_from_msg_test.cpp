@@ -1,4 +1,4 @@
-#include "adapters/conversions/image_guard.hpp"
+#include "adapters/conversions/image_from_msg.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ sensor_msgs::ImagePtr fromMat(const cv::Mat& mat, const std::string& encoding) {
 
 double difference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
 
-TEST(ImageGuard, RefusesSizesThatOverflow32Bits) {  // each of them crashes cv_bridge 1.16
+TEST(ImageFromMsg, RefusesSizesThatOverflow32Bits) {  // each of them crashes cv_bridge 1.16
   const auto wrapped = makeImage("mono8", 65536, 65537, 65536, 65536);
   EXPECT_FALSE(whyRefused(*wrapped, kLimits).empty());
   const auto tall = makeImage("mono8", 256, 0x01000001, 256, 256);
@@ -56,7 +56,7 @@ TEST(ImageGuard, RefusesSizesThatOverflow32Bits) {  // each of them crashes cv_b
   EXPECT_TRUE(decode(wrapped, {100000000}).image.empty());
 }
 
-TEST(ImageGuard, RefusesEmptyAndHuge) {
+TEST(ImageFromMsg, RefusesEmptyAndHuge) {
   for (const auto& [width, height] : {std::pair{0u, 0u}, {0u, 48u}, {64u, 0u}, {8000u, 6000u}})
     EXPECT_NE(whyRefused(*makeImage("mono8", width, height, width, std::size_t{width} * height), kLimits)
                   .find("max_pixels"),
@@ -64,7 +64,7 @@ TEST(ImageGuard, RefusesEmptyAndHuge) {
         << width << "x" << height;
 }
 
-TEST(ImageGuard, RefusesDataThatDoesNotFit) {
+TEST(ImageFromMsg, RefusesDataThatDoesNotFit) {
   for (const std::size_t bytes : {0u, 64u * 48u - 1u, 64u * 48u + 1u})
     EXPECT_NE(whyRefused(*makeImage("mono8", 64, 48, 64, bytes), kLimits).find("bytes"), std::string::npos)
         << bytes;
@@ -72,7 +72,7 @@ TEST(ImageGuard, RefusesDataThatDoesNotFit) {
   EXPECT_NE(whyRefused(*makeImage("mono16", 64, 48, 129, 129 * 48), kLimits).find("odd"), std::string::npos);
 }
 
-TEST(ImageGuard, RefusesEncodingsByName) {
+TEST(ImageFromMsg, RefusesEncodingsByName) {
   for (const std::string encoding :
        {"", "florp", "BGR8", "8UC0", "8UC9999", "128UC1", "32FC1", "yuv422_yuy2", "nv12"}) {
     const std::string reason = whyRefused(*makeImage(encoding, 64, 48, 1024, 1024 * 48), kLimits);
@@ -81,14 +81,14 @@ TEST(ImageGuard, RefusesEncodingsByName) {
   EXPECT_LT(whyRefused(*makeImage(std::string(9000, 'x'), 64, 48, 64, 64 * 48), kLimits).size(), 600u);
 }
 
-TEST(ImageGuard, RefusesBigEndian16Bit) {
+TEST(ImageFromMsg, RefusesBigEndian16Bit) {
   auto image = makeImage("mono16", 64, 48, 128, 128 * 48);
   EXPECT_TRUE(whyRefused(*image, kLimits).empty());
   image->is_bigendian = 1;
   EXPECT_NE(whyRefused(*image, kLimits).find("endian"), std::string::npos);
 }
 
-TEST(ImageGuard, ReadsEveryColourEncodingAlike) {
+TEST(ImageFromMsg, ReadsEveryColourEncodingAlike) {
   const cv::Mat bgr = ramp();
   const std::pair<const char*, int> converted[] = {{"rgb8", cv::COLOR_BGR2RGB},
                                                    {"bgra8", cv::COLOR_BGR2BGRA},
@@ -97,7 +97,7 @@ TEST(ImageGuard, ReadsEveryColourEncodingAlike) {
   for (const auto& [encoding, code] : converted) {
     cv::Mat other;
     cv::cvtColor(bgr, other, code);
-    const GuardedImage result = decode(fromMat(other, encoding), kLimits);
+    const DecodedImage result = decode(fromMat(other, encoding), kLimits);
     ASSERT_EQ(result.image.type(), CV_8UC3) << encoding << ": " << result.reason;
     EXPECT_EQ(difference(result.image, bgr), 0.0) << encoding;
   }
@@ -105,26 +105,26 @@ TEST(ImageGuard, ReadsEveryColourEncodingAlike) {
     EXPECT_EQ(difference(decode(fromMat(bgr, encoding), kLimits).image, bgr), 0.0);
 }
 
-TEST(ImageGuard, ReadsGreyOf8And16Bits) {
+TEST(ImageFromMsg, ReadsGreyOf8And16Bits) {
   cv::Mat grey, wide;
   cv::cvtColor(ramp(), grey, cv::COLOR_BGR2GRAY);
   grey.convertTo(wide, CV_16UC1, 257.0);
   for (const char* encoding : {"mono8", "8UC1"})
     EXPECT_EQ(difference(decode(fromMat(grey, encoding), kLimits).image, grey), 0.0);
   for (const char* encoding : {"mono16", "16UC1"}) {
-    const GuardedImage result = decode(fromMat(wide, encoding), kLimits);
+    const DecodedImage result = decode(fromMat(wide, encoding), kLimits);
     ASSERT_EQ(result.image.type(), CV_8UC1) << result.reason;
     EXPECT_LE(difference(result.image, grey), 1.0) << encoding;
     EXPECT_TRUE(result.warning.empty());
   }
 }
 
-TEST(ImageGuard, WarnsOf12BitsIn16) {
+TEST(ImageFromMsg, WarnsOf12BitsIn16) {
   const cv::Mat dark(48, 64, CV_16UC1, cv::Scalar(4095));
   EXPECT_NE(decode(fromMat(dark, "mono16"), kLimits).warning.find("12 bits"), std::string::npos);
 }
 
-TEST(ImageGuard, ReadsBayerYuvAnd16BitColour) {
+TEST(ImageFromMsg, ReadsBayerYuvAnd16BitColour) {
   const std::pair<const char*, std::uint32_t> encodings[] = {
       {"bayer_rggb8", 1},  {"bayer_bggr8", 1}, {"bayer_gbrg8", 1}, {"bayer_grbg8", 1},
       {"bayer_rggb16", 2}, {"yuv422", 2},      {"bgr16", 6},       {"rgba16", 8}};
@@ -135,7 +135,7 @@ TEST(ImageGuard, ReadsBayerYuvAnd16BitColour) {
   }
 }
 
-TEST(ImageGuard, PaddedRowsReadLikeTightOnes) {
+TEST(ImageFromMsg, PaddedRowsReadLikeTightOnes) {
   const cv::Mat bgr = ramp();
   auto padded = makeImage("bgr8", 64, 48, 256, 256 * 48);
   for (int row = 0; row < 48; ++row)
@@ -143,8 +143,8 @@ TEST(ImageGuard, PaddedRowsReadLikeTightOnes) {
   EXPECT_EQ(difference(decode(padded, kLimits).image, bgr), 0.0);
 }
 
-TEST(ImageGuard, SharesBytesAndKeepsThemAlive) {
-  GuardedImage result;
+TEST(ImageFromMsg, SharesBytesAndKeepsThemAlive) {
+  DecodedImage result;
   const unsigned char* bytes = nullptr;
   {
     const auto message = fromMat(ramp(), "bgr8");
@@ -155,14 +155,14 @@ TEST(ImageGuard, SharesBytesAndKeepsThemAlive) {
   EXPECT_EQ(difference(result.image, ramp()), 0.0);
 }
 
-TEST(ImageGuard, NothingRandomGetsThroughOrThrows) {
+TEST(ImageFromMsg, NothingRandomGetsThroughOrThrows) {
   std::mt19937 random(7);
   const char* encodings[] = {"mono8", "bgr8", "mono16", "yuv422", "bayer_rggb8", "8UC4", "", "rgb16"};
   for (int i = 0; i < 2000; ++i) {
     const auto image =
         makeImage(encodings[random() % 8], random() % 40, random() % 40, random() % 300, random() % 4000);
     image->is_bigendian = random() % 2;
-    const GuardedImage result = decode(image, kLimits);
+    const DecodedImage result = decode(image, kLimits);
     ASSERT_EQ(result.image.empty(), !result.reason.empty());
     if (!result.image.empty()) {
       ASSERT_EQ(result.image.cols, static_cast<int>(image->width));
@@ -226,7 +226,7 @@ TEST(CompressedImage, SurvivesTruncationAndFlippedBytes) {
       if (i % 2 == 0) message.data.resize(random() % message.data.size());
       for (int flips = 0; flips < 3 && !message.data.empty(); ++flips)
         message.data[random() % message.data.size()] ^= static_cast<unsigned char>(1 + random() % 255);
-      const GuardedImage result = decode(message, kLimits);
+      const DecodedImage result = decode(message, kLimits);
       EXPECT_EQ(result.image.empty(), !result.reason.empty());
     }
   }

@@ -1,4 +1,4 @@
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ double commitDistance(const RelativeState& relative, const geometry::OpeningSize
 namespace {
 
 /// Without sight of the window, so far and on the way to the plane.
-double blindSec(const ContractInput& input, const NavigatorParams& params) {
+double blindSec(const CommitCriterionInput& input, const NavigatorParams& params) {
   const double view_m = viewDistance(input.relative, input.opening, input.pitch_rad, params.vehicle);
   const double way_m = std::clamp(input.relative.distance(), 0.0, view_m);
   return input.unseen_sec + way_m / params.commit.speed_mps;
@@ -108,20 +108,21 @@ std::string predictedMiss(const char* way, double miss_m, double clearance_m, do
                 clearance_m);
 }
 
-std::string whyUnmet(const Contract& contract, const ContractInput& input, const NavigatorParams& params) {
+std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInput& input,
+                     const NavigatorParams& params) {
   const RelativeState& relative = input.relative;
   const Eigen::Vector3d coasted = coastedOffset(relative, params);
-  if (!(std::abs(coasted.y()) < contract.clearance_lateral_m)) {
-    return format("lateral offset %.2f m, clearance %.2f m", coasted.y(), contract.clearance_lateral_m);
+  if (!(std::abs(coasted.y()) < criterion.clearance_lateral_m)) {
+    return format("lateral offset %.2f m, clearance %.2f m", coasted.y(), criterion.clearance_lateral_m);
   }
-  if (!(std::abs(coasted.z()) < contract.clearance_vertical_m)) {
-    return format("vertical offset %.2f m, clearance %.2f m", coasted.z(), contract.clearance_vertical_m);
+  if (!(std::abs(coasted.z()) < criterion.clearance_vertical_m)) {
+    return format("vertical offset %.2f m, clearance %.2f m", coasted.z(), criterion.clearance_vertical_m);
   }
-  if (!(contract.miss_lateral_m < contract.clearance_lateral_m))
-    return predictedMiss("lateral", contract.miss_lateral_m, contract.clearance_lateral_m,
+  if (!(criterion.miss_lateral_m < criterion.clearance_lateral_m))
+    return predictedMiss("lateral", criterion.miss_lateral_m, criterion.clearance_lateral_m,
                          input.gust_lateral_mps);
-  if (!(contract.miss_vertical_m < contract.clearance_vertical_m))
-    return predictedMiss("vertical", contract.miss_vertical_m, contract.clearance_vertical_m,
+  if (!(criterion.miss_vertical_m < criterion.clearance_vertical_m))
+    return predictedMiss("vertical", criterion.miss_vertical_m, criterion.clearance_vertical_m,
                          input.gust_vertical_mps);
   if (std::abs(relative.heading_error_rad) > params.commit.max_heading_error_rad) {
     return format("heading %.2f rad off the normal", relative.heading_error_rad);
@@ -134,13 +135,13 @@ std::string whyUnmet(const Contract& contract, const ContractInput& input, const
 
 }  // namespace
 
-Contract evaluateContract(const ContractInput& input, const NavigatorParams& params) {
-  Contract contract;
+CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const NavigatorParams& params) {
+  CommitCriterion criterion;
   const RelativeState& relative = input.relative;
   const double margin_m = params.approach.margin_m;
-  contract.clearance_lateral_m = input.opening.width_m / 2.0 - params.vehicle.half_width_m - margin_m;
-  contract.clearance_vertical_m = input.opening.height_m / 2.0 - params.vehicle.half_height_m - margin_m;
-  contract.commit_distance_m = commitDistance(relative, input.opening, input.pitch_rad, params);
+  criterion.clearance_lateral_m = input.opening.width_m / 2.0 - params.vehicle.half_width_m - margin_m;
+  criterion.clearance_vertical_m = input.opening.height_m / 2.0 - params.vehicle.half_height_m - margin_m;
+  criterion.commit_distance_m = commitDistance(relative, input.opening, input.pitch_rad, params);
   const double blind_sec = blindSec(input, params);
   const double way_sec = blind_sec - input.unseen_sec;
   const auto atPlane = [&](double sigma_m) { return sigmaAhead(sigma_m, input.motion, way_sec); };
@@ -153,20 +154,20 @@ Contract evaluateContract(const ContractInput& input, const NavigatorParams& par
   const Eigen::Vector3d offset = coastedOffset(relative, params).cwiseAbs();
   const double left = remaining(relative, params);
   const double odometry_m = missByOdometry(input.odometry_mps, params);
-  contract.miss_lateral_m = left * offset.y() + lateral_m + odometry_m;
-  contract.miss_vertical_m = left * offset.z() + vertical_m + odometry_m;
+  criterion.miss_lateral_m = left * offset.y() + lateral_m + odometry_m;
+  criterion.miss_vertical_m = left * offset.z() + vertical_m + odometry_m;
 
-  const double before_line_m = std::max(0.0, relative.distance() - contract.commit_distance_m);
-  contract.funnel_m = params.approach.funnel_slope * before_line_m;
-  contract.fullness =
-      std::max(fullnessOf(offset.y() + lateral_m, contract.clearance_lateral_m + contract.funnel_m),
-               fullnessOf(offset.z() + vertical_m, contract.clearance_vertical_m + contract.funnel_m));
-  contract.openness = std::clamp((1.0 - contract.fullness) / kWallOfFunnel, 0.0, 1.0);
-  contract.in_funnel =
-      contract.openness > 0.0 && contract.clearance_lateral_m > 0.0 && contract.clearance_vertical_m > 0.0;
-  contract.unmet = whyUnmet(contract, input, params);
-  contract.holds = contract.unmet.empty();
-  return contract;
+  const double before_line_m = std::max(0.0, relative.distance() - criterion.commit_distance_m);
+  criterion.funnel_m = params.approach.funnel_slope * before_line_m;
+  criterion.fullness =
+      std::max(fullnessOf(offset.y() + lateral_m, criterion.clearance_lateral_m + criterion.funnel_m),
+               fullnessOf(offset.z() + vertical_m, criterion.clearance_vertical_m + criterion.funnel_m));
+  criterion.openness = std::clamp((1.0 - criterion.fullness) / kWallOfFunnel, 0.0, 1.0);
+  criterion.in_funnel =
+      criterion.openness > 0.0 && criterion.clearance_lateral_m > 0.0 && criterion.clearance_vertical_m > 0.0;
+  criterion.unmet = whyUnmet(criterion, input, params);
+  criterion.holds = criterion.unmet.empty();
+  return criterion;
 }
 
 }  // namespace window_ingress::navigation

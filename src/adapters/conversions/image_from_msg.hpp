@@ -17,7 +17,7 @@ namespace window_ingress::adapters {
 using configuration::ImageLimits;
 
 /// An image as the detector takes it, or why there is none.
-struct GuardedImage {
+struct DecodedImage {
   cv::Mat image;  ///< CV_8UC1 or CV_8UC3 (BGR); empty if refused. Shares the message's bytes if it can.
   std::shared_ptr<const void> owner;  ///< keeps shared bytes alive
   std::string reason;                 ///< why it was refused; empty if it was not
@@ -43,9 +43,9 @@ class StuckWatch {
 std::string whyRefused(const sensor_msgs::Image& message, const ImageLimits& limits);
 
 /// Checked and converted; never throws.
-GuardedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits);
+DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits& limits);
 
 /// JPEG or PNG: the size in the file's header is checked before anything is decoded. Never throws.
-GuardedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits);
+DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits);
 
 }  // namespace window_ingress::adapters

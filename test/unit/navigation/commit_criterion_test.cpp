@@ -1,4 +1,4 @@
-#include "window_ingress/navigation/approach_contract.hpp"
+#include "window_ingress/navigation/commit_criterion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,11 +18,11 @@ RelativeState at(double distance_m, double lateral_m = 0.0, double sigma_m = 0.0
 
 const geometry::OpeningSize kOpening{1.2, 1.0};
 
-Contract contractOf(const RelativeState& relative, const geometry::OpeningSize& opening = kOpening) {
-  ContractInput input;
+CommitCriterion criterionOf(const RelativeState& relative, const geometry::OpeningSize& opening = kOpening) {
+  CommitCriterionInput input;
   input.relative = relative;
   input.opening = opening;
-  return evaluateContract(input, NavigatorParams());
+  return evaluateCommitCriterion(input, NavigatorParams());
 }
 
 TEST(StoppingSpeed, IsTheInverseOfTheStoppingDistance) {
@@ -54,98 +54,100 @@ TEST(CommitDistance, LeavesRoomToStopBeforeTheOpening) {
   EXPECT_DOUBLE_EQ(commitDistance(at(5.0), kOpening, 0.0, params), stop + params.vehicle.half_length_m);
 }
 
-TEST(Contract, HoldsOnTheAxisAndSaysWhyNotOffIt) {
-  EXPECT_TRUE(contractOf(at(1.2)).holds) << contractOf(at(1.2)).unmet;
-  EXPECT_NE(contractOf(at(1.2, 0.3)).unmet.find("lateral offset"), std::string::npos);
-  EXPECT_NE(contractOf(at(1.2, 0.0, 0.1)).unmet.find("lateral miss"), std::string::npos);
+TEST(CommitCriterion, HoldsOnTheAxisAndSaysWhyNotOffIt) {
+  EXPECT_TRUE(criterionOf(at(1.2)).holds) << criterionOf(at(1.2)).unmet;
+  EXPECT_NE(criterionOf(at(1.2, 0.3)).unmet.find("lateral offset"), std::string::npos);
+  EXPECT_NE(criterionOf(at(1.2, 0.0, 0.1)).unmet.find("lateral miss"), std::string::npos);
   auto high = at(1.2);
   high.position_window_m.z() = 0.35;
-  EXPECT_NE(contractOf(high).unmet.find("vertical offset"), std::string::npos);
+  EXPECT_NE(criterionOf(high).unmet.find("vertical offset"), std::string::npos);
   auto turned = at(1.2);
   turned.heading_error_rad = -0.3;
-  EXPECT_NE(contractOf(turned).unmet.find("heading"), std::string::npos);
+  EXPECT_NE(criterionOf(turned).unmet.find("heading"), std::string::npos);
   auto drifting = at(1.2, -0.12);
   drifting.velocity_window_mps.y() = 0.4;
-  EXPECT_NE(contractOf(drifting).unmet.find("across"), std::string::npos);
+  EXPECT_NE(criterionOf(drifting).unmet.find("across"), std::string::npos);
 }
 
-TEST(Contract, FunnelWidensWithTheDistance) {
+TEST(CommitCriterion, FunnelWidensWithTheDistance) {
   for (double lateral = 0.05; lateral < 3.0; lateral += 0.05) {
     double before = -1.0;
     for (double distance = 0.5; distance < 8.0; distance += 0.1) {
-      const auto contract = contractOf(at(distance, lateral));
-      EXPECT_GE(contract.openness, 0.0);
-      EXPECT_LE(contract.openness, 1.0);
-      EXPECT_EQ(contract.in_funnel, contract.openness > 0.0);
+      const auto criterion = criterionOf(at(distance, lateral));
+      EXPECT_GE(criterion.openness, 0.0);
+      EXPECT_LE(criterion.openness, 1.0);
+      EXPECT_EQ(criterion.in_funnel, criterion.openness > 0.0);
       if (distance <= 2.5) continue;
-      EXPECT_GE(contract.openness, before - 1e-9);
-      before = contract.openness;
+      EXPECT_GE(criterion.openness, before - 1e-9);
+      before = criterion.openness;
     }
   }
 }
 
-TEST(Contract, UnknownsNeverHold) {
+TEST(CommitCriterion, UnknownsNeverHold) {
   const double nan = std::nan("");
-  EXPECT_FALSE(contractOf(at(1.2, nan)).holds && contractOf(at(1.2, nan)).in_funnel);
-  EXPECT_FALSE(contractOf(at(1.2, 0.0, nan)).in_funnel);
-  EXPECT_FALSE(contractOf(at(1.2), {0.4, 0.4}).holds);
-  EXPECT_FALSE(contractOf(at(1.2), {0.4, 0.4}).in_funnel);
+  EXPECT_FALSE(criterionOf(at(1.2, nan)).holds && criterionOf(at(1.2, nan)).in_funnel);
+  EXPECT_FALSE(criterionOf(at(1.2, 0.0, nan)).in_funnel);
+  EXPECT_FALSE(criterionOf(at(1.2), {0.4, 0.4}).holds);
+  EXPECT_FALSE(criterionOf(at(1.2), {0.4, 0.4}).in_funnel);
 }
 
-TEST(Contract, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
+TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   const NavigatorParams params;
-  ContractInput input;
+  CommitCriterionInput input;
   input.relative = at(0.8);
   input.opening = kOpening;
   const double blind_sec = 0.8 / params.commit.speed_mps;
   const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
-  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
+  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
 
   input.drift_m_per_sqrt_sec = 0.05;
-  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m,
+  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m,
               3.0 * std::hypot(0.01, 0.05 * std::sqrt(blind_sec)), 1e-12);
   input.drift_m_per_sqrt_sec = 0.0;
 
   input.gust_lateral_mps = 0.05;
   const double gust_m = 0.05 * params.approach.gust_carry_sec;
-  const auto gusty = evaluateContract(input, params);
+  const auto gusty = evaluateCommitCriterion(input, params);
   EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
   EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
   input.gust_lateral_mps = 0.4;
-  EXPECT_GT(evaluateContract(input, params).miss_lateral_m, 3.0 * 1.5 * 0.4 * params.approach.gust_carry_sec)
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m,
+            3.0 * 1.5 * 0.4 * params.approach.gust_carry_sec)
       << "calm does not hide what carries";
-  EXPECT_FALSE(evaluateContract(input, params).holds);
+  EXPECT_FALSE(evaluateCommitCriterion(input, params).holds);
 
   input.gust_lateral_mps = 0.0;
   input.unseen_sec = 4.0;
-  EXPECT_NEAR(evaluateContract(input, params).miss_lateral_m,
+  EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m,
               3.0 * std::hypot(0.01, params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec + 4.0)), 1e-12);
 }
 
 // It is coasted by until the vehicle answers, and steered against for ever.
-TEST(Contract, AVelocityThatIsOffIsAMiss) {
+TEST(CommitCriterion, AVelocityThatIsOffIsAMiss) {
   const NavigatorParams params;
-  ContractInput input;
+  CommitCriterionInput input;
   input.relative = at(0.8);
   input.opening = kOpening;
-  const Contract before = evaluateContract(input, params);
+  const CommitCriterion before = evaluateCommitCriterion(input, params);
   input.odometry_mps = 0.05;
-  EXPECT_EQ(evaluateContract(input, params).miss_lateral_m, before.miss_lateral_m) << "as with any odometry";
+  EXPECT_EQ(evaluateCommitCriterion(input, params).miss_lateral_m, before.miss_lateral_m)
+      << "as with any odometry";
   input.odometry_mps = 0.3;
   const double least_m = 0.2 * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);
-  EXPECT_GT(evaluateContract(input, params).miss_lateral_m, before.miss_lateral_m + least_m);
-  EXPECT_GT(evaluateContract(input, params).miss_vertical_m, before.miss_vertical_m + least_m);
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, before.miss_lateral_m + least_m);
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_vertical_m, before.miss_vertical_m + least_m);
 }
 
-TEST(Contract, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {
+TEST(CommitCriterion, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {
   double before = 10.0;
   for (double distance = 0.3; distance < 3.0; distance += 0.1) {
-    const double miss_m = contractOf(at(distance, 0.2, 0.0)).miss_lateral_m;
+    const double miss_m = criterionOf(at(distance, 0.2, 0.0)).miss_lateral_m;
     EXPECT_LE(miss_m, before + 0.02) << distance;
     before = miss_m;
   }
-  EXPECT_GT(contractOf(at(0.3, 0.2, 0.0)).miss_lateral_m, 0.2);
-  EXPECT_GT(contractOf(at(1.5, 0.2, 0.0)).miss_lateral_m, 0.05);
+  EXPECT_GT(criterionOf(at(0.3, 0.2, 0.0)).miss_lateral_m, 0.2);
+  EXPECT_GT(criterionOf(at(1.5, 0.2, 0.0)).miss_lateral_m, 0.05);
 }
 
 }  // namespace
