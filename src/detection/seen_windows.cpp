@@ -6,7 +6,7 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr std::size_t kMostWindows = 12;
+constexpr std::size_t kMaxWindows = 12;
 constexpr double kSameWindow = 0.15;  // overlap of two loops, of their union
 
 bool looksOtherwise(RejectReason reason) {
@@ -59,7 +59,7 @@ void windowsSeen(const DetectionTrace& trace, const std::optional<WindowObservat
   };
   std::sort(fair.begin(), fair.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
   for (const CandidateTrace* candidate : fair) {
-    if (windows.size() == kMostWindows) break;
+    if (windows.size() == kMaxWindows) break;
     const SeenWindow seen = seenFrom(*candidate);
     const bool is_known = std::any_of(windows.begin(), windows.end(),
                                       [&](const SeenWindow& better) { return overlaps(better, seen); });

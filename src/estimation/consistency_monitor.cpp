@@ -5,7 +5,7 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kMostRefused = 0.4;
+constexpr double kMaxRefused = 0.4;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Consistency ConsistencyMonitor::consistency() const {
   if (degrees_of_freedom > 0.0) out.mean_nis = squares / degrees_of_freedom;
   const bool few = 2 * samples_.size() < images_;
   out.consistent = few || out.mean_nis <= limit_;
-  out.contradicted = !few && out.refused > kMostRefused * static_cast<double>(samples_.size());
+  out.contradicted = !few && out.refused > kMaxRefused * static_cast<double>(samples_.size());
   return out;
 }
 

@@ -7,7 +7,7 @@
 namespace window_ingress::geometry {
 namespace {
 
-constexpr double kMinFocal_px = 1.0, kMost_px = 1e6;
+constexpr double kMinFocal_px = 1.0, kMax_px = 1e6;
 
 struct Distorted {
   Eigen::Vector2d point;
@@ -100,7 +100,7 @@ std::vector<std::string> PinholeCamera::validate() const {
     faults.push_back("uncalibrated: K is zero; calibrate the camera or load its camera_info");
   else if (fx <= 0.0 || fy <= 0.0)
     faults.push_back("focal length must be positive");
-  else if (std::min(fx, fy) < kMinFocal_px || std::max({fx, fy, std::abs(cx), std::abs(cy)}) > kMost_px)
+  else if (std::min(fx, fy) < kMinFocal_px || std::max({fx, fy, std::abs(cx), std::abs(cy)}) > kMax_px)
     faults.push_back(
         "K is that of no camera: focal lengths are within 1 to 1e6 px, the principal point within 1e6 px");
   if (!std::all_of(distortion.begin(), distortion.end(), finite))

@@ -2,7 +2,7 @@
 
 namespace window_ingress::openness {
 
-/// How texture within the opening is followed; see `InteriorFollower`.
+/// How texture within the opening is followed; see `InteriorKltTracker`.
 struct FollowerParams {
   bool enabled = true;           ///< follow the texture within the opening; false costs nothing
   int max_points = 50;           ///< followed at once

@@ -41,7 +41,7 @@ class OpeningCells {
   bool isClosed(int x, int y) const;
   bool isOpen(int x, int y) const;
   bool isBetweenOpen(int x, int y) const;
-  static constexpr float kMost = 12.0f;
+  static constexpr float kMax = 12.0f;
   static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
   static constexpr int kMinBeside = 3;  // points on one image
   static constexpr int kMinPictures = 5;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "window_ingress/detection/window_tracker.hpp"
-#include "window_ingress/openness/interior_follower.hpp"
+#include "window_ingress/openness/interior_klt_tracker.hpp"
 
 namespace window_ingress::perception {
 
@@ -35,7 +35,7 @@ class WindowPerception {
 
  private:
   detection::WindowTracker tracker_;
-  openness::InteriorFollower interior_;
+  openness::InteriorKltTracker interior_;
   std::optional<detection::WindowObservation> window_;
 };
 

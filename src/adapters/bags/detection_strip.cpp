@@ -31,7 +31,7 @@ std::string captionOf(const ReplayedFrame& frame) {
 }  // namespace
 
 DetectionStrip::DetectionStrip(const std::filesystem::path& folder, std::size_t images)
-    : folder_(folder), step_(std::max<std::size_t>(1, (images + kMost - 1) / kMost)) {
+    : folder_(folder), step_(std::max<std::size_t>(1, (images + kMax - 1) / kMax)) {
   std::filesystem::remove_all(folder / "pictures");
   std::filesystem::create_directories(folder / "pictures");
   list_.open(folder / "strip.csv");

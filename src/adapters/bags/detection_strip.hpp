@@ -10,11 +10,11 @@
 
 namespace window_ingress::adapters {
 
-/// Writes images/NNNNN.jpg, at most `kMost` of them and one at each change between found and not found, and
+/// Writes images/NNNNN.jpg, at most `kMax` of them and one at each change between found and not found, and
 /// strip.csv: stamp, file, why it is there, and what it shows.
 class DetectionStrip {
  public:
-  static constexpr int kMost = 36;        ///< evenly over time
+  static constexpr int kMax = 36;         ///< evenly over time
   static constexpr int kMaxChanges = 24;  ///< beyond those
 
   /// \param images that will come

@@ -12,7 +12,7 @@ namespace {
 
 using navigation::NavigatorParams;
 
-constexpr std::size_t kMostPlaces = 2000;
+constexpr std::size_t kMaxPlaces = 2000;
 constexpr double kFunnelM = 1.5;     // shown outside the commit line
 constexpr double kViewM = 0.35;      // length of the pyramid that stands for the camera
 constexpr double kTextBelowM = 0.6;  // above are the texts of windows
@@ -110,7 +110,7 @@ void FlightTrail::add(const Eigen::Vector3d& position_odom_m, navigation::State 
                       (places_.back().position_odom_m - position_odom_m).norm() >= spacing_m_;
   if (!is_new) return;
   places_.push_back({position_odom_m, state});
-  if (places_.size() < kMostPlaces) return;
+  if (places_.size() < kMaxPlaces) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places_.size(); i += 2) places_[kept++] = places_[i];
   places_.resize(kept);

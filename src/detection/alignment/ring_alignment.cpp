@@ -19,22 +19,22 @@ using geometry::Quadrilateral;
 
 constexpr double kCoarsestPx = 15.0;  ///< resolution at which an alignment starts [px a mean side]
 constexpr int kCoarseSteps = 10, kSteps = 6;
-constexpr double kStill_px = 0.03;   ///< a shorter step is the last one [px of the level]
-constexpr double kFurthest = 0.3;    ///< a corner may move this far from the start [mean sides]
-constexpr double kLeastSeen = 0.3;   ///< part of the ring
-constexpr float kNoise = 0.01F;      ///< of a logarithm of a colour
-constexpr float kOutlier = 2.0F;     ///< scale of the robust weights, in standard deviations
-constexpr float kLeastGain = 0.15F;  ///< a segment that shows less of the reference tells nothing
-constexpr float kMostGain = 2.0F;
+constexpr double kStill_px = 0.03;  ///< a shorter step is the last one [px of the level]
+constexpr double kFurthest = 0.3;   ///< a corner may move this far from the start [mean sides]
+constexpr double kMinSeen = 0.3;    ///< part of the ring
+constexpr float kNoise = 0.01F;     ///< of a logarithm of a colour
+constexpr float kOutlier = 2.0F;    ///< scale of the robust weights, in standard deviations
+constexpr float kMinGain = 0.15F;   ///< a segment that shows less of the reference tells nothing
+constexpr float kMaxGain = 2.0F;
 constexpr double kGainSpread =
     0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
-constexpr double kMostCovered = 1.0 / 3.0;                    ///< of the ring
-constexpr double kLeastContrast = 0.8, kMostContrast = 1.25;  ///< of the ring: another exposure or tone curve
-constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;            ///< least depth, relative to the centre's
-constexpr float kFirstScale = 0.2F;                           ///< of the residuals, before they are known
+constexpr double kMaxCovered = 1.0 / 3.0;                  ///< of the ring
+constexpr double kMinContrast = 0.8, kMaxContrast = 1.25;  ///< of the ring: another exposure or tone curve
+constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;         ///< least depth, relative to the centre's
+constexpr float kFirstScale = 0.2F;                        ///< of the residuals, before they are known
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
-constexpr double kLeastCorrelation = 0.05;   ///< at a level, to go on
+constexpr double kMinCorrelation = 0.05;     ///< at a level, to go on
 
 Matrix3d centred(const Quadrilateral& quad) {
   Matrix3d shift = Matrix3d::Identity();
@@ -65,7 +65,7 @@ RingAlignment::Moments RingAlignment::momentsOf(const float* ring, const float* 
   return m;
 }
 
-void RingAlignment::Likeness::add(float samples, float xx, float yy, float xy) {
+void RingAlignment::CorrelationSum::add(float samples, float xx, float yy, float xy) {
   if (!(samples > 0.0F)) return;
   const float noise = kNoise * kNoise * samples;
   const double weight = samples * std::log1p(0.5F * (xx + yy) / noise);
@@ -153,20 +153,20 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return {};
   const Scale scale = scaleFor(meanSide(ideal), side_px);
   const double seen = read(scale, centred(ideal));
-  if (seen < kLeastSeen) return {-1.0, seen};
-  likeness_ = {};
+  if (seen < kMinSeen) return {-1.0, seen};
+  correlation_ = {};
   shares_.clear();
   for (int s = 0; s < scale.ring->segmentCount(); ++s) {
-    const Likeness before = likeness_;
+    const CorrelationSum before = correlation_;
     const Segment segment = measure(*scale.ring, s);
-    if (likeness_.most > before.most)
-      shares_.push_back({likeness_.alike - before.alike, likeness_.most - before.most, segment.gain,
+    if (correlation_.most > before.most)
+      shares_.push_back({correlation_.alike - before.alike, correlation_.most - before.most, segment.gain,
                          kGainSpread * kGainSpread + segment.noise / segment.xx, 0.0});
   }
-  RingMatch match{likeness_.correlation(), seen};
-  if (!(likeness_.most > 0.0)) return match;
+  RingMatch match{correlation_.correlation(), seen};
+  if (!(correlation_.most > 0.0)) return match;
   match.contrast = weighContrasts();
-  for (const Share& share : shares_) match.faithful += share.faithful / likeness_.most;
+  for (const Share& share : shares_) match.faithful += share.faithful / correlation_.most;
   match.uncovered = uncovered(&Share::alike);
   match.faithful_uncovered = uncovered(&Share::faithful);
   return match;
@@ -180,7 +180,7 @@ double RingAlignment::weighContrasts() {
   if (scratch_.empty()) return 1.0;
   const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
   std::nth_element(scratch_.begin(), middle, scratch_.end());
-  const double contrast = std::clamp<double>(*middle, kLeastContrast, kMostContrast);
+  const double contrast = std::clamp<double>(*middle, kMinContrast, kMaxContrast);
   for (Share& share : shares_) {
     if (share.alike <= 0.0 || share.gain <= 0.0) continue;
     const double off = std::log(share.gain / contrast);
@@ -193,13 +193,13 @@ double RingAlignment::weighContrasts() {
 double RingAlignment::uncovered(double Share::*part) {
   std::sort(shares_.begin(), shares_.end(),
             [part](const Share& a, const Share& b) { return a.*part * b.weight < b.*part * a.weight; });
-  double covered = kMostCovered * likeness_.most, sum = 0.0;
+  double covered = kMaxCovered * correlation_.most, sum = 0.0;
   for (const Share& share : shares_) {
     const double hidden = std::min(covered, share.weight);
     covered -= hidden;
     sum += share.*part * (1.0 - hidden / share.weight);
   }
-  return sum / ((1.0 - kMostCovered) * likeness_.most);
+  return sum / ((1.0 - kMaxCovered) * correlation_.most);
 }
 
 // What one segment shows of the reference, channel by channel and in all.
@@ -212,10 +212,10 @@ RingAlignment::Segment RingAlignment::measure(const RingLevel& ring, int s) {
         momentsOf(ring.values.data() + at, values_.data() + at, weights_.data(), segment.begin, segment.end);
     segment.xx += m.varX(), yy += m.varY(), xy += m.cov(), samples += m.n;
   }
-  likeness_.add(samples, segment.xx, yy, xy);
+  correlation_.add(samples, segment.xx, yy, xy);
   segment.noise = kNoise * kNoise * samples;
   segment.xx += segment.noise;
-  segment.gain = segment.xx > 0.0F ? std::min(kMostGain, xy / segment.xx) : 0.0F;
+  segment.gain = segment.xx > 0.0F ? std::min(kMaxGain, xy / segment.xx) : 0.0F;
   return segment;
 }
 
@@ -259,10 +259,10 @@ std::optional<Matrix3d> RingAlignment::change(const RingLevel& ring) {
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
   residuals_.assign(values_.size(), 0.0F);
-  likeness_ = {};
+  correlation_ = {};
   for (int s = 0; s < ring.segmentCount(); ++s) {
     const Segment segment = measure(ring, s);
-    if (segment.gain > kLeastGain) accumulate(ring, segment, normal_sum, right, explained);
+    if (segment.gain > kMinGain) accumulate(ring, segment, normal_sum, right, explained);
   }
   weigh(ring.size());
   Matrix8f normal = normal_sum.matrix() - explained;
@@ -300,9 +300,9 @@ RingMatch RingAlignment::refine(const Scale& scale, const Quadrilateral& start, 
   const double reach_px = kFurthest * meanSide(start);
   for (int n = 0;; ++n) {
     const double seen = read(scale, at);
-    if (seen < kLeastSeen) break;
+    if (seen < kMinSeen) break;
     const auto step = change(*scale.ring);
-    if (likeness_.correlation() > best.correlation) best = {likeness_.correlation(), seen}, map = at;
+    if (correlation_.correlation() > best.correlation) best = {correlation_.correlation(), seen}, map = at;
     if (!step || n == most_steps) break;
     at = at * step->inverse();
     at /= at(2, 2);
@@ -327,7 +327,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
     const Scale scale = scaleFor(side_px, std::min(wanted, finest));
     if (scale.level != last_level)
       found.match = refine(scale, ideal, map, last_level < 0 ? kCoarseSteps : kSteps);
-    if (found.match.correlation < kLeastCorrelation) return std::nullopt;
+    if (found.match.correlation < kMinCorrelation) return std::nullopt;
     last_level = scale.level;
     if (wanted >= finest) break;
   }

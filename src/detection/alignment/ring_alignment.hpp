@@ -67,7 +67,7 @@ class RingAlignment {
 
   /// Mean of the segments' correlations, each weighed by what it can tell: that grows with its samples, and
   /// slowly with their contrast, so that one strong edge does not stand for all.
-  struct Likeness {
+  struct CorrelationSum {
     double alike = 0.0, most = 0.0;
     void add(float samples, float xx, float yy, float xy);
     double correlation() const { return most > 0.0 ? alike / most : -1.0; }
@@ -103,7 +103,7 @@ class RingAlignment {
   std::vector<float> weights_;      ///< 0 where the ring lies beside the image
   std::vector<float> residuals_, scratch_;
   std::vector<Share> shares_;
-  Likeness likeness_;
+  CorrelationSum correlation_;
   float scale_ = 0.1F;  ///< of the residuals
 };
 

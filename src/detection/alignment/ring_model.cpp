@@ -18,7 +18,7 @@ constexpr int kShortestSidePx = 16;
 
 constexpr double kCoarsest = 14.0, kFinest = 400.0;  ///< levels [samples a mean side]
 constexpr double kBlur = 0.5;                        ///< of a level [samples]
-constexpr int kMostSamples = 2400;                   ///< of a level
+constexpr int kMaxSamples = 2400;                    ///< of a level
 constexpr double kSteepPart = 0.67;  ///< of them those with the largest slopes; the others are spread evenly
 constexpr float kDark = 4.0F;        ///< added to colours: the least light that counts [grey levels]
 constexpr float kMiddle = 90.0F;  ///< its logarithm is 0: small numbers are summed more exactly [grey levels]
@@ -105,9 +105,9 @@ bool sampleAt(const Reader& reader, const Vector2d& p, const Vector2d& half_step
 
 // Of each segment the steepest ones, and some of the rest.
 void thinOut(std::vector<Sample>& samples, int segments) {
-  if (static_cast<int>(samples.size()) <= kMostSamples) return;
-  const int steep = static_cast<int>(kSteepPart * kMostSamples / segments);
-  const int others = kMostSamples / segments - steep;
+  if (static_cast<int>(samples.size()) <= kMaxSamples) return;
+  const int steep = static_cast<int>(kSteepPart * kMaxSamples / segments);
+  const int others = kMaxSamples / segments - steep;
   std::vector<Sample> kept;
   for (auto begin = samples.begin(); begin != samples.end();) {
     const auto end =

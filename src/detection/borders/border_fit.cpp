@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "detection/borders/double_edge.hpp"
+#include "detection/borders/two_step_edge.hpp"
 
 namespace window_ingress::detection {
 namespace {
 
 constexpr float kFaintest = 0.5f;  // slope that may be an edge [grey levels a pixel]
-constexpr int kLeastProfiles = 4;
+constexpr int kMinProfiles = 4;
 constexpr double kSigmas = 2.0;  // of a difference between the halves of a side
 constexpr int kNoPeak = 1 << 20;
 constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
@@ -112,9 +112,9 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
 // Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
 // part along it; as a
 // whole where a half alone does not tell, and in a track.
-DoubleEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
+TwoStepEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
   const int count = profiles_->count(), middle = count / 2;
-  const DoubleEdge edge = frontOf(limits, border.line, 0, count);
+  const TwoStepEdge edge = frontOf(limits, border.line, 0, count);
   border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
   if (!(edge.apart > 0.0)) return edge;
@@ -124,8 +124,8 @@ DoubleEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& bord
   }
   DoubleEdgeLimits halves = limits;
   halves.before = &edge;
-  const DoubleEdge first = frontOf(halves, border.line, 0, middle),
-                   last = frontOf(halves, border.line, middle, count);
+  const TwoStepEdge first = frontOf(halves, border.line, 0, middle),
+                    last = frontOf(halves, border.line, middle, count);
   const double apart = std::abs(last.front - first.front);
   if (first.apart > 0.0 && last.apart > 0.0 && apart > kSigmas * std::hypot(first.sigma_px, last.sigma_px)) {
     const double at = profiles_->position(middle / 2), to = profiles_->position((middle + count) / 2);
@@ -138,11 +138,11 @@ DoubleEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& bord
   return edge;
 }
 
-DoubleEdge BorderFit::frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first,
-                              int last) const {
+TwoStepEdge BorderFit::frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first,
+                               int last) const {
   constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
   std::array<float, 3 * kSize> mean;
-  if (profiles_->meanAlong(line, kHalf, first, last, mean.data()) < kLeastProfiles) return {};
+  if (profiles_->meanAlong(line, kHalf, first, last, mean.data()) < kMinProfiles) return {};
   return fitDoubleEdge(mean.data(), profiles_->channels(), kHalf, limits);
 }
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "detection/borders/double_edge.hpp"
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
+#include "detection/borders/two_step_edge.hpp"
 
 namespace window_ingress::detection {
 
@@ -45,12 +45,12 @@ class BorderFit {
   bool run(const BorderFitLimits& limits, FittedBorder& border);
 
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
-  /// (`DoubleEdge`), and enlarges its spread by what is not known of it. \return what was found about the
+  /// (`TwoStepEdge`), and enlarges its spread by what is not known of it. \return what was found about the
   /// line that was fitted
-  DoubleEdge toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const;
+  TwoStepEdge toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const;
 
  private:
-  DoubleEdge frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
+  TwoStepEdge frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
   std::optional<int> steepest(int i, double centre, const BorderFitLimits& limits) const;
   const float* slopesOf(int i) const {  // its middle: from -reach to reach
     return slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();

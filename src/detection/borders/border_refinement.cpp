@@ -26,7 +26,7 @@ constexpr double kShortestPx = 4.0;  ///< a side that can be fitted [px]
 constexpr double kBesidePx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
 constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
 constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
-constexpr double kMostInliers = 0.7;
+constexpr double kMaxInliers = 0.7;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ class Side {
     if (showsEdge()) return;
     border_ = FittedBorder();
     const bool found = run(image, lens, a, b, kWider * start_.radius_px);
-    fitted_ = found && inliers_ > kMostInliers;
+    fitted_ = found && inliers_ > kMaxInliers;
   }
   bool fitted() const { return fitted_; }
   bool seen() const { return seen_; }

@@ -69,9 +69,9 @@ class Reader {
 };
 
 const Eigen::Vector3f kBrightness(0.114f, 0.587f, 0.299f);
-constexpr double kSoftRatio = 0.45;   // of the differences: an edge blurred by a pixel
-constexpr double kLeastColour = 0.5;  // mean square of the first differences that is not nothing
-constexpr float kTrusted = 0.35f;     // part of a change of colour beside one of brightness
+constexpr double kSoftRatio = 0.45;  // of the differences: an edge blurred by a pixel
+constexpr double kMinColour = 0.5;   // mean square of the first differences that is not nothing
+constexpr float kTrusted = 0.35f;    // part of a change of colour beside one of brightness
 
 }  // namespace
 
@@ -168,7 +168,7 @@ bool isColourSoft(const EdgeProfiles& profiles) {
       ++count;
     }
   }
-  return first > kLeastColour * count && second < kSoftRatio * first;
+  return first > kMinColour * count && second < kSoftRatio * first;
 }
 
 Eigen::Vector3f resolvedPart(const Eigen::Vector3f& change) {

@@ -40,7 +40,7 @@ bool solve(const OffsetPoints& points, OffsetLine& line) {
   return true;
 }
 
-constexpr double kLeastSine = 0.1;  // of the angle between borders that meet
+constexpr double kMinSine = 0.1;  // of the angle between borders that meet
 
 double varianceAt(const Line& line, const Vector2d& point) {
   const double lever = line.sigma_rad * (point - line.point).norm();
@@ -76,7 +76,7 @@ void fitOffsets(const OffsetPoints& points, double scale_px, OffsetLine& line) {
 std::optional<LineCorner> meet(const Line& a, const Line& b) {
   Matrix2d normals;
   normals << a.normal.transpose(), b.normal.transpose();
-  if (!(std::abs(normals.determinant()) > kLeastSine)) return std::nullopt;
+  if (!(std::abs(normals.determinant()) > kMinSine)) return std::nullopt;
   const Matrix2d inverse = normals.inverse();
   LineCorner corner;
   corner.point = inverse * Vector2d(a.normal.dot(a.point), b.normal.dot(b.point));

@@ -13,7 +13,7 @@ namespace {
 using geometry::Quadrilateral;
 
 constexpr double kDoubtfulScore = 0.5;
-constexpr std::size_t kMostDoubtful = 200;
+constexpr std::size_t kMaxDoubtful = 200;
 constexpr int kPaintLevels[] = {6, 10, 15, 22, 30};  ///< of the masks, over `kUnpainted`
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
@@ -124,7 +124,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads:
 
 void CandidateSearch::doubt(ScoredCandidate rival, const Rejection& rejection) {
   const bool is_dented = rejection.reason == RejectReason::kSolidity;
-  if (doubtful_.size() >= kMostDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
+  if (doubtful_.size() >= kMaxDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
     return;
   rival.candidate.solidity = 1.0;
   rival.score = kDoubtfulScore;
@@ -167,7 +167,7 @@ void CandidateSearch::keepBest(DetectionTrace& trace) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
     } else if (static_cast<int>(kept_.size()) >= params_.max_candidates) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
-      if (doubtful_.size() < kMostDoubtful) doubtful_.push_back(rival);
+      if (doubtful_.size() < kMaxDoubtful) doubtful_.push_back(rival);
     } else {
       kept_.push_back(rival);
     }

@@ -16,10 +16,10 @@ constexpr double kJoinGap =
 constexpr int kMaxSegments = 300;  ///< the strongest are kept
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction to this over its length [px]
-constexpr double kLeastSeed = 0.6;    ///< part of the shortest segment that one run of it must cover
-constexpr std::size_t kMostJoined = 180;  ///< of the first segments, that are tried with each other
-constexpr double kSpread = 0.05;          ///< the direction of a short seed is this uncertain
-constexpr double kSameDirection = 0.99;   ///< cosine between pieces of one line
+constexpr double kMinSeed = 0.6;      ///< part of the shortest segment that one run of it must cover
+constexpr std::size_t kMaxJoined = 180;  ///< of the first segments, that are tried with each other
+constexpr double kSpread = 0.05;         ///< the direction of a short seed is this uncertain
+constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
 
@@ -32,7 +32,7 @@ Vector2d alongLike(const LineMoments& moments, const Vector2d& like) {
 }  // namespace
 
 void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_line_px, double bow) {
-  const std::size_t count = std::min(segments.size(), kMostJoined);
+  const std::size_t count = std::min(segments.size(), kMaxJoined);
   for (std::size_t i = 0; i < count; ++i) {
     const Segment p = segments[i];
     const double p_length = p.length();
@@ -183,7 +183,7 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
   std::sort(order_.begin(), order_.end());
   const double enough = params_.vote_fraction * min_length_px_;
   for (const auto& [pixels, seed] : order_) {
-    if (runs[seed].moments.n < kLeastSeed * min_length_px_) break;
+    if (runs[seed].moments.n < kMinSeed * min_length_px_) break;
     if (used_[seed]) continue;
     if (votes_[cellOf(middles_[seed], (ballots_[seed].first_angle + ballots_[seed].last_angle) / 2)] < enough)
       continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "detection/quads.hpp"
-#include "detection/reference/veil.hpp"
+#include "detection/reference/haze.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
 
 namespace window_ingress::detection {
@@ -28,13 +28,12 @@ constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this f
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
 constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
 constexpr float kVeilFrom = 40.0F;    ///< the darkest place about is brighter than this [grey levels]
-constexpr double kNoVeil = 1e3;
+constexpr double kNoHaze = 1e3;
 constexpr double kFarAway = 1.5;          ///< standard deviation of a border from the rough loop, in `inward`
 constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
 constexpr double kForetold = 0.8;         ///< worth of such a border
 constexpr double kThinnestFrame = 0.015;  ///< [mean sides]
-constexpr double kLeastChange =
-    3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
+constexpr double kMinChange = 3.0;  ///< of the mean colour over two pixels that may be a border [grey levels]
 
 Vector3f features(const Vector3f& bgr) {
   const float sum = bgr.sum() + 12.0F;
@@ -78,7 +77,7 @@ double ReferenceBorders::unlike(const Bands& colours, int side) const {
   return sum / kBands;
 }
 
-// The same through the veil that fits best, if there may be one.
+// The same through the haze that fits best, if there may be one.
 double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const {
   const Bands& wanted = reference_colours_[side];
   const Vector3f &wall = colours[kBands - 1], &wanted_wall = wanted[kBands - 1];
@@ -87,10 +86,10 @@ double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const
     along += (colours[b] - wall).dot(wanted[b] - wanted_wall);
     square += (wanted[b] - wanted_wall).squaredNorm();
   }
-  const auto veil = veilThatLeaves(along / square, wanted_wall, wall, darkest_);
-  if (!veil) return kNoVeil;
+  const auto haze = hazeThatLeaves(along / square, wanted_wall, wall, darkest_);
+  if (!haze) return kNoHaze;
   Bands clear;
-  for (int b = 0; b < kBands; ++b) clear[b] = veil->off(colours[b]).cwiseMax(0.0F);
+  for (int b = 0; b < kBands; ++b) clear[b] = haze->off(colours[b]).cwiseMax(0.0F);
   return unlike(clear, side);
 }
 
@@ -126,7 +125,7 @@ double ReferenceBorders::frameEnds(int side, double border) const {
   const double there = profile.largestChange(end - 0.5 * profile.step, end + 0.5 * profile.step);
   const double near = profile.largestChange(end - kEndReach, end + kEndReach);
   return kWithoutEnd +
-         (1.0 - kWithoutEnd) * (near > kLeastChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
+         (1.0 - kWithoutEnd) * (near > kMinChange ? std::min(1.0, there / (kPeakPart * near)) : 0.0);
 }
 
 // The edge from which outwards the colours are most like those of the reference, and inwards are not; its
@@ -140,7 +139,7 @@ double ReferenceBorders::choose(int side, double& border) const {
   for (int k = 1; k + 1 < count; ++k) {
     const double here = profile.change(k);
     const double at = profile.at(k);
-    const bool peak = here >= kLeastChange && here >= profile.change(k - 1) && here >= profile.change(k + 1);
+    const bool peak = here >= kMinChange && here >= profile.change(k - 1) && here >= profile.change(k + 1);
     const double ends = framed ? frameEnds(side, at) : 1.0;
     if (!peak && !(framed && ends > kSureEnd)) continue;
     Vector3f within;

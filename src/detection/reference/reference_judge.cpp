@@ -11,21 +11,21 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kMostCertain = 0.99;       ///< of a score before the reference is asked
+constexpr double kMaxCertain = 0.99;        ///< of a score before the reference is asked
 constexpr std::size_t kPlacesLocated = 12;  ///< places at which the reference's borders are looked for
 constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at closely
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
-constexpr double kLeastContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
-constexpr double kUncovered = 0.82;     ///< where there is no frame
-constexpr double kSureWorth = 0.3;      ///< of located borders; then loops about the same place are forgotten
+constexpr double kMinContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
+constexpr double kUncovered = 0.82;   ///< where there is no frame
+constexpr double kSureWorth = 0.3;    ///< of located borders; then loops about the same place are forgotten
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
 
 // Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
 double updated(double score, double odds) {
-  const double prior = std::min(score, kMostCertain);
+  const double prior = std::min(score, kMaxCertain);
   return prior * odds / (1.0 - prior + prior * odds);
 }
 
@@ -176,7 +176,7 @@ std::optional<Rejection> ReferenceJudge::objectionToSurroundings(const geometry:
   if (!compares(image)) return std::nullopt;
   const auto match = ring_.matchAt(inChannels(image), camera, corners);
   if (!match || match->correlation < min_correlation_) return std::nullopt;
-  if (match->contrast < kLeastContrast * match->correlation) return std::nullopt;
+  if (match->contrast < kMinContrast * match->correlation) return std::nullopt;
   return objectionTo(*match);
 }
 

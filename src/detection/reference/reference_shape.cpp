@@ -122,7 +122,7 @@ constexpr double kThinnest = 0.015, kWidest = 0.14;       ///< frame [mean sides
 constexpr double kBlur_px = 3.0;                          ///< nearer to the border its own edge shows
 constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;  ///< where the wall is, in widths of the frame
 constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;          ///< and the frame's own colour
-constexpr float kLeastContrast = 20.0F;                   ///< of frame and wall [grey levels]
+constexpr float kMinContrast = 20.0F;                     ///< of frame and wall [grey levels]
 constexpr std::size_t kFewestSides = 3;
 constexpr double kScatter = 0.1;                               ///< of the difference of the middle two widths
 constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the image
@@ -146,7 +146,7 @@ double paintedWidth(const SideProfile& side, double expected) {
   for (int k = 0; k < count && side.at(k) <= kCoreTo * expected; ++k)
     if (side.at(k) >= kCoreFrom * expected && (side.means[k] - wall).norm() > contrast)
       contrast = (side.means[k] - wall).norm(), core = k;
-  if (contrast < kLeastContrast) return 0.0;
+  if (contrast < kMinContrast) return 0.0;
   const Vector3f direction = (side.means[core] - wall) / (contrast * contrast);
   double width = side.at(core) - 0.5 * side.step;
   for (int k = core; k < count && side.at(k) < kSurroundFrom * expected; ++k)
@@ -202,7 +202,7 @@ void ReferenceShape::learn(const cv::Mat& picture, const Quadrilateral& opening)
   const double thinnest = std::max(kThinnest, kBlur_px / meanSide(opening));
   for (int i = 0; i < 4; ++i) {
     double end = 0.0;
-    if (sides_[i].largestChange(thinnest, kWidest, &end) < kLeastContrast) continue;
+    if (sides_[i].largestChange(thinnest, kWidest, &end) < kMinContrast) continue;
     frame_[i] = paintedWidth(sides_[i], end);
   }
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "detection/chromaticity.hpp"
+#include "detection/reference/haze.hpp"
 #include "detection/reference/ring_samples.hpp"
-#include "detection/reference/veil.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 
 namespace window_ingress::detection {
@@ -21,8 +21,8 @@ constexpr double kSharing = 4.0 / 9.0;
 
 constexpr double kTurn_rad = 0.05;     ///< of the difference between frame and surround, from paint and light
 constexpr double kClearOfNoise = 5.0;  ///< standard deviations that are left of it
-constexpr float kLeastPaint = 0.05F;   ///< of chromaticities
-constexpr double kLeastDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
+constexpr float kMinPaint = 0.05F;     ///< of chromaticities
+constexpr double kMinDifference = 25.0;  ///< of the reference's frame and surround [grey levels]
 
 using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
 
@@ -139,7 +139,7 @@ std::optional<Eigen::Vector3f> RingMeans::paint() const {
   const auto coloured = [](const Eigen::Vector3f& of) { return Eigen::Vector3f(of.array() - of.mean()); };
   const Eigen::Vector3f own = coloured(chromaticity(frame));
   const Eigen::Vector3f difference = own - coloured(chromaticity(surround));
-  if (own.norm() < kLeastPaint || difference.norm() < kLeastPaint) return std::nullopt;
+  if (own.norm() < kMinPaint || difference.norm() < kMinPaint) return std::nullopt;
   return difference.normalized();
 }
 
@@ -168,10 +168,10 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b) {
 std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen) {
   const Eigen::Vector3f expected = reference.frame - reference.surround, found = seen.frame - seen.surround;
   const double square = expected.squaredNorm();
-  if (square < kLeastDifference * kLeastDifference) return std::nullopt;
+  if (square < kMinDifference * kMinDifference) return std::nullopt;
   const double left = found.dot(expected) / square, along = left * std::sqrt(square);
   if (!(along > kClearOfNoise * seen.sigma)) return std::nullopt;
-  if (!veilThatLeaves(left, reference.surround, seen.surround, seen.darkest)) return std::nullopt;
+  if (!hazeThatLeaves(left, reference.surround, seen.surround, seen.darkest)) return std::nullopt;
   const double across = (found - static_cast<float>(left) * expected).norm() / along;
   const double noise = seen.sigma / along, spread = kTurn_rad * kTurn_rad + noise * noise;
   return std::sqrt(1.0 - std::exp(-across * across / (8.0 * spread)));

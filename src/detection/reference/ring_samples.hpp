@@ -12,13 +12,13 @@ namespace window_ingress::detection {
 struct RingSamples {
   static constexpr int kBands = 2;
   static constexpr int kAlong = 16, kAcross = 2;  ///< most samples along a side, most lines in a band
-  static constexpr int kMost = 4 * kAlong * kAcross;
+  static constexpr int kMax = 4 * kAlong * kAcross;
 
   struct Band {
-    std::array<cv::Vec3b, kMost> pixels;  ///< BGR; the first `count` are filled
-    int count = 0;                        ///< samples within the image that are not clipped
-    int asked = 0;                        ///< samples, also those outside the image
-    double area_px = 0.0;                 ///< of the whole band [px]
+    std::array<cv::Vec3b, kMax> pixels;  ///< BGR; the first `count` are filled
+    int count = 0;                       ///< samples within the image that are not clipped
+    int asked = 0;                       ///< samples, also those outside the image
+    double area_px = 0.0;                ///< of the whole band [px]
   };
   std::array<Band, kBands> bands;
   double darkest = 0.0;  ///< least channel, a fiftieth of ring and opening left out [grey levels]

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Vector8d = QuadMotion::Vector8d;
 using Matrix8d = QuadMotion::Matrix8d;
 
-constexpr double kLeastSigmaPx = 0.05;
+constexpr double kMinSigmaPx = 0.05;
 constexpr double kGain = 0.5;           // of the velocity by what the prediction missed
 constexpr double kUnknownMotion = 3.0;  // spread of the first prediction, without velocity, times this
 
@@ -58,7 +58,7 @@ void QuadMotion::start(const geometry::Quadrilateral& quad, double sigma_px) {
   predicted_ = quad;
   velocity_.setZero();
   has_velocity_ = false;
-  covariance_ = Matrix8d::Identity() * std::max(kLeastSigmaPx, sigma_px) * std::max(kLeastSigmaPx, sigma_px);
+  covariance_ = Matrix8d::Identity() * std::max(kMinSigmaPx, sigma_px) * std::max(kMinSigmaPx, sigma_px);
 }
 
 void QuadMotion::predict(const Eigen::Matrix3d& turn, double elapsed_sec, const QuadSpread& spread) {
@@ -80,7 +80,7 @@ QuadMotion::Row QuadMotion::offsetRow(int side, const Line& line) const {
   row.weights.segment<2>(2 * side) = (1.0 - t) * line.normal;
   row.weights.segment<2>(2 * ((side + 1) % 4)) = t * line.normal;
   row.rest = -line.distance(from + t * span);
-  row.variance = std::pow(std::max(kLeastSigmaPx, line.sigma_px), 2);
+  row.variance = std::pow(std::max(kMinSigmaPx, line.sigma_px), 2);
   return row;
 }
 
@@ -91,7 +91,7 @@ QuadMotion::Row QuadMotion::slopeRow(int side, const Line& line) const {
   row.weights.segment<2>(2 * side) = -line.normal / length;
   row.weights.segment<2>(2 * ((side + 1) % 4)) = line.normal / length;
   row.rest = -line.normal.dot(span) / length;
-  row.variance = std::pow(std::max(kLeastSigmaPx / length, line.sigma_rad), 2);
+  row.variance = std::pow(std::max(kMinSigmaPx / length, line.sigma_rad), 2);
   return row;
 }
 

@@ -19,7 +19,7 @@ constexpr double kWeight = 0.3;  // of the last one
 constexpr double kAgreePx = 2.5, kAgreePart = 0.02;  // corners of one window, the larger; in its sizes
 constexpr double kSameRival = 0.08;                  // corners of one rival in two images, in sizes
 constexpr double kSamePlace = 0.12;                  // corners of other borders of the same window, in sizes
-constexpr int kMostQuestions = 4;                    // times the confirmations; then it rests
+constexpr int kMaxQuestions = 4;                     // times the confirmations; then it rests
 constexpr int kPauseFrames = 60;
 
 Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) {
@@ -31,36 +31,36 @@ Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) 
 
 }  // namespace
 
-void TargetIdentity::follow(double stamp_sec) {
+void TrackIdentity::follow(double stamp_sec) {
   known_ = true;
   ++followed_;
   last_sec_ = stamp_sec;
 }
 
-void TargetIdentity::found(bool is_same, double stamp_sec) {
+void TrackIdentity::found(bool is_same, double stamp_sec) {
   if (!is_same) ++id_, followed_ = 0;
   known_ = true;
   last_sec_ = stamp_sec;
 }
 
-void TargetIdentity::expect(double stamp_sec) {
+void TrackIdentity::expect(double stamp_sec) {
   known_ = true;
   followed_ = std::max(followed_, kSettled);
   last_sec_ = stamp_sec;
 }
 
-bool TargetIdentity::remembers(double stamp_sec) const {
+bool TrackIdentity::remembers(double stamp_sec) const {
   return known_ && stamp_sec - last_sec_ <= params_.reacquire_sec;
 }
 
-bool TargetIdentity::isSame(const geometry::Quadrilateral& seen,
-                            const geometry::Quadrilateral& expected) const {
+bool TrackIdentity::isSame(const geometry::Quadrilateral& seen,
+                           const geometry::Quadrilateral& expected) const {
   const double a = sizeOf(seen), b = sizeOf(expected);
   const double off = (geometry::centroid(seen) - geometry::centroid(expected)).norm();
   return off < params_.reacquire_gate * std::min(a, b) && std::max(a, b) < kSizeRatio * std::min(a, b);
 }
 
-void KnownLikeness::note(double distance, double stamp_sec) {
+void AppearanceGate::note(double distance, double stamp_sec) {
   if (!std::isfinite(distance) || !std::isfinite(stamp_sec)) return;
   if (!allows(distance, stamp_sec)) return;
   const bool is_gap = std::abs(stamp_sec - last_sec_) > kValidSec;
@@ -70,24 +70,24 @@ void KnownLikeness::note(double distance, double stamp_sec) {
   if (++notes_ >= kEnough) best_ = std::min(best_, smoothed_);
 }
 
-bool KnownLikeness::allows(double distance, double stamp_sec) const {
+bool AppearanceGate::allows(double distance, double stamp_sec) const {
   const bool is_known = best_ < kUnknown && std::abs(stamp_sec - last_sec_) <= kValidSec;
   return !is_known || distance <= best_ + kMargin;
 }
 
-void SecondOpinion::start() {
+void TrackConfirmation::start() {
   restart();
   confirmed_ = false;
 }
 
-void SecondOpinion::restart() {
+void TrackConfirmation::restart() {
   frames_ = asked_ = for_ = against_ = 0;
   doubtful_ = false;
 }
 
-bool SecondOpinion::isDue() {
+bool TrackConfirmation::isDue() {
   if (confirmed_ && !doubtful_) return false;
-  if (asked_ >= kMostQuestions * params_.confirmations) {
+  if (asked_ >= kMaxQuestions * params_.confirmations) {
     const bool pauses = ++frames_ < kPauseFrames;
     if (pauses || !doubtful_) return false;
     asked_ = 0;
@@ -98,7 +98,7 @@ bool SecondOpinion::isDue() {
   return true;
 }
 
-bool SecondOpinion::prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
+bool TrackConfirmation::prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
   if (!searched || !geometry::isFinite(*searched)) return false;
   const double size = sizeOf(followed), off = furthestCorner(*searched, followed);
   if (!(off > std::max(kAgreePx, kAgreePart * size))) {

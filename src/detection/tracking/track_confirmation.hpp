@@ -11,13 +11,13 @@ namespace window_ingress::detection {
 /// Which window it is. A number stays with a window while it is tracked; after a loss, the window found gets
 /// the old number only where the old one must be by now, and only for a while; in a row of equal windows the
 /// neighbour gets a number of its own.
-class TargetIdentity {
+class TrackIdentity {
  public:
   static constexpr int kSettled =
       5;  ///< frames after which a lost window is waited for before another one is taken
 
   /// \param last number that was given before
-  explicit TargetIdentity(const TrackParams& params, std::uint32_t last = 0) : params_(params), id_(last) {}
+  explicit TrackIdentity(const TrackParams& params, std::uint32_t last = 0) : params_(params), id_(last) {}
 
   std::uint32_t id() const { return id_; }  ///< 0 before the first window
 
@@ -49,13 +49,13 @@ class TargetIdentity {
 /// How like the reference the target has been: a window that is much less so does not take its place while it
 /// is out of sight. The limit of `AppearanceMatch` must let the target pass in any light; of two that pass in
 /// the same light, one that is clearly less like it is another window.
-class KnownLikeness {
+class AppearanceGate {
  public:
   static constexpr double kMargin =
       0.2;  ///< a window less like the reference than the target was by this is another one
   static constexpr double kValidSec = 10.0;  ///< a comparison says what is allowed for so long [s]
 
-  void forget() { *this = KnownLikeness(); }
+  void forget() { *this = AppearanceGate(); }
   /// Bhattacharyya distance of a confirmed track, at a comparison.
   void note(double distance, double stamp_sec);
   /// Whether a window at this distance may be the target. Anything may where nothing is known, or once the
@@ -78,11 +78,11 @@ class KnownLikeness {
 /// `TrackParams::confirmations` that agree confirm it; as many in a row that name one other place end it. A
 /// confirmed track is asked about again only while it is doubtful, and then only its borders are corrected:
 /// another window never takes its place.
-class SecondOpinion {
+class TrackConfirmation {
  public:
   static constexpr int kEveryFrames = 2;  ///< frames between searches that are asked
 
-  explicit SecondOpinion(const TrackParams& params) : params_(params) {}
+  explicit TrackConfirmation(const TrackParams& params) : params_(params) {}
 
   void start();    ///< a new window is followed
   void restart();  ///< the same window again, or its borders elsewhere: what is confirmed remains so

@@ -21,8 +21,8 @@ constexpr double kKnownTurn =
 constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
 constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
 constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
-constexpr double kLeastMovePx = 1.5,
-                 kLeastMove = 0.012;  // of a corner, to be led by the wall; in the window's sizes
+constexpr double kMinMovePx = 1.5,
+                 kMinMove = 0.012;  // of a corner, to be led by the wall; in the window's sizes
 constexpr double kAlignedSigmaPx = 1.0,
                  kAlignedStrayPx = 2.0;  // of borders from where the wall says they are
 constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
@@ -31,7 +31,7 @@ constexpr int kElsewhereFrames = 5;      // after which a track beside the place
 
 void WindowTracker::Impl::begin(const TrackInput& input) {
   was_searched = false;
-  if (!pictures.take(input)) forgetTrack();
+  if (!images.take(input)) forgetTrack();
   place_is_expected =
       input.expected && geometry::isFinite(*input.expected) && geometry::isConvex(*input.expected);
   if (place_is_expected) heedExpected(input);
@@ -40,7 +40,7 @@ void WindowTracker::Impl::begin(const TrackInput& input) {
 
 // What is followed there stays; what is followed elsewhere does not.
 void WindowTracker::Impl::heedExpected(const TrackInput& input) {
-  const Quadrilateral place = undistorted(*input.expected, pictures.lens());
+  const Quadrilateral place = undistorted(*input.expected, images.lens());
   if (tracking) {
     frames_elsewhere = identity.isSame(motion.quad(), place) ? 0 : frames_elsewhere + 1;
     if (frames_elsewhere < kElsewhereFrames) return;
@@ -49,38 +49,38 @@ void WindowTracker::Impl::heedExpected(const TrackInput& input) {
   }
   frames_elsewhere = 0;
   identity.expect(input.stamp_sec);
-  motion.start(place, kExpectedSigma * pictures.longerSide());
+  motion.start(place, kExpectedSigma * images.longerSide());
   has_motion = true;
 }
 
 // An attitude that jitters by more than what is unforeseen without it is worse than none.
 bool WindowTracker::Impl::knowsTurn() const {
-  return pictures.turn() &&
-         pictures.turnSigmaPx() < params.track.turn * pictures.longerSide() * pictures.elapsedSec();
+  return images.turn() &&
+         images.turnSigmaPx() < params.track.turn * images.longerSide() * images.elapsedSec();
 }
 
 QuadSpread WindowTracker::Impl::spread() const {
-  const double side = sizeOf(motion.quad()), elapsed_sec = pictures.elapsedSec();
-  const double unforeseen_px = pictures.longerSide() * elapsed_sec;
+  const double side = sizeOf(motion.quad()), elapsed_sec = images.elapsedSec();
+  const double unforeseen_px = images.longerSide() * elapsed_sec;
   const double place_px =
-      knowsTurn() ? std::hypot(kKnownTurn * params.track.turn * unforeseen_px, pictures.turnSigmaPx())
+      knowsTurn() ? std::hypot(kKnownTurn * params.track.turn * unforeseen_px, images.turnSigmaPx())
                   : params.track.turn * unforeseen_px;
   return {place_px, kReshape * side * elapsed_sec, kWarp * side * elapsed_sec};
 }
 
 void WindowTracker::Impl::predict() {
-  motion.predict(knowsTurn() ? *pictures.turn() : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
-                 pictures.elapsedSec(), spread());
+  motion.predict(knowsTurn() ? *images.turn() : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
+                 images.elapsedSec(), spread());
 }
 
 bool WindowTracker::Impl::follow(const TrackInput& input) {
-  const bool found = quartet.follow(input.image, pictures.lens(), motion);
-  const double quality = found ? quartet.quality() * (reference.isUnlike() ? kUnlikePart : 1.0) : 0.0;
+  const bool found = quad_tracker.follow(input.image, images.lens(), motion);
+  const double quality = found ? quad_tracker.quality() * (reference.isUnlike() ? kUnlikePart : 1.0) : 0.0;
   certainty += kQualityRate * (quality - certainty);
   if (!found || certainty < kMinCertainty) return false;
-  motion.settle(pictures.elapsedSec());
-  quartet.keep(input.image, pictures.lens(), motion.quad());
-  quartet.describe(input.image, pictures.lens(), motion, window);
+  motion.settle(images.elapsedSec());
+  quad_tracker.keep(input.image, images.lens(), motion.quad());
+  quad_tracker.describe(input.image, images.lens(), motion, window);
   identity.follow(input.stamp_sec);
   window.stamp_sec = input.stamp_sec;
   window.target_id = identity.id();
@@ -90,21 +90,22 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
 }
 
 void WindowTracker::Impl::watch(const TrackInput& input) {
-  if (quartet.inView() < 4) return;
-  if (!reference.look(input, distorted(motion.quad(), pictures.lens()), window)) opinion.doubt();
-  if (reference.hasAgreed() && opinion.isConfirmed() && certainty > kAdaptCertainty && quartet.fitted() == 4)
+  if (quad_tracker.inView() < 4) return;
+  if (!reference.look(input, distorted(motion.quad(), images.lens()), window)) confirmation.doubt();
+  if (reference.hasAgreed() && confirmation.isConfirmed() && certainty > kAdaptCertainty &&
+      quad_tracker.fitted() == 4)
     reference.adapt(input, window);
-  if (reference.hasCompared() && opinion.isConfirmed()) likeness.note(window.bhattacharyya, input.stamp_sec);
+  if (reference.hasCompared() && confirmation.isConfirmed())
+    appearance_gate.note(window.bhattacharyya, input.stamp_sec);
 }
 
 // Textures beside a border are followed easily for it: where the wall says that the borders are elsewhere,
 // those there are followed from now on.
 void WindowTracker::Impl::realign(const TrackInput& input) {
-  if (quartet.inView() < 4) return;
-  const Quadrilateral followed = distorted(motion.quad(), pictures.lens());
+  if (quad_tracker.inView() < 4) return;
+  const Quadrilateral followed = distorted(motion.quad(), images.lens());
   const auto expected = reference.align(input, followed);
-  if (!expected ||
-      furthestCorner(*expected, followed) < std::max(kLeastMovePx, kLeastMove * sizeOf(followed)))
+  if (!expected || furthestCorner(*expected, followed) < std::max(kMinMovePx, kMinMove * sizeOf(followed)))
     return;
   BorderStart start;
   start.quad = *expected;
@@ -112,9 +113,9 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
   start.max_stray_px = kAlignedStrayPx;
   const auto borders = refinement.run(input.image, start, input.camera);
   if (!borders || borders->seen < 3) return;
-  const Quadrilateral quad = undistorted(borders->corners, pictures.lens());
+  const Quadrilateral quad = undistorted(borders->corners, images.lens());
   motion.place(quad);
-  quartet.learn(input.image, pictures.lens(), quad);
+  quad_tracker.learn(input.image, images.lens(), quad);
   window.corners = borders->corners;
   window.corner_visible.fill(true);
   window.corner_covariance = borders->corner_covariance;
@@ -123,11 +124,11 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
 
 // So near that no two sides are in view: the window is where it must be, for a while.
 bool WindowTracker::Impl::surrounds(const TrackInput& input) {
-  if (quartet.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec) ||
-      !geometry::contains(motion.quad(), {0.5 * pictures.size().width, 0.5 * pictures.size().height}))
+  if (quad_tracker.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec) ||
+      !geometry::contains(motion.quad(), {0.5 * images.size().width, 0.5 * images.size().height}))
     return false;
   refuse(RejectReason::kBorder,
-         std::to_string(quartet.inView()) + " of 4 sides in view: the picture lies within the window");
+         std::to_string(quad_tracker.inView()) + " of 4 sides in view: the picture lies within the window");
   own_trace.candidates.clear();
   return true;
 }
@@ -156,13 +157,13 @@ void WindowTracker::setParams(const DetectorParams& params) {
   impl_->detector.setParams(params);
   impl_->params = params;
   impl_->refinement = BorderRefinement();
-  impl_->quartet = BorderQuartet(params.track);
-  const TargetIdentity before = impl_->identity;
-  impl_->identity = TargetIdentity(params.track, before.id());
-  impl_->opinion = SecondOpinion(params.track);
+  impl_->quad_tracker = QuadTracker(params.track);
+  const TrackIdentity before = impl_->identity;
+  impl_->identity = TrackIdentity(params.track, before.id());
+  impl_->confirmation = TrackConfirmation(params.track);
   impl_->reference.setParams(params);
-  impl_->pictures = ImageSequence(params.track.max_gap_sec);
-  impl_->likeness = KnownLikeness();
+  impl_->images = ImageSequence(params.track.max_gap_sec);
+  impl_->appearance_gate = AppearanceGate();
   impl_->forget();
 }
 
@@ -170,21 +171,21 @@ void WindowTracker::setReference(const ReferenceAppearance& reference) {
   const auto shared = std::make_shared<ReferenceAppearance>(reference);
   impl_->detector.shareReference(shared);
   impl_->reference.setReference(shared);
-  impl_->likeness.forget();
+  impl_->appearance_gate.forget();
   impl_->forget();
 }
 
 void WindowTracker::clearReference() {
   impl_->reference.setReference(nullptr);
   impl_->detector.clearReference();
-  impl_->likeness.forget();
+  impl_->appearance_gate.forget();
   impl_->forget();
 }
 
 void WindowTracker::setWatch(StageWatch* watch) { impl_->detector.setWatch(watch); }
 
 void WindowTracker::reset() {
-  impl_->likeness.forget();
+  impl_->appearance_gate.forget();
   impl_->forget();
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "detection/tracking/border_quartet.hpp"
+#include "detection/tracking/appearance_monitor.hpp"
 #include "detection/tracking/image_sequence.hpp"
-#include "detection/tracking/reference_watch.hpp"
+#include "detection/tracking/quad_tracker.hpp"
 #include "detection/tracking/track_confirmation.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
@@ -23,12 +23,12 @@ struct WindowTracker::Impl {
   explicit Impl(const DetectorParams& p)
       : params(p),
         detector(p),
-        pictures(p.track.max_gap_sec),
+        images(p.track.max_gap_sec),
         reference(p),
         motion(),
-        quartet(p.track),
+        quad_tracker(p.track),
         identity(p.track),
-        opinion(p.track) {}
+        confirmation(p.track) {}
 
   void begin(const TrackInput& input);
   void heedExpected(const TrackInput& input);
@@ -57,19 +57,19 @@ struct WindowTracker::Impl {
   }
   void forget() {
     forgetTrack();
-    pictures.forget();
+    images.forget();
   }
 
   DetectorParams params;
   WindowDetector detector;
   BorderRefinement refinement;
-  ImageSequence pictures;
-  ReferenceWatch reference;
+  ImageSequence images;
+  AppearanceMonitor reference;
   QuadMotion motion;
-  BorderQuartet quartet;
-  TargetIdentity identity;
-  KnownLikeness likeness;
-  SecondOpinion opinion;
+  QuadTracker quad_tracker;
+  TrackIdentity identity;
+  AppearanceGate appearance_gate;
+  TrackConfirmation confirmation;
   WindowObservation window;  // as followed last
   DetectionTrace own_trace;  // where the search's does not tell what happened
   double certainty = 0.0;

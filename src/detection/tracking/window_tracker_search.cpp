@@ -24,22 +24,22 @@ void WindowTracker::Impl::survey(const TrackInput& input, const std::optional<Wi
   const double since_sec = input.stamp_sec - searched_sec;
   const bool is_due =
       params.track.survey_sec > 0.0 && !(since_sec < params.track.survey_sec && since_sec >= 0.0);
-  if (tracking && !was_searched && is_due && quartet.inView() == 4) lookForWindow(input);
+  if (tracking && !was_searched && is_due && quad_tracker.inView() == 4) lookForWindow(input);
   static const DetectionTrace kNothing;
   windowsSeen(was_searched ? detector.trace() : kNothing, target, windows);
 }
 
 // The search's window becomes the one that is own_trace.
 void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found, bool is_same) {
-  const Quadrilateral quad = undistorted(found.corners, pictures.lens());
+  const Quadrilateral quad = undistorted(found.corners, images.lens());
   identity.found(is_same, input.stamp_sec);
   if (is_same)
-    opinion.restart(), reference.restart();
+    confirmation.restart(), reference.restart();
   else
-    opinion.start(), reference.start();
+    confirmation.start(), reference.start();
   found.target_id = identity.id();
   motion.start(quad, kFoundSigmaPx);
-  quartet.learn(input.image, pictures.lens(), quad);
+  quad_tracker.learn(input.image, images.lens(), quad);
   certainty = std::max(found.score, 2.0 * kMinCertainty);
   window = found;
   tracking = has_motion = true;
@@ -52,7 +52,7 @@ std::optional<WindowObservation> WindowTracker::Impl::amongOthers(const TrackInp
   std::vector<const CandidateTrace*> others;
   for (const CandidateTrace& other : detector.trace().candidates)
     if (other.reject == RejectReason::kOutscored &&
-        identity.isSame(undistorted(other.quad, pictures.lens()), motion.quad()))
+        identity.isSame(undistorted(other.quad, images.lens()), motion.quad()))
       others.push_back(&other);
   std::stable_sort(others.begin(), others.end(),
                    [](const auto* a, const auto* b) { return a->score > b->score; });
@@ -69,7 +69,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
   auto found = lookForWindow(input);
   if (!found) return std::nullopt;
   const bool remembers = has_motion && identity.remembers(input.stamp_sec);
-  bool is_same = remembers && identity.isSame(undistorted(found->corners, pictures.lens()), motion.quad());
+  bool is_same = remembers && identity.isSame(undistorted(found->corners, images.lens()), motion.quad());
   if (remembers && !is_same) {
     if (auto other = amongOthers(input, *found)) found = other, is_same = true;
   }
@@ -77,7 +77,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
     refuse(RejectReason::kOutscored, "another window is in view; the one that was followed is waited for");
     return std::nullopt;
   }
-  if (found->has_appearance && !likeness.allows(found->bhattacharyya, input.stamp_sec)) {
+  if (found->has_appearance && !appearance_gate.allows(found->bhattacharyya, input.stamp_sec)) {
     refuse(RejectReason::kAppearance, "less like the reference than the target was");
     return std::nullopt;
   }
@@ -87,7 +87,7 @@ std::optional<WindowObservation> WindowTracker::Impl::search(const TrackInput& i
 
 // Three of four borders in view: a search may tell the fourth. Its answer counts if it is the same border.
 std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput& input) {
-  if (quartet.inView() < 4 || quartet.fitted() == 4) {
+  if (quad_tracker.inView() < 4 || quad_tracker.fitted() == 4) {
     frames_to_completion = 0;
     return std::nullopt;
   }
@@ -95,8 +95,8 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
   frames_to_completion = kCompletionFrames;
   auto found = lookForWindow(input);
   if (!found) return std::nullopt;
-  const Quadrilateral seen = undistorted(found->corners, pictures.lens()), expected = motion.quad();
-  const double limit_px = 2.0 * params.track.reach * pictures.longerSide();
+  const Quadrilateral seen = undistorted(found->corners, images.lens()), expected = motion.quad();
+  const double limit_px = 2.0 * params.track.reach * images.longerSide();
   if (!geometry::isFinite(expected) || !(furthestCorner(seen, expected) < limit_px)) return std::nullopt;
   has_own_trace = false;
   take(input, *found, true);
@@ -105,14 +105,14 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
 
 // While a track is new or doubtful: the search's answer, if it is to be followed in its place.
 std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput& input) {
-  if (quartet.inView() < 4 || !opinion.isDue()) return std::nullopt;
+  if (quad_tracker.inView() < 4 || !confirmation.isDue()) return std::nullopt;
   auto found = lookForWindow(input);
   std::optional<Quadrilateral> searched;
   if (found && place_is_expected &&
-      !identity.isSame(undistorted(found->corners, pictures.lens()), motion.quad()))
+      !identity.isSame(undistorted(found->corners, images.lens()), motion.quad()))
     found = amongOthers(input, *found);
-  if (found) searched = undistorted(found->corners, pictures.lens());
-  if (!opinion.prefers(searched, motion.quad())) return std::nullopt;
+  if (found) searched = undistorted(found->corners, images.lens());
+  if (!confirmation.prefers(searched, motion.quad())) return std::nullopt;
   has_own_trace = false;
   take(input, *found, identity.isSame(*searched, motion.quad()));
   return found;

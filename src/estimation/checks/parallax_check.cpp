@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSpacingM = 0.02;
 constexpr double kLongestSec = 4.0;  // odometry drifts
-constexpr std::size_t kLeast = 5;
+constexpr std::size_t kMin = 5;
 constexpr double kPlaceSigmaM = 0.015, kBearingSigmaRad = 0.005;  // of one image: odometry, attitude
 constexpr double kSpanFactor =
     1.5;  // a line through noise at both ends of a way, little helped by those between
@@ -31,7 +31,7 @@ void ParallaxCheck::see(double stamp_sec, const Eigen::Vector3d& camera_odom_m,
   if (!isNew(stamp_sec, camera_odom_m)) return;
   sights_.push_back({stamp_sec, camera_odom_m, window_odom_m});
   while (stamp_sec - sights_.front().stamp_sec > kLongestSec) sights_.pop_front();
-  if (sights_.size() >= kLeast) judge();
+  if (sights_.size() >= kMin) judge();
 }
 
 // Slope of the window's way over the camera's, both across the line of sight: 1 - 1/k.

@@ -15,7 +15,7 @@ constexpr double kLongestGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec
 constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
-constexpr double kMostBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
+constexpr double kMaxBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
 constexpr double kJitterM = 0.02, kDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
 constexpr double kMaxSquares = 9.0;      // of one piece: mad numbers and slides are no frame
@@ -107,7 +107,7 @@ TwistCheck::Sums TwistCheck::sums() const {
     bias_mps[k] = biasMps(k);
     const double norm = bias_mps[k].norm();
     if (k == 0) sums.bias_mps = norm;
-    if (norm > kMostBiasMps) bias_mps[k] *= kMostBiasMps / norm;
+    if (norm > kMaxBiasMps) bias_mps[k] *= kMaxBiasMps / norm;
   }
   for (const Piece& piece : pieces_) {
     sums.way_m += piece.way_m;
@@ -129,7 +129,7 @@ std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
 void TwistCheck::judge() {
   const Sums all = sums();
   if (all.way_m < params_.least_way_m) return;
-  const bool is_biased = all.bias_mps > kMostBiasMps;
+  const bool is_biased = all.bias_mps > kMaxBiasMps;
   if (!is_biased && all.misfit() <= params_.max_velocity_error) {
     verdict_ = {FramesVerdict::kGood, ""};
     return;

@@ -144,7 +144,7 @@ void FlightStrip::onStep(const FlightRecord& record, const navigation::Navigator
   if (canvas_.empty()) return;
   last_.caption = captionOf(record);
   canvas_.copyTo(last_.image);
-  if (shown_ == record.state || pictures_.size() == kMost) return;
+  if (shown_ == record.state || pictures_.size() == kMax) return;
   shown_ = record.state;
   pictures_.push_back({canvas_.clone(), last_.caption});
 }

@@ -26,7 +26,7 @@ cv::Mat drawTracks(const std::vector<FlightResult>& flights, const WallOutline& 
 /// navigator, and the last one of all.
 class FlightStrip : public FlightObserver {
  public:
-  static constexpr std::size_t kMost = 11;  ///< images besides the last one
+  static constexpr std::size_t kMax = 11;  ///< images besides the last one
 
   void onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace& trace,
                const std::optional<detection::WindowObservation>& window) override;

@@ -3,7 +3,7 @@
 
 #include "evaluation/openness/openness_approach.hpp"
 #include "simulation/camera/camera_sensor.hpp"
-#include "window_ingress/openness/interior_follower.hpp"
+#include "window_ingress/openness/interior_klt_tracker.hpp"
 
 namespace window_ingress::evaluation {
 
@@ -15,7 +15,7 @@ OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed
   const geometry::PinholeCamera camera = scenario.camera.model();
   simulation::CameraSensor sensor(scene, scenario.camera, seed);
   OpennessApproach approach(range, scenario.opening(), params, seed);
-  openness::InteriorFollower interior(follower);
+  openness::InteriorKltTracker interior(follower);
   OpennessResult result;
   result.seed = seed;
   result.is_open = scenario.window.isOpen();

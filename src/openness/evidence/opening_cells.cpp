@@ -24,7 +24,7 @@ void OpeningCells::see(const Eigen::Vector2d& place, double log_odds) {
   if (!place.allFinite() || !std::isfinite(log_odds) || (place.array() < 0.0).any() ||
       (place.array() > 1.0).any())
     return;
-  const float odds = std::min(kMost, static_cast<float>(std::abs(log_odds)));
+  const float odds = std::min(kMax, static_cast<float>(std::abs(log_odds)));
   const double rim = log_odds > 0.0 ? kRim : 0.0;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {

@@ -50,14 +50,14 @@ void addBars(const Fitting& fitting, double pane_m, Mesh& mesh) {
 
 // Nothing is to be seen of a clear pane but the dirt on it and what it mirrors.
 void addClearPane(const Fitting& fitting, double pane_m, const Surface& dirt, Scene& scene) {
-  constexpr double kBefore_m = 0.001, kLeast_m = 0.004, kMost_m = 0.03;
+  constexpr double kBefore_m = 0.001, kMin_m = 0.004, kMax_m = 0.03;
   const Rectangle& face = fitting.opening;
   const double width_m = face.left_m - face.right_m, height_m = face.top_m - face.bottom_m;
   scene.panes.push_back(
       {pane_m, {Eigen::Vector2d(face.right_m, face.bottom_m), Eigen::Vector2d(face.left_m, face.top_m)}});
   RandomStream random(scene.texture_seed, "dirt");
   for (double left_m2 = fitting.dirt * width_m * height_m; left_m2 > 0.0;) {
-    const double size_m = kLeast_m * std::pow(kMost_m / kLeast_m, random.uniform(0.0, 1.0));
+    const double size_m = kMin_m * std::pow(kMax_m / kMin_m, random.uniform(0.0, 1.0));
     const double y_m = face.left_m - random.uniform(0.0, width_m - size_m);
     const double z_m = face.bottom_m + random.uniform(0.0, height_m - size_m);
     scene.mesh.addQuad({pane_m - kBefore_m, y_m, z_m}, {0, -size_m, 0}, {0, 0, size_m}, dirt);
@@ -81,15 +81,15 @@ void addClosure(const Fitting& fitting, double pane_m, Scene& scene) {
 
 // The strips of wall beside a frame that it keeps the sun from.
 void addFrameShadow(const Scenario& scenario, const Rectangle& outer, double front_m, Mesh& mesh) {
-  constexpr double kBefore_m = 0.0008, kMost_m = 0.12;
+  constexpr double kBefore_m = 0.0008, kMax_m = 0.12;
   const Lighting light = mesh.lighting();
   const Vector3d sun = light.towards_sun;
   const double wall_m = scenario.window.wallFront(), depth_m = wall_m - front_m;
   if (light.sun <= 0.0 || sun.x() > -0.1 || depth_m < 0.01) return;
   const Surface surface = painted(scenario.house.wall, wallTexture(scenario.house.wall_texture));
   const double tile_m = tileSize_m(surface.texture), x_m = wall_m - kBefore_m;
-  const Vector3d slide(0, std::clamp(sun.y() / sun.x() * depth_m, -kMost_m, kMost_m),
-                       std::clamp(sun.z() / sun.x() * depth_m, -kMost_m, 0.0));
+  const Vector3d slide(0, std::clamp(sun.y() / sun.x() * depth_m, -kMax_m, kMax_m),
+                       std::clamp(sun.z() / sun.x() * depth_m, -kMax_m, 0.0));
   const auto strip = [&](const Vector3d& from, const Vector3d& along) {
     Polygon polygon;
     for (const Vector3d& p :

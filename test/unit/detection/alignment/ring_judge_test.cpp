@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "detection/tracking/reference_watch.hpp"
+#include "detection/tracking/appearance_monitor.hpp"
 #include "patched_wall.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
@@ -70,14 +70,14 @@ std::optional<Quadrilateral> aligned(const PatchedWall& wall, const Quadrilatera
                                      const cv::Mat& image) {
   Quadrilateral corners;
   const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
-  ReferenceWatch watch{DetectorParams()};
+  AppearanceMonitor watch{DetectorParams()};
   watch.setReference(std::make_shared<ReferenceAppearance>(picture, corners));
   std::optional<Quadrilateral> found;
   for (int i = 0; i < 3 && !found; ++i) found = watch.align(inputOf(image), followed);
   return found;
 }
 
-TEST(ReferenceWatch, TheWallSaysWhereTheBordersOfAHoleAre) {
+TEST(AppearanceMonitor, TheWallSaysWhereTheBordersOfAHoleAre) {
   const PatchedWall wall(3, 0.0, 25.0);
   const Known known{wall};
   Quadrilateral followed = known.opening;  // its left border on something beside it
@@ -88,7 +88,7 @@ TEST(ReferenceWatch, TheWallSaysWhereTheBordersOfAHoleAre) {
   EXPECT_FALSE(aligned(PatchedWall(4, 0.0, 25.0), followed, known.image)) << "of another wall";
 }
 
-TEST(ReferenceWatch, TheWallLeadsToAFrameThatWasLeft) {
+TEST(AppearanceMonitor, TheWallLeadsToAFrameThatWasLeft) {
   const PatchedWall framed(3, 0.07, 25.0);
   const Known known{framed};
   EXPECT_FALSE(aligned(framed, known.opening, known.image)) << "it is in its place";

@@ -8,8 +8,8 @@
 
 #include "detection/borders/border_fit.hpp"
 #include "detection/borders/lines.hpp"
-#include "detection/tracking/border_follower.hpp"
-#include "detection/tracking/border_memory.hpp"
+#include "detection/tracking/edge_template.hpp"
+#include "detection/tracking/edge_tracker.hpp"
 #include "detection/tracking/quad_motion.hpp"
 #include "detection/tracking/track_confirmation.hpp"
 #include "drawn_window.hpp"
@@ -84,8 +84,8 @@ TEST(BorderFit, SpreadIsHonestForNoise) {
   EXPECT_LT(squares, 3.0);
 }
 
-TEST(BorderMemory, KnowsTheInnerFromTheOuterBorderWhereverTheyLie) {
-  BorderMemory inner;
+TEST(EdgeTemplate, KnowsTheInnerFromTheOuterBorderWhereverTheyLie) {
+  EdgeTemplate inner;
   EXPECT_FALSE(inner.match(across(bands({{0, kWall}}), 100), 6, 100.0)) << "nothing learned";
   inner.learn(across(bands({{0, kWall}, {95, kFrame}, {100, kHole}}), 100), {}, 6, 100.0, 1.0);
   for (double shift : {-5.0, -2.0, 0.0, 3.0, 5.0}) {
@@ -203,9 +203,9 @@ TEST(QuadMotion, ATurnOfTheCameraNeedsNoVelocity) {
     EXPECT_LT((motion.quad()[i] - *camera.project(R * camera.ray(quad[i]))).norm(), 1e-6);
 }
 
-TEST(TargetIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
+TEST(TrackIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
   const TrackParams params;
-  TargetIdentity identity(params);
+  TrackIdentity identity(params);
   EXPECT_FALSE(identity.remembers(0.0));
   identity.found(false, 1.0);
   EXPECT_EQ(identity.id(), 1u);

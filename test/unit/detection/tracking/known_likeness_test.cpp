@@ -7,29 +7,29 @@
 namespace window_ingress::detection {
 namespace {
 
-KnownLikeness known(double distance) {
-  KnownLikeness likeness;
+AppearanceGate known(double distance) {
+  AppearanceGate likeness;
   for (int i = 0; i < 5; ++i) likeness.note(distance, 1.0 + 0.5 * i);
   return likeness;
 }
 
-TEST(KnownLikeness, AllowsAnythingBeforeItKnows) {
-  KnownLikeness likeness;
+TEST(AppearanceGate, AllowsAnythingBeforeItKnows) {
+  AppearanceGate likeness;
   EXPECT_TRUE(likeness.allows(0.9, 1.0));
   likeness.note(0.05, 1.0);
   likeness.note(0.05, 1.5);
   EXPECT_TRUE(likeness.allows(0.9, 2.0)) << "two comparisons are not enough";
 }
 
-TEST(KnownLikeness, AllowsTheLikeAndTheBetterNotTheWorse) {
+TEST(AppearanceGate, AllowsTheLikeAndTheBetterNotTheWorse) {
   const auto likeness = known(0.3);
   EXPECT_NEAR(likeness.best(), 0.3, 1e-9);
   EXPECT_TRUE(likeness.allows(0.05, 4.0));
-  EXPECT_TRUE(likeness.allows(0.3 + 0.9 * KnownLikeness::kMargin, 4.0));
-  EXPECT_FALSE(likeness.allows(0.3 + 1.1 * KnownLikeness::kMargin, 4.0));
+  EXPECT_TRUE(likeness.allows(0.3 + 0.9 * AppearanceGate::kMargin, 4.0));
+  EXPECT_FALSE(likeness.allows(0.3 + 1.1 * AppearanceGate::kMargin, 4.0));
 }
 
-TEST(KnownLikeness, ABetterOneRaisesTheBarAWorseOneDoesNotLowerIt) {
+TEST(AppearanceGate, ABetterOneRaisesTheBarAWorseOneDoesNotLowerIt) {
   auto likeness = known(0.3);
   for (int i = 0; i < 10; ++i) likeness.note(0.05, 4.0 + 0.5 * i);
   EXPECT_LT(likeness.best(), 0.1);
@@ -37,16 +37,16 @@ TEST(KnownLikeness, ABetterOneRaisesTheBarAWorseOneDoesNotLowerIt) {
   EXPECT_FALSE(likeness.allows(0.6, 9.5));
 }
 
-TEST(KnownLikeness, ForgetsAfterAWhileOutOfSightAndOnRequest) {
+TEST(AppearanceGate, ForgetsAfterAWhileOutOfSightAndOnRequest) {
   auto likeness = known(0.05);
-  EXPECT_FALSE(likeness.allows(0.6, 3.0 + 0.9 * KnownLikeness::kValidSec));
-  EXPECT_TRUE(likeness.allows(0.6, 3.0 + 1.1 * KnownLikeness::kValidSec));
-  EXPECT_TRUE(likeness.allows(0.6, 3.0 - 1.1 * KnownLikeness::kValidSec)) << "a clock that went back";
+  EXPECT_FALSE(likeness.allows(0.6, 3.0 + 0.9 * AppearanceGate::kValidSec));
+  EXPECT_TRUE(likeness.allows(0.6, 3.0 + 1.1 * AppearanceGate::kValidSec));
+  EXPECT_TRUE(likeness.allows(0.6, 3.0 - 1.1 * AppearanceGate::kValidSec)) << "a clock that went back";
   likeness.forget();
   EXPECT_TRUE(likeness.allows(0.6, 3.0));
 }
 
-TEST(KnownLikeness, IgnoresWhatIsNoNumber) {
+TEST(AppearanceGate, IgnoresWhatIsNoNumber) {
   auto likeness = known(0.05);
   likeness.note(std::nan(""), 4.0);
   likeness.note(0.01, std::nan(""));

@@ -16,18 +16,19 @@ Quadrilateral squareAt(double x, double y, double size) {
 }
 
 // Asks as often as the opinion wants to; true once the answer is preferred.
-bool preferred(SecondOpinion& opinion, int frames, const Quadrilateral& searched) {
+bool preferred(TrackConfirmation& opinion, int frames, const Quadrilateral& searched) {
   bool taken = false;
   for (int i = 0; i < frames && !taken; ++i)
     if (opinion.isDue()) taken = opinion.prefers(searched, squareAt(100, 100, 80));
   return taken;
 }
 
-TEST(SecondOpinion, ATrackThatTheSearchConfirmsIsLeftAlone) {
+TEST(TrackConfirmation, ATrackThatTheSearchConfirmsIsLeftAlone) {
   const TrackParams params;
-  SecondOpinion opinion(params);
+  TrackConfirmation opinion(params);
   opinion.start();
-  EXPECT_FALSE(preferred(opinion, params.confirmations * SecondOpinion::kEveryFrames, squareAt(101, 100, 80)));
+  EXPECT_FALSE(
+      preferred(opinion, params.confirmations * TrackConfirmation::kEveryFrames, squareAt(101, 100, 80)));
   EXPECT_TRUE(opinion.isConfirmed());
   for (int i = 0; i < 1000; ++i) ASSERT_FALSE(opinion.isDue()) << "no more searches";
   opinion.doubt();
@@ -39,15 +40,15 @@ TEST(SecondOpinion, ATrackThatTheSearchConfirmsIsLeftAlone) {
   EXPECT_TRUE(opinion.isConfirmed());
 }
 
-TEST(SecondOpinion, AWrongStartIsLeftForThePlaceThatIsFoundAgainAndAgain) {
-  SecondOpinion opinion{TrackParams()};
+TEST(TrackConfirmation, AWrongStartIsLeftForThePlaceThatIsFoundAgainAndAgain) {
+  TrackConfirmation opinion{TrackParams()};
   opinion.start();
   EXPECT_TRUE(preferred(opinion, 100, squareAt(230, 90, 70)));
   EXPECT_FALSE(opinion.isConfirmed());
 }
 
-TEST(SecondOpinion, AnswersThatDifferFromEachOtherMeanNothing) {
-  SecondOpinion opinion{TrackParams()};
+TEST(TrackConfirmation, AnswersThatDifferFromEachOtherMeanNothing) {
+  TrackConfirmation opinion{TrackParams()};
   opinion.start();
   int asked = 0;
   for (int i = 0; i < 500; ++i) {
@@ -58,9 +59,9 @@ TEST(SecondOpinion, AnswersThatDifferFromEachOtherMeanNothing) {
   EXPECT_LT(asked, 60) << "it ends some time";
 }
 
-TEST(SecondOpinion, NoAnswerAndBadNumbersAreNoOpinion) {
+TEST(TrackConfirmation, NoAnswerAndBadNumbersAreNoOpinion) {
   const TrackParams params;
-  SecondOpinion opinion(params);
+  TrackConfirmation opinion(params);
   opinion.start();
   Quadrilateral bad = squareAt(0, 0, 9);
   bad[2].x() = std::numeric_limits<double>::quiet_NaN();

@@ -18,13 +18,13 @@ namespace window_ingress::openness {
 /// is old; so the stretches of the flight between key images are disjoint.
 ///
 /// Keeps its memory from image to image. One object a thread.
-class InteriorFollower {
+class InteriorKltTracker {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
-  explicit InteriorFollower(const FollowerParams& params);
-  ~InteriorFollower();
-  InteriorFollower(InteriorFollower&&) noexcept;
-  InteriorFollower& operator=(InteriorFollower&&) noexcept;
+  explicit InteriorKltTracker(const FollowerParams& params);
+  ~InteriorKltTracker();
+  InteriorKltTracker(InteriorKltTracker&&) noexcept;
+  InteriorKltTracker& operator=(InteriorKltTracker&&) noexcept;
 
   /// \param image CV_8UC1 or CV_8UC3 (BGR), in which the window was seen; not kept
   /// \param window receives `interior`. A window that is not whole gets none; another `target_id`, or time

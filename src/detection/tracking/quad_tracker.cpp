@@ -1,4 +1,4 @@
-#include "detection/tracking/border_quartet.hpp"
+#include "detection/tracking/quad_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ using geometry::Quadrilateral;
 
 constexpr double kMaxShapeChange =
     0.06;  ///< of aspect, skew and keystone between frames beyond the prediction [sides]
-constexpr int kLeastSides = 2;
-constexpr double kLeastSlackPx = 2.0;  // of the shape, whatever the window's size
-constexpr double kGoodInliers = 0.8;   // part of profiles on a line that is as good as all
+constexpr int kMinSides = 2;
+constexpr double kMinSlackPx = 2.0;   // of the shape, whatever the window's size
+constexpr double kGoodInliers = 0.8;  // part of profiles on a line that is as good as all
 constexpr double kBeyondEnd =
     0.3;  // a corner may lie this much beyond what was seen of a side, in its lengths
 constexpr double kBeyondEndPx = 6.0;
@@ -61,32 +61,31 @@ std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::Pinho
 
 }  // namespace
 
-BorderQuartet::BorderQuartet(const TrackParams& track)
-    : followers_{BorderFollower(track), BorderFollower(track), BorderFollower(track), BorderFollower(track)} {
+QuadTracker::QuadTracker(const TrackParams& track)
+    : edges_{EdgeTracker(track), EdgeTracker(track), EdgeTracker(track), EdgeTracker(track)} {}
+
+void QuadTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                        const Quadrilateral& quad) {
+  for (int i = 0; i < 4; ++i) edges_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
 }
 
-void BorderQuartet::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                          const Quadrilateral& quad) {
-  for (int i = 0; i < 4; ++i) followers_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
-}
-
-bool BorderQuartet::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
+bool QuadTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
   const Quadrilateral predicted = motion.predicted();
   in_view_ = fitted_ = 0;
   for (int i = 0; i < 4; ++i) {
-    borders_[i] = followers_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]},
-                                       meanSide(predicted), motion.sigmaAcross(i));
+    borders_[i] = edges_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]}, meanSide(predicted),
+                                   motion.sigmaAcross(i));
     in_view_ += borders_[i].in_view;
     fitted_ += borders_[i].fitted;
   }
-  if (fitted_ < kLeastSides || fitted_ < in_view_ - 1) return false;
+  if (fitted_ < kMinSides || fitted_ < in_view_ - 1) return false;
   for (int i = 0; i < 4; ++i)
     if (borders_[i].fitted) motion.correct(i, borders_[i].line);
   if (fitted_ == 4) placeCorners(motion);
   return keepsShape(motion);
 }
 
-void BorderQuartet::placeCorners(QuadMotion& motion) const {
+void QuadTracker::placeCorners(QuadMotion& motion) const {
   Quadrilateral quad;
   for (int i = 0; i < 4; ++i) {
     const auto corner = meet(borders_[(i + 3) % 4].line, borders_[i].line);
@@ -96,16 +95,16 @@ void BorderQuartet::placeCorners(QuadMotion& motion) const {
   motion.place(quad);
 }
 
-bool BorderQuartet::keepsShape(const QuadMotion& motion) const {
+bool QuadTracker::keepsShape(const QuadMotion& motion) const {
   const Quadrilateral now = motion.quad();
   if (!geometry::isFinite(now) || !geometry::isConvex(now) || !(geometry::signedArea(now) > 0.0))
     return false;
-  const double slack_px = std::max(kLeastSlackPx, kMaxShapeChange * meanSide(now));
+  const double slack_px = std::max(kMinSlackPx, kMaxShapeChange * meanSide(now));
   return warpBetween(motion.predicted(), now) <= slack_px;
 }
 
-void BorderQuartet::describe(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                             const QuadMotion& motion, WindowObservation& window) const {
+void QuadTracker::describe(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                           const QuadMotion& motion, WindowObservation& window) const {
   const Quadrilateral quad = motion.quad();
   const auto first = std::min_element(quad.begin(), quad.end(),
                                       [](const Vector2d& a, const Vector2d& b) { return a.sum() < b.sum(); });
@@ -120,13 +119,12 @@ void BorderQuartet::describe(const cv::Mat& image, const geometry::PinholeCamera
   }
 }
 
-void BorderQuartet::keep(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                         const Quadrilateral& quad) {
+void QuadTracker::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, const Quadrilateral& quad) {
   for (int i = 0; i < 4; ++i)
-    if (borders_[i].fitted) followers_[i].keep(image, lens, meanSide(quad));
+    if (borders_[i].fitted) edges_[i].keep(image, lens, meanSide(quad));
 }
 
-double BorderQuartet::quality() const {
+double QuadTracker::quality() const {
   double sum = 0.0;
   for (const FollowedBorder& border : borders_)
     if (border.fitted) sum += std::max(0.0, border.similarity) * std::min(1.0, border.inliers / kGoodInliers);

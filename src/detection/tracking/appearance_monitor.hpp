@@ -14,9 +14,9 @@ namespace window_ingress::detection {
 
 /// From time to time: does what is followed still look like the reference, and are its borders where the
 /// reference's are? While it surely does, the reference follows the light.
-class ReferenceWatch {
+class AppearanceMonitor {
  public:
-  explicit ReferenceWatch(const DetectorParams& params) : params_(params) {}
+  explicit AppearanceMonitor(const DetectorParams& params) : params_(params) {}
 
   void setParams(const DetectorParams& params);
   /// \param reference null: there is nothing to compare with

@@ -1,4 +1,4 @@
-#include "window_ingress/openness/interior_follower.hpp"
+#include "window_ingress/openness/interior_klt_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ bool isUsable(const WindowObservation& window) {
 
 }  // namespace
 
-struct InteriorFollower::Impl {
+struct InteriorKltTracker::Impl {
   struct Track {
     std::uint16_t id;
     cv::Point2f key, now;  // in the straightened images
@@ -110,7 +110,7 @@ struct InteriorFollower::Impl {
   detection::InteriorTracks tracks;
 };
 
-void InteriorFollower::Impl::straighten(const cv::Mat& image, const Quadrilateral& corners) {
+void InteriorKltTracker::Impl::straighten(const cv::Mat& image, const Quadrilateral& corners) {
   to_straight = straightening(corners, size);
   const cv::Rect part = around(corners) & cv::Rect(0, 0, image.cols, image.rows);
   if (part.empty()) {
@@ -126,7 +126,7 @@ void InteriorFollower::Impl::straighten(const cv::Mat& image, const Quadrilatera
   cv::GaussianBlur(straight, straight, cv::Size(), kBlur_px);
 }
 
-void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {
+void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {
   has_key = false;
   size = straightenedSize(window.corners, params.most_px);
   if (std::min(size.width, size.height) < kMinSide_px) return;
@@ -145,7 +145,7 @@ void InteriorFollower::Impl::takeKey(const cv::Mat& image, const WindowObservati
 }
 
 // That in which most is to be seen: a brown cupboard before a blue wall may be as bright as the wall.
-void InteriorFollower::Impl::chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
+void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadrilateral& corners) {
   int most = -1, best = 1;
   for (channel = 0; channel < 3; ++channel) {
     straighten(image, corners);
@@ -158,7 +158,7 @@ void InteriorFollower::Impl::chooseChannel(const cv::Mat& image, const Quadrilat
 }
 
 // The strongest corners, each some way from the others; what the margin shows may be the reveal.
-void InteriorFollower::Impl::findPoints() {
+void InteriorKltTracker::Impl::findPoints() {
   points.clear();
   cv::cornerMinEigenVal(straight, contrast, kGradientBlock);
   const int side =
@@ -175,7 +175,7 @@ void InteriorFollower::Impl::findPoints() {
   findEdges(inner);
 }
 
-void InteriorFollower::Impl::findEdges(const cv::Rect& inner) {
+void InteriorKltTracker::Impl::findEdges(const cv::Rect& inner) {
   straight.copyTo(key_straight);
   slopes.take(straight);
   const int spacing = std::max(6, static_cast<int>(kSpacing * std::max(size.width, size.height)));
@@ -190,7 +190,7 @@ void InteriorFollower::Impl::findEdges(const cv::Rect& inner) {
   }
 }
 
-bool InteriorFollower::Impl::flowAcross(Track& track) const {
+bool InteriorKltTracker::Impl::flowAcross(Track& track) const {
   const auto now = followAcross(key_straight, straight, {track.key, track.normal}, track.now);
   if (!now || !lies(*now)) return false;
   const auto again = followAcross(straight, key_straight, {*now, track.normal}, track.key);
@@ -199,14 +199,14 @@ bool InteriorFollower::Impl::flowAcross(Track& track) const {
   return true;
 }
 
-bool InteriorFollower::Impl::lies(const cv::Point2f& p) const {
+bool InteriorKltTracker::Impl::lies(const cv::Point2f& p) const {
   const float side = static_cast<float>(0.5 * params.margin * std::max(size.width, size.height));
   return p.x >= side && p.y >= side && p.x <= static_cast<float>(size.width) - 1.0f - side &&
          p.y <= static_cast<float>(size.height) - 1.0f - side;
 }
 
 // Corners come first.
-void InteriorFollower::Impl::flow() {
+void InteriorKltTracker::Impl::flow() {
   flowCorners();
   std::size_t kept = 0;
   for (Track& track : points)
@@ -214,7 +214,7 @@ void InteriorFollower::Impl::flow() {
   points.resize(kept);
 }
 
-void InteriorFollower::Impl::flowCorners() {
+void InteriorKltTracker::Impl::flowCorners() {
   from.clear(), to.clear();
   for (const Track& track : points)
     if (!track.isEdge()) from.push_back(track.key), to.push_back(track.now);
@@ -236,7 +236,7 @@ void InteriorFollower::Impl::flowCorners() {
                points.begin() + static_cast<std::ptrdiff_t>(from.size()));
 }
 
-void InteriorFollower::Impl::report(WindowObservation& window) {
+void InteriorKltTracker::Impl::report(WindowObservation& window) {
   const cv::Matx33d to_picture = to_straight.inv();
   const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.sigma_px = params.flow_sigma_px * std::max(scale, 1.0);
@@ -256,7 +256,7 @@ void InteriorFollower::Impl::report(WindowObservation& window) {
   window.interior = tracks;
 }
 
-bool InteriorFollower::Impl::isWornOut(const WindowObservation& window) const {
+bool InteriorKltTracker::Impl::isWornOut(const WindowObservation& window) const {
   const double growth = std::sqrt(geometry::signedArea(window.corners) / size.area()) / key_scale;
   const double left = static_cast<double>(points.size());
   return growth > params.max_growth || growth < 1.0 / params.max_growth ||
@@ -265,17 +265,17 @@ bool InteriorFollower::Impl::isWornOut(const WindowObservation& window) const {
           (left < params.min_points || left < params.min_shared * static_cast<double>(found)));
 }
 
-InteriorFollower::InteriorFollower(const FollowerParams& params) : impl_(std::make_unique<Impl>(params)) {
+InteriorKltTracker::InteriorKltTracker(const FollowerParams& params) : impl_(std::make_unique<Impl>(params)) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
 }
-InteriorFollower::~InteriorFollower() = default;
-InteriorFollower::InteriorFollower(InteriorFollower&&) noexcept = default;
-InteriorFollower& InteriorFollower::operator=(InteriorFollower&&) noexcept = default;
+InteriorKltTracker::~InteriorKltTracker() = default;
+InteriorKltTracker::InteriorKltTracker(InteriorKltTracker&&) noexcept = default;
+InteriorKltTracker& InteriorKltTracker::operator=(InteriorKltTracker&&) noexcept = default;
 
-void InteriorFollower::reset() { impl_->has_key = false; }
+void InteriorKltTracker::reset() { impl_->has_key = false; }
 
-void InteriorFollower::follow(const cv::Mat& image, WindowObservation& window) {
+void InteriorKltTracker::follow(const cv::Mat& image, WindowObservation& window) {
   window.interior.points.clear();
   if (!impl_->params.enabled || !isUsable(window)) return;
   if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) return;

@@ -1,4 +1,4 @@
-#include "window_ingress/openness/interior_follower.hpp"
+#include "window_ingress/openness/interior_klt_tracker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ struct Flown {
 };
 
 Flown fly(const Look& look, const FollowerParams& params = {}) {
-  InteriorFollower follower(params);
+  InteriorKltTracker follower(params);
   OpennessJudge judge({}, kNeeded);
   Flown flown;
   for (double plane_m = 4.5; plane_m > 1.7; plane_m -= 0.07) {
@@ -93,8 +93,8 @@ Flown fly(const Look& look, const FollowerParams& params = {}) {
   return flown;
 }
 
-TEST(InteriorFollower, pointsOfAPosterStayInThePlane) {
-  InteriorFollower follower{FollowerParams()};
+TEST(InteriorKltTracker, pointsOfAPosterStayInThePlane) {
+  InteriorKltTracker follower{FollowerParams()};
   const Isometry3d key = cameraAt(3.0), now = cameraAt(2.8);
   auto first = windowFrom(key, 1.0), second = windowFrom(now, 1.1);
   follower.follow(draw(key, poster), first);
@@ -111,18 +111,18 @@ TEST(InteriorFollower, pointsOfAPosterStayInThePlane) {
   }
 }
 
-TEST(InteriorFollower, withTheJudgeTellsARoomFromAPoster) {
+TEST(InteriorKltTracker, withTheJudgeTellsARoomFromAPoster) {
   EXPECT_EQ(fly(room).verdict.openness, Openness::kOpen) << fly(room).verdict.reason;
   EXPECT_NEAR(fly(room).verdict.depth_behind_m, 3.0, 0.7);
   EXPECT_EQ(fly(poster).verdict.openness, Openness::kClosed);
   EXPECT_FALSE(fly(poster).ever_open);
 }
 
-TEST(InteriorFollower, halfABoardIsNotOpen) {
+TEST(InteriorKltTracker, halfABoardIsNotOpen) {
   EXPECT_FALSE(fly(halfBoard).ever_open) << fly(halfBoard).verdict.reason;
 }
 
-TEST(InteriorFollower, bareWallIsAsDeepAsTheEdgesItEndsAt) {
+TEST(InteriorKltTracker, bareWallIsAsDeepAsTheEdgesItEndsAt) {
   const auto flown = fly(plainRoomWithCupboard);
   EXPECT_EQ(flown.verdict.openness, Openness::kOpen) << flown.verdict.reason;
   FollowerParams params;
@@ -132,7 +132,7 @@ TEST(InteriorFollower, bareWallIsAsDeepAsTheEdgesItEndsAt) {
 }
 
 // What such a wall shows is the lack of edges, so a plain board before it must be given away by its own.
-TEST(InteriorFollower, plainBoardBeforeABareRoomIsNotOpen) {
+TEST(InteriorKltTracker, plainBoardBeforeABareRoomIsNotOpen) {
   for (const double contrast : {-20.0, 5.0, 60.0})
     for (const double edge_m : {-0.1, 0.0})
       for (int side = 0; side < 4; ++side) {
@@ -145,22 +145,22 @@ TEST(InteriorFollower, plainBoardBeforeABareRoomIsNotOpen) {
       }
 }
 
-TEST(InteriorFollower, whatIsTooDarkToShowAnEdgeIsUnknown) {
+TEST(InteriorKltTracker, whatIsTooDarkToShowAnEdgeIsUnknown) {
   const auto dark = [](double y, double z, double across, double up) {
     return 0.1 * plainRoomWithCupboard(y, z, across, up);
   };
   EXPECT_EQ(fly(dark).verdict.openness, Openness::kUnknown) << fly(dark).verdict.reason;
 }
 
-TEST(InteriorFollower, nothingToFollowIsUnknown) {
+TEST(InteriorKltTracker, nothingToFollowIsUnknown) {
   EXPECT_EQ(fly(plain).verdict.openness, Openness::kUnknown);
   EXPECT_EQ(fly(plain).verdict.log_odds, 0.0);
 }
 
-TEST(InteriorFollower, switchedOffOrWithBadInputItHandsOutNothing) {
+TEST(InteriorKltTracker, switchedOffOrWithBadInputItHandsOutNothing) {
   FollowerParams off;
   off.enabled = false;
-  InteriorFollower idle(off), follower{FollowerParams()};
+  InteriorKltTracker idle(off), follower{FollowerParams()};
   const Isometry3d camera = cameraAt(3.0);
   const cv::Mat image = draw(camera, poster);
   for (int i = 0; i < 3; ++i) {
@@ -183,11 +183,11 @@ TEST(InteriorFollower, switchedOffOrWithBadInputItHandsOutNothing) {
   for (auto& corner : far.corners) corner += Eigen::Vector2d(1e5, 1e5);
   EXPECT_NO_THROW(follower.follow(image, far)) << "outside the picture";
   off.margin = 7.0;
-  EXPECT_THROW(InteriorFollower{off}, std::invalid_argument);
+  EXPECT_THROW(InteriorKltTracker{off}, std::invalid_argument);
 }
 
-TEST(InteriorFollower, anotherTargetBeginsAnew) {
-  InteriorFollower follower{FollowerParams()};
+TEST(InteriorKltTracker, anotherTargetBeginsAnew) {
+  InteriorKltTracker follower{FollowerParams()};
   const Isometry3d camera = cameraAt(3.0);
   const cv::Mat image = draw(camera, poster);
   auto window = windowFrom(camera, 1.0);

@@ -1,4 +1,4 @@
-#include "detection/tracking/reference_watch.hpp"
+#include "detection/tracking/appearance_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ struct Watched {
     window.corners = picture.opening;
     window.corner_visible = {true, true, true, true};
   }
-  bool look(ReferenceWatch& watch) { return watch.look(input, window.corners, window); }
+  bool look(AppearanceMonitor& watch) { return watch.look(input, window.corners, window); }
 
   DetectorParams params;
   test::WindowPicture picture;
@@ -26,9 +26,9 @@ struct Watched {
   WindowObservation window;
 };
 
-TEST(ReferenceWatch, LooksOnceInAWhileAndAgreesWithTheReferenceItself) {
+TEST(AppearanceMonitor, LooksOnceInAWhileAndAgreesWithTheReferenceItself) {
   Watched seen;
-  ReferenceWatch watch(seen.params);
+  AppearanceMonitor watch(seen.params);
   watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
   watch.start();
   int looked = 0;
@@ -42,9 +42,9 @@ TEST(ReferenceWatch, LooksOnceInAWhileAndAgreesWithTheReferenceItself) {
   EXPECT_FALSE(watch.isUnlike());
 }
 
-TEST(ReferenceWatch, AnotherPaintIsUnlikeUntilASearchHasSeenItAgain) {
+TEST(AppearanceMonitor, AnotherPaintIsUnlikeUntilASearchHasSeenItAgain) {
   Watched seen;
-  ReferenceWatch watch(seen.params);
+  AppearanceMonitor watch(seen.params);
   watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
   cv::Mat other;
   const int blue_and_red_swapped[] = {0, 2, 1, 1, 2, 0};
@@ -58,9 +58,9 @@ TEST(ReferenceWatch, AnotherPaintIsUnlikeUntilASearchHasSeenItAgain) {
   EXPECT_FALSE(watch.isUnlike());
 }
 
-TEST(ReferenceWatch, WithoutAReferenceNothingIsCompared) {
+TEST(AppearanceMonitor, WithoutAReferenceNothingIsCompared) {
   Watched seen;
-  ReferenceWatch watch(seen.params);
+  AppearanceMonitor watch(seen.params);
   for (int i = 0; i < 2 * kEvery; ++i) EXPECT_TRUE(seen.look(watch));
   watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
   watch.setReference(nullptr);
@@ -69,9 +69,9 @@ TEST(ReferenceWatch, WithoutAReferenceNothingIsCompared) {
   EXPECT_EQ(watch.drift(), 0.0);
 }
 
-TEST(ReferenceWatch, AWindowThatIsNotWholeIsNotComparedNorLearned) {
+TEST(AppearanceMonitor, AWindowThatIsNotWholeIsNotComparedNorLearned) {
   Watched seen;
-  ReferenceWatch watch(seen.params);
+  AppearanceMonitor watch(seen.params);
   watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
   seen.window.corner_visible[2] = false;
   EXPECT_TRUE(seen.look(watch));

@@ -1,4 +1,4 @@
-#include "detection/tracking/border_follower.hpp"
+#include "detection/tracking/edge_tracker.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,11 +60,11 @@ std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, 
   return Stretch{whole.from + (best_end - best + 1) * step, whole.from + best_end * step};
 }
 
-constexpr int kNextTo = 2;            // offset of the colour next to a border, clear of its blur [px]
-constexpr float kLeastChange = 6.0f;  // of colour that is an edge, over all channels [grey levels]
-constexpr float kAlike = 0.4f;        // of the change across an edge: colours nearer than this are the same
-constexpr float kAdaption = 0.05f;    // of the colour outside, an image
-constexpr float kRisesAgain = 1.4f;   // an edge is so much steeper than what lies before it
+constexpr int kNextTo = 2;           // offset of the colour next to a border, clear of its blur [px]
+constexpr float kMinChange = 6.0f;   // of colour that is an edge, over all channels [grey levels]
+constexpr float kAlike = 0.4f;       // of the change across an edge: colours nearer than this are the same
+constexpr float kAdaption = 0.05f;   // of the colour outside, an image
+constexpr float kRisesAgain = 1.4f;  // an edge is so much steeper than what lies before it
 constexpr int kTimes = 3;
 
 Vector3f colourAt(const float* mean, int channels, int half, int offset) {
@@ -76,15 +76,15 @@ Vector3f colourAt(const float* mean, int channels, int half, int offset) {
 constexpr double kNominalSide = 640.0;  // longer side of an image at which pixel parameters hold
 constexpr double kSkip = 0.06;          // of a side at its ends
 constexpr double kViewMarginPx = 3.0;   // of a side from the border of the image
-constexpr double kMostOfASide = 0.8;    // of a short side must be in the image
+constexpr double kMaxOfASide = 0.8;     // of a short side must be in the image
 constexpr double kSigmas = 3.0;
-constexpr double kLeastReachPx = 2.5;
+constexpr double kMinReachPx = 2.5;
 constexpr double kLearningRate = 0.15;  // an image
 constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
 constexpr double kFrontReachPx = 3.2;   // of the front edge of a reveal from what was fitted
 constexpr int kLookEvery = 6;           // images, for a reveal beside the border
-constexpr int kLeastProfiles = 6;
+constexpr int kMinProfiles = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
 
@@ -108,7 +108,7 @@ std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image
 std::optional<int> FrontBorder::partedAt(const float* mean, int channels, int half) const {
   const auto strangeness = [&](int o) { return (colourAt(mean, channels, half, o) - outside_).norm(); };
   const float change = strangeness(1);
-  if (change < kLeastChange || strangeness(kNextTo) < kAlike * change) return std::nullopt;
+  if (change < kMinChange || strangeness(kNextTo) < kAlike * change) return std::nullopt;
   int reached = kNextTo + 1;
   while (reached <= half && strangeness(reached) >= kAlike * change) ++reached;
   if (reached >= half) return std::nullopt;
@@ -156,17 +156,17 @@ std::optional<double> FrontBorder::look(const EdgeProfiles& profiles, const Offs
   return *at;
 }
 
-FollowedBorder BorderFollower::follow(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                                      const Stretch& predicted, double size_px, double sigma_px) {
+FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                                   const Stretch& predicted, double size_px, double sigma_px) {
   FollowedBorder border;
   const auto stretch = stretchInView(predicted, image.size(), kViewMarginPx, lens);
   if (!stretch) return border;
-  const double wanted = std::min(kMinStretch * longerSide(image), kMostOfASide * predicted.length());
+  const double wanted = std::min(kMinStretch * longerSide(image), kMaxOfASide * predicted.length());
   border.in_view = stretch->length() >= wanted && memory_.known();
   if (!border.in_view) return border;
-  const double most = std::max(kLeastReachPx, track_.reach * longerSide(image));
-  const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kLeastReachPx, most)));
-  const int count = std::clamp(static_cast<int>(stretch->length()), kLeastProfiles, kProfiles);
+  const double most = std::max(kMinReachPx, track_.reach * longerSide(image));
+  const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kMinReachPx, most)));
+  const int count = std::clamp(static_cast<int>(stretch->length()), kMinProfiles, kProfiles);
   coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px);
   border.similarity = match ? match->similarity : 0.0;
@@ -174,12 +174,12 @@ FollowedBorder BorderFollower::follow(const cv::Mat& image, const geometry::Pinh
   return border;
 }
 
-bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
-                         FollowedBorder& border) {
+bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
+                      FollowedBorder& border) {
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
                radius_px = scale * BorderFitLimits().radius_px;
   const int count =
-      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kLeastProfiles, kFineProfiles);
+      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kMinProfiles, kFineProfiles);
   fine_.sample(image, lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
                 static_cast<int>(std::ceil(radius_px)) + 5});
@@ -201,7 +201,7 @@ bool BorderFollower::fit(const cv::Mat& image, const geometry::PinholeCamera* le
   return border.inliers >= kMinInliers;
 }
 
-void BorderFollower::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px) {
+void EdgeTracker::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px) {
   const auto out_px = front_.look(coarse_, seen_, half_px_);
   if (!out_px) return memory_.learn(coarse_, seen_, half_px_, size_px, kLearningRate);
   const double half = 0.5 * coarse_.length();
@@ -210,12 +210,12 @@ void BorderFollower::keep(const cv::Mat& image, const geometry::PinholeCamera* l
         size_px);
 }
 
-void BorderFollower::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
-                           double size_px) {
+void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
+                        double size_px) {
   half_px_ =
-      std::clamp(static_cast<int>(std::lround(track_.reach * longerSide(image))), 4, BorderMemory::kMostHalf);
+      std::clamp(static_cast<int>(std::lround(track_.reach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
   coarse_.sample(image, lens, {border.from, border.to, kProfiles, kSkip, half_px_ + 3, true});
-  edge_ = DoubleEdge();
+  edge_ = TwoStepEdge();
   frames_ = -1;
   soft_.reset();
   memory_.clear();

@@ -12,9 +12,9 @@ namespace window_ingress::detection {
 /// How one border of the tracked window looks across: its change of colour with its polarity, and the other
 /// edges near it. A frame has two parallel borders of like colours, a hole in a thick wall too; the pattern
 /// as a whole tells which of them is which, so that a track cannot slip from one to the other.
-class BorderMemory {
+class EdgeTemplate {
  public:
-  static constexpr int kMostHalf = 24;  ///< furthest offset that is remembered [px]
+  static constexpr int kMaxHalf = 24;  ///< furthest offset that is remembered [px]
 
   struct Match {
     OffsetLine line;          ///< to a pixel, in the profiles' axes
@@ -39,7 +39,7 @@ class BorderMemory {
   float contrast() const { return contrast_; }  ///< size of that change over two pixels [grey levels]
 
  private:
-  using Pattern = std::array<float, 3 * (2 * kMostHalf + 1)>;
+  using Pattern = std::array<float, 3 * (2 * kMaxHalf + 1)>;
   Pattern zoomed(double zoom) const;
   void summarise();
 

@@ -1,4 +1,4 @@
-#include "detection/borders/double_edge.hpp"
+#include "detection/borders/two_step_edge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,30 +37,30 @@ std::vector<float> across(const Strip& strip, int channels = 3, float noise = 0.
   return mean;
 }
 
-DoubleEdge fitted(const Strip& strip, const DoubleEdgeLimits& limits = {}, float noise = 0.0F,
-                  unsigned seed = 1) {
+TwoStepEdge fitted(const Strip& strip, const DoubleEdgeLimits& limits = {}, float noise = 0.0F,
+                   unsigned seed = 1) {
   return fitDoubleEdge(across(strip, 3, noise, seed).data(), 3, kHalf, limits);
 }
 
-TEST(DoubleEdge, ASingleEdgeStaysWhereItIs) {
+TEST(TwoStepEdge, ASingleEdgeStaysWhereItIs) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     Strip strip;
     strip.front = 0.4 * std::sin(seed);
     strip.blur = 0.6 + 0.01 * seed;
-    const DoubleEdge edge = fitted(strip, {}, 0.25F, seed);
+    const TwoStepEdge edge = fitted(strip, {}, 0.25F, seed);
     EXPECT_EQ(edge.apart, 0.0) << seed;
     EXPECT_LT(edge.sigma_px, 0.2) << seed;
   }
 }
 
-TEST(DoubleEdge, TheFrontOfAStripIsFoundToATenthOfAPixel) {
+TEST(TwoStepEdge, TheFrontOfAStripIsFoundToATenthOfAPixel) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> back(-0.7, 0.0), apart(0.5, 2.5);
   int unnoticed = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
     Strip strip;
     strip.apart = apart(engine), strip.front = strip.apart + back(engine);
-    const DoubleEdge edge = fitted(strip, {-3.0, 3.0, &kFrame, nullptr}, 0.2F, seed);
+    const TwoStepEdge edge = fitted(strip, {-3.0, 3.0, &kFrame, nullptr}, 0.2F, seed);
     if (edge.apart == 0.0) {
       ++unnoticed;
       continue;
@@ -72,16 +72,16 @@ TEST(DoubleEdge, TheFrontOfAStripIsFoundToATenthOfAPixel) {
   EXPECT_LE(unnoticed, 2);
 }
 
-TEST(DoubleEdge, AThinBrightStripDoesNotMoveTheBorder) {
+TEST(TwoStepEdge, AThinBrightStripDoesNotMoveTheBorder) {
   Strip strip;
   strip.outside = {16, 78, 185}, strip.reveal = {183, 192, 198}, strip.within = {67, 75, 77};
   strip.apart = 0.4;
-  const DoubleEdge edge = fitted(strip, {}, 0.15F);
+  const TwoStepEdge edge = fitted(strip, {}, 0.15F);
   ASSERT_GT(edge.apart, 0.0);
   EXPECT_NEAR(edge.front, 0.0, 0.1);
 }
 
-TEST(DoubleEdge, TheColourOutsideTellsAFarFrontFromAFrame) {
+TEST(TwoStepEdge, TheColourOutsideTellsAFarFrontFromAFrame) {
   Strip reveal;
   reveal.front = 2.2, reveal.apart = 2.2;
   const DoubleEdgeLimits wide{-3.0, 3.0, &kFrame, nullptr};
@@ -90,33 +90,33 @@ TEST(DoubleEdge, TheColourOutsideTellsAFarFrontFromAFrame) {
   Strip frame = reveal;
   frame.outside = {60, 120, 130}, frame.reveal = kFrame;
   EXPECT_LT(fitted(frame, wide, 0.2F).front, 0.3);
-  const DoubleEdge unknown = fitted(reveal, {-1.2, 1.2, nullptr, nullptr}, 0.2F);
+  const TwoStepEdge unknown = fitted(reveal, {-1.2, 1.2, nullptr, nullptr}, 0.2F);
   EXPECT_LT(std::abs(unknown.front), 1.2) << "not beyond the limits";
 }
 
-TEST(DoubleEdge, ASharpenedEdgeIsOneEdge) {
+TEST(TwoStepEdge, ASharpenedEdgeIsOneEdge) {
   std::vector<float> mean = across({});
   for (int c = 0; c < 3; ++c) {
     const std::vector<float> soft(mean.begin() + c * kSize, mean.begin() + (c + 1) * kSize);
     for (int k = 1; k + 1 < kSize; ++k)
       mean[c * kSize + k] += 0.4F * (2.0F * soft[k] - soft[k - 1] - soft[k + 1]);
   }
-  const DoubleEdge edge = fitDoubleEdge(mean.data(), 3, kHalf, {});
+  const TwoStepEdge edge = fitDoubleEdge(mean.data(), 3, kHalf, {});
   EXPECT_LT(std::abs(edge.front), 0.15);
 }
 
-TEST(DoubleEdge, GreyPicturesAndBadNumbers) {
+TEST(TwoStepEdge, GreyPicturesAndBadNumbers) {
   Strip grey;
   grey.apart = 2.0;
   const auto one = across(grey, 1);
-  const DoubleEdge edge = fitDoubleEdge(one.data(), 1, kHalf, {});
+  const TwoStepEdge edge = fitDoubleEdge(one.data(), 1, kHalf, {});
   EXPECT_LT(std::abs(edge.front), 0.3);
   const std::vector<float> flat(3 * kSize, 100.0F);
   EXPECT_EQ(fitDoubleEdge(flat.data(), 3, kHalf, {}).apart, 0.0);
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     std::vector<float> mean = across({});
     mean[5] = bad;
-    const DoubleEdge none = fitDoubleEdge(mean.data(), 3, kHalf, {});
+    const TwoStepEdge none = fitDoubleEdge(mean.data(), 3, kHalf, {});
     EXPECT_EQ(none.apart, 0.0);
     EXPECT_TRUE(std::isfinite(none.front) && std::isfinite(none.sigma_px));
   }

@@ -1,4 +1,4 @@
-#include "detection/reference/veil.hpp"
+#include "detection/reference/haze.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,22 +23,22 @@ RingMeans foggy(const Vector3f& frame, float left) {
   return {through(frame, left), through(kWall, left), 0.5, (1.0 - left) * 190.0};
 }
 
-TEST(Veil, IsTakenOff) {
+TEST(Haze, IsTakenOff) {
   for (float left : {0.1F, 0.3F, 0.6F}) {
-    const auto veil = veilThatLeaves(left, kWall, through(kWall, left), 190.0);
+    const auto veil = hazeThatLeaves(left, kWall, through(kWall, left), 190.0);
     ASSERT_TRUE(veil) << left;
     EXPECT_LT((veil->off(through(kOrange, left)) - kOrange).norm(), 0.1F);
     EXPECT_LT((veil->added - (1.0F - left) * kFog).norm(), 0.01F);
   }
 }
 
-TEST(Veil, NoneThatIsColouredOrBrighterThanTheDarkestPlaceOrThin) {
-  EXPECT_FALSE(veilThatLeaves(0.3, kWall, through(kWall, 0.3F), 90.0)) << "a darker place is seen";
-  EXPECT_FALSE(veilThatLeaves(0.3, kWall, {60, 140, 190}, 190.0)) << "orange light";
-  EXPECT_FALSE(veilThatLeaves(0.95, kWall, through(kWall, 0.95F), 190.0));
-  EXPECT_FALSE(veilThatLeaves(0.01, kWall, through(kWall, 0.01F), 190.0));
-  EXPECT_FALSE(veilThatLeaves(-1.0, kWall, kWall, 190.0));
-  EXPECT_FALSE(veilThatLeaves(std::numeric_limits<double>::quiet_NaN(), kWall, kWall, 190.0));
+TEST(Haze, NoneThatIsColouredOrBrighterThanTheDarkestPlaceOrThin) {
+  EXPECT_FALSE(hazeThatLeaves(0.3, kWall, through(kWall, 0.3F), 90.0)) << "a darker place is seen";
+  EXPECT_FALSE(hazeThatLeaves(0.3, kWall, {60, 140, 190}, 190.0)) << "orange light";
+  EXPECT_FALSE(hazeThatLeaves(0.95, kWall, through(kWall, 0.95F), 190.0));
+  EXPECT_FALSE(hazeThatLeaves(0.01, kWall, through(kWall, 0.01F), 190.0));
+  EXPECT_FALSE(hazeThatLeaves(-1.0, kWall, kWall, 190.0));
+  EXPECT_FALSE(hazeThatLeaves(std::numeric_limits<double>::quiet_NaN(), kWall, kWall, 190.0));
 }
 
 TEST(DistanceThroughVeil, TheSamePaintIsNearAndAnotherIsFar) {

@@ -1,4 +1,4 @@
-#include "detection/tracking/border_memory.hpp"
+#include "detection/tracking/edge_template.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,14 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr int kSegments = 6;          // of a side, each matched for itself
-constexpr int kMostReach = 64;        // [px]
+constexpr int kMaxReach = 64;         // [px]
 constexpr float kFaintPart = 0.35f;   // of the remembered energy: fainter patterns correlate less
 constexpr float kPreference = 0.15f;  // of the predicted place, in correlation, at the ends of the reach
-constexpr int kMostWidth = 2 * (BorderMemory::kMostHalf + kMostReach) + 5;
+constexpr int kMaxWidth = 2 * (EdgeTemplate::kMaxHalf + kMaxReach) + 5;
 
 /// Correlations of the segments of a side with a pattern, by shift.
 struct Correlations {
-  std::array<std::array<float, 2 * kMostReach + 1>, kSegments> by_shift;
+  std::array<std::array<float, 2 * kMaxReach + 1>, kSegments> by_shift;
   std::array<float, kSegments> position;  // along the side, 0 to 1
   int count = 0;
 };
@@ -47,8 +47,8 @@ void correlate(const float* mean, int channels, int width, const Pattern& patter
 }
 
 // The line whose segments agree best.
-BorderMemory::Match bestLine(const Correlations& found, int reach, double length) {
-  BorderMemory::Match match;
+EdgeTemplate::Match bestLine(const Correlations& found, int reach, double length) {
+  EdgeTemplate::Match match;
   float best = -1e9f;
   const float strain = 0.5f * kPreference / static_cast<float>(reach * reach);
   for (int a = -reach; a <= reach; ++a)
@@ -70,7 +70,7 @@ BorderMemory::Match bestLine(const Correlations& found, int reach, double length
 
 }  // namespace
 
-BorderMemory::Pattern BorderMemory::zoomed(double zoom) const {
+EdgeTemplate::Pattern EdgeTemplate::zoomed(double zoom) const {
   if (std::abs(zoom - 1.0) * half_ < 0.05) return slopes_;
   Pattern out{};
   const int size = 2 * half_ + 1;
@@ -87,15 +87,15 @@ BorderMemory::Pattern BorderMemory::zoomed(double zoom) const {
   return out;
 }
 
-std::optional<BorderMemory::Match> BorderMemory::match(const EdgeProfiles& profiles, int reach_px,
+std::optional<EdgeTemplate::Match> EdgeTemplate::match(const EdgeProfiles& profiles, int reach_px,
                                                        double size_px) const {
-  const int reach = std::min({reach_px, kMostReach, profiles.reach() - half_ - 1});
+  const int reach = std::min({reach_px, kMaxReach, profiles.reach() - half_ - 1});
   if (!known_ || reach < 1 || profiles.channels() != channels_ || !(size_px > 0.0) ||
       2 * profiles.insideCount() < profiles.count())
     return std::nullopt;
   const Pattern pattern = zoomed(size_px / size_px_);
-  std::array<float, 3 * kMostWidth> mean;
-  if (profiles.width() > kMostWidth) return std::nullopt;
+  std::array<float, 3 * kMaxWidth> mean;
+  if (profiles.width() > kMaxWidth) return std::nullopt;
   Correlations found;
   for (int j = 0; j < kSegments; ++j) {
     const int first = j * profiles.count() / kSegments, last = (j + 1) * profiles.count() / kSegments;
@@ -109,10 +109,10 @@ std::optional<BorderMemory::Match> BorderMemory::match(const EdgeProfiles& profi
   return bestLine(found, reach, profiles.length());
 }
 
-void BorderMemory::learn(const EdgeProfiles& profiles, const OffsetLine& border, int half_px, double size_px,
+void EdgeTemplate::learn(const EdgeProfiles& profiles, const OffsetLine& border, int half_px, double size_px,
                          double rate) {
-  const int half = std::min(half_px, kMostHalf), size = 2 * half + 1, channels = profiles.channels();
-  std::array<float, 3 * (2 * kMostHalf + 3)> mean;
+  const int half = std::min(half_px, kMaxHalf), size = 2 * half + 1, channels = profiles.channels();
+  std::array<float, 3 * (2 * kMaxHalf + 3)> mean;
   if (profiles.meanAlong(border, half + 1, mean.data()) == 0) return;
   const bool fresh = !known_ || half != half_ || channels != channels_;
   if (!fresh) slopes_ = zoomed(size_px / size_px_);
@@ -127,7 +127,7 @@ void BorderMemory::learn(const EdgeProfiles& profiles, const OffsetLine& border,
   summarise();
 }
 
-void BorderMemory::summarise() {
+void EdgeTemplate::summarise() {
   const int size = 2 * half_ + 1;
   Eigen::Vector3f change;
   for (int c = 0; c < 3; ++c) change[c] = 2.0f * slopes_[(channels_ == 1 ? 0 : c) * size + half_];

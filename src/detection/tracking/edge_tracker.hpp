@@ -6,7 +6,7 @@
 
 #include "detection/borders/border_fit.hpp"
 #include "detection/borders/edge_profiles.hpp"
-#include "detection/tracking/border_memory.hpp"
+#include "detection/tracking/edge_template.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -66,9 +66,9 @@ struct FollowedBorder {
 
 /// Finds one border of the tracked window again, and remembers what it looks like. Coarse: its pattern is
 /// moved over a few profiles. Fine: the steepest change in many short ones.
-class BorderFollower {
+class EdgeTracker {
  public:
-  explicit BorderFollower(const TrackParams& track) : track_(track) {}
+  explicit EdgeTracker(const TrackParams& track) : track_(track) {}
 
   /// \param predicted the whole side, undistorted \param size_px of the window: mean side
   /// \param sigma_px of the prediction across the side
@@ -81,18 +81,18 @@ class BorderFollower {
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
              double size_px);
 
-  const BorderMemory& memory() const { return memory_; }
+  const EdgeTemplate& memory() const { return memory_; }
 
  private:
   bool fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
            FollowedBorder& border);
 
   TrackParams track_;
-  BorderMemory memory_;
+  EdgeTemplate memory_;
   FrontBorder front_;
   EdgeProfiles coarse_, fine_;
   BorderFit fit_;
-  DoubleEdge edge_;  // of a reveal beside the border, as seen last
+  TwoStepEdge edge_;  // of a reveal beside the border, as seen last
   int frames_ = -1;
   std::optional<bool> soft_;  // the colours beside the border, see `isColourSoft`
   OffsetLine seen_;           // as followed last, in the coarse profiles' axes

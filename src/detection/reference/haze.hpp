@@ -8,7 +8,7 @@ namespace window_ingress::detection {
 /// Haze, or glare on the lens, between camera and window: of each colour a part is left, and the same light
 /// is added to all (Koschmieder). Differences of colours keep their direction and shrink alike, so that they
 /// tell what they are of even where next to nothing is left of the colours themselves.
-struct Veil {
+struct Haze {
   double left = 1.0;                                ///< of each colour, 0 to 1
   Eigen::Vector3f added = Eigen::Vector3f::Zero();  ///< BGR
 
@@ -16,13 +16,13 @@ struct Veil {
   Eigen::Vector3f off(const Eigen::Vector3f& seen) const { return (seen - added) / static_cast<float>(left); }
 };
 
-/// The veil that would make of the reference's wall what is seen of it, and of its difference to the frame
+/// The haze that would make of the reference's wall what is seen of it, and of its difference to the frame
 /// the difference seen.
 /// \param left part of the difference that is left
-/// \param darkest least channel seen about there: a veil adds no more than that [grey levels]
+/// \param darkest least channel seen about there: a haze adds no more than that [grey levels]
 /// \return nothing for what no haze does: one without a part left, of a strong colour, or brighter than
 ///         the darkest place
-std::optional<Veil> veilThatLeaves(double left, const Eigen::Vector3f& reference_wall,
+std::optional<Haze> hazeThatLeaves(double left, const Eigen::Vector3f& reference_wall,
                                    const Eigen::Vector3f& seen_wall, double darkest);
 
 }  // namespace window_ingress::detection

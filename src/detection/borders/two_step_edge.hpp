@@ -5,7 +5,7 @@
 namespace window_ingress::detection {
 
 /// Where a border lies within the blur of what is next to it.
-struct DoubleEdge {
+struct TwoStepEdge {
   double front = 0.0;     ///< offset of the outermost change [px]
   double apart = 0.0;     ///< of the change behind it, inwards [px]; 0: there is one change alone
   double sigma_px = 0.0;  ///< what is not known of `front` for the sake of the second change [px]
@@ -19,7 +19,7 @@ struct DoubleEdgeLimits {
   /// one) from a frame (this colour, then another one).
   const Eigen::Vector3f* outside = nullptr;
   /// What was found in nearly the same colours before: tried first.
-  const DoubleEdge* before = nullptr;
+  const TwoStepEdge* before = nullptr;
 };
 
 /// A reveal seen at a narrow angle is a strip of a few pixels or a part of one: its front edge (frame or wall
@@ -33,8 +33,8 @@ struct DoubleEdgeLimits {
 ///
 /// \param mean colours across the border, inside to outside, one pixel apart, channel by channel, 2 half + 1
 /// each, the steepest change near the middle
-/// \param channels 1 or 3 \param half 4 to `kMostHalfOfEdge`
-DoubleEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits);
-constexpr int kMostHalfOfEdge = 8;
+/// \param channels 1 or 3 \param half 4 to `kMaxHalfOfEdge`
+TwoStepEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits);
+constexpr int kMaxHalfOfEdge = 8;
 
 }  // namespace window_ingress::detection

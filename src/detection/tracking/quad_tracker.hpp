@@ -3,7 +3,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-#include "detection/tracking/border_follower.hpp"
+#include "detection/tracking/edge_tracker.hpp"
 #include "detection/tracking/quad_motion.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -11,9 +11,9 @@
 namespace window_ingress::detection {
 
 /// The four borders of the tracked window, followed together.
-class BorderQuartet {
+class QuadTracker {
  public:
-  explicit BorderQuartet(const TrackParams& track);
+  explicit QuadTracker(const TrackParams& track);
 
   /// Takes the borders of a window that was just found as what is to be followed.
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
@@ -37,7 +37,7 @@ class BorderQuartet {
   bool keepsShape(const QuadMotion& motion) const;
   void placeCorners(QuadMotion& motion) const;
 
-  std::array<BorderFollower, 4> followers_;
+  std::array<EdgeTracker, 4> edges_;
   std::array<FollowedBorder, 4> borders_;
   int in_view_ = 0, fitted_ = 0;
 };

@@ -1,4 +1,4 @@
-#include "detection/tracking/reference_watch.hpp"
+#include "detection/tracking/appearance_monitor.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,21 +13,21 @@ constexpr double kAdaptation = 0.1;   ///< part of a difference in appearance th
 constexpr double kSureWorth = 0.3;    // of the reference's borders, to say where they are
 constexpr double kAlignedPx = 100.0;  // resolution of a ring [px a mean side]
 constexpr int kAlignEvery = 3;        // frames
-constexpr double kLeastStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
+constexpr double kMinStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
 
 }  // namespace
 
-void ReferenceWatch::setParams(const DetectorParams& params) {
+void AppearanceMonitor::setParams(const DetectorParams& params) {
   params_ = params;
   learnBorders();
 }
 
-void ReferenceWatch::setReference(std::shared_ptr<ReferenceAppearance> reference) {
+void AppearanceMonitor::setReference(std::shared_ptr<ReferenceAppearance> reference) {
   reference_ = std::move(reference);
   learnBorders();
 }
 
-void ReferenceWatch::learnBorders() {
+void AppearanceMonitor::learnBorders() {
   borders_.reset();
   if (!reference_) return;
   borders_ = std::make_unique<ReferenceBorders>();
@@ -36,13 +36,13 @@ void ReferenceWatch::learnBorders() {
   if (reference_->openingIsKnown()) ring_.learn(reference_->picture(), reference_->opening());
 }
 
-void ReferenceWatch::start() {
+void AppearanceMonitor::start() {
   restart();
   frames_to_comparison_ = params_.track.appearance_every;
 }
 
-std::optional<geometry::Quadrilateral> ReferenceWatch::align(const TrackInput& input,
-                                                             const geometry::Quadrilateral& followed) {
+std::optional<geometry::Quadrilateral> AppearanceMonitor::align(const TrackInput& input,
+                                                                const geometry::Quadrilateral& followed) {
   if (!ring_.known() || input.image.channels() != ring_.channels() || --frames_to_alignment_ > 0)
     return std::nullopt;
   frames_to_alignment_ = kAlignEvery;
@@ -52,20 +52,20 @@ std::optional<geometry::Quadrilateral> ReferenceWatch::align(const TrackInput& i
   if (borders_->frameless()) return found->quad;
   const auto located = borders_->locate(input.image, found->quad, input.camera, ReferenceBorders::kFine);
   if (!located || located->worth < kSureWorth) return std::nullopt;
-  if (furthestCorner(located->quad, followed) <= std::max(kLeastStrayPx, kStray * sizeOf(followed)))
+  if (furthestCorner(located->quad, followed) <= std::max(kMinStrayPx, kStray * sizeOf(followed)))
     return std::nullopt;
   return located->quad;
 }
 
-bool ReferenceWatch::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
+bool AppearanceMonitor::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
   if (borders_->frameless()) return false;
   const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
   if (!found || found->worth < kSureWorth) return false;
-  return furthestCorner(found->quad, followed) > std::max(kLeastStrayPx, kStray * sizeOf(followed));
+  return furthestCorner(found->quad, followed) > std::max(kMinStrayPx, kStray * sizeOf(followed));
 }
 
-bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral& followed,
-                          WindowObservation& window) {
+bool AppearanceMonitor::look(const TrackInput& input, const geometry::Quadrilateral& followed,
+                             WindowObservation& window) {
   agreed_ = compared_ = false;
   if (!reference_ || --frames_to_comparison_ > 0) return true;
   frames_to_comparison_ = params_.track.appearance_every;
@@ -80,7 +80,7 @@ bool ReferenceWatch::look(const TrackInput& input, const geometry::Quadrilateral
   return in_place && !unlike_;
 }
 
-void ReferenceWatch::adapt(const TrackInput& input, const WindowObservation& window) {
+void AppearanceMonitor::adapt(const TrackInput& input, const WindowObservation& window) {
   reference_->adapt(input.image, window.corners, kAdaptation, params_.appearance);
 }
 

@@ -1,4 +1,4 @@
-#include "detection/borders/double_edge.hpp"
+#include "detection/borders/two_step_edge.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUsualBlur = 0.8, kBlurSpread = 0.15;  // of an image, standard deviation [px]
 constexpr double kSoftest = 2.0;                        // of an edge that may be two
-constexpr double kLeastBlur = 0.35, kLeastApart = 0.15, kMostApart = 4.5;
+constexpr double kMinBlur = 0.35, kMinApart = 0.15, kMaxApart = 4.5;
 constexpr double kNoise = 0.35;        // of a mean colour [grey levels]
 constexpr double kModelNoise = 0.003;  // and what a blurred step fails to describe, of its change
 constexpr double kBlackest = -5.0, kWhitest = 262.0, kColourSpread = 10.0;  // of a reveal
@@ -24,15 +24,15 @@ constexpr double kBetter = 0.25;      // of the rest of one step
 constexpr double kWellKnownPx = 0.3;  // standard deviation of a front that is believed
 constexpr double kBesidePx = 1.2;     // a front further out must have the right colour outside
 constexpr float kAlike = 0.35f;       // of the change across an edge: colours nearer than this are the same
-constexpr float kCollinear = 0.97f, kMostOvershoot = 0.3f;
+constexpr float kCollinear = 0.97f, kMaxOvershoot = 0.3f;
 constexpr int kIterations = 8;
 constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
-constexpr int kMostSamples = 2 * kMostHalfOfEdge + 1, kMostRests = 3 * kMostSamples + 4;
+constexpr int kMaxSamples = 2 * kMaxHalfOfEdge + 1, kMaxRests = 3 * kMaxSamples + 4;
 
 using Params = Eigen::Vector3d;  // front, apart, blur
-using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostSamples, 3>;
-using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRests, 1>;
-using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostRests, 3>;
+using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxSamples, 3>;
+using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRests, 1>;
+using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxRests, 3>;
 
 /// The normal distribution, from a table.
 class Step {
@@ -112,8 +112,8 @@ struct Fit {
 };
 
 void keepSane(Params& p) {
-  p[1] = std::clamp(p[1], kLeastApart, kMostApart);
-  p[2] = std::clamp(p[2], kLeastBlur, 3.0);
+  p[1] = std::clamp(p[1], kMinApart, kMaxApart);
+  p[2] = std::clamp(p[2], kMinBlur, 3.0);
 }
 
 void slopesOf(const Model& model, const Params& at, const Rests& rests, Slopes& slopes) {
@@ -181,7 +181,7 @@ bool isNextTo(const float* mean, int channels, int half, const Eigen::Vector3f& 
 bool isOvershoot(const Fit& two) {
   const Eigen::Vector3f over = two.reveal - two.outside, change = two.outside - two.within;
   return over.dot(change) > kCollinear * over.norm() * change.norm() &&
-         over.norm() < kMostOvershoot * change.norm();
+         over.norm() < kMaxOvershoot * change.norm();
 }
 
 bool isOutside(const Fit& two, const DoubleEdgeLimits& limits) {
@@ -196,18 +196,18 @@ bool isGood(const Fit& two, const DoubleEdgeLimits& limits, bool near) {
   return two.rest < kFits && two.sigma < kWellKnownPx;
 }
 
-DoubleEdge answer(const Fit& two, double moved) {
+TwoStepEdge answer(const Fit& two, double moved) {
   return {two.params[0], two.params[1], std::min(two.sigma, moved), two.params[2]};
 }
 
 }  // namespace
 
-DoubleEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits) {
+TwoStepEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits) {
   const auto bad = [](float v) { return !std::isfinite(v); };
   if (std::any_of(mean, mean + channels * (2 * half + 1), bad)) return {};
   const Model near(mean, channels, half, -4, 2, true), far(mean, channels, half, -3, 4, true);
   if (limits.before && limits.before->apart > 0.0 && limits.before->blur > 0.0) {
-    const DoubleEdge& last = *limits.before;
+    const TwoStepEdge& last = *limits.before;
     const Fit two = fit(last.front > kBesidePx ? far : near, {last.front, last.apart, last.blur});
     if (isGood(two, limits, last.front <= kBesidePx)) return answer(two, 1.0);
   }
