@@ -41,7 +41,7 @@ const char* toString(Event event) {
     case Event::kCommitReached:
       return "commit reached";
     case Event::kContractUnmet:
-      return "criterion unmet";
+      return "commit criterion unmet";
     case Event::kCrossed:
       return "crossed";
     case Event::kOtherWindow:

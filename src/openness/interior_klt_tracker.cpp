@@ -71,7 +71,7 @@ struct InteriorKltTracker::Impl {
     bool isEdge() const { return normal.x != 0.0f || normal.y != 0.0f; }
   };
 
-  explicit Impl(const FollowerParams& p) : params(p) {}
+  explicit Impl(const InteriorKltParams& p) : params(p) {}
 
   bool isOther(const WindowObservation& window) const {
     return !has_key || window.target_id != target_id || !(window.stamp_sec > last_sec) ||
@@ -89,7 +89,7 @@ struct InteriorKltTracker::Impl {
   void report(WindowObservation& window);
   bool isWornOut(const WindowObservation& window) const;
 
-  FollowerParams params;
+  InteriorKltParams params;
   bool has_key = false;
   std::uint32_t target_id = 0;
   double last_sec = 0.0;
@@ -265,7 +265,7 @@ bool InteriorKltTracker::Impl::isWornOut(const WindowObservation& window) const 
           (left < params.min_points || left < params.min_shared * static_cast<double>(found)));
 }
 
-InteriorKltTracker::InteriorKltTracker(const FollowerParams& params) : impl_(std::make_unique<Impl>(params)) {
+InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params) : impl_(std::make_unique<Impl>(params)) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
 }

@@ -3,7 +3,7 @@
 namespace window_ingress::perception {
 
 WindowPerception::WindowPerception(const detection::DetectorParams& detector,
-                                   const openness::FollowerParams& interior)
+                                   const openness::InteriorKltParams& interior)
     : tracker_(detector), interior_(interior) {}
 
 const std::optional<detection::WindowObservation>& WindowPerception::update(

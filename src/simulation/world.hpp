@@ -29,7 +29,7 @@ struct CameraFrame {
 /// bytes.
 ///
 /// Time starts at 0 and moves only in `advance`. After each `advance`, each `take...` hands out what became
-/// due and forgets it, one at a time and in order: ask until there is none, they may come in bursts. A
+/// due and forgets it, one at a time and in order: ask until there is none, they may come in bursts. An
 /// image is drawn only when it is taken. A vehicle that touched anything solid stops there, with its motors
 /// off, and falls. Not for use from several threads, but several worlds may live in several threads.
 class World {

@@ -159,7 +159,7 @@ class Survey {
   }
 
   const Options& options_;
-  openness::FollowerParams follower_;
+  openness::InteriorKltParams follower_;
   openness::OpennessParams params_;
   evaluation::OpennessTable table_;
   std::ofstream csv_, trace_;

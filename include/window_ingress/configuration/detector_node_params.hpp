@@ -5,7 +5,7 @@
 
 #include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
-#include "window_ingress/openness/follower_params.hpp"
+#include "window_ingress/openness/interior_klt_params.hpp"
 
 namespace window_ingress::configuration {
 
@@ -36,7 +36,7 @@ struct DetectorNodeParams {
   StampLimits stamps;
   ReferenceParams reference;
   detection::DetectorParams detector;
-  openness::FollowerParams interior;
+  openness::InteriorKltParams interior;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("image_transport", self.image_transport);

@@ -18,6 +18,8 @@ struct AppearanceMatch {
   double distance = 0.0;  ///< Bhattacharyya, less what its number of pixels explains; 0 alike to 1 disjoint
   double limit = 1.0;     ///< beyond it this is not the target
   double odds = 1.0;      ///< how much likelier such a distance is for the target than for something else
+
+  bool isLike() const { return distance <= limit; }
 };
 
 /// True if no pixel of a grid over the image has a colour: then no comparison of colours means anything.

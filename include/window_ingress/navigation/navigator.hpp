@@ -86,7 +86,7 @@ struct MissionPolicy {
 /// - without fresh, finite odometry the setpoint is zero in the same step;
 /// - no velocity towards the window unless its estimate is fresh and trusted and the vehicle within the
 /// funnel; COMMIT
-///   alone flies on without sight, for a bounded time, by a criterion that held when it began;
+///   alone flies on without sight, for a bounded time, by the commit criterion that held when it began;
 /// - no sideways velocity by an estimate whose sign is not trusted.
 class Navigator {
  public:

@@ -101,7 +101,7 @@ struct ApproachParams {
   double margin_m = 0.05;     ///< kept between body and border beyond all errors [m]
   double leave_factor = 1.3;  ///< out of the funnel by this factor: align again
   double leave_sec = 0.5;     ///< for this long [s]
-  double patience_sec = 2.0;  ///< at the commit line with the criterion unmet: back off [s]
+  double patience_sec = 2.0;  ///< at the commit line with the commit criterion unmet: back off [s]
 
   double wind_sec = 0.6;          ///< smoothing of the velocity that wind adds [s]
   double max_wind_mps = 0.6;      ///< most that is taken off the command for it; 0: nothing [m/s]

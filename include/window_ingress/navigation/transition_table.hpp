@@ -17,7 +17,7 @@ enum class Event {
   kWindowFound,    ///< the target was seen often enough
   kAligned,        ///< normal trusted and the vehicle within the funnel
   kMisaligned,     ///< out of the funnel, or the normal no longer trusted
-  kCommitReached,  ///< the window is about to leave the view and the criterion holds
+  kCommitReached,  ///< the window is about to leave the view and the commit criterion holds
   kContractUnmet,  ///< close to the window and the predicted miss exceeds the clearance
   kCrossed,        ///< behind the window, standing still
   kOtherWindow,    ///< the way flown has shown that it is not the window looked for, or that it is closed

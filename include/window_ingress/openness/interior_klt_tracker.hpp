@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/openness/follower_params.hpp"
+#include "window_ingress/openness/interior_klt_params.hpp"
 
 namespace window_ingress::openness {
 
@@ -21,7 +21,7 @@ namespace window_ingress::openness {
 class InteriorKltTracker {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
-  explicit InteriorKltTracker(const FollowerParams& params);
+  explicit InteriorKltTracker(const InteriorKltParams& params);
   ~InteriorKltTracker();
   InteriorKltTracker(InteriorKltTracker&&) noexcept;
   InteriorKltTracker& operator=(InteriorKltTracker&&) noexcept;

@@ -16,7 +16,7 @@ namespace window_ingress::perception {
 class WindowPerception {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
-  WindowPerception(const detection::DetectorParams& detector, const openness::FollowerParams& interior);
+  WindowPerception(const detection::DetectorParams& detector, const openness::InteriorKltParams& interior);
 
   /// The target in this image, its interior included; nothing if it is not seen, `trace()` says why.
   const std::optional<detection::WindowObservation>& update(const detection::TrackInput& frame);

@@ -21,7 +21,7 @@ struct BagTopics {
 /// Opens a bag for reading. \throws BagError for a missing, empty, truncated or otherwise broken file
 void openBag(rosbag::Bag& bag, const std::string& file);
 
-/// Fills in what is empty: the one topic of the right type, ground truth and debug images left aside. A
+/// Fills in what is empty: the one topic of the right type, ground truth and debug images left aside. An
 /// image topic may be named without its "/compressed". `odom`, `imu` and `truth` may stay empty. \throws
 /// BagError if there are no images, no calibration, or several topics to choose from
 BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted);

@@ -10,7 +10,7 @@
 
 namespace window_ingress::adapters {
 
-/// Writes images/NNNNN.jpg, at most `kMax` of them and one at each change between found and not found, and
+/// Writes pictures/NNNNN.jpg, at most `kMax` of them and one at each change between found and not found, and
 /// strip.csv: stamp, file, why it is there, and what it shows.
 class DetectionStrip {
  public:

@@ -26,7 +26,7 @@ struct ReplayParams {
   FrameNames frames;
   ImageLimits image;
   detection::DetectorParams detector;
-  openness::FollowerParams interior;
+  openness::InteriorKltParams interior;
   std::optional<detection::ReferenceAppearance> reference;
   bool with_pose = false;  ///< the window's size is known
   estimation::PoseParams pose;

@@ -10,7 +10,7 @@
 
 namespace window_ingress::adapters {
 
-/// frames.csv: detection, pose, filtered pose, and the errors where the truth is known. details.csv: what a
+/// frames.csv: detection, pose, filtered pose, and the errors where the truth is known. details.csv: what an
 /// image came with, its angles and widths, and why it did not contribute. latency.csv: milliseconds. The
 /// same bag gives the same bytes in the first two.
 class ReplayTables {

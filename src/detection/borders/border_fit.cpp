@@ -112,7 +112,7 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
 // Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
 // part along it; as a
 // whole where a half alone does not tell, and in a track.
-TwoStepEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const {
+TwoStepEdge BorderFit::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const {
   const int count = profiles_->count(), middle = count / 2;
   const TwoStepEdge edge = frontOf(limits, border.line, 0, count);
   border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
@@ -122,7 +122,7 @@ TwoStepEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& bor
     border.line.offset += edge.front;
     return edge;
   }
-  DoubleEdgeLimits halves = limits;
+  TwoStepEdgeLimits halves = limits;
   halves.before = &edge;
   const TwoStepEdge first = frontOf(halves, border.line, 0, middle),
                     last = frontOf(halves, border.line, middle, count);
@@ -138,12 +138,12 @@ TwoStepEdge BorderFit::toFront(const DoubleEdgeLimits& limits, FittedBorder& bor
   return edge;
 }
 
-TwoStepEdge BorderFit::frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first,
+TwoStepEdge BorderFit::frontOf(const TwoStepEdgeLimits& limits, const OffsetLine& line, int first,
                                int last) const {
   constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
   std::array<float, 3 * kSize> mean;
   if (profiles_->meanAlong(line, kHalf, first, last, mean.data()) < kMinProfiles) return {};
-  return fitDoubleEdge(mean.data(), profiles_->channels(), kHalf, limits);
+  return fitTwoStepEdge(mean.data(), profiles_->channels(), kHalf, limits);
 }
 
 bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {

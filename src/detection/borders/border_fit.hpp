@@ -47,10 +47,10 @@ class BorderFit {
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
   /// (`TwoStepEdge`), and enlarges its spread by what is not known of it. \return what was found about the
   /// line that was fitted
-  TwoStepEdge toFront(const DoubleEdgeLimits& limits, FittedBorder& border) const;
+  TwoStepEdge toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const;
 
  private:
-  TwoStepEdge frontOf(const DoubleEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
+  TwoStepEdge frontOf(const TwoStepEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
   std::optional<int> steepest(int i, double centre, const BorderFitLimits& limits) const;
   const float* slopesOf(int i) const {  // its middle: from -reach to reach
     return slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();

@@ -184,12 +184,12 @@ bool isOvershoot(const Fit& two) {
          over.norm() < kMaxOvershoot * change.norm();
 }
 
-bool isOutside(const Fit& two, const DoubleEdgeLimits& limits) {
+bool isOutside(const Fit& two, const TwoStepEdgeLimits& limits) {
   if (!limits.outside) return true;
   return (two.outside - *limits.outside).norm() < 0.5f * (two.reveal - *limits.outside).norm();
 }
 
-bool isGood(const Fit& two, const DoubleEdgeLimits& limits, bool near) {
+bool isGood(const Fit& two, const TwoStepEdgeLimits& limits, bool near) {
   if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px || isOvershoot(two))
     return false;
   if (two.params[0] > kBesidePx && (near || !isOutside(two, limits))) return false;
@@ -202,7 +202,7 @@ TwoStepEdge answer(const Fit& two, double moved) {
 
 }  // namespace
 
-TwoStepEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits) {
+TwoStepEdge fitTwoStepEdge(const float* mean, int channels, int half, const TwoStepEdgeLimits& limits) {
   const auto bad = [](float v) { return !std::isfinite(v); };
   if (std::any_of(mean, mean + channels * (2 * half + 1), bad)) return {};
   const Model near(mean, channels, half, -4, 2, true), far(mean, channels, half, -3, 4, true);

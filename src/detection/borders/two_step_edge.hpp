@@ -13,7 +13,7 @@ struct TwoStepEdge {
 };
 
 /// What may be taken for the front edge.
-struct DoubleEdgeLimits {
+struct TwoStepEdgeLimits {
   double nearest_px = -1.2, farthest_px = 1.2;  ///< offsets, outwards positive [px]
   /// Colour that lies outside of the front edge, BGR, if known: tells a reveal (another colour, then this
   /// one) from a frame (this colour, then another one).
@@ -34,7 +34,7 @@ struct DoubleEdgeLimits {
 /// \param mean colours across the border, inside to outside, one pixel apart, channel by channel, 2 half + 1
 /// each, the steepest change near the middle
 /// \param channels 1 or 3 \param half 4 to `kMaxHalfOfEdge`
-TwoStepEdge fitDoubleEdge(const float* mean, int channels, int half, const DoubleEdgeLimits& limits);
+TwoStepEdge fitTwoStepEdge(const float* mean, int channels, int half, const TwoStepEdgeLimits& limits);
 constexpr int kMaxHalfOfEdge = 8;
 
 }  // namespace window_ingress::detection

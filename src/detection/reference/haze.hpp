@@ -19,7 +19,7 @@ struct Haze {
 /// The haze that would make of the reference's wall what is seen of it, and of its difference to the frame
 /// the difference seen.
 /// \param left part of the difference that is left
-/// \param darkest least channel seen about there: a haze adds no more than that [grey levels]
+/// \param darkest least channel seen about there: haze adds no more than that [grey levels]
 /// \return nothing for what no haze does: one without a part left, of a strong colour, or brighter than
 ///         the darkest place
 std::optional<Haze> hazeThatLeaves(double left, const Eigen::Vector3f& reference_wall,

@@ -148,7 +148,7 @@ std::optional<double> ReferenceAppearance::distance(const cv::Mat& image, const 
 bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& opening, double rate,
                                 const AppearanceParams& params) {
   const auto match = compare(image, opening, params);
-  if (!match || match->distance > match->limit || !(rate > 0.0)) return false;
+  if (!match || !match->isLike() || !(rate > 0.0)) return false;
   const RingColours before = adapted_ ? *adapted_ : *colours_;
   const RingColours view = *coloursOf(image, opening, params);
   double part = std::min(rate, 1.0);

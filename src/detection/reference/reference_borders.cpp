@@ -27,7 +27,7 @@ constexpr double kFaintestFrame = 0.10;  ///< difference of frame and wall; that
 constexpr double kEndReach = 0.03;  ///< the end of a frame is looked for this far from its place [mean sides]
 constexpr double kPeakPart = 0.7;   ///< of the largest change about there that the place itself must show
 constexpr double kWithoutEnd = 0.35;  ///< worth of a border whose frame does not end there
-constexpr float kVeilFrom = 40.0F;    ///< the darkest place about is brighter than this [grey levels]
+constexpr float kHazeFrom = 40.0F;    ///< the darkest place about is brighter than this [grey levels]
 constexpr double kNoHaze = 1e3;
 constexpr double kFarAway = 1.5;          ///< standard deviation of a border from the rough loop, in `inward`
 constexpr double kSureEnd = 0.95;         ///< of a frame that foretells its border where no edge shows
@@ -78,7 +78,7 @@ double ReferenceBorders::unlike(const Bands& colours, int side) const {
 }
 
 // The same through the haze that fits best, if there may be one.
-double ReferenceBorders::unlikeThroughVeil(const Bands& colours, int side) const {
+double ReferenceBorders::unlikeThroughHaze(const Bands& colours, int side) const {
   const Bands& wanted = reference_colours_[side];
   const Vector3f &wall = colours[kBands - 1], &wanted_wall = wanted[kBands - 1];
   float along = 0.0F, square = 1.0F;
@@ -145,7 +145,7 @@ double ReferenceBorders::choose(int side, double& border) const {
     Vector3f within;
     if (!coloursFrom(profile, at, bands) || !profile.mean(at - kBandWidth, at - kClear, within)) continue;
     double off = unlike(bands, side);
-    if (framed && darkest_ > kVeilFrom) off = std::min(off, unlikeThroughVeil(bands, side));
+    if (framed && darkest_ > kHazeFrom) off = std::min(off, unlikeThroughHaze(bands, side));
     within = features(within);
     within[2] -= features(bands[kBands - 1])[2];
     Vector3f beside = features(bands[0]);

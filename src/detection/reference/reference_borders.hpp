@@ -54,7 +54,7 @@ class ReferenceBorders {
   static bool coloursFrom(const SideProfile& profile, double border, Bands& colours);
   static Bands featuresOf(const Bands& colours);
   double unlike(const Bands& colours, int side) const;
-  double unlikeThroughVeil(const Bands& colours, int side) const;
+  double unlikeThroughHaze(const Bands& colours, int side) const;
   double difference(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const;
   double choose(int side, double& border) const;
   double frameEnds(int side, double border) const;

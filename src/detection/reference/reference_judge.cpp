@@ -155,11 +155,11 @@ bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::Pin
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& match) const {
-  if (match.distance <= match.limit) return std::nullopt;
+  if (match.isLike()) return std::nullopt;
   return Rejection{RejectReason::kAppearance, match.distance, match.limit};
 }
 
-// Without a frame the ring is nothing but wall: what correlates there need not have the same contrasts.
+// Round a frame the correlation counts only as far as the contrasts are the reference's.
 std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) const {
   const bool bare = frameless();
   const double value = bare ? match.correlation : match.faithful;

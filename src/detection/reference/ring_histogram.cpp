@@ -165,7 +165,7 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b) {
   return weights > 0.0 ? std::sqrt(std::clamp(sum / weights, 0.0, 1.0)) : 1.0;
 }
 
-std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen) {
+std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen) {
   const Eigen::Vector3f expected = reference.frame - reference.surround, found = seen.frame - seen.surround;
   const double square = expected.squaredNorm();
   if (square < kMinDifference * kMinDifference) return std::nullopt;
@@ -179,7 +179,7 @@ std::optional<double> distanceThroughVeil(const RingMeans& reference, const Ring
 
 double bhattacharyya(const RingColours& reference, const RingColours& seen) {
   const double plain = bhattacharyya(reference.seen, seen.seen);
-  return std::min(plain, distanceThroughVeil(reference.means, seen.means).value_or(plain));
+  return std::min(plain, distanceThroughHaze(reference.means, seen.means).value_or(plain));
 }
 
 RingHistogram blended(const RingHistogram& from, const RingHistogram& to, double part) {

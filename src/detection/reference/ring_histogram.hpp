@@ -31,7 +31,7 @@ struct RingHistogram {
   std::array<Band, kBands> bands;
 };
 
-/// Mean colours of a ring, for what a haze leaves: differences.
+/// Mean colours of a ring, for what haze leaves: differences.
 struct RingMeans {
   Eigen::Vector3f frame = Eigen::Vector3f::Zero(), surround = Eigen::Vector3f::Zero();  ///< BGR
   double sigma = 0.0;    ///< of their difference, by the spread of their pixels [grey levels]
@@ -61,12 +61,12 @@ std::optional<RingColours> ringColours(const cv::Mat& image, const geometry::Qua
 /// sum times 8 is Freeman and Tukey's statistic, chi-square in the limit). That much is taken off.
 double bhattacharyya(const RingHistogram& a, const RingHistogram& b);
 
-/// The same for two normal distributions of what a haze has left of the difference between frame and
+/// The same for two normal distributions of what haze has left of the difference between frame and
 /// surround, by its direction: the turn that light and paint may show is a standard deviation of kTurn_rad.
 /// \return nothing where there is no haze, or it has left less than noise
-std::optional<double> distanceThroughVeil(const RingMeans& reference, const RingMeans& seen);
+std::optional<double> distanceThroughHaze(const RingMeans& reference, const RingMeans& seen);
 
-/// The smaller of the distances as seen and through a haze.
+/// The smaller of the distances as seen and through haze.
 double bhattacharyya(const RingColours& reference, const RingColours& seen);
 
 /// Moves `from` towards `to`: 0 leaves it, 1 replaces it. Bands that either has not seen stay as they are.

@@ -75,7 +75,7 @@ bool AppearanceMonitor::look(const TrackInput& input, const geometry::Quadrilate
   window.has_appearance = match.has_value();
   window.bhattacharyya = match ? match->distance : 0.0;
   compared_ = window.has_appearance;
-  unlike_ = match && match->distance > match->limit;
+  unlike_ = match && !match->isLike();
   agreed_ = match && !unlike_;
   return in_place && !unlike_;
 }

@@ -15,14 +15,14 @@
 #include "window_ingress/estimation/pose_params.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
-#include "window_ingress/openness/follower_params.hpp"
+#include "window_ingress/openness/interior_klt_params.hpp"
 
 namespace window_ingress::evaluation {
 
 /// Everything that flies.
 struct FlightParams {
   detection::DetectorParams detector;
-  openness::FollowerParams interior;
+  openness::InteriorKltParams interior;
   estimation::PoseParams pose;
   estimation::FilterParams filter;
   estimation::TargetEstimatorParams tracker;

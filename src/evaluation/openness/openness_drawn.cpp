@@ -8,7 +8,7 @@
 namespace window_ingress::evaluation {
 
 OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed, const OpennessRange& range,
-                        const openness::FollowerParams& follower, const openness::OpennessParams& params,
+                        const openness::InteriorKltParams& follower, const openness::OpennessParams& params,
                         const OpennessStep& each) {
   using Clock = std::chrono::steady_clock;
   const simulation::Scene scene = simulation::buildScene(scenario);

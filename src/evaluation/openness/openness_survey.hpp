@@ -10,7 +10,7 @@
 #include "evaluation/images/survey_flight.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/openness/follower_params.hpp"
+#include "window_ingress/openness/interior_klt_params.hpp"
 #include "window_ingress/openness/openness_params.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 
@@ -48,7 +48,7 @@ using OpennessStep = std::function<void(double plane_m, const openness::Openness
 /// An approach to the scenario's window, drawn and seen through its camera; borders are seen with noise.
 /// \throws as `simulation::CameraSensor`
 OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed, const OpennessRange& range,
-                        const openness::FollowerParams& follower, const openness::OpennessParams& params,
+                        const openness::InteriorKltParams& follower, const openness::OpennessParams& params,
                         const OpennessStep& each = {});
 
 /// What synthetic points within the border lie on.

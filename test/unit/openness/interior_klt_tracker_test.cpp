@@ -78,7 +78,7 @@ struct Flown {
   bool ever_open = false;
 };
 
-Flown fly(const Look& look, const FollowerParams& params = {}) {
+Flown fly(const Look& look, const InteriorKltParams& params = {}) {
   InteriorKltTracker follower(params);
   OpennessJudge judge({}, kNeeded);
   Flown flown;
@@ -94,7 +94,7 @@ Flown fly(const Look& look, const FollowerParams& params = {}) {
 }
 
 TEST(InteriorKltTracker, pointsOfAPosterStayInThePlane) {
-  InteriorKltTracker follower{FollowerParams()};
+  InteriorKltTracker follower{InteriorKltParams()};
   const Isometry3d key = cameraAt(3.0), now = cameraAt(2.8);
   auto first = windowFrom(key, 1.0), second = windowFrom(now, 1.1);
   follower.follow(draw(key, poster), first);
@@ -125,7 +125,7 @@ TEST(InteriorKltTracker, halfABoardIsNotOpen) {
 TEST(InteriorKltTracker, bareWallIsAsDeepAsTheEdgesItEndsAt) {
   const auto flown = fly(plainRoomWithCupboard);
   EXPECT_EQ(flown.verdict.openness, Openness::kOpen) << flown.verdict.reason;
-  FollowerParams params;
+  InteriorKltParams params;
   params.most_slope = 0.0;
   EXPECT_EQ(fly(plainRoomWithCupboard, params).verdict.openness, Openness::kUnknown)
       << "by the points alone most of it is unseen";
@@ -158,9 +158,9 @@ TEST(InteriorKltTracker, nothingToFollowIsUnknown) {
 }
 
 TEST(InteriorKltTracker, switchedOffOrWithBadInputItHandsOutNothing) {
-  FollowerParams off;
+  InteriorKltParams off;
   off.enabled = false;
-  InteriorKltTracker idle(off), follower{FollowerParams()};
+  InteriorKltTracker idle(off), follower{InteriorKltParams()};
   const Isometry3d camera = cameraAt(3.0);
   const cv::Mat image = draw(camera, poster);
   for (int i = 0; i < 3; ++i) {
@@ -187,7 +187,7 @@ TEST(InteriorKltTracker, switchedOffOrWithBadInputItHandsOutNothing) {
 }
 
 TEST(InteriorKltTracker, anotherTargetBeginsAnew) {
-  InteriorKltTracker follower{FollowerParams()};
+  InteriorKltTracker follower{InteriorKltParams()};
   const Isometry3d camera = cameraAt(3.0);
   const cv::Mat image = draw(camera, poster);
   auto window = windowFrom(camera, 1.0);

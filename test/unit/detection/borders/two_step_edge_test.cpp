@@ -37,9 +37,9 @@ std::vector<float> across(const Strip& strip, int channels = 3, float noise = 0.
   return mean;
 }
 
-TwoStepEdge fitted(const Strip& strip, const DoubleEdgeLimits& limits = {}, float noise = 0.0F,
+TwoStepEdge fitted(const Strip& strip, const TwoStepEdgeLimits& limits = {}, float noise = 0.0F,
                    unsigned seed = 1) {
-  return fitDoubleEdge(across(strip, 3, noise, seed).data(), 3, kHalf, limits);
+  return fitTwoStepEdge(across(strip, 3, noise, seed).data(), 3, kHalf, limits);
 }
 
 TEST(TwoStepEdge, ASingleEdgeStaysWhereItIs) {
@@ -84,7 +84,7 @@ TEST(TwoStepEdge, AThinBrightStripDoesNotMoveTheBorder) {
 TEST(TwoStepEdge, TheColourOutsideTellsAFarFrontFromAFrame) {
   Strip reveal;
   reveal.front = 2.2, reveal.apart = 2.2;
-  const DoubleEdgeLimits wide{-3.0, 3.0, &kFrame, nullptr};
+  const TwoStepEdgeLimits wide{-3.0, 3.0, &kFrame, nullptr};
   EXPECT_NEAR(fitted(reveal, wide, 0.2F).front, 2.2, 0.15);
   // The same distances, but the border is where the frame begins; beyond it is the wall.
   Strip frame = reveal;
@@ -101,7 +101,7 @@ TEST(TwoStepEdge, ASharpenedEdgeIsOneEdge) {
     for (int k = 1; k + 1 < kSize; ++k)
       mean[c * kSize + k] += 0.4F * (2.0F * soft[k] - soft[k - 1] - soft[k + 1]);
   }
-  const TwoStepEdge edge = fitDoubleEdge(mean.data(), 3, kHalf, {});
+  const TwoStepEdge edge = fitTwoStepEdge(mean.data(), 3, kHalf, {});
   EXPECT_LT(std::abs(edge.front), 0.15);
 }
 
@@ -109,14 +109,14 @@ TEST(TwoStepEdge, GreyPicturesAndBadNumbers) {
   Strip grey;
   grey.apart = 2.0;
   const auto one = across(grey, 1);
-  const TwoStepEdge edge = fitDoubleEdge(one.data(), 1, kHalf, {});
+  const TwoStepEdge edge = fitTwoStepEdge(one.data(), 1, kHalf, {});
   EXPECT_LT(std::abs(edge.front), 0.3);
   const std::vector<float> flat(3 * kSize, 100.0F);
-  EXPECT_EQ(fitDoubleEdge(flat.data(), 3, kHalf, {}).apart, 0.0);
+  EXPECT_EQ(fitTwoStepEdge(flat.data(), 3, kHalf, {}).apart, 0.0);
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     std::vector<float> mean = across({});
     mean[5] = bad;
-    const TwoStepEdge none = fitDoubleEdge(mean.data(), 3, kHalf, {});
+    const TwoStepEdge none = fitTwoStepEdge(mean.data(), 3, kHalf, {});
     EXPECT_EQ(none.apart, 0.0);
     EXPECT_TRUE(std::isfinite(none.front) && std::isfinite(none.sigma_px));
   }

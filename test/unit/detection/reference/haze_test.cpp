@@ -25,10 +25,10 @@ RingMeans foggy(const Vector3f& frame, float left) {
 
 TEST(Haze, IsTakenOff) {
   for (float left : {0.1F, 0.3F, 0.6F}) {
-    const auto veil = hazeThatLeaves(left, kWall, through(kWall, left), 190.0);
-    ASSERT_TRUE(veil) << left;
-    EXPECT_LT((veil->off(through(kOrange, left)) - kOrange).norm(), 0.1F);
-    EXPECT_LT((veil->added - (1.0F - left) * kFog).norm(), 0.01F);
+    const auto haze = hazeThatLeaves(left, kWall, through(kWall, left), 190.0);
+    ASSERT_TRUE(haze) << left;
+    EXPECT_LT((haze->off(through(kOrange, left)) - kOrange).norm(), 0.1F);
+    EXPECT_LT((haze->added - (1.0F - left) * kFog).norm(), 0.01F);
   }
 }
 
@@ -41,25 +41,25 @@ TEST(Haze, NoneThatIsColouredOrBrighterThanTheDarkestPlaceOrThin) {
   EXPECT_FALSE(hazeThatLeaves(std::numeric_limits<double>::quiet_NaN(), kWall, kWall, 190.0));
 }
 
-TEST(DistanceThroughVeil, TheSamePaintIsNearAndAnotherIsFar) {
+TEST(DistanceThroughHaze, TheSamePaintIsNearAndAnotherIsFar) {
   const RingMeans reference = ring(kOrange, 10.0);
   for (float left : {0.15F, 0.3F, 0.6F}) {
-    const auto same = distanceThroughVeil(reference, foggy(kOrange, left));
+    const auto same = distanceThroughHaze(reference, foggy(kOrange, left));
     ASSERT_TRUE(same) << left;
     EXPECT_LT(*same, 0.1);
-    const auto other = distanceThroughVeil(reference, foggy(kOchre, left));
+    const auto other = distanceThroughHaze(reference, foggy(kOchre, left));
     EXPECT_TRUE(!other || *other > 0.5) << left;
-    EXPECT_FALSE(distanceThroughVeil(reference, foggy({240, 240, 235}, left)).value_or(1.0) < 0.9);
+    EXPECT_FALSE(distanceThroughHaze(reference, foggy({240, 240, 235}, left)).value_or(1.0) < 0.9);
   }
 }
 
-TEST(DistanceThroughVeil, TellsNothingInClearAirInNoiseOrOfAFramelessReference) {
+TEST(DistanceThroughHaze, TellsNothingInClearAirInNoiseOrOfAFramelessReference) {
   const RingMeans reference = ring(kOrange, 10.0);
-  EXPECT_FALSE(distanceThroughVeil(reference, ring(kOchre, 20.0))) << "paler paint in clear air";
+  EXPECT_FALSE(distanceThroughHaze(reference, ring(kOchre, 20.0))) << "paler paint in clear air";
   RingMeans noisy = foggy(kOrange, 0.15F);
   noisy.sigma = 10.0;
-  EXPECT_FALSE(distanceThroughVeil(reference, noisy));
-  EXPECT_FALSE(distanceThroughVeil(ring(kWall, 10.0), foggy(kWall, 0.3F)));
+  EXPECT_FALSE(distanceThroughHaze(reference, noisy));
+  EXPECT_FALSE(distanceThroughHaze(ring(kWall, 10.0), foggy(kWall, 0.3F)));
 }
 
 }  // namespace

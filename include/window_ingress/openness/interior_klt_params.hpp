@@ -3,7 +3,7 @@
 namespace window_ingress::openness {
 
 /// How texture within the opening is followed; see `InteriorKltTracker`.
-struct FollowerParams {
+struct InteriorKltParams {
   bool enabled = true;           ///< follow the texture within the opening; false costs nothing
   int max_points = 50;           ///< followed at once
   int min_points = 6;            ///< with fewer left a new key image is taken
