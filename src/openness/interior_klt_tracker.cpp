@@ -265,7 +265,8 @@ bool InteriorKltTracker::Impl::isWornOut(const WindowObservation& window) const 
           (left < params.min_points || left < params.min_shared * static_cast<double>(found)));
 }
 
-InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params) : impl_(std::make_unique<Impl>(params)) {
+InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params)
+    : impl_(std::make_unique<Impl>(params)) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("openness: " + parameters::joined(faults));
 }

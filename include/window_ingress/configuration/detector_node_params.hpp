@@ -29,9 +29,8 @@ struct DetectorNodeParams {
   bool image_is_rectified = false;       ///< images are rectified: P of camera_info counts
   bool use_imu = true;                   ///< tracks are led by the attitude on `imu`, where there is one
   std::string base_frame = "base_link";  ///< the vehicle's, in which `imu` must be
-  double budget_ms =
-      0.0;  ///< diagnostics warn if an image takes longer; 0: the time between two images [ms]
-  bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
+  double budget_ms = 0.0;  ///< diagnostics warn if an image takes longer; 0: the time between two images [ms]
+  bool lockstep = false;   ///< with the simulated world, step by step; only with use_sim_time
   ImageLimits image;
   StampLimits stamps;
   ReferenceParams reference;

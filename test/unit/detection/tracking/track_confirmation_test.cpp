@@ -1,9 +1,9 @@
+#include "detection/tracking/track_confirmation.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-
-#include "detection/tracking/track_confirmation.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -27,12 +27,13 @@ TEST(TrackConfirmation, ATrackThatTheSearchConfirmsIsLeftAlone) {
   const TrackParams params;
   TrackConfirmation confirmation(params);
   confirmation.start();
-  EXPECT_FALSE(
-      preferred(confirmation, params.confirmations * TrackConfirmation::kEveryFrames, squareAt(101, 100, 80)));
+  EXPECT_FALSE(preferred(confirmation, params.confirmations * TrackConfirmation::kEveryFrames,
+                         squareAt(101, 100, 80)));
   EXPECT_TRUE(confirmation.isConfirmed());
   for (int i = 0; i < 1000; ++i) ASSERT_FALSE(confirmation.isDue()) << "no more searches";
   confirmation.doubt();
-  EXPECT_FALSE(preferred(confirmation, 1000, squareAt(200, 100, 80))) << "another window never takes its place";
+  EXPECT_FALSE(preferred(confirmation, 1000, squareAt(200, 100, 80)))
+      << "another window never takes its place";
   EXPECT_TRUE(preferred(confirmation, 1000, squareAt(105, 103, 74))) << "other borders of it may";
   confirmation.doubt();
   EXPECT_FALSE(preferred(confirmation, 1000, squareAt(100, 101, 80)));
