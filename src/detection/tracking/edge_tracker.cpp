@@ -162,8 +162,9 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
   const auto stretch = stretchInView(predicted, image.size(), kViewMarginPx, lens);
   if (!stretch) return border;
   const double wanted = std::min(kMinStretch * longerSide(image), kMaxOfASide * predicted.length());
-  border.in_view = stretch->length() >= wanted && memory_.known();
-  if (!border.in_view) return border;
+  border.in_view = stretch->length() >= wanted;
+  border.sought = border.in_view && memory_.known();
+  if (!border.sought) return border;
   const double most = std::max(kMinReachPx, track_.reach * longerSide(image));
   const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kMinReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kMinProfiles, kProfiles);

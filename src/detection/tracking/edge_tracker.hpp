@@ -57,6 +57,7 @@ class FrontBorder {
 /// One border looked for where it is predicted.
 struct FollowedBorder {
   bool in_view = false;  ///< enough of it should be in the image
+  bool sought = false;   ///< and what it looks like is known: not of a side at the image's edge when found
   bool fitted = false;   ///< it is there, looks as before, and a line fits it
   Line line;             ///< in the undistorted image, its point in the middle between a and b
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  ///< ends of what was seen

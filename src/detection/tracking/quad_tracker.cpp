@@ -71,14 +71,15 @@ void QuadTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* len
 
 bool QuadTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
   const Quadrilateral predicted = motion.predicted();
-  in_view_ = fitted_ = 0;
+  in_view_ = sought_ = fitted_ = 0;
   for (int i = 0; i < 4; ++i) {
     borders_[i] = edges_[i].follow(image, lens, {predicted[i], predicted[(i + 1) % 4]}, meanSide(predicted),
                                    motion.sigmaAcross(i));
     in_view_ += borders_[i].in_view;
+    sought_ += borders_[i].sought;
     fitted_ += borders_[i].fitted;
   }
-  if (fitted_ < kMinSides || fitted_ < in_view_ - 1) return false;
+  if (fitted_ < kMinSides || fitted_ < sought_ - 1) return false;
   for (int i = 0; i < 4; ++i)
     if (borders_[i].fitted) motion.correct(i, borders_[i].line);
   if (fitted_ == 4) placeCorners(motion);
@@ -128,7 +129,7 @@ double QuadTracker::quality() const {
   double sum = 0.0;
   for (const FollowedBorder& border : borders_)
     if (border.fitted) sum += std::max(0.0, border.similarity) * std::min(1.0, border.inliers / kGoodInliers);
-  return sum / std::max(1, in_view_);
+  return sum / std::max(1, sought_);
 }
 
 }  // namespace window_ingress::detection

@@ -30,7 +30,7 @@ class QuadTracker {
 
   int inView() const { return in_view_; }
   int fitted() const { return fitted_; }
-  double quality() const;  ///< mean agreement of the borders in view, 0 to 1
+  double quality() const;  ///< mean agreement of the borders sought, 0 to 1
   const FollowedBorder& border(int side) const { return borders_[side]; }
 
  private:
@@ -39,7 +39,7 @@ class QuadTracker {
 
   std::array<EdgeTracker, 4> edges_;
   std::array<FollowedBorder, 4> borders_;
-  int in_view_ = 0, fitted_ = 0;
+  int in_view_ = 0, sought_ = 0, fitted_ = 0;
 };
 
 }  // namespace window_ingress::detection

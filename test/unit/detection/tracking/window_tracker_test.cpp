@@ -115,6 +115,20 @@ TEST(WindowTracker, ASideThatIsHiddenIsNoEdgeAndTheRestGoesOn) {
   EXPECT_LT((window->corners[geometry::kTopLeft] - picture.opening[0]).norm(), 0.3);
 }
 
+// The side is too near to the image's edge to be learnt when the window is found.
+TEST(WindowTracker, ASideThatComesIntoViewLaterIsFollowedToo) {
+  WindowTracker tracker{DetectorParams()};
+  int whole = 0;
+  for (int i = 0; i < 20; ++i) {
+    const WindowPicture picture = windowAt(61.3 + 2.0 * i, 115, 50.0, 6.0, i);
+    const auto window = tracker.update(inputOf(picture.draw(), i));
+    ASSERT_TRUE(window) << i << ": " << tracker.trace().detail;
+    EXPECT_EQ(window->target_id, 1u);
+    whole += i > 0 && window->whole();
+  }
+  EXPECT_GE(whole, 15);
+}
+
 /// Largest distance of the ends of the visible edges from the true sides [px].
 double worstEdge(const WindowObservation& window, const Quadrilateral& truth) {
   double worst = 0.0;
