@@ -20,6 +20,8 @@
 #include "navigation/motion/disturbance_observer.hpp"
 #include "navigation/motion/motion_guard.hpp"
 #include "navigation/motion/setpoint_limiter.hpp"
+#include "navigation/motion/turn_to_come.hpp"
+#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::navigation {
@@ -45,6 +47,7 @@ struct Navigator::Impl {
   InputMonitor monitor;
   SetpointLimiter limiter;
   DisturbanceObserver observer;
+  TurnToCome turn;
   Search search;
   Align align;
   Approach approach;
@@ -100,10 +103,14 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
   if (situation.vehicle_jumped) {
     memory.forgetPlaces();
     observer.restart();
+    turn.reset();
     home.odometryJumped();
   }
   memory.told_odom_mps = last_setpoint.velocity_odom_mps;
   if (situation.vehicle) {
+    turn.update(geometry::yawOf(situation.vehicle->T_odom_base.linear()), last_setpoint.yaw_rate_radps,
+                situation.dt_sec);
+    memory.turn_to_come_rad = turn.rad();
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
@@ -263,6 +270,7 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   self.follow(policy);
   self.memory = MissionState();
   self.observer.reset();
+  self.turn.reset();
   self.home = Home();
   self.was_near = self.stands_down = false;
   self.limiter.stop();

@@ -59,17 +59,18 @@ void Align::enter(double now_sec) {
 Decision Align::step(const Situation& situation, MissionState& memory) {
   if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const RelativeState relative = relate(*situation.vehicle, *situation.target);
-  if (!situation.target->sign_trusted) return resolveSign(situation, relative);
+  if (!situation.target->sign_trusted) return resolveSign(situation, memory, relative);
   ambiguous_since_sec_ = situation.now_sec;
   if (situation.target->approach_forbidden.empty()) probe_.reset();
   return moveOntoAxis(situation, memory, relative);
 }
 
-Decision Align::resolveSign(const Situation& situation, const RelativeState& relative) {
+Decision Align::resolveSign(const Situation& situation, const MissionState& memory,
+                            const RelativeState& relative) {
   in_funnel_since_sec_.reset();
   Decision decision;
   decision.keeps_place = true;
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
   const double height_m = situation.vehicle->T_odom_base.translation().z();
   if (situation.now_sec - ambiguous_since_sec_ < params_->align.settle_sec) {
     const double limit_mps = params_->align.vertical_speed_mps;
@@ -114,7 +115,7 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
   decision.wish.velocity_odom_mps =
       pacer_.pace(velocityAlongAxis(relative, target, forward_mps, memory.wind_odom_mps, *params_),
                   uprightRotation(target), situation);
-  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
   decision.reason = "moving onto the window's normal";
   if (!near_axis) {
     in_funnel_since_sec_.reset();

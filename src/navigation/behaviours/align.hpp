@@ -65,7 +65,7 @@ class Align {
   Decision step(const Situation& situation, MissionState& memory);
 
  private:
-  Decision resolveSign(const Situation& situation, const RelativeState& relative);
+  Decision resolveSign(const Situation& situation, const MissionState& memory, const RelativeState& relative);
   bool isNearAxis(const RelativeState& relative, const CommitCriterion& criterion, bool is_forbidden) const;
   Decision moveOntoAxis(const Situation& situation, MissionState& memory, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);

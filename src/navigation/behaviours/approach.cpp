@@ -29,7 +29,7 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
   const auto& target = *situation.target;
   const RelativeState relative = relate(*situation.vehicle, target);
   Decision decision;
-  decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), memory, *params_);
   if (!target.sign_trusted) {
     decision.event = Event::kMisaligned;
     decision.reason = "sign of the window's yaw no longer certain";

@@ -18,7 +18,7 @@ Decision BackOff::step(const Situation& situation, const MissionState& memory) {
   const bool is_clear = relative.distance() > turning_radius_m + params_->approach.margin_m;
   decision.wish.velocity_odom_mps = velocityAlongAxis(
       relative, target, againstTailwind(-speed_mps, target, memory), memory.wind_odom_mps, *params_);
-  if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, *params_);
+  if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
   decision.reason = "away from the window along its normal";
   if (room_m <= 0.0) {
     decision.wish.velocity_odom_mps.setZero();

@@ -116,9 +116,9 @@ double againstTailwind(double forward_mps, const TargetEstimate& target, const M
   return forward_mps - std::max(0.0, uprightRotation(target).col(0).dot(memory.wind_odom_mps));
 }
 
-double yawRateFor(double error_rad, const NavigatorParams& params) {
+double yawRateFor(double error_rad, const MissionState& memory, const NavigatorParams& params) {
   const double limit = params.limits.yaw_rate_radps;
-  return std::clamp(params.align.yaw_gain_hz * error_rad, -limit, limit);
+  return std::clamp(params.align.yaw_gain_hz * (error_rad - memory.turn_to_come_rad), -limit, limit);
 }
 
 double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params) {

@@ -27,6 +27,7 @@ struct MissionState {
   double committed_sec = 0.0;                    ///< as known at this time; its spread has grown since
   std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
   Eigen::Vector3d told_odom_mps = Eigen::Vector3d::Zero();  ///< velocity last commanded
+  double turn_to_come_rad = 0.0;                            ///< told already, not turned yet
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
@@ -77,8 +78,8 @@ CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& 
 /// for.
 double againstTailwind(double forward_mps, const TargetEstimate& target, const MissionState& memory);
 
-/// Yaw rate that takes the heading error away.
-double yawRateFor(double error_rad, const NavigatorParams& params);
+/// Yaw rate that takes the heading error away, less what the vehicle is turning already.
+double yawRateFor(double error_rad, const MissionState& memory, const NavigatorParams& params);
 
 /// What the nose is off where it should point [rad]: at the window's middle, and near the wall along its
 /// normal, for a turned body is a wider one.

@@ -67,7 +67,7 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
   Decision decision;
   decision.wish.velocity_odom_mps =
       velocityAlongAxis(relative, target, forwardSpeed(criterion, relative), memory.wind_odom_mps, *params_);
-  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, *params_);
+  decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, memory, *params_);
   decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
     const double room_m = params_->commit.exit_distance_m + relative.distance();

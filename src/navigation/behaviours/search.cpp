@@ -23,7 +23,7 @@ Decision Search::step(const Situation& situation, MissionState& memory) {
   if (!height_m_) height_m_ = may_climb_ ? std::max(params_->search.height_m, height_m) : height_m;
   Decision decision;
   if (situation.target && !isKnownOther(*situation.target, vehicle, memory)) {
-    decision = lookAt(situation);
+    decision = lookAt(situation, memory);
   } else {
     frames_ = 0;
     const double fastest = fastestTurn(situation.image_period_sec);
@@ -43,11 +43,11 @@ Decision Search::step(const Situation& situation, MissionState& memory) {
   return decision;
 }
 
-Decision Search::lookAt(const Situation& situation) {
+Decision Search::lookAt(const Situation& situation, const MissionState& memory) {
   if (situation.target_is_new) ++frames_;
   Decision decision;
   decision.wish.yaw_rate_radps =
-      yawRateFor(relate(*situation.vehicle, *situation.target).bearing_rad, *params_);
+      yawRateFor(relate(*situation.vehicle, *situation.target).bearing_rad, memory, *params_);
   decision.reason = "window in view";
   if (frames_ >= params_->search.found_frames) decision.event = Event::kWindowFound;
   return decision;
@@ -69,7 +69,7 @@ double Search::sweep(const VehicleState& vehicle, MissionState& memory) {
     const Eigen::Vector3d to_window = *memory.window_odom_m - vehicle.T_odom_base.translation();
     const double bearing_rad = geometry::wrapAngle(std::atan2(to_window.y(), to_window.x()) - heading_rad);
     direction_ = bearing_rad < 0.0 ? -1.0 : 1.0;
-    if (std::abs(bearing_rad) > 0.1) return yawRateFor(bearing_rad, *params_);
+    if (std::abs(bearing_rad) > 0.1) return yawRateFor(bearing_rad, memory, *params_);
   }
   looks_back_ = false;
   countTurn(heading_rad, memory);

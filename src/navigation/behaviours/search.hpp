@@ -18,7 +18,7 @@ class Search {
   Decision step(const Situation& situation, MissionState& memory);
 
  private:
-  Decision lookAt(const Situation& situation);
+  Decision lookAt(const Situation& situation, const MissionState& memory);
   /// So that an image is neither smeared nor the window passed over between two (trap: faster finds less).
   double fastestTurn(double image_period_sec) const;
   double sweep(const VehicleState& vehicle, MissionState& memory);
