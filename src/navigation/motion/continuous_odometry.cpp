@@ -15,6 +15,7 @@ constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4;
+constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
 constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
@@ -121,36 +122,66 @@ void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
   turn_.reset();
 }
 
-// Of an estimator's velocity that is always off by the same, fixed in the body.
+// Of an estimator's velocity that is always off by the same.
 void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
   if (!piece_) piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
   const double piece_sec = smooth.stamp_sec - piece_->stamp_sec;
   if (piece_sec < kPieceSec) return;
   const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
-  pieces_mps_.push_back(uprightOf(smooth).transpose() * unexplained_m / piece_sec);
-  if (pieces_mps_.size() > kPieces) pieces_mps_.pop_front();
+  const Eigen::Vector3d differs_mps = unexplained_m / piece_sec;
+  pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
+  if (pieces_.size() > kPieces) pieces_.pop_front();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
-  if (!isBiasKnown()) return;
-  std::vector<Eigen::Vector3d> pieces_mps(pieces_mps_.begin(), pieces_mps_.end());
-  bias_base_mps_ = geometry::componentwiseMedian(pieces_mps);
-  if (bias_base_mps_.norm() > kMaxBiasMps) bias_base_mps_ *= kMaxBiasMps / bias_base_mps_.norm();
+  if (isBiasKnown()) judgePieces();
+}
+
+void ContinuousOdometry::judgePieces() {
+  const auto spread = [&](auto axes) {
+    double sum = 0.0;
+    for (const Difference& piece : pieces_) sum += (piece.*axes - usual_.*axes).squaredNorm();
+    return sum;
+  };
+  for (const auto axes : {&Difference::base_mps, &Difference::smooth_mps}) {
+    std::vector<Eigen::Vector3d> pieces_mps;
+    for (const Difference& piece : pieces_) pieces_mps.push_back(piece.*axes);
+    Eigen::Vector3d usual_mps = geometry::componentwiseMedian(pieces_mps);
+    if (usual_mps.norm() > kMaxBiasMps) usual_mps *= kMaxBiasMps / usual_mps.norm();
+    usual_.*axes = usual_mps;
+  }
+  const bool is_fixed_in_world = spread(&Difference::smooth_mps) < kMoreEven * spread(&Difference::base_mps);
+  axes_ = is_fixed_in_world ? &Difference::smooth_mps : &Difference::base_mps;
   std::vector<double> errors_mps;
-  for (const Eigen::Vector3d& mps : pieces_mps_)
-    for (const int axis : {0, 1}) errors_mps.push_back(std::abs(mps[axis] - bias_base_mps_[axis]));
+  for (const Difference& piece : pieces_)
+    for (const int axis : {0, 1}) errors_mps.push_back(std::abs((piece.*axes_ - usual_.*axes_)[axis]));
   drift_m_per_sqrt_sec_ = kSigmaOfMedian * geometry::median(errors_mps) * std::sqrt(kPieceSec);
 }
 
+// Axes of `smooth`.
+Eigen::Vector3d ContinuousOdometry::steadyMps(const Eigen::Matrix3d& R_smooth_base) const {
+  return axes_ == &Difference::smooth_mps ? usual_.smooth_mps
+                                          : Eigen::Vector3d(R_smooth_base * usual_.base_mps);
+}
+
+Eigen::Vector3d ContinuousOdometry::biasMps() const {
+  if (!smooth_) return Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d R_smooth_base = uprightOf(*smooth_);
+  return -(R_smooth_base.transpose() * steadyMps(R_smooth_base));
+}
+
 Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
-  if (pieces_mps_.size() < kLatePieces) return bias_base_mps_;
+  if (pieces_.size() < kLatePieces) return usual_.*axes_;
   const Eigen::Vector3d sum_mps =
-      std::accumulate(pieces_mps_.end() - kLatePieces, pieces_mps_.end(), Eigen::Vector3d(0, 0, 0));
+      std::accumulate(pieces_.end() - kLatePieces, pieces_.end(), Eigen::Vector3d(0, 0, 0),
+                      [&](const Eigen::Vector3d& sum, const Difference& piece) -> Eigen::Vector3d {
+                        return sum + piece.*axes_;
+                      });
   return sum_mps / kLatePieces;
 }
 
 Eigen::Vector3d ContinuousOdometry::unbiased(const VehicleState& smooth) const {
-  if (bias_base_mps_.norm() < kNoticeableMps) return smooth.velocity_odom_mps;
-  return smooth.velocity_odom_mps + uprightOf(smooth) * bias_base_mps_;
+  if ((usual_.*axes_).norm() < kNoticeableMps) return smooth.velocity_odom_mps;
+  return smooth.velocity_odom_mps + steadyMps(uprightOf(smooth));
 }
 
 void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
@@ -159,7 +190,7 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
       {smooth.stamp_sec, position_m, way_m_});  // the only one after a gap: what was flown is not known
   while (second_.front().stamp_sec < smooth.stamp_sec - kSecond) second_.pop_front();
   const Sample& first = second_.front();
-  const Eigen::Vector3d steady_m = uprightOf(smooth) * bias_base_mps_ * (smooth.stamp_sec - first.stamp_sec);
+  const Eigen::Vector3d steady_m = steadyMps(uprightOf(smooth)) * (smooth.stamp_sec - first.stamp_sec);
   const Eigen::Vector3d unexplained_m = (position_m - first.position_m) - (way_m_ - first.way_m) - steady_m;
   if (unexplained_m.norm() < kUnexplainedM) return;
   is_erring_ = true;

@@ -14,10 +14,11 @@ namespace window_ingress::navigation {
 /// Places that were known before (the window, above all) stay where they are beside the vehicle. Without such
 /// errors both frames are the same to the bit.
 ///
-/// A steady difference of the velocity (an estimator's bias, fixed in the body) is no slide: the middle value
-/// of the last seconds is taken off. A heading that turns faster than any vehicle is corrected by the turn;
-/// whether the axes of the positions have turned along (the estimator was reset) or not (its attitude alone
-/// is wrong) the next motion shows.
+/// A steady difference of the velocity (an estimator's bias) is no slide: the middle value of the last
+/// seconds is taken off. It is fixed in the body in the long run, and stays as it was in the world for the
+/// first seconds after a turn: what has been more even of late counts. A heading that turns faster than any
+/// vehicle is corrected by the turn; whether the axes of the positions have turned along (the estimator was
+/// reset) or not (its attitude alone is wrong) the next motion shows.
 class ContinuousOdometry {
  public:
   static constexpr double kUnexplainedM = 0.05;  ///< within a second
@@ -40,18 +41,22 @@ class ContinuousOdometry {
   /// The vehicle's velocity without its steady error, once that is known; axes of `smooth`.
   Eigen::Vector3d unbiased(const VehicleState& smooth) const;
   /// That error: of the velocity, level axes with x along the nose [m/s]; zero until it is known.
-  Eigen::Vector3d biasMps() const { return -bias_base_mps_; }
+  Eigen::Vector3d biasMps() const;
   /// What position and velocity differ by, over the latest two seconds [m/s]: a bias of the velocity, an
   /// error of the position, or axes that are not those of the other.
   double disagreementMps() const { return latePiecesMps().norm(); }
   /// What of it the known bias does not explain [m/s].
-  double unexplainedMps() const { return (latePiecesMps() - bias_base_mps_).norm(); }
+  double unexplainedMps() const { return (latePiecesMps() - usual_.*axes_).norm(); }
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return drift_m_per_sqrt_sec_; }
-  bool isBiasKnown() const { return pieces_mps_.size() == kPieces; }
+  bool isBiasKnown() const { return pieces_.size() == kPieces; }
 
  private:
   static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
+  /// What position and velocity differ by, as of one piece of the way or as usual.
+  struct Difference {
+    Eigen::Vector3d base_mps = Eigen::Vector3d::Zero(), smooth_mps = Eigen::Vector3d::Zero();
+  };
   struct Sample {
     double stamp_sec;
     Eigen::Vector3d position_m;  ///< in smooth
@@ -73,6 +78,8 @@ class ContinuousOdometry {
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
   Eigen::Vector3d latePiecesMps() const;
+  void judgePieces();
+  Eigen::Vector3d steadyMps(const Eigen::Matrix3d& R_smooth_base) const;
   void shiftIfUnexplained(VehicleState& smooth);
   void noteFrame();
 
@@ -87,8 +94,9 @@ class ContinuousOdometry {
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  ///< of the frame, so far
   std::optional<Sample> piece_;                        ///< where the present piece of the way began
-  std::deque<Eigen::Vector3d> pieces_mps_;  ///< unexplained velocity of the latest pieces, body axes
-  Eigen::Vector3d bias_base_mps_ = Eigen::Vector3d::Zero();
+  std::deque<Difference> pieces_;                      ///< the latest
+  Difference usual_;                                   ///< middle value of them; zero until it is known
+  Eigen::Vector3d Difference::*axes_ = &Difference::base_mps;  ///< in which they are more even
   double drift_m_per_sqrt_sec_ = 0.0;
 };
 

@@ -254,6 +254,32 @@ TEST(ContinuousOdometry, ASteadyBiasOfTheVelocityIsLearntAndASlideBesideItIsSeen
   EXPECT_LT((moved - (curve.position - from)).norm(), 0.12) << "of a slide of 1 m";
 }
 
+// A gyro's drift tilts an estimator: when the vehicle has turned, its velocity stays off as it was in the
+// world for a while.
+TEST(ContinuousOdometry, ABiasThatDoesNotTurnWithTheVehicleMovesNoFrame) {
+  Curve curve;
+  curve.bias_base = {0.13, 0.14, 0.0};
+  curve.speed = curve.aside = curve.climb = 0.0;
+  ContinuousOdometry continuous;
+  for (int i = 0; i < 300; ++i) {
+    curve.yaw -= 0.1 * kStep;
+    continuous.add(curve.step());
+  }
+  const Eigen::Vector3d bias_mps = geometry::yawRotation(curve.yaw) * curve.bias_base;
+  const Eigen::Vector3d shift_m = continuous.T_smooth_odom(curve.time).translation();
+  curve.speed = 0.9;
+  std::optional<VehicleState> smooth;
+  for (int i = 0; i < 150; ++i) {
+    if (i < 45) curve.yaw += 0.4 * kStep;
+    curve.bias_base = geometry::yawRotation(-curve.yaw) * bias_mps;
+    smooth = continuous.add(curve.step());
+  }
+  EXPECT_LT((continuous.T_smooth_odom(curve.time).translation() - shift_m).norm(),
+            ContinuousOdometry::kUnexplainedM + 0.01);
+  EXPECT_LT((continuous.unbiased(*smooth) - curve.velocity()).norm(), 0.03);
+  EXPECT_LT((continuous.biasMps() - curve.bias_base).norm(), 0.03);
+}
+
 TEST(ContinuousOdometry, AWayFlownWhileItWasGoneIsNotKnown) {
   Curve curve;
   ContinuousOdometry continuous;
