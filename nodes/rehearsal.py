@@ -14,7 +14,7 @@ import rospy
 from geometry_msgs.msg import TransformStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
-from window_ingress.msg import IngressState, WindowPose
+from window_ingress.msg import ImagePose, IngressState, WindowPose
 
 for folder in ("../tools", "."):  # of the sources; installed
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), folder))
@@ -27,8 +27,8 @@ SAY_EVERY_S = 1.0
 ENDS = IngressState.PASSED, IngressState.ABORTED
 
 
-def candidates_of(message):
-    poses = [message.pose.pose] + ([message.alternative.pose] if message.has_alternative else [])
+def candidates_of(image):
+    poses = [image.pose.pose] + ([image.alternative.pose] if image.has_alternative else [])
     return [(matrix_of([p.orientation.x, p.orientation.y, p.orientation.z, p.orientation.w]),
              numpy.array([p.position.x, p.position.y, p.position.z])) for p in poses]
 
@@ -61,9 +61,9 @@ class Rehearsal:
         self._timer = rospy.Timer(rospy.Duration(1.0 / RATE_HZ), lambda _: self._step())
 
     def _see(self, message):
-        if message.reject == WindowPose.OK:
+        if message.image.reject == ImagePose.OK:
             with self._lock:
-                self._hand.see(message.header.stamp.to_sec(), candidates_of(message), message.log_likelihood_ratio)
+                self._hand.see(message.header.stamp.to_sec(), candidates_of(message.image), message.image.log_likelihood_ratio)
 
     def _hear(self, message):
         self._state = message

@@ -17,31 +17,36 @@ window_ingress::WindowDetection anyDetection(Bytes& bytes, double stamp_sec) {
   const double spread = bytes.take<std::uint8_t>() % 4 * 100.0;  // about a window, or anything
   for (int i = 0; i < 4; ++i) {
     const std::uint8_t seen = bytes.take<std::uint8_t>();
-    message.corner_visible[i] = seen % 8 > 0;
-    message.corner_x[i] = kX[i] + bytes.number(-5.0 - spread, 5.0 + spread);
-    message.corner_y[i] = kY[i] + bytes.number(-5.0 - spread, 5.0 + spread);
-    message.edge_visible[i] = (seen & 16) > 0;
-    message.edge_sigma_px[i] = bytes.number(0.0, 1.0);
-    message.edge_sigma_rad[i] = bytes.number(0.0, 0.01);
+    message.corners[i].visible = seen % 8 > 0;
+    message.corners[i].x = kX[i] + bytes.number(-5.0 - spread, 5.0 + spread);
+    message.corners[i].y = kY[i] + bytes.number(-5.0 - spread, 5.0 + spread);
+    message.edges[i].visible = (seen & 16) > 0;
+    message.edges[i].sigma_px = bytes.number(0.0, 1.0);
+    message.edges[i].sigma_rad = bytes.number(0.0, 0.01);
   }
   for (int i = 0; i < 4; ++i) {
-    message.edge_a_x[i] = message.corner_x[i];
-    message.edge_a_y[i] = message.corner_y[i];
-    message.edge_b_x[i] = message.corner_x[(i + 1) % 4] + bytes.number(-1.0, 1.0);
-    message.edge_b_y[i] = message.corner_y[(i + 1) % 4];
+    const window_ingress::WindowCorner &corner = message.corners[i], &next = message.corners[(i + 1) % 4];
+    message.edges[i].a_x = corner.x;
+    message.edges[i].a_y = corner.y;
+    message.edges[i].b_x = next.x + bytes.number(-1.0, 1.0);
+    message.edges[i].b_y = next.y;
   }
-  for (double& number : message.corner_covariance) number = bytes.number(-0.5, 2.0);
-  message.interior_key_stamp = ros::Time(stamp_sec - 1.0);
-  message.interior_sigma_px = bytes.number(0.0, 1.0);
-  for (int i = 0; i < 4; ++i)
-    message.interior_key_corner_x[i] = message.corner_x[i] + 3.0,
-    message.interior_key_corner_y[i] = message.corner_y[i];
+  for (window_ingress::WindowCorner& corner : message.corners)
+    for (double& number : corner.covariance) number = bytes.number(-0.5, 2.0);
+  window_ingress::InteriorPoints& interior = message.interior;
+  interior.key_stamp = ros::Time(stamp_sec - 1.0);
+  interior.sigma_px = bytes.number(0.0, 1.0);
+  interior.key_corners = message.corners;
+  for (window_ingress::WindowCorner& corner : interior.key_corners) corner.x += 3.0;
   for (std::size_t i = bytes.below(40); i > 0; --i) {
-    message.interior_id.push_back(bytes.take<std::uint16_t>());
-    message.interior_key_x.push_back(static_cast<float>(bytes.number(0.0, 640.0)));
-    message.interior_key_y.push_back(static_cast<float>(bytes.number(0.0, 480.0)));
-    message.interior_x.push_back(static_cast<float>(bytes.number(0.0, 640.0)));
-    message.interior_y.push_back(static_cast<float>(bytes.number(0.0, 480.0)));
+    interior.id.push_back(bytes.take<std::uint16_t>());
+    interior.key_x.push_back(static_cast<float>(bytes.number(0.0, 640.0)));
+    interior.key_y.push_back(static_cast<float>(bytes.number(0.0, 480.0)));
+    interior.x.push_back(static_cast<float>(bytes.number(0.0, 640.0)));
+    interior.y.push_back(static_cast<float>(bytes.number(0.0, 480.0)));
+    interior.normal_x.push_back(0.0F);
+    interior.normal_y.push_back(0.0F);
+    interior.beside.push_back(0);
   }
   return message;
 }

@@ -48,13 +48,6 @@ def level(stamp):
     return message
 
 
-def no_window(stamp):
-    message = WindowPose(reject=WindowPose.NO_WINDOW, reject_reason="nothing in view", filtered_reason="nothing in view")
-    message.header.stamp = stamp
-    message.header.frame_id = "camera_optical_frame"
-    return message
-
-
 def is_zero(setpoint):
     linear, angular = setpoint.twist.linear, setpoint.twist.angular
     return not any((linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
@@ -68,7 +61,7 @@ class AutopilotTest(unittest.TestCase):
         cls.armed, cls.mode, cls.system_status = False, "POSCTL", 4
         cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, in_map, 50.0),
                        support.Stream("/mavros/imu/data", Imu, level, 50.0),
-                       support.Stream("/window_pose", WindowPose, no_window, 30.0)]
+                       support.Stream("/window_pose", WindowPose, support.no_window, 30.0)]
         cls.states_of_autopilot = support.Stream("/mavros/state", State, cls.state, 5.0)
 
     @classmethod

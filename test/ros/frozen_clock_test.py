@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState, WindowPose
 
 import support
-from ingress_navigator_test import no_window, speed
+from ingress_navigator_test import speed
 
 
 TICK_S = 0.01
@@ -64,7 +64,7 @@ class FrozenClockTest(unittest.TestCase):
 
         clock = SimulatedClock(1000.0)
         support.Stream("odom", Odometry, support.odometry, 50.0)
-        support.Stream("window_pose", WindowPose, no_window, 30.0)
+        support.Stream("window_pose", WindowPose, support.no_window, 30.0)
         support.wait_for(lambda: start().success, "a mission that starts")
         setpoints.wait(lambda s: speed(s) > 0.0, "motion")
         guarded.wait(lambda s: speed(s) > 0.0, "motion behind the guard")

@@ -12,7 +12,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Imu
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
-from window_ingress.msg import Facade, WindowDetection, WindowInPicture, WindowPose
+from window_ingress.msg import (DetectedWindow, Facade, FilteredPose, ImagePose, WindowCorner, WindowDetection, WindowEdge,
+                                WindowPose)
 
 import support
 
@@ -28,32 +29,22 @@ def detection(stamp, frame_id="camera_optical_frame"):
     message.header.frame_id = frame_id
     cx, cy = (support.WIDTH - 1) / 2, (support.HEIGHT - 1) / 2
     half_w, half_h = support.FOCAL * WINDOW_W / 2 / DISTANCE, support.FOCAL * WINDOW_H / 2 / DISTANCE
-    message.corner_visible = [True] * 4
-    message.corner_x = [cx - half_w, cx + half_w, cx + half_w, cx - half_w]
-    message.corner_y = [cy - half_h, cy - half_h, cy + half_h, cy + half_h]
-    message.corner_covariance = [0.04, 0.0, 0.0, 0.04] * 4
-    message.edge_visible = [True] * 4
-    message.edge_sigma_px = [0.1] * 4
-    message.edge_sigma_rad = [0.001] * 4
+    xs, ys = [cx - half_w, cx + half_w, cx + half_w, cx - half_w], [cy - half_h, cy - half_h, cy + half_h, cy + half_h]
+    message.corners = [WindowCorner(visible=True, x=x, y=y, covariance=[0.04, 0.0, 0.0, 0.04]) for x, y in zip(xs, ys)]
+    message.edges = [WindowEdge(visible=True, sigma_px=0.1, sigma_rad=0.001) for _ in range(4)]
     message.target_id = 1
-    message.windows = [WindowInPicture(corner_x=message.corner_x, corner_y=message.corner_y, score=0.9, is_target=True, may_be_target=True)]
+    message.windows = [DetectedWindow(corner_x=xs, corner_y=ys, score=0.9, is_target=True, may_be_target=True)]
     return message
 
 
 def partial(stamp):
     """The same with its left and its right border alone, their ends out of the picture."""
     message = detection(stamp)
-    message.edge_visible = [False, True, False, True]
-    for i in range(4):
-        if message.edge_visible[i]:
-            after = (i + 1) % 4
-            message.edge_a_x[i], message.edge_a_y[i] = message.corner_x[i], 24.0 + 0.9 * message.corner_y[i]
-            message.edge_b_x[i], message.edge_b_y[i] = message.corner_x[after], 24.0 + 0.9 * message.corner_y[after]
-        else:
-            message.edge_sigma_px[i] = message.edge_sigma_rad[i] = 0.0
-    message.corner_visible = [False] * 4
-    message.corner_x = message.corner_y = [0.0] * 4
-    message.corner_covariance = [0.0] * 16
+    for i in (WindowDetection.RIGHT, WindowDetection.LEFT):
+        edge, begin, end = message.edges[i], message.corners[i], message.corners[(i + 1) % 4]
+        edge.a_x, edge.a_y, edge.b_x, edge.b_y = begin.x, 24.0 + 0.9 * begin.y, end.x, 24.0 + 0.9 * end.y
+    message.edges[WindowDetection.TOP] = message.edges[WindowDetection.BOTTOM] = WindowEdge()
+    message.corners = [WindowCorner()] * 4
     return message
 
 
@@ -83,16 +74,16 @@ class HomographyPoseTest(unittest.TestCase):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, support.camera_info)
         self.stream("window", WindowDetection, detection)
-        pose = self.poses.wait(lambda p: p.reject == WindowPose.OK and p.filtered_valid, "a pose, filtered")
-        self.assertAlmostEqual(pose.pose.pose.position.x, 0.0, delta=0.02)
-        self.assertAlmostEqual(pose.pose.pose.position.y, 0.0, delta=0.02)
-        self.assertAlmostEqual(pose.pose.pose.position.z, DISTANCE, delta=0.05)
-        self.assertEqual(pose.filtered_frame_id, "odom")
-        self.assertAlmostEqual(pose.filtered.pose.position.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.05)
-        self.assertAlmostEqual(pose.filtered.pose.position.y, 0.0, delta=0.05)
-        self.assertAlmostEqual(pose.filtered.pose.position.z, 1.5, delta=0.05)
-        self.assertGreater(pose.filtered.covariance[0], 0.0)
-        self.assertEqual((pose.window_width, pose.window_height), (WINDOW_W, WINDOW_H))
+        pose = self.poses.wait(lambda p: p.image.reject == ImagePose.OK and p.filtered.valid, "a pose, filtered")
+        self.assertAlmostEqual(pose.image.pose.pose.position.x, 0.0, delta=0.02)
+        self.assertAlmostEqual(pose.image.pose.pose.position.y, 0.0, delta=0.02)
+        self.assertAlmostEqual(pose.image.pose.pose.position.z, DISTANCE, delta=0.05)
+        self.assertEqual(pose.filtered.header.frame_id, "odom")
+        self.assertAlmostEqual(pose.filtered.pose.pose.position.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.05)
+        self.assertAlmostEqual(pose.filtered.pose.pose.position.y, 0.0, delta=0.05)
+        self.assertAlmostEqual(pose.filtered.pose.pose.position.z, 1.5, delta=0.05)
+        self.assertGreater(pose.filtered.pose.covariance[0], 0.0)
+        self.assertEqual((pose.size.width, pose.size.height), (WINDOW_W, WINDOW_H))
 
     def test_a_transform_is_published_where_asked_for_only_and_no_pose_is_latched(self):
         transforms = support.Listener("/tf", support.transforms_type())
@@ -102,7 +93,7 @@ class HomographyPoseTest(unittest.TestCase):
         message = transforms.wait(what="a transform")
         self.assertEqual((message.transforms[0].header.frame_id, message.transforms[0].child_frame_id), ("odom", "window"))
         self.assertAlmostEqual(message.transforms[0].transform.translation.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.1)
-        self.assertFalse(support.is_latched(self.poses.wait(lambda p: p.filtered_valid, "a filtered pose")))
+        self.assertFalse(support.is_latched(self.poses.wait(lambda p: p.filtered.valid, "a filtered pose")))
         self.assertEqual({m._connection_header["callerid"] for m in transforms.since(0.0)}, {"/second/homography_pose"})
         transforms.stop()
 
@@ -111,11 +102,11 @@ class HomographyPoseTest(unittest.TestCase):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, support.camera_info)
         windows = self.stream("window", WindowDetection, detection)
-        before = self.poses.wait(lambda p: p.filtered_updates > 20, "a window that is followed")
+        before = self.poses.wait(lambda p: p.filtered.updates > 20, "a window that is followed")
         facades.wait(lambda f: len(f.windows) == 1, "a window that is known")
-        self.assertTrue(before.filtered_valid)
-        windows.make = support.changed(detection, detected=False, reject_reason="gone")
-        self.poses.wait(lambda p: "gone" in p.reject_reason, "the view without it")
+        self.assertTrue(before.filtered.valid)
+        windows.make = support.changed(detection, detected=False, reason="gone")
+        self.poses.wait(lambda p: "gone" in p.image.reason, "the view without it")
         begin = time.monotonic()
         reply = rospy.ServiceProxy("homography_pose/reset", Trigger)()
         self.assertTrue(reply.success)
@@ -124,11 +115,11 @@ class HomographyPoseTest(unittest.TestCase):
         self.assertEqual(gone.markers[0].header.frame_id, "odom")
         self.assertEqual(len(facades.wait(what="the windows known now", begin=begin).windows), 0)
         after = self.poses.wait(lambda p: p.header.stamp > before.header.stamp + rospy.Duration(0.5), "a pose after the reset", begin=begin)
-        self.assertFalse(after.filtered_valid)
-        self.assertEqual((after.window_id, after.filtered_updates), (0, 0))
+        self.assertFalse(after.filtered.valid)
+        self.assertEqual((after.target.window_id, after.filtered.updates), (0, 0))
         windows.make = detection
-        again = self.poses.wait(lambda p: p.filtered_valid, "a window found anew")
-        self.assertLess(again.filtered_updates, before.filtered_updates)
+        again = self.poses.wait(lambda p: p.filtered.valid, "a window found anew")
+        self.assertLess(again.filtered.updates, before.filtered.updates)
         for listener in (markers, facades):
             listener.stop()
 
@@ -136,13 +127,13 @@ class HomographyPoseTest(unittest.TestCase):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, support.camera_info)
         windows = self.stream("window", WindowDetection, detection)
-        whole = self.poses.wait(lambda p: p.filtered_valid, "a filtered pose")
+        whole = self.poses.wait(lambda p: p.filtered.valid, "a filtered pose")
         windows.make = partial
-        pose = self.poses.wait(lambda p: p.reject != WindowPose.OK and p.filtered_updates > whole.filtered_updates
-                               and p.filtered_age < 0.01, "an update by two sides")
-        self.assertIn("2 of 4 sides in view", pose.reject_reason)
-        self.assertEqual(pose.filtered_reason, "")
-        self.assertAlmostEqual(pose.filtered.pose.position.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.05)
+        pose = self.poses.wait(lambda p: p.image.reject != ImagePose.OK and p.filtered.updates > whole.filtered.updates
+                               and p.filtered.age < 0.01, "an update by two sides")
+        self.assertIn("2 of 4 sides in view", pose.image.reason)
+        self.assertEqual((pose.filtered.reject, pose.filtered.reason), (FilteredPose.OK, ""))
+        self.assertAlmostEqual(pose.filtered.pose.pose.position.x, VEHICLE_X + CAMERA_X + DISTANCE, delta=0.05)
 
     def test_polygon_and_covariance_stand_in_the_camera_frame(self):
         polygons = support.Listener("window_polygon", PolygonStamped)
@@ -155,20 +146,20 @@ class HomographyPoseTest(unittest.TestCase):
         self.assertAlmostEqual(polygon.polygon.points[0].x, -WINDOW_W / 2, delta=0.05)  # top left, x right, y down
         self.assertAlmostEqual(polygon.polygon.points[0].y, -WINDOW_H / 2, delta=0.05)
         self.assertAlmostEqual(polygon.polygon.points[0].z, DISTANCE, delta=0.1)
-        self.assertAlmostEqual(poses.wait(what="a pose").pose.pose.position.z, DISTANCE, delta=0.05)
+        self.assertAlmostEqual(poses.wait(what="a pose").image.pose.pose.position.z, DISTANCE, delta=0.05)
 
     def test_uncalibrated_camera_is_named(self):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, lambda stamp: support.camera_info(stamp, focal=0.0))
         self.stream("window", WindowDetection, detection)
-        self.poses.wait(lambda p: p.reject == WindowPose.NO_CALIBRATION and "uncalibrated" in p.reject_reason,
+        self.poses.wait(lambda p: p.image.reject == ImagePose.NO_CALIBRATION and "uncalibrated" in p.image.reason,
                         "a refusal that names the calibration")
         support.Diagnostics().wait("homography_pose: camera_info", "uncalibrated")
 
     def test_the_camera_is_told_beside_every_pose_and_what_is_missing_of_it_with_no_window_either(self):
         def nothing(stamp):
             return detection(stamp, "camera_that_nobody_mounted") if self.unmounted else \
-                support.changed(detection, detected=False, reject_reason="nothing with four sides")(stamp)
+                support.changed(detection, detected=False, reason="nothing with four sides")(stamp)
         self.unmounted = False
         self.start_vehicle()
         calibration = self.stream("camera_info", CameraInfo, lambda stamp: support.camera_info(stamp, focal=0.0))
@@ -195,32 +186,33 @@ class HomographyPoseTest(unittest.TestCase):
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, other)
         self.stream("window", WindowDetection, detection)
-        self.poses.wait(lambda p: "sizes differ" in p.reject_reason, "a refusal that names both sizes")
+        self.poses.wait(lambda p: "sizes differ" in p.image.reason, "a refusal that names both sizes")
 
     def test_unknown_mounting_withholds_the_filtered_pose_only(self):
         frame = "camera_that_nobody_mounted"
         self.start_vehicle()
         self.stream("camera_info", CameraInfo, lambda stamp: support.camera_info(stamp, frame))
         self.stream("window", WindowDetection, lambda stamp: detection(stamp, frame))
-        pose = self.poses.wait(lambda p: p.header.frame_id == frame and p.reject == WindowPose.OK, "a pose in the camera")
-        self.assertIn(frame, pose.filtered_reason)
-        self.assertAlmostEqual(pose.pose.pose.position.z, DISTANCE, delta=0.05)
+        pose = self.poses.wait(lambda p: p.header.frame_id == frame and p.image.reject == ImagePose.OK, "a pose in the camera")
+        self.assertIn(frame, pose.filtered.reason)
+        self.assertEqual(pose.filtered.reject, FilteredPose.NO_MOUNTING)
+        self.assertAlmostEqual(pose.image.pose.pose.position.z, DISTANCE, delta=0.05)
 
     def test_missing_odometry_is_named(self):
         self.stream("camera_info", CameraInfo, support.camera_info)
         self.stream("window", WindowDetection, detection)
-        pose = self.poses.wait(lambda p: p.reject == WindowPose.OK and "odom" in p.filtered_reason, "a pose without odometry")
-        self.assertAlmostEqual(pose.pose.pose.position.z, DISTANCE, delta=0.05)
+        pose = self.poses.wait(lambda p: p.image.reject == ImagePose.OK and "odom" in p.filtered.reason, "a pose without odometry")
+        self.assertAlmostEqual(pose.image.pose.pose.position.z, DISTANCE, delta=0.05)
         support.Diagnostics().wait("homography_pose: odom", " odom on /odom (")
 
     def test_no_window_passes_its_reason_on(self):
         def nothing(stamp):
-            message = WindowDetection(reject_reason="nothing with four sides")
+            message = WindowDetection(reason="nothing with four sides")
             message.header.stamp = stamp
             return message
         self.stream("window", WindowDetection, nothing)
-        pose = self.poses.wait(lambda p: p.reject == WindowPose.NO_WINDOW, "a message without pose")
-        self.assertIn("four sides", pose.reject_reason)
+        pose = self.poses.wait(lambda p: p.image.reject == ImagePose.NO_WINDOW, "a message without pose")
+        self.assertIn("four sides", pose.image.reason)
 
 
 if __name__ == "__main__":

@@ -17,13 +17,6 @@ STREAM_HZ, STREAM_FOR_S = 20.0, 2.0
 STALE_WITHIN_S = 0.6  # limit of the age, plus a loaded machine
 
 
-def no_window(stamp):
-    message = WindowPose(reject=WindowPose.NO_WINDOW, reject_reason="nothing in view", filtered_reason="nothing in view")
-    message.header.stamp = stamp
-    message.header.frame_id = "camera_optical_frame"
-    return message
-
-
 def speed(message):
     linear, angular = message.twist.linear, message.twist.angular
     return max(abs(v) for v in (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
@@ -54,7 +47,7 @@ class IngressNavigatorTest(unittest.TestCase):
         begin = time.monotonic() - 0.5
         return self.states.wait(lambda s: s.state_name in names, f"state {names}", begin=begin)
 
-    def feed(self, pose=no_window):
+    def feed(self, pose=support.no_window):
         self.streams["odom"] = support.Stream("odom", Odometry, support.odometry, 50.0)
         self.streams["window_pose"] = support.Stream("window_pose", WindowPose, pose, 30.0)
 
@@ -84,10 +77,10 @@ class IngressNavigatorTest(unittest.TestCase):
 
     def test_start_without_a_calibration_says_so(self):
         missing = "no calibration: no camera_info on /camera/camera_info so far"
-        self.feed(support.changed(no_window, camera__fault=missing))
+        self.feed(support.changed(support.no_window, camera__fault=missing))
         support.wait_for(lambda: self.refused() == f"not started: {missing}", "a start that names the calibration alone")
         support.Diagnostics().wait("ingress_navigator: camera", missing)
-        self.streams["window_pose"].make = support.changed(no_window, camera__known=True, camera__forward=0.3, camera__horizontal_fov=1.1,
+        self.streams["window_pose"].make = support.changed(support.no_window, camera__known=True, camera__forward=0.3, camera__horizontal_fov=1.1,
                                                            camera__vertical_fov=0.9, camera__pixel_angle=0.002)
         support.Diagnostics().wait("ingress_navigator: camera", "0.30 m ahead, sees 1.10 x 0.90 rad", "as camera_info and tf say")
         support.wait_for(lambda: self.call("start").success, "a start with a calibration")

@@ -31,7 +31,7 @@ class NodeletsTest(unittest.TestCase):
 
     def test_1_from_picture_to_pose_in_one_process(self):
         self.windows.wait(lambda w: w.detected, "a window", begin=0.0)
-        self.poses.wait(lambda p: p.reject == p.OK, "a pose", begin=0.0)
+        self.poses.wait(lambda p: p.image.reject == p.image.OK, "a pose", begin=0.0)
         self.states.wait(lambda s: s.state_name == "IDLE", "the navigator's state", begin=0.0)
 
     def test_2_one_of_them_is_taken_out_and_put_in_again(self):
@@ -41,7 +41,7 @@ class NodeletsTest(unittest.TestCase):
                                    "__name:=window_detector_again"])
         try:
             self.windows.wait(lambda w: w.detected, "a window after it", begin=begin)
-            self.poses.wait(lambda p: p.reject == p.OK, "a pose after it", begin=begin)
+            self.poses.wait(lambda p: p.image.reject == p.image.OK, "a pose after it", begin=begin)
         finally:
             loader.terminate()
             loader.wait()

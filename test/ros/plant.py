@@ -6,7 +6,7 @@ import rospy
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from std_msgs.msg import UInt32
-from window_ingress.msg import Facade, KnownWindow, WindowPose
+from window_ingress.msg import Facade, FilteredPose, ImagePose, KnownWindow, Openness, SystemChecks, WindowPose
 
 import support
 
@@ -74,27 +74,25 @@ class Plant:
         return message
 
     def _pose(self, stamp):
-        message = WindowPose(reject=WindowPose.NO_WINDOW, reject_reason="nothing in view", filtered_reason="nothing in view")
-        message.header.stamp = stamp
-        message.header.frame_id = "camera_optical_frame"
-        message.window_width, message.window_height = SIZE
+        message = support.no_window(stamp)
+        message.size.width, message.size.height = SIZE
         if self.shows_window and WINDOW_X - self.place[0] > COMMITTED_FROM_M:
             self.updates += 1
             self._show(message, stamp)
         return message
 
     def _show(self, message, stamp):
-        message.reject, message.reject_reason, message.filtered_reason = WindowPose.OK, "", ""
-        message.filtered_valid, message.filtered_frame_id, message.filtered_stamp = True, "odom", stamp
-        pose = message.filtered.pose
+        message.image.reject, message.image.reason = ImagePose.OK, ""
+        filtered = message.filtered = FilteredPose(valid=True, sign_trusted=self.sign_trusted, weight=1.0, updates=self.updates)
+        filtered.header.frame_id, filtered.header.stamp = "odom", stamp
+        pose = filtered.pose.pose
         pose.position.x, pose.position.z, pose.orientation.w = WINDOW_X, HEIGHT, 1.0
         covariance = [0.0] * 36
         for i in range(6):
             covariance[7 * i] = 1e-4
-        message.filtered.covariance = covariance
-        message.filtered_sign_trusted, message.filtered_weight, message.filtered_updates = self.sign_trusted, 1.0, self.updates
-        message.fit, message.openness, message.open_share = WindowPose.FIT_GO, WindowPose.OPENNESS_OPEN, 1.0
-        message.openness_log_odds, message.window_id = 20.0, self._target
+        filtered.pose.covariance = covariance
+        message.checks.fit, message.target.window_id = SystemChecks.FIT_GO, self._target
+        message.openness = Openness(verdict=Openness.OPEN, open_share=1.0, log_odds=20.0)
 
 
 def is_zero(setpoint):

@@ -51,11 +51,11 @@ class ReplayTest(unittest.TestCase):
 
     def test_1_the_recording_is_seen_and_located(self):
         self.windows.wait(lambda m: m.detected, "a window", UP_WITHIN_S, begin=0.0)
-        self.poses.wait(lambda m: m.filtered_valid and m.filtered_updates > 5, "a filtered pose", UP_WITHIN_S, begin=0.0)
+        self.poses.wait(lambda m: m.filtered.valid and m.filtered.updates > 5, "a filtered pose", UP_WITHIN_S, begin=0.0)
 
     def test_2_only_what_is_needed_is_played(self):
         self.poses.wait(what="a pose", deadline_s=UP_WITHIN_S, begin=0.0)
-        self.assertEqual([m for m in self.poses.since(0.0) if m.filtered_reason == "from the recording"], [])
+        self.assertEqual([m for m in self.poses.since(0.0) if m.filtered.reason == "from the recording"], [])
         topics = {topic for topic, nodes in rosgraph.Master("/test").getSystemState()[0] if "/play" in nodes}
         self.assertEqual(topics, {"/camera/image_raw/compressed", "/camera/camera_info", "/odom", "/imu", "/tf_static", "/replay/clock", "/rosout"})
 
@@ -76,8 +76,8 @@ class ReplayTest(unittest.TestCase):
             self.said(node, words)
         poses = support.wait_for(self.poses_of_two_loops, "poses after the loop", UP_WITHIN_S)
         before, after = poses
-        self.assertGreater(before[-1].filtered_updates, 10)
-        self.assertLess(after[0].filtered_updates, 10, "the filter has begun anew")
+        self.assertGreater(before[-1].filtered.updates, 10)
+        self.assertLess(after[0].filtered.updates, 10, "the filter has begun anew")
         self.windows.wait(lambda m: m.detected, "a window in a later loop", UP_WITHIN_S)
 
     def poses_of_two_loops(self):
@@ -88,7 +88,7 @@ class ReplayTest(unittest.TestCase):
             if stamp_sec < last_sec - 0.5 * SECONDS:
                 loops.append([])
             last_sec = stamp_sec
-            if pose.filtered_valid:
+            if pose.filtered.valid:
                 loops[-1].append(pose)
         return next(((before, after) for before, after in zip(loops, loops[1:]) if before and after), None)
 

@@ -22,7 +22,6 @@ from window_ingress.msg import WindowDetection, WindowPose
 
 import support
 from homography_pose_test import detection
-from ingress_navigator_test import no_window
 
 WITHIN_S = 2.0
 DAY_S = 86400
@@ -107,7 +106,7 @@ class SpokenCausesTest(unittest.TestCase):
         cls.streams = {topic: support.Stream(topic, kind, make, rate) for topic, kind, make, rate in (
             ("image_raw", Image, cls.camera, 12.0), ("camera_info", CameraInfo, support.camera_info, 12.0),
             ("imu", Imu, support.imu, 50.0), ("odom", Odometry, support.odometry, 50.0),
-            ("window", WindowDetection, corners, 15.0), ("window_pose", WindowPose, no_window, 15.0),
+            ("window", WindowDetection, corners, 15.0), ("window_pose", WindowPose, support.no_window, 15.0),
             ("cmd_vel_in", TwistStamped, setpoint, 30.0), ("/tf", support.transforms_type(), vehicle_in_odom, 50.0))}
         cls.listeners = {topic: support.Listener(topic, kind) for topic, kind in (
             ("seen", WindowDetection), ("estimated", WindowPose), ("steered", TwistStamped), ("cmd_vel", TwistStamped))}

@@ -11,6 +11,7 @@ from genpy.dynamic import generate_dynamic
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Image, Imu
+from window_ingress.msg import FilteredPose, ImagePose, WindowPose
 
 DEADLINE_S = 20.0
 POLL_S = 0.02
@@ -186,6 +187,14 @@ def imu(stamp):
     message.header.stamp = stamp
     message.header.frame_id = "base_link"
     message.orientation.w = 1.0
+    return message
+
+
+def no_window(stamp):
+    message = WindowPose(image=ImagePose(reject=ImagePose.NO_WINDOW, reason="nothing in view"),
+                         filtered=FilteredPose(reject=FilteredPose.NO_WINDOW, reason="nothing in view"))
+    message.header.stamp = stamp
+    message.header.frame_id = "camera_optical_frame"
     return message
 
 

@@ -38,12 +38,12 @@ class WindowDetectorTest(unittest.TestCase):
         pixels = support.picture()
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         window = self.windows.wait(lambda w: w.detected, "a window without camera_info")
-        for x, y, wanted in zip(window.corner_x, window.corner_y, support.CORNERS):
-            self.assertAlmostEqual(x, wanted[0], delta=1.5)
-            self.assertAlmostEqual(y, wanted[1], delta=1.5)
+        for corner, wanted in zip(window.corners, support.CORNERS):
+            self.assertAlmostEqual(corner.x, wanted[0], delta=1.5)
+            self.assertAlmostEqual(corner.y, wanted[1], delta=1.5)
         self.assertEqual(window.header.frame_id, "camera_optical_frame")
         self.assertEqual((window.image_width, window.image_height), (support.WIDTH, support.HEIGHT))
-        self.assertEqual(window.reject_reason, "")
+        self.assertEqual((window.reject, window.reason), (WindowDetection.OK, ""))
         support.Diagnostics().wait("window_detector: camera_info", "no camera_info on /camera_info (0 publishers)")
 
     def test_the_attitude_of_the_exposure_comes_from_imu_and_mounting(self):
@@ -80,8 +80,9 @@ class WindowDetectorTest(unittest.TestCase):
         wall = numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8)
         self.stream(lambda stamp: support.image_message(wall, stamp))
         window = self.windows.wait(lambda w: not w.detected, "a message without window")
-        self.assertNotEqual(window.reject_reason, "")
-        self.assertEqual(list(window.corner_x), [0.0] * 4)
+        self.assertNotEqual(window.reason, "")
+        self.assertNotEqual(window.reject, WindowDetection.OK)
+        self.assertEqual([corner.x for corner in window.corners], [0.0] * 4)
 
     def test_bad_images_are_refused_by_name_and_good_ones_go_on(self):
         pixels = support.picture()
@@ -133,8 +134,8 @@ class WindowDetectorTest(unittest.TestCase):
             return answers[-1].success
         support.wait_for(is_taken, "the reference captured")
         self.assertIn(CAPTURE_FILE, answers[-1].message)
-        window = self.windows.wait(lambda w: w.detected and w.has_appearance, "a window compared with the reference")
-        self.assertLess(window.bhattacharyya, 0.2)
+        window = self.windows.wait(lambda w: w.detected and w.appearance.compared, "a window compared with the reference")
+        self.assertLess(window.appearance.bhattacharyya, 0.2)
         support.Diagnostics().wait("window_detector: reference", "live image", "distance")
         with open(os.path.splitext(CAPTURE_FILE)[0] + ".yaml") as file:
             kept = yaml.safe_load(file)["window_detector"]["reference"]
@@ -142,8 +143,8 @@ class WindowDetectorTest(unittest.TestCase):
         self.assertGreater(os.path.getsize(CAPTURE_FILE), 1000)
         self.assertGreater(os.path.getsize(os.path.splitext(CAPTURE_FILE)[0] + "_understood.png"), 1000)
         for (x, y), wanted in zip(zip(kept["corners"][::2], kept["corners"][1::2]), support.CORNERS):
-            self.assertAlmostEqual(x, wanted[0], delta=1.5)
-            self.assertAlmostEqual(y, wanted[1], delta=1.5)
+            self.assertAlmostEqual(corner.x, wanted[0], delta=1.5)
+            self.assertAlmostEqual(corner.y, wanted[1], delta=1.5)
 
     def test_tuning_is_taken_or_refused_aloud_and_reaches_the_detector(self):
         client = Client("window_detector/tuning", timeout=support.DEADLINE_S)

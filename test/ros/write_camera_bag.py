@@ -11,7 +11,7 @@ import rosbag
 import rospy
 from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import CompressedImage
-from window_ingress.msg import WindowPose
+from window_ingress.msg import FilteredPose, WindowPose
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import support  # noqa: E402
@@ -29,7 +29,7 @@ def picture_message(pixels, stamp, is_raw):
 
 
 def recorded_outputs(stamp):
-    pose = WindowPose(filtered_reason="from the recording")
+    pose = WindowPose(filtered=FilteredPose(reason="from the recording"))
     command = TwistStamped()
     pose.header.stamp = command.header.stamp = stamp
     command.twist.linear.x = 0.77

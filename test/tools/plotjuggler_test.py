@@ -10,9 +10,11 @@ TWISTS = {"/cmd_vel", "/ingress_navigator/cmd_vel"}
 
 
 def numbers_of(kind):
+    """Those of the message and of its members that have a file of their own."""
     text = (ROOT / f"msg/{kind}.msg").read_text()
     fields = re.findall(r"^(\w+) (\w+)\s*(?:#.*)?$", text, re.M)
-    return {name for type_, name in fields if type_ in NUMBERS}
+    nested = {f"{name}/{number}" for type_, name in fields if (ROOT / f"msg/{type_}.msg").exists() for number in numbers_of(type_)}
+    return nested | {name for type_, name in fields if type_ in NUMBERS}
 
 
 def test_every_curve_is_a_number_that_somebody_publishes():

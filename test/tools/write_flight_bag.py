@@ -10,7 +10,8 @@ import rosbag
 import rospy
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
-from window_ingress.msg import FlightVerdict, IngressState, WindowPose
+from window_ingress.msg import (ApparentOpening, FilteredPose, FlightVerdict, ImagePose, IngressState, RelativeYaw, WindowPose,
+                                WindowSize)
 
 START_S, YAW = 100.0, 0.3
 CENTRE = (10.0, 2.0, 1.5)
@@ -42,9 +43,10 @@ def state(t):
 
 
 def window_pose():
-    message = WindowPose(filtered_valid=True, filtered_sign_trusted=True, sign_trusted=True, opening_width=1.2,
-                         opening_height=1.0, window_width=1.2, window_height=1.0, left_side=80, right_side=80)
-    place(message.filtered.pose, 0, 0, 0, YAW)
+    image = ImagePose(relative_yaw=RelativeYaw(sign_trusted=True),
+                      apparent=ApparentOpening(width=1.2, height=1.0, left_side=80, right_side=80))
+    message = WindowPose(image=image, filtered=FilteredPose(valid=True, sign_trusted=True), size=WindowSize(width=1.2, height=1.0))
+    place(message.filtered.pose.pose, 0, 0, 0, YAW)
     return message
 
 

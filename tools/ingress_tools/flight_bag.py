@@ -4,10 +4,12 @@ import math
 import numpy as np
 import rosbag
 
+from . import package_paths
 from .flight_data import Flight, FlightError, Images, yaw_of
 
 KINDS = {"state": "window_ingress/IngressState", "pose": "window_ingress/WindowPose", "odom": "nav_msgs/Odometry",
          "truth": "nav_msgs/Odometry", "window": "geometry_msgs/PoseStamped", "verdict": "window_ingress/FlightVerdict"}
+RULES = package_paths.share() / "msg/migration/nested_messages.bmr"
 
 
 def read_bag(file, topics):
@@ -51,6 +53,8 @@ def only_one(file, name, topics):
 def flight_of(file, messages, chosen):
     if not messages["state"]:
         raise FlightError(f"{file}: no {KINDS['state']} in it; was the navigator running, and /state recorded?")
+    if messages["pose"] and not hasattr(messages["pose"][0], "image"):
+        raise FlightError(f"{file}: recorded by an earlier version; convert it: rosbag fix -n {file} NEW.bag {RULES}")
     is_truth = bool(messages["truth"] and messages["window"])
     vehicle = messages["truth" if is_truth else "odom"]
     if len(vehicle) < 2:
@@ -58,24 +62,24 @@ def flight_of(file, messages, chosen):
     window = messages["window"][-1].pose if is_truth else trusted_window(file, messages["pose"])
     begin = start_of(messages["state"])
     flight = Flight(file, motion_in(window, vehicle, begin), [(stamp(m) - begin, m.state_name) for m in messages["state"]],
-                    Images([image_row(m, begin) for m in messages["pose"] if m.reject == 0]),
+                    Images([image_row(m, begin) for m in messages["pose"] if m.image.reject == 0]),
                     filtered_angle(messages["pose"], messages["odom"] or vehicle, begin))
     flight.is_truth = is_truth
     flight.predicted_miss = next((m.predicted_miss for m in reversed(messages["state"]) if m.predicted_miss > 0), None)
     flight.reason = messages["state"][-1].reason
     flight.verdict = next((f"{m.outcome_name}: {m.reason}" for m in reversed(messages["verdict"]) if m.outcome != m.RUNNING), "")
-    sizes = [(m.window_width, m.window_height) for m in messages["pose"] if m.window_width > 0]
+    sizes = [(m.size.width, m.size.height) for m in messages["pose"] if m.size.width > 0]
     flight.window_size = sizes[-1] if sizes else None
     return flight
 
 
 def trusted_window(file, poses):
     """Where the window was, by the last filtered pose that knew its normal."""
-    good = [m for m in poses if m.filtered_valid and m.filtered_sign_trusted]
+    good = [m for m in poses if m.filtered.valid and m.filtered.sign_trusted]
     if not good:
         raise FlightError(f"{file}: neither ground_truth/odom and ground_truth/window nor a trusted pose of the window; "
-                          "record window_pose, or see its filtered_reason")
-    return good[-1].filtered.pose
+                          "record window_pose, or see its filtered.reason")
+    return good[-1].filtered.pose.pose
 
 
 def stamp(message):
@@ -99,19 +103,19 @@ def motion_in(window, vehicle, begin):
 
 
 def image_row(message, begin):
-    height = getattr(message, "opening_height", math.nan)  # older bags have none
-    return (stamp(message) - begin, message.yaw, message.sign_trusted, message.opening_width, height, message.left_side,
-            message.right_side)
+    yaw, apparent = message.image.relative_yaw, message.image.apparent
+    return (stamp(message) - begin, yaw.angle, yaw.sign_trusted, apparent.width, apparent.height, apparent.left_side,
+            apparent.right_side)
 
 
 def filtered_angle(poses, odometry, begin):
     """Times, and the window's axis against the vehicle's heading by the filter, where it has a pose."""
-    known = [m for m in poses if m.filtered_valid]
+    known = [m for m in poses if m.filtered.valid]
     times = np.array([stamp(m) for m in known])
     if len(times) == 0:
         return (), ()
     order = sorted(odometry, key=stamp)
     heading = np.unwrap([yaw_of(m.pose.pose.orientation) for m in order])
     own = np.interp(times, [stamp(m) for m in order], heading)
-    angle = np.array([yaw_of(m.filtered.pose.orientation) for m in known]) - own
+    angle = np.array([yaw_of(m.filtered.pose.pose.orientation) for m in known]) - own
     return times - begin, (angle + math.pi) % (2 * math.pi) - math.pi

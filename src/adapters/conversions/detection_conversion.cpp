@@ -8,6 +8,7 @@ namespace window_ingress::adapters {
 namespace {
 
 using DetectionMsg = window_ingress::WindowDetection;
+using RowMajor2d = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
 constexpr std::size_t kMaxInteriorPoints = 1000;  // what a detector sends stays far below
 
 // Constants of the messages are the enums of the core.
@@ -22,145 +23,195 @@ static_assert(same(DetectionMsg::TOP_LEFT, geometry::kTopLeft) &&
 static_assert(same(DetectionMsg::TOP, geometry::kTop) && same(DetectionMsg::RIGHT, geometry::kRight) &&
               same(DetectionMsg::BOTTOM, geometry::kBottom) && same(DetectionMsg::LEFT, geometry::kLeft));
 
-// All numbers of a detection that must be finite.
+using detection::RejectReason;
+static_assert(same(DetectionMsg::OK, RejectReason::kNone) &&
+              same(DetectionMsg::BAD_IMAGE, RejectReason::kBadImage) &&
+              same(DetectionMsg::NO_CANDIDATE, RejectReason::kNoCandidate) &&
+              same(DetectionMsg::CORNERS, RejectReason::kCorners) &&
+              same(DetectionMsg::AREA_SMALL, RejectReason::kAreaSmall) &&
+              same(DetectionMsg::AREA_LARGE, RejectReason::kAreaLarge) &&
+              same(DetectionMsg::ASPECT, RejectReason::kAspect) &&
+              same(DetectionMsg::SOLIDITY, RejectReason::kSolidity) &&
+              same(DetectionMsg::ANGLE, RejectReason::kAngle) &&
+              same(DetectionMsg::BORDER, RejectReason::kBorder) &&
+              same(DetectionMsg::LINE_SUPPORT, RejectReason::kLineSupport) &&
+              same(DetectionMsg::CONTRAST, RejectReason::kContrast) &&
+              same(DetectionMsg::REFINEMENT, RejectReason::kRefinement) &&
+              same(DetectionMsg::OUTER_BORDER, RejectReason::kOuterBorder) &&
+              same(DetectionMsg::DUPLICATE, RejectReason::kDuplicate) &&
+              same(DetectionMsg::PANE, RejectReason::kPane) &&
+              same(DetectionMsg::APPEARANCE, RejectReason::kAppearance) &&
+              same(DetectionMsg::OTHER_ASPECT, RejectReason::kOtherAspect) &&
+              same(DetectionMsg::OTHER_FRAME, RejectReason::kOtherFrame) &&
+              same(DetectionMsg::UNLIKE, RejectReason::kUnlike) &&
+              same(DetectionMsg::SCORE, RejectReason::kScore) &&
+              same(DetectionMsg::OUTSCORED, RejectReason::kOutscored) &&
+              same(DetectionMsg::BUDGET, RejectReason::kBudget) &&
+              detection::kRejectReasons == DetectionMsg::BUDGET + 1);
+
+// Numbers that must be finite, whether visible or not.
+bool finite(double number) { return std::isfinite(number); }
+
+template <typename Numbers>
+bool allFinite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), finite);
+}
+
+bool isFinite(const window_ingress::WindowCorner& m) {
+  return finite(m.x) && finite(m.y) && allFinite(m.covariance);
+}
+
+bool isFinite(const window_ingress::WindowEdge& m) {
+  return finite(m.sigma_px) && finite(m.sigma_rad) && finite(m.a_x) && finite(m.a_y) && finite(m.b_x) &&
+         finite(m.b_y);
+}
+
+template <typename Parts>
+bool areFinite(const Parts& parts) {
+  return std::all_of(parts.begin(), parts.end(), [](const auto& part) { return isFinite(part); });
+}
+
+bool isFinite(const window_ingress::InteriorPoints& m) {
+  return areFinite(m.key_corners) && finite(m.sigma_px) && allFinite(m.key_x) && allFinite(m.key_y) &&
+         allFinite(m.x) && allFinite(m.y) && allFinite(m.normal_x) && allFinite(m.normal_y);
+}
+
 bool isFinite(const DetectionMsg& m) {
-  const auto finite = [](double number) { return std::isfinite(number); };
-  const auto all = [&](const auto& numbers) { return std::all_of(numbers.begin(), numbers.end(), finite); };
-  return all(m.corner_x) && all(m.corner_y) && all(m.corner_covariance) && all(m.edge_sigma_px) &&
-         all(m.edge_sigma_rad) && all(m.edge_a_x) && all(m.edge_a_y) && all(m.edge_b_x) && all(m.edge_b_y) &&
-         finite(m.score) && finite(m.bhattacharyya) && finite(m.correlation) && finite(m.runner_up) &&
-         all(m.interior_key_corner_x) && all(m.interior_key_corner_y) &&
-         all(m.interior_key_corner_covariance) && finite(m.interior_sigma_px) && all(m.interior_key_x) &&
-         all(m.interior_key_y) && all(m.interior_x) && all(m.interior_y) && all(m.interior_normal_x) &&
-         all(m.interior_normal_y);
+  return areFinite(m.corners) && areFinite(m.edges) && finite(m.score) &&
+         finite(m.appearance.bhattacharyya) && finite(m.appearance.correlation) &&
+         finite(m.appearance.runner_up) && isFinite(m.interior);
 }
 
-void fillCorner(DetectionMsg& message, const detection::WindowObservation& window, int i) {
-  message.corner_visible[i] = true;
-  message.corner_x[i] = window.corners[i].x();
-  message.corner_y[i] = window.corners[i].y();
-  const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> covariance = window.corner_covariance[i];
-  std::copy(covariance.data(), covariance.data() + 4, message.corner_covariance.begin() + 4 * i);
+window_ingress::WindowCorner cornerMsg(const Eigen::Vector2d& corner, const Eigen::Matrix2d& covariance) {
+  window_ingress::WindowCorner message;
+  message.visible = true;
+  message.x = corner.x();
+  message.y = corner.y();
+  Eigen::Map<RowMajor2d>(message.covariance.data()) = covariance;
+  return message;
 }
 
-void fillEdge(DetectionMsg& message, const detection::Edge& edge, int i) {
-  message.edge_visible[i] = true;
-  message.edge_sigma_px[i] = edge.sigma_px;
-  message.edge_sigma_rad[i] = edge.sigma_rad;
-  message.edge_a_x[i] = edge.a.x();
-  message.edge_a_y[i] = edge.a.y();
-  message.edge_b_x[i] = edge.b.x();
-  message.edge_b_y[i] = edge.b.y();
+window_ingress::WindowEdge toMsg(const detection::Edge& edge) {
+  window_ingress::WindowEdge message;
+  if (!edge.visible) return message;
+  message.visible = true;
+  message.sigma_px = edge.sigma_px;
+  message.sigma_rad = edge.sigma_rad;
+  message.a_x = edge.a.x();
+  message.a_y = edge.a.y();
+  message.b_x = edge.b.x();
+  message.b_y = edge.b.y();
+  return message;
+}
+
+window_ingress::WindowAppearance appearanceMsg(const detection::WindowObservation& window) {
+  window_ingress::WindowAppearance message;
+  message.compared = window.has_appearance;
+  message.bhattacharyya = window.has_appearance ? window.bhattacharyya : 0.0;
+  message.correlation = window.correlation;
+  message.runner_up = window.runner_up;
+  return message;
 }
 
 // What the message does not call visible stays zero, whatever it says.
-void readCorner(const DetectionMsg& message, int i, detection::WindowObservation& window) {
-  window.corner_visible[i] = message.corner_visible[i] != 0;
-  if (!window.corner_visible[i]) return;
-  window.corners[i] = {message.corner_x[i], message.corner_y[i]};
-  window.corner_covariance[i] = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
-      message.corner_covariance.data() + 4 * i);
+bool readCorner(const window_ingress::WindowCorner& message, Eigen::Vector2d& corner,
+                Eigen::Matrix2d& covariance) {
+  if (message.visible == 0) return false;
+  corner = {message.x, message.y};
+  covariance = Eigen::Map<const RowMajor2d>(message.covariance.data());
+  return true;
 }
 
-detection::Edge readEdge(const DetectionMsg& message, int i) {
-  if (message.edge_visible[i] == 0) return {};
-  return {true,
-          message.edge_sigma_px[i],
-          message.edge_sigma_rad[i],
-          {message.edge_a_x[i], message.edge_a_y[i]},
-          {message.edge_b_x[i], message.edge_b_y[i]}};
-}
-
-void fillInterior(DetectionMsg& message, const detection::InteriorTracks& interior) {
-  message.interior_key_stamp = toStamp(interior.key_stamp_sec);
-  message.interior_sigma_px = interior.sigma_px;
-  for (int i = 0; i < 4; ++i) {
-    message.interior_key_corner_x[i] = interior.key_corners[i].x();
-    message.interior_key_corner_y[i] = interior.key_corners[i].y();
-    const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> covariance = interior.key_covariance[i];
-    std::copy(covariance.data(), covariance.data() + 4,
-              message.interior_key_corner_covariance.begin() + 4 * i);
-  }
-  for (const detection::InteriorPoint& point : interior.points) {
-    message.interior_id.push_back(point.id);
-    message.interior_key_x.push_back(static_cast<float>(point.key_px.x()));
-    message.interior_key_y.push_back(static_cast<float>(point.key_px.y()));
-    message.interior_x.push_back(static_cast<float>(point.now_px.x()));
-    message.interior_y.push_back(static_cast<float>(point.now_px.y()));
-    message.interior_normal_x.push_back(static_cast<float>(point.normal.x()));
-    message.interior_normal_y.push_back(static_cast<float>(point.normal.y()));
-    message.interior_beside.push_back(point.beside);
-  }
-}
-
-// None if the lists are not of one length or there is no key image.
-detection::InteriorTracks readInterior(const DetectionMsg& m) {
-  detection::InteriorTracks interior;
-  const std::size_t points = m.interior_id.size();
-  const auto key_stamp_sec = stampSec(m.interior_key_stamp);
-  if (points == 0 || !key_stamp_sec || m.interior_key_x.size() != points ||
-      m.interior_key_y.size() != points || m.interior_x.size() != points || m.interior_y.size() != points ||
-      m.interior_normal_x.size() != points || m.interior_normal_y.size() != points ||
-      m.interior_beside.size() != points)
-    return interior;
-  interior.key_stamp_sec = *key_stamp_sec;
-  interior.sigma_px = m.interior_sigma_px;
-  for (int i = 0; i < 4; ++i) {
-    interior.key_corners[i] = {m.interior_key_corner_x[i], m.interior_key_corner_y[i]};
-    interior.key_covariance[i] = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
-        m.interior_key_corner_covariance.data() + 4 * i);
-  }
-  for (std::size_t i = 0; i < points; ++i)
-    interior.points.push_back({m.interior_id[i],
-                               {m.interior_key_x[i], m.interior_key_y[i]},
-                               {m.interior_x[i], m.interior_y[i]},
-                               {m.interior_normal_x[i], m.interior_normal_y[i]},
-                               m.interior_beside[i]});
-  return interior;
+detection::Edge fromMsg(const window_ingress::WindowEdge& message) {
+  if (message.visible == 0) return {};
+  return {true, message.sigma_px, message.sigma_rad, {message.a_x, message.a_y}, {message.b_x, message.b_y}};
 }
 
 }  // namespace
+
+window_ingress::InteriorPoints toMsg(const detection::InteriorTracks& interior) {
+  window_ingress::InteriorPoints message;
+  if (interior.empty()) return message;
+  message.key_stamp = toStamp(interior.key_stamp_sec);
+  message.sigma_px = interior.sigma_px;
+  for (int i = 0; i < 4; ++i)
+    message.key_corners[i] = cornerMsg(interior.key_corners[i], interior.key_covariance[i]);
+  for (const detection::InteriorPoint& point : interior.points) {
+    message.id.push_back(point.id);
+    message.key_x.push_back(static_cast<float>(point.key_px.x()));
+    message.key_y.push_back(static_cast<float>(point.key_px.y()));
+    message.x.push_back(static_cast<float>(point.now_px.x()));
+    message.y.push_back(static_cast<float>(point.now_px.y()));
+    message.normal_x.push_back(static_cast<float>(point.normal.x()));
+    message.normal_y.push_back(static_cast<float>(point.normal.y()));
+    message.beside.push_back(point.beside);
+  }
+  return message;
+}
+
+detection::InteriorTracks fromMsg(const window_ingress::InteriorPoints& m) {
+  detection::InteriorTracks interior;
+  const std::size_t points = m.id.size();
+  for (const std::size_t size : {m.key_x.size(), m.key_y.size(), m.x.size(), m.y.size(), m.normal_x.size(),
+                                 m.normal_y.size(), m.beside.size()})
+    if (size != points) return {};
+  const auto key_stamp_sec = stampSec(m.key_stamp);
+  if (!key_stamp_sec) return {};
+  interior.key_stamp_sec = *key_stamp_sec;
+  interior.sigma_px = m.sigma_px;
+  for (int i = 0; i < 4; ++i)
+    if (!readCorner(m.key_corners[i], interior.key_corners[i], interior.key_covariance[i])) return {};
+  for (std::size_t i = 0; i < points; ++i)
+    interior.points.push_back(
+        {m.id[i], {m.key_x[i], m.key_y[i]}, {m.x[i], m.y[i]}, {m.normal_x[i], m.normal_y[i]}, m.beside[i]});
+  return interior;
+}
 
 DetectionMsg toMsg(const detection::WindowObservation& window) {
   DetectionMsg message;
   message.detected = true;
   message.target_id = window.target_id;
   for (int i = 0; i < 4; ++i) {
-    if (window.corner_visible[i]) fillCorner(message, window, i);
-    if (window.edges[i].visible) fillEdge(message, window.edges[i], i);
+    if (window.corner_visible[i])
+      message.corners[i] = cornerMsg(window.corners[i], window.corner_covariance[i]);
+    message.edges[i] = toMsg(window.edges[i]);
   }
   message.score = window.score;
-  message.has_appearance = window.has_appearance;
-  message.bhattacharyya = window.has_appearance ? window.bhattacharyya : 0.0;
-  message.correlation = window.correlation;
-  message.runner_up = window.runner_up;
-  if (!window.interior.empty()) fillInterior(message, window.interior);
+  message.appearance = appearanceMsg(window);
+  message.interior = toMsg(window.interior);
   return message;
 }
 
 Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
   const auto stamp_sec = stampSec(message.header.stamp);
   if (!stamp_sec) return {std::nullopt, "header.stamp is zero or not normalised"};
-  if (!message.detected) return {std::nullopt, "no window: " + message.reject_reason};
-  if (message.interior_id.size() > kMaxInteriorPoints)
-    return {std::nullopt, std::to_string(message.interior_id.size()) +
+  if (!message.detected) return {std::nullopt, "no window: " + message.reason};
+  if (message.interior.id.size() > kMaxInteriorPoints)
+    return {std::nullopt, std::to_string(message.interior.id.size()) +
                               " points within the opening, at most " + std::to_string(kMaxInteriorPoints) +
                               " are taken"};
   if (!isFinite(message)) return {std::nullopt, "a number of the detection is not finite"};
   detection::WindowObservation window;
   window.stamp_sec = *stamp_sec;
   for (int i = 0; i < 4; ++i) {
-    readCorner(message, i, window);
-    window.edges[i] = readEdge(message, i);
+    window.corner_visible[i] = readCorner(message.corners[i], window.corners[i], window.corner_covariance[i]);
+    window.edges[i] = fromMsg(message.edges[i]);
   }
   window.target_id = message.target_id;
   window.score = message.score;
-  window.has_appearance = message.has_appearance != 0;
-  window.bhattacharyya = message.bhattacharyya;
-  window.correlation = message.correlation;
-  window.runner_up = message.runner_up;
-  window.interior = readInterior(message);
+  window.has_appearance = message.appearance.compared != 0;
+  window.bhattacharyya = message.appearance.bhattacharyya;
+  window.correlation = message.appearance.correlation;
+  window.runner_up = message.appearance.runner_up;
+  window.interior = fromMsg(message.interior);
   return {window, ""};
+}
+
+DetectionMsg toMsg(const detection::DetectionTrace& trace) {
+  DetectionMsg message;
+  message.reject = static_cast<std::uint8_t>(trace.outcome);
+  message.reason = trace.detail;
+  return message;
 }
 
 }  // namespace window_ingress::adapters

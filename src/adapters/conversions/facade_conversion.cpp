@@ -6,6 +6,21 @@
 namespace window_ingress::adapters {
 namespace {
 
+using FourNumbers = decltype(window_ingress::DetectedWindow::corner_x);
+
+void write(const geometry::Quadrilateral& corners, FourNumbers& x, FourNumbers& y) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    x[i] = corners[i].x();
+    y[i] = corners[i].y();
+  }
+}
+
+geometry::Quadrilateral read(const FourNumbers& x, const FourNumbers& y) {
+  geometry::Quadrilateral corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = {x[i], y[i]};
+  return corners;
+}
+
 window_ingress::KnownWindow toMsg(const facade::KnownWindow& window, double now_sec) {
   window_ingress::KnownWindow message;
   message.id = window.id;
@@ -30,12 +45,9 @@ window_ingress::KnownWindow toMsg(const facade::KnownWindow& window, double now_
 
 }  // namespace
 
-window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window) {
-  window_ingress::WindowInPicture message;
-  for (std::size_t i = 0; i < 4; ++i) {
-    message.corner_x[i] = window.corners[i].x();
-    message.corner_y[i] = window.corners[i].y();
-  }
+window_ingress::DetectedWindow toMsg(const detection::SeenWindow& window) {
+  window_ingress::DetectedWindow message;
+  write(window.corners, message.corner_x, message.corner_y);
   message.score = window.score;
   message.has_appearance = window.has_appearance;
   message.bhattacharyya = window.bhattacharyya;
@@ -46,9 +58,9 @@ window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window) {
 
 std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowDetection& message) {
   std::vector<detection::SeenWindow> windows;
-  for (const window_ingress::WindowInPicture& one : message.windows) {
+  for (const window_ingress::DetectedWindow& one : message.windows) {
     detection::SeenWindow window;
-    for (std::size_t i = 0; i < 4; ++i) window.corners[i] = {one.corner_x[i], one.corner_y[i]};
+    window.corners = read(one.corner_x, one.corner_y);
     const bool is_usable = geometry::isFinite(window.corners) && geometry::isConvex(window.corners) &&
                            std::isfinite(one.score) && std::isfinite(one.bhattacharyya);
     if (!is_usable || windows.size() == kMaxSeenWindows) continue;
@@ -62,17 +74,22 @@ std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowD
   return windows;
 }
 
-void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target) {
-  message.window_id = target.id;
-  message.remembered = toPoseMsg(facade::poseOf(target.place)).position;
+window_ingress::RememberedTarget targetMsg(const facade::KnownWindow* target,
+                                           const std::optional<geometry::Quadrilateral>& expected) {
+  window_ingress::RememberedTarget message;
+  if (target) {
+    message.window_id = target->id;
+    message.position = toPoseMsg(facade::poseOf(target->place)).position;
+  }
+  message.has_expected = expected.has_value();
+  if (expected) write(*expected, message.expected_x, message.expected_y);
+  return message;
 }
 
-void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected) {
-  message.has_expected = true;
-  for (std::size_t i = 0; i < 4; ++i) {
-    message.expected_x[i] = expected[i].x();
-    message.expected_y[i] = expected[i].y();
-  }
+std::optional<geometry::Quadrilateral> expectedFrom(const window_ingress::RememberedTarget& message) {
+  const geometry::Quadrilateral expected = read(message.expected_x, message.expected_y);
+  if (message.has_expected == 0 || !geometry::isFinite(expected)) return std::nullopt;
+  return expected;
 }
 
 window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec) {

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "window_ingress/configuration/common_params.hpp"
+#include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/frames_params.hpp"
@@ -75,30 +76,46 @@ Converted<Eigen::Quaterniond> attitudeFromMsg(const sensor_msgs::Imu& message);
 // --- window
 // ------------------------------------------------------------------------------------------------------
 
-window_ingress::WindowDetection toMsg(
-    const detection::WindowObservation& window);  ///< without header and image
+// Messages without header, and of detections without what the image was.
+window_ingress::WindowDetection toMsg(const detection::WindowObservation& window);
+window_ingress::WindowDetection toMsg(const detection::DetectionTrace& trace);  ///< why there is no window
 /// Refuses `detected == false` with the message's own reason.
 Converted<detection::WindowObservation> fromMsg(const window_ingress::WindowDetection& message);
-window_ingress::WindowInPicture toMsg(const detection::SeenWindow& window);
+window_ingress::InteriorPoints toMsg(const detection::InteriorTracks& interior);
+/// None if the lists are not of one length or there is no key image.
+detection::InteriorTracks fromMsg(const window_ingress::InteriorPoints& message);
+window_ingress::DetectedWindow toMsg(const detection::SeenWindow& window);
 /// Those of the message that are convex, finite quadrilaterals; at most `kMaxSeenWindows`.
 std::vector<detection::SeenWindow> seenWindowsFrom(const window_ingress::WindowDetection& message);
 constexpr std::size_t kMaxSeenWindows = 64;
-window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec);  ///< without header
+window_ingress::Facade toMsg(const facade::FacadeMemory& memory, double now_sec);
 
-void fill(window_ingress::WindowPose& message, const estimation::PoseResult& result);
-void fill(window_ingress::WindowPose& message, const estimation::FilteredWindow& filtered);
-/// The size as measured on the way flown.
-void fill(window_ingress::WindowPose& message, const estimation::SizeEstimate& measured);
-void fill(window_ingress::WindowPose& message, const estimation::FitVerdict& fit);
-void fill(window_ingress::WindowPose& message, const estimation::FramesVerdict& frames);
-void fill(window_ingress::WindowPose& message, const openness::OpennessVerdict& verdict);
-void fill(window_ingress::WindowPose& message, const facade::KnownWindow& target);
-/// \param expected where the target must be in the image
-void fill(window_ingress::WindowPose& message, const geometry::Quadrilateral& expected);
-void fill(window_ingress::WindowPose& message, const navigation::CameraInBody& camera);
+/// What the pose node has verified on the way.
+struct VerifiedTarget {
+  estimation::FramesVerdict frames;
+  estimation::FitVerdict fit{estimation::Fit::kUnknown, ""};
+  estimation::Consistency consistency;
+  std::optional<double> other_window;
+  std::string approach_forbidden;
+};
+
+window_ingress::ImagePose toMsg(const estimation::PoseResult& result);
+/// \return that the image contributed; the frame is left to the caller
+window_ingress::FilteredPose toMsg(const estimation::FilteredWindow& filtered);
+window_ingress::WindowSize toMsg(const geometry::OpeningSize& size);  ///< as told: without deviation
+window_ingress::WindowSize toMsg(const estimation::SizeEstimate& estimate);
+window_ingress::SystemChecks toMsg(const VerifiedTarget& verified);
+window_ingress::Openness toMsg(const openness::OpennessVerdict& verdict);
+openness::OpennessVerdict fromMsg(const window_ingress::Openness& message);  ///< what is no verdict is none
+window_ingress::CameraInBody toMsg(const navigation::CameraInBody& camera);
 /// Nothing where the message does not know, or says why no image can give a pose. Its numbers are judged by
 /// the navigator.
 std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::CameraInBody& message);
+/// \param target null: not known to be the target yet
+/// \param expected where it must be in the image
+window_ingress::RememberedTarget targetMsg(const facade::KnownWindow* target,
+                                           const std::optional<geometry::Quadrilateral>& expected);
+std::optional<geometry::Quadrilateral> expectedFrom(const window_ingress::RememberedTarget& message);
 Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
                                                     const std::string& odom_frame);
 

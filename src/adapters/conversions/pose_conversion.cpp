@@ -7,7 +7,9 @@
 namespace window_ingress::adapters {
 namespace {
 
-using PoseMsg = window_ingress::WindowPose;
+using ImagePoseMsg = window_ingress::ImagePose;
+using ChecksMsg = window_ingress::SystemChecks;
+using OpennessMsg = window_ingress::Openness;
 using StateMsg = window_ingress::IngressState;
 
 // Constants of the messages are the enums of the core.
@@ -15,23 +17,23 @@ template <typename Enum>
 constexpr bool same(int constant, Enum value) {
   return constant == static_cast<int>(value);
 }
-static_assert(same(PoseMsg::OK, estimation::PoseReject::kNone) &&
-              same(PoseMsg::BAD_CAMERA, estimation::PoseReject::kBadCamera) &&
-              same(PoseMsg::BAD_CORNERS, estimation::PoseReject::kBadCorners) &&
-              same(PoseMsg::NOT_IN_FRONT, estimation::PoseReject::kNotInFront) &&
-              same(PoseMsg::REPROJECTION, estimation::PoseReject::kReprojection) &&
-              same(PoseMsg::RANGE, estimation::PoseReject::kRange) &&
-              same(PoseMsg::TILT, estimation::PoseReject::kTilt) &&
-              same(PoseMsg::NOT_FINITE, estimation::PoseReject::kNotFinite));
-static_assert(same(PoseMsg::FIT_UNKNOWN, estimation::Fit::kUnknown) &&
-              same(PoseMsg::FIT_GO, estimation::Fit::kGo) &&
-              same(PoseMsg::FIT_NO_GO, estimation::Fit::kNoGo));
-static_assert(same(PoseMsg::FRAMES_OPEN, estimation::FramesVerdict::kOpen) &&
-              same(PoseMsg::FRAMES_GOOD, estimation::FramesVerdict::kGood) &&
-              same(PoseMsg::FRAMES_WRONG, estimation::FramesVerdict::kWrong));
-static_assert(same(PoseMsg::OPENNESS_UNKNOWN, openness::Openness::kUnknown) &&
-              same(PoseMsg::OPENNESS_OPEN, openness::Openness::kOpen) &&
-              same(PoseMsg::OPENNESS_CLOSED, openness::Openness::kClosed));
+static_assert(same(ImagePoseMsg::OK, estimation::PoseReject::kNone) &&
+              same(ImagePoseMsg::BAD_CAMERA, estimation::PoseReject::kBadCamera) &&
+              same(ImagePoseMsg::BAD_CORNERS, estimation::PoseReject::kBadCorners) &&
+              same(ImagePoseMsg::NOT_IN_FRONT, estimation::PoseReject::kNotInFront) &&
+              same(ImagePoseMsg::REPROJECTION, estimation::PoseReject::kReprojection) &&
+              same(ImagePoseMsg::RANGE, estimation::PoseReject::kRange) &&
+              same(ImagePoseMsg::TILT, estimation::PoseReject::kTilt) &&
+              same(ImagePoseMsg::NOT_FINITE, estimation::PoseReject::kNotFinite));
+static_assert(same(ChecksMsg::FIT_UNKNOWN, estimation::Fit::kUnknown) &&
+              same(ChecksMsg::FIT_GO, estimation::Fit::kGo) &&
+              same(ChecksMsg::FIT_NO_GO, estimation::Fit::kNoGo));
+static_assert(same(ChecksMsg::FRAMES_OPEN, estimation::FramesVerdict::kOpen) &&
+              same(ChecksMsg::FRAMES_GOOD, estimation::FramesVerdict::kGood) &&
+              same(ChecksMsg::FRAMES_WRONG, estimation::FramesVerdict::kWrong));
+static_assert(same(OpennessMsg::UNKNOWN, openness::Openness::kUnknown) &&
+              same(OpennessMsg::OPEN, openness::Openness::kOpen) &&
+              same(OpennessMsg::CLOSED, openness::Openness::kClosed));
 static_assert(same(StateMsg::IDLE, navigation::State::kIdle) &&
               same(StateMsg::SEARCH, navigation::State::kSearch) &&
               same(StateMsg::ALIGN, navigation::State::kAlign) &&
@@ -47,31 +49,62 @@ bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
                      [](double number) { return std::isfinite(number); });
 }
 
-// Standard deviations of width and height [m].
-Eigen::Vector2d sigmasOf(const estimation::SizeEstimate& belief) {
-  return {belief.size.width_m * std::sqrt(belief.log_covariance(0, 0)),
-          belief.size.height_m * std::sqrt(belief.log_covariance(1, 1))};
-}
-
 estimation::Matrix6d covarianceFromMsg(const geometry_msgs::PoseWithCovariance& message) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.covariance.data());
 }
 
+window_ingress::RelativeYaw relativeYawMsg(const estimation::WindowPoseEstimate& estimate) {
+  window_ingress::RelativeYaw message;
+  message.angle = estimate.yaw_rad;
+  message.sigma = estimate.yaw_sigma_rad;
+  message.sigma_unknown_size = estimate.sigma_u_rad;
+  message.from_sight = estimate.yaw_from_sight_rad;
+  message.sign_trusted = estimate.sign_trusted;
+  return message;
+}
+
+window_ingress::EulerAngles toMsg(const geometry::EulerAngles& angles) {
+  window_ingress::EulerAngles message;
+  message.roll = angles.theta_rad;
+  message.pitch = angles.phi_rad;
+  message.yaw = angles.psi_rad;
+  return message;
+}
+
+window_ingress::ApparentOpening apparentMsg(const estimation::WindowPoseEstimate& estimate) {
+  window_ingress::ApparentOpening message;
+  message.width = estimate.opening_width_m;
+  message.height = estimate.opening_height_m;
+  message.left_side = estimate.left_side_px;
+  message.right_side = estimate.right_side_px;
+  if (!estimate.aspect) return message;
+  message.aspect = estimate.aspect->ratio;
+  message.aspect_sigma = estimate.aspect->sigma;
+  return message;
+}
+
+window_ingress::WindowMotion toMsg(const estimation::TargetMotion& motion) {
+  window_ingress::WindowMotion message;
+  message.velocity = toVectorMsg(motion.velocity_odom_mps);
+  message.velocity_sigma = motion.velocity_sigma_mps;
+  message.typical_speed = motion.model.speed_mps;
+  message.typical_time = motion.model.stands() ? 0.0 : motion.model.time_sec;
+  return message;
+}
+
 // Its numbers are judged by the navigator, with all others.
-estimation::TargetMotion motionFromMsg(const PoseMsg& message) {
-  const auto& velocity = message.filtered_velocity;
-  return {{message.target_speed, message.target_speed_time},
-          {velocity.x, velocity.y, velocity.z},
-          message.filtered_velocity_sigma};
+estimation::TargetMotion fromMsg(const window_ingress::WindowMotion& message) {
+  return {{message.typical_speed, message.typical_time}, toEigen(message.velocity), message.velocity_sigma};
 }
 
 }  // namespace
 
-void fill(PoseMsg& message, const estimation::PoseResult& result) {
+window_ingress::ImagePose toMsg(const estimation::PoseResult& result) {
+  window_ingress::ImagePose message;
   message.reject = static_cast<std::uint8_t>(result.reject);
   if (!result.estimate) {
-    message.reject_reason = result.detail.empty() ? estimation::toString(result.reject) : result.detail;
-    return;
+    message.reason = result.detail.empty() ? estimation::toString(result.reject) : result.detail;
+    return message;
   }
   const estimation::WindowPoseEstimate& estimate = *result.estimate;
   message.pose = toMsg(estimate.best.T_camera_window, estimate.best.covariance);
@@ -82,85 +115,93 @@ void fill(PoseMsg& message, const estimation::PoseResult& result) {
     message.alternative_reprojection_rms_px = estimate.alternative->reprojection_rms_px;
   }
   message.log_likelihood_ratio = estimate.log_likelihood_ratio;
-  message.yaw = estimate.yaw_rad;
-  message.yaw_sigma = estimate.yaw_sigma_rad;
-  message.sigma_u = estimate.sigma_u_rad;
-  message.sign_trusted = estimate.sign_trusted;
-  message.theta = estimate.euler.theta_rad;
-  message.phi = estimate.euler.phi_rad;
-  message.psi = estimate.euler.psi_rad;
-  message.opening_width = estimate.opening_width_m;
-  message.left_side = estimate.left_side_px;
-  message.right_side = estimate.right_side_px;
-  message.window_width = estimate.opening.width_m;
-  message.window_height = estimate.opening.height_m;
-  message.yaw_from_sight = estimate.yaw_from_sight_rad;
-  message.opening_height = estimate.opening_height_m;
-  if (!estimate.aspect) return;
-  message.aspect = estimate.aspect->ratio;
-  message.aspect_sigma = estimate.aspect->sigma;
+  message.relative_yaw = relativeYawMsg(estimate);
+  message.euler = toMsg(estimate.euler);
+  message.apparent = apparentMsg(estimate);
+  return message;
 }
 
-void fill(PoseMsg& message, const estimation::FilteredWindow& filtered) {
-  message.filtered_valid = true;
-  message.filtered_stamp = toStamp(filtered.stamp_sec);
-  message.filtered = toMsg(filtered.T_odom_window, filtered.covariance);
-  message.filtered_sign_trusted = filtered.sign_trusted;
-  message.filtered_weight = filtered.hypothesis_weight;
-  message.filtered_updates = static_cast<std::uint32_t>(std::max(0, filtered.updates));
-  message.filtered_age = filtered.age_sec;
-  message.has_filtered_alternative = filtered.alternative.has_value();
+window_ingress::FilteredPose toMsg(const estimation::FilteredWindow& filtered) {
+  window_ingress::FilteredPose message;
+  message.header.stamp = toStamp(filtered.stamp_sec);
+  message.valid = true;
+  message.pose = toMsg(filtered.T_odom_window, filtered.covariance);
+  message.age = filtered.age_sec;
+  message.sign_trusted = filtered.sign_trusted;
+  message.weight = filtered.hypothesis_weight;
+  message.has_alternative = filtered.alternative.has_value();
   if (filtered.alternative)
-    message.filtered_alternative =
-        toMsg(filtered.alternative->T_odom_window, filtered.alternative->covariance);
-  message.window_width = filtered.size.size.width_m;
-  message.window_height = filtered.size.size.height_m;
-  const Eigen::Vector2d sigma = sigmasOf(filtered.size);
-  message.window_width_sigma = sigma.x();
-  message.window_height_sigma = sigma.y();
-  message.nis = filtered.consistency.mean_nis;
-  message.nis_images = static_cast<std::uint32_t>(std::max(0, filtered.consistency.images));
-  message.consistent = filtered.consistency.consistent;
-  message.filtered_velocity = toVectorMsg(filtered.motion.velocity_odom_mps);
-  message.filtered_velocity_sigma = filtered.motion.velocity_sigma_mps;
-  message.target_speed = filtered.motion.model.speed_mps;
-  message.target_speed_time = filtered.motion.model.stands() ? 0.0 : filtered.motion.model.time_sec;
+    message.alternative = toMsg(filtered.alternative->T_odom_window, filtered.alternative->covariance);
+  message.updates = static_cast<std::uint32_t>(std::max(0, filtered.updates));
+  message.motion = toMsg(filtered.motion);
+  return message;
 }
 
-void fill(PoseMsg& message, const estimation::SizeEstimate& measured) {
-  const Eigen::Vector2d sigma = sigmasOf(measured);
-  message.measured_width = measured.size.width_m;
-  message.measured_width_sigma = sigma.x();
-  message.measured_height = measured.size.height_m;
-  message.measured_height_sigma = sigma.y();
+window_ingress::WindowSize toMsg(const geometry::OpeningSize& size) {
+  window_ingress::WindowSize message;
+  message.width = size.width_m;
+  message.height = size.height_m;
+  return message;
 }
 
-void fill(PoseMsg& message, const estimation::FitVerdict& fit) {
-  message.fit = static_cast<std::uint8_t>(fit.fit);
-  message.fit_reason = fit.reason;
+window_ingress::WindowSize toMsg(const estimation::SizeEstimate& estimate) {
+  window_ingress::WindowSize message = toMsg(estimate.size);
+  message.width_sigma = estimate.size.width_m * std::sqrt(estimate.log_covariance(0, 0));
+  message.height_sigma = estimate.size.height_m * std::sqrt(estimate.log_covariance(1, 1));
+  return message;
 }
 
-void fill(PoseMsg& message, const estimation::FramesVerdict& frames) {
-  message.frames = static_cast<std::uint8_t>(frames.state);
-  message.frames_reason = frames.what;
+window_ingress::SystemChecks toMsg(const VerifiedTarget& verified) {
+  window_ingress::SystemChecks message;
+  message.fit = static_cast<std::uint8_t>(verified.fit.fit);
+  message.fit_reason = verified.fit.reason;
+  message.frames = static_cast<std::uint8_t>(verified.frames.state);
+  message.frames_reason = verified.frames.what;
+  message.nis = verified.consistency.mean_nis;
+  message.nis_images = static_cast<std::uint32_t>(std::max(0, verified.consistency.images));
+  message.consistent = verified.consistency.consistent;
+  message.is_other_window = verified.other_window.has_value();
+  message.other_window_factor = verified.other_window.value_or(0.0);
+  message.approach_forbidden = verified.approach_forbidden;
+  return message;
 }
 
-void fill(PoseMsg& message, const openness::OpennessVerdict& verdict) {
-  message.openness = static_cast<std::uint8_t>(verdict.openness);
-  message.openness_log_odds = verdict.log_odds;
+window_ingress::Openness toMsg(const openness::OpennessVerdict& verdict) {
+  window_ingress::Openness message;
+  message.verdict = static_cast<std::uint8_t>(verdict.openness);
+  message.reason = verdict.reason;
+  message.log_odds = verdict.log_odds;
+  message.open_share = verdict.open_share;
   message.has_depth_behind = verdict.has_depth;
   message.depth_behind = verdict.has_depth ? verdict.depth_behind_m : 0.0;
   message.depth_behind_sigma = verdict.has_depth ? verdict.depth_sigma_m : 0.0;
-  message.open_share = verdict.open_share;
-  message.openness_reason = verdict.reason;
+  return message;
 }
 
-void fill(PoseMsg& message, const navigation::CameraInBody& camera) {
-  message.camera.known = true;
-  message.camera.forward = camera.forward_m;
-  message.camera.horizontal_fov = camera.horizontal_fov_rad;
-  message.camera.vertical_fov = camera.vertical_fov_rad;
-  message.camera.pixel_angle = camera.pixel_rad;
+openness::OpennessVerdict fromMsg(const window_ingress::Openness& message) {
+  openness::OpennessVerdict verdict;
+  if (message.verdict > OpennessMsg::CLOSED || !std::isfinite(message.log_odds) ||
+      !std::isfinite(message.depth_behind) || !std::isfinite(message.depth_behind_sigma) ||
+      !std::isfinite(message.open_share))
+    return verdict;
+  verdict.openness = static_cast<openness::Openness>(message.verdict);
+  verdict.log_odds = message.log_odds;
+  verdict.has_depth = message.has_depth_behind != 0;
+  verdict.depth_behind_m = message.depth_behind;
+  verdict.depth_sigma_m = message.depth_behind_sigma;
+  verdict.open_share = message.open_share;
+  verdict.reason = message.reason;
+  return verdict;
+}
+
+window_ingress::CameraInBody toMsg(const navigation::CameraInBody& camera) {
+  window_ingress::CameraInBody message;
+  message.known = true;
+  message.forward = camera.forward_m;
+  message.horizontal_fov = camera.horizontal_fov_rad;
+  message.vertical_fov = camera.vertical_fov_rad;
+  message.pixel_angle = camera.pixel_rad;
+  return message;
 }
 
 std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::CameraInBody& message) {
@@ -169,63 +210,52 @@ std::optional<navigation::CameraInBody> cameraFromMsg(const window_ingress::Came
                                   message.pixel_angle};
 }
 
-// What is not a verdict is none.
-openness::OpennessVerdict opennessFromMsg(const PoseMsg& message) {
-  openness::OpennessVerdict verdict;
-  if (message.openness > PoseMsg::OPENNESS_CLOSED || !std::isfinite(message.openness_log_odds) ||
-      !std::isfinite(message.depth_behind) || !std::isfinite(message.depth_behind_sigma) ||
-      !std::isfinite(message.open_share))
-    return verdict;
-  verdict.openness = static_cast<openness::Openness>(message.openness);
-  verdict.log_odds = message.openness_log_odds;
-  verdict.has_depth = message.has_depth_behind != 0;
-  verdict.depth_behind_m = message.depth_behind;
-  verdict.depth_sigma_m = message.depth_behind_sigma;
-  verdict.open_share = message.open_share;
-  verdict.reason = message.openness_reason;
-  return verdict;
-}
-
-Converted<navigation::TargetEstimate> targetFromMsg(const PoseMsg& message, const std::string& odom_frame) {
-  if (!message.filtered_valid) return {std::nullopt, "no filtered window: " + message.filtered_reason};
-  if (message.filtered_frame_id != odom_frame)
-    return {std::nullopt, "filtered_frame_id is '" + message.filtered_frame_id.substr(0, 60) +
+Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::WindowPose& message,
+                                                    const std::string& odom_frame) {
+  const window_ingress::FilteredPose& filtered = message.filtered;
+  const window_ingress::SystemChecks& checks = message.checks;
+  if (!filtered.valid) return {std::nullopt, "no filtered window: " + filtered.reason};
+  if (filtered.header.frame_id != odom_frame)
+    return {std::nullopt, "filtered.header.frame_id is '" + filtered.header.frame_id.substr(0, 60) +
                               "', expected '" + odom_frame + "'"};
-  const auto stamp_sec = stampSec(message.filtered_stamp);
-  if (!stamp_sec) return {std::nullopt, "filtered_stamp is zero or not normalised"};
-  const auto pose = fromMsg(message.filtered.pose);
+  const auto stamp_sec = stampSec(filtered.header.stamp);
+  if (!stamp_sec) return {std::nullopt, "filtered.header.stamp is zero or not normalised"};
+  const auto pose = fromMsg(filtered.pose.pose);
   if (!pose) return {std::nullopt, pose.reason};
-  if (!isFinite(message.filtered)) return {std::nullopt, "covariance is not finite"};
-  if (!(message.window_width > 0.0 && message.window_height > 0.0) || !std::isfinite(message.window_width) ||
-      !std::isfinite(message.window_height))
+  if (!isFinite(filtered.pose)) return {std::nullopt, "covariance is not finite"};
+  const geometry::OpeningSize opening{message.size.width, message.size.height};
+  if (!(opening.width_m > 0.0 && opening.height_m > 0.0) || !std::isfinite(opening.width_m) ||
+      !std::isfinite(opening.height_m))
     return {std::nullopt, "size of the window is not positive"};
   navigation::TargetEstimate target;
   target.stamp_sec = *stamp_sec;
   target.T_odom_window = *pose.value;
-  target.covariance = covarianceFromMsg(message.filtered);
-  target.motion = motionFromMsg(message);
-  target.pose_stamp_sec = *stamp_sec + message.filtered_age;
-  target.sign_trusted = message.filtered_sign_trusted != 0;
-  target.updates = static_cast<int>(std::min<std::uint32_t>(message.filtered_updates, 1u << 30));
-  target.opening = {message.window_width, message.window_height};
-  target.approach_forbidden = message.approach_forbidden;
-  target.openness = opennessFromMsg(message);
-  if (message.is_other_window) {
-    if (!(message.other_window_factor > 0.0) || !std::isfinite(message.other_window_factor))
+  target.covariance = covarianceFromMsg(filtered.pose);
+  target.motion = fromMsg(filtered.motion);
+  target.pose_stamp_sec = *stamp_sec + filtered.age;
+  target.sign_trusted = filtered.sign_trusted != 0;
+  target.updates = static_cast<int>(std::min<std::uint32_t>(filtered.updates, 1u << 30));
+  target.opening = opening;
+  target.approach_forbidden = checks.approach_forbidden;
+  target.openness = fromMsg(message.openness);
+  if (checks.is_other_window) {
+    if (!(checks.other_window_factor > 0.0) || !std::isfinite(checks.other_window_factor))
       return {std::nullopt, "other_window_factor is not positive"};
-    target.other_window = message.other_window_factor;
+    target.other_window = checks.other_window_factor;
   }
-  target.window_id = message.window_id;
-  if (!message.approach_forbidden.empty())
-    target.fit = message.fit == PoseMsg::FIT_NO_GO ? estimation::Fit::kNoGo
-                 : message.fit == PoseMsg::FIT_GO  ? estimation::Fit::kGo
-                                                   : estimation::Fit::kUnknown;
+  target.window_id = message.target.window_id;
+  if (!checks.approach_forbidden.empty())
+    target.fit = checks.fit == ChecksMsg::FIT_NO_GO ? estimation::Fit::kNoGo
+                 : checks.fit == ChecksMsg::FIT_GO  ? estimation::Fit::kGo
+                                                    : estimation::Fit::kUnknown;
   return {target, ""};
 }
 
-std::optional<Eigen::Vector3d> rememberedFrom(const PoseMsg& message, const std::string& odom_frame) {
-  const Eigen::Vector3d place(message.remembered.x, message.remembered.y, message.remembered.z);
-  if (message.window_id == 0 || message.filtered_frame_id != odom_frame || !place.allFinite())
+std::optional<Eigen::Vector3d> rememberedFrom(const window_ingress::WindowPose& message,
+                                              const std::string& odom_frame) {
+  const geometry_msgs::Point& position = message.target.position;
+  const Eigen::Vector3d place(position.x, position.y, position.z);
+  if (message.target.window_id == 0 || message.filtered.header.frame_id != odom_frame || !place.allFinite())
     return std::nullopt;
   return place;
 }

@@ -89,8 +89,7 @@ void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
 bool isHint(const window_ingress::KnownWindow& window) {
   const bool is_candidate =
       window.may_be_target && window.score >= kHintScore && std::min(window.width, window.height) >= kHintM;
-  return !is_candidate && window.openness == window_ingress::WindowPose::OPENNESS_UNKNOWN &&
-         window.failures == 0;
+  return !is_candidate && window.openness == window_ingress::Openness::UNKNOWN && window.failures == 0;
 }
 
 std::string chances(const estimation::FilteredWindow& window) {
@@ -122,16 +121,16 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
 std::string windowLabel(const window_ingress::WindowPose& message) {
   static const char* const kFits[] = {"fit?", "GO", "NO GO"};
   constexpr double kDegrees = 180.0 / M_PI;
-  const bool is_seen = message.reject == window_ingress::WindowPose::OK;
+  const window_ingress::RelativeYaw& yaw = message.image.relative_yaw;
+  const window_ingress::SystemChecks& checks = message.checks;
   char sight[80], text[240];
-  if (is_seen)
-    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", message.yaw * kDegrees,
-                  message.yaw_sigma * kDegrees);
+  if (message.image.reject == window_ingress::ImagePose::OK)
+    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", yaw.angle * kDegrees, yaw.sigma * kDegrees);
   else
-    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered_age);
-  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.window_width,
-                message.window_height, kFits[std::min<int>(message.fit, 2)],
-                message.frames == window_ingress::WindowPose::FRAMES_WRONG ? "\nframes wrong" : "");
+    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered.age);
+  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.size.width, message.size.height,
+                kFits[std::min<int>(checks.fit, 2)],
+                checks.frames == window_ingress::SystemChecks::FRAMES_WRONG ? "\nframes wrong" : "");
   return text;
 }
 

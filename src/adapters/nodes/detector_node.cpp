@@ -33,7 +33,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     use(loadReference(params_.reference, params_.detector), "photograph " + params_.reference.picture);
   window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);
   debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
-  reference_subscriber_ = subscribeGuarded<window_ingress::ReferencePicture>(
+  reference_subscriber_ = subscribeGuarded<window_ingress::ReferenceImage>(
       nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
   pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
       nh, "window_pose", 1, diagnostics_, [this](const auto& message) { receivePose(message); });
@@ -79,7 +79,8 @@ void DetectorNode::lookInStep(const Lockstep::Step& step) {
   window_ingress::WindowDetection message;
   message.header = step.header;
   message.header.stamp = step.image;
-  message.reject_reason = "no picture so far";
+  message.reject = window_ingress::WindowDetection::NO_IMAGE;
+  message.reason = "no image so far";
   window_publisher_.publish(message);
 }
 
@@ -112,11 +113,7 @@ void DetectorNode::look(const std_msgs::Header& header, const DecodedImage& pict
   searched_sec_ = steadyNowSec();
   looked_ = header.stamp;
   last_picture_ = picture;
-  window_ingress::WindowDetection message;
-  if (window)
-    message = toMsg(*window);
-  else
-    message.reject_reason = perception_.trace().detail;
+  window_ingress::WindowDetection message = window ? toMsg(*window) : toMsg(perception_.trace());
   for (const detection::SeenWindow& one : perception_.windows()) message.windows.push_back(toMsg(one));
   message.header = header;
   message.image_width = static_cast<std::uint32_t>(image.cols);
@@ -138,32 +135,31 @@ void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::M
 
 // Where the memory of all windows says the target is: as of the image before.
 std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::Header& header) const {
-  if (!last_pose_ || last_pose_->has_expected == 0 || last_pose_->header.frame_id != header.frame_id ||
+  if (!last_pose_ || last_pose_->header.frame_id != header.frame_id ||
       std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
     return std::nullopt;
-  geometry::Quadrilateral expected;
-  for (std::size_t i = 0; i < 4; ++i) expected[i] = {last_pose_->expected_x[i], last_pose_->expected_y[i]};
-  return expected;
+  return expectedFrom(last_pose_->target);
 }
 
 // That of the image before: the pose of this one is not known yet. Empty if there is none of late.
 std::string DetectorNode::yawAt(const ros::Time& stamp) const {
-  if (!last_pose_ || last_pose_->reject != window_ingress::WindowPose::OK ||
+  if (!last_pose_ || last_pose_->image.reject != window_ingress::ImagePose::OK ||
       std::abs(stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
     return "";
-  return geometry::yawText(last_pose_->yaw, last_pose_->yaw_sigma, last_pose_->sign_trusted != 0);
+  const window_ingress::RelativeYaw& yaw = last_pose_->image.relative_yaw;
+  return geometry::yawText(yaw.angle, yaw.sigma, yaw.sign_trusted != 0);
 }
 
-void DetectorNode::receiveReference(const window_ingress::ReferencePicture& message) {
-  const DecodedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.picture), params_.image);
-  if (!picture.reason.empty()) throw ParameterError("reference picture: " + picture.reason);
+void DetectorNode::receiveReference(const window_ingress::ReferenceImage& message) {
+  const DecodedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.image), params_.image);
+  if (!picture.reason.empty()) throw ParameterError("reference image: " + picture.reason);
   std::vector<double> corners;
   for (std::size_t i = 0; i < 4; ++i)
     corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
   const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
   use(makeReference(picture.image, whole ? std::vector<double>() : corners, params_.detector), "topic");
   ROS_INFO("reference taken from %s", reference_subscriber_.getTopic().c_str());
-  reference_stamp_ = message.picture.header.stamp;
+  reference_stamp_ = message.image.header.stamp;
   if (lockstep_) lockstep_->check();
 }
 

@@ -2,7 +2,7 @@
 
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
-#include <window_ingress/ReferencePicture.h>
+#include <window_ingress/ReferenceImage.h>
 #include <window_ingress/WindowDetection.h>
 #include <window_ingress/WindowDetectorConfig.h>
 #include <window_ingress/WindowPose.h>
@@ -50,7 +50,7 @@ class DetectorNode : public Node {
   void receivePose(const window_ingress::WindowPose::ConstPtr& message);
   bool hasPoseOfLastPicture() const;
   std::optional<geometry::Quadrilateral> expectedAt(const std_msgs::Header& header) const;
-  void receiveReference(const window_ingress::ReferencePicture& message);
+  void receiveReference(const window_ingress::ReferenceImage& message);
   void use(const detection::ReferenceAppearance& reference, const std::string& source);
   std::string captureFault() const;
   bool captureReference(Trigger::Request& request, Trigger::Response& response);

@@ -27,15 +27,15 @@ bool isOther(double asked_m, double known_m, double sigma_m) {
   return asked_m != 0.0 && !(std::abs(asked_m - known_m) <= kSameSizeM + 3.0 * sigma_m);
 }
 
-std::string whyOtherSize(const window_ingress::IngressGoal& goal, const window_ingress::WindowPose& pose) {
-  if (!isOther(goal.window_width, pose.window_width, pose.window_width_sigma) &&
-      !isOther(goal.window_height, pose.window_height, pose.window_height_sigma))
+std::string whyOtherSize(const window_ingress::IngressGoal& goal, const window_ingress::WindowSize& known) {
+  if (!isOther(goal.window_width, known.width, known.width_sigma) &&
+      !isOther(goal.window_height, known.height, known.height_sigma))
     return "";
-  if (pose.window_width == 0.0) return "the window's size cannot be compared: nothing on window_pose so far";
+  if (known.width == 0.0) return "the window's size cannot be compared: nothing on window_pose so far";
   char text[200];
   std::snprintf(text, sizeof text,
                 "the goal's window is %.2f x %.2f m, the pose node flies by %.2f x %.2f m (window_size:=)",
-                goal.window_width, goal.window_height, pose.window_width, pose.window_height);
+                goal.window_width, goal.window_height, known.width, known.height);
   return text;
 }
 
@@ -79,7 +79,7 @@ std::string MissionAction::whyRefused(const Goal& goal) const {
   if (const std::string flying = mission_.flying(); !flying.empty()) return flying;
   if (goal.unverified_opening >= kOpenings.size()) return "unverified_opening is none of 0 to 3";
   if (goal.glass >= kGlass.size()) return "glass is none of 0 to 2";
-  if (const std::string why = whyOtherSize(goal, pose_); !why.empty()) return why;
+  if (const std::string why = whyOtherSize(goal, window_size_); !why.empty()) return why;
   return goal.window_id == 0 ? "" : whyUnknown(goal.window_id);
 }
 
@@ -130,7 +130,7 @@ void MissionAction::receiveCancel(const Server::GoalHandle& goal) {
   finish(Result::PREEMPTED, waits ? "cancelled before the start" : mission_.abort().message);
 }
 
-void MissionAction::hear(const window_ingress::WindowPose& pose) { pose_ = pose; }
+void MissionAction::hear(const window_ingress::WindowSize& size) { window_size_ = size; }
 
 void MissionAction::hear(const window_ingress::IngressState& state) {
   using State = window_ingress::IngressState;

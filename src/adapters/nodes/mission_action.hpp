@@ -5,7 +5,7 @@
 #include <window_ingress/Facade.h>
 #include <window_ingress/IngressAction.h>
 #include <window_ingress/IngressState.h>
-#include <window_ingress/WindowPose.h>
+#include <window_ingress/WindowSize.h>
 
 #include <cstdint>
 #include <functional>
@@ -32,7 +32,7 @@ class MissionAction {
 
   void hear(const window_ingress::IngressState& state);      ///< of every step: what ends the goal
   void feedBack(const window_ingress::IngressState& state);  ///< as published
-  void hear(const window_ingress::WindowPose& pose);         ///< which size the window is taken for
+  void hear(const window_ingress::WindowSize& size);         ///< which size the window is taken for
   void stop();                                               ///< the node ends
 
  private:
@@ -58,7 +58,7 @@ class MissionAction {
   Server::GoalHandle goal_;        // valid unless kNone
   double chosen_since_sec_ = 0.0;  // on the steady clock
   window_ingress::Facade facade_;
-  window_ingress::WindowPose pose_;
+  window_ingress::WindowSize window_size_;
   ros::Publisher choice_;
   ros::Subscriber facade_subscriber_;
   std::unique_ptr<Server> server_;

@@ -135,8 +135,8 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   pose_health_.stamped(*input_.image_stamp_sec);
   input_.remembered_odom_m = rememberedFrom(*message, params_.frames.odom);
   takeCamera(message->camera);
-  if (action_) action_->hear(*message);
-  if (!message->filtered_valid) return pose_health_.accepted();  // an image without a window is news, too
+  if (action_) action_->hear(message->size);
+  if (!message->filtered.valid) return pose_health_.accepted();  // an image without a window is news, too
   const auto target = targetFromMsg(*message, params_.frames.odom);
   if (!target) return pose_health_.refused(target.reason);
   pose_health_.accepted();

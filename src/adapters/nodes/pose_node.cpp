@@ -168,64 +168,70 @@ void PoseNode::processPending(bool however_old) {
 void PoseNode::process(const window_ingress::WindowDetection& message) {
   window_ingress::WindowPose out;
   out.header = message.header;
-  out.filtered_frame_id = params_.frames.odom;
-  out.window_width = params_.pose.opening_width_m;
-  out.window_height = params_.pose.opening_height_m;
-  estimate(message, out);
-  fill(out, tracker_.frames());
-  fill(out, tracker_.openness());
-  if (const auto& measured = tracker_.measuredSize()) fill(out, *measured);
+  out.size = toMsg(geometry::OpeningSize{params_.pose.opening_width_m, params_.pose.opening_height_m});
+  Refusal unused = estimate(message, out);
+  out.openness = toMsg(tracker_.openness());
+  if (const auto& measured = tracker_.measuredSize()) out.measured_size = toMsg(*measured);
+  VerifiedTarget verified;
+  verified.frames = tracker_.frames();
   const auto state = tracker_.filtered(message.header.stamp.toSec());
   if (state) {
-    fill(out, *state);
-    fill(out, tracker_.fit(*state));
-    out.approach_forbidden = tracker_.approachForbidden(*state);
-    out.is_other_window = tracker_.otherWindow().has_value();
-    out.other_window_factor = tracker_.otherWindow().value_or(0.0);
-  } else if (out.filtered_reason.empty()) {
-    out.filtered_reason = "no image has contributed lately";
+    out.filtered = toMsg(*state);
+    out.size = toMsg(state->size);
+    verified = {verified.frames, tracker_.fit(*state), state->consistency, tracker_.otherWindow(),
+                tracker_.approachForbidden(*state)};
+  } else if (unused.reason.empty()) {
+    unused = {window_ingress::FilteredPose::REFUSED, "no image has contributed lately"};
   }
-  consistency_ = state ? state->consistency : estimation::Consistency();
+  out.filtered.header.frame_id = params_.frames.odom;
+  out.filtered.reject = unused.reject;
+  out.filtered.reason = unused.reason;
+  out.checks = toMsg(verified);
+  consistency_ = verified.consistency;
   publish(out);
   if (state) publishFiltered(out, *state);
   facade_.publish(message.header.stamp, marker_publisher_);
 }
 
-void PoseNode::estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out) {
+// Fills in what this image shows. Returns why it did not contribute to what is filtered; no reason if it did.
+PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& message,
+                                     window_ingress::WindowPose& out) {
+  using Filtered = window_ingress::FilteredPose;
+  using Image = window_ingress::ImagePose;
   T_base_camera_ = mounting(message.header.frame_id);
-  const auto window = fromMsg(message);
+  auto window = fromMsg(message);
+  if (window && message.image_width == 0) window = {std::nullopt, "image_width is zero"};
   if (!window) {
-    out.reject = window_ingress::WindowPose::NO_WINDOW;
-    out.reject_reason = out.filtered_reason = window.reason;
+    out.image.reject = Image::NO_WINDOW;
+    out.image.reason = window.reason;
   }
-  if (message.image_width == 0) return;  // there was no image
+  if (message.image_width == 0) return {Filtered::NO_WINDOW, window.reason};  // there was no image
   const auto camera = camera_.cameraOf(static_cast<int>(message.image_width),
                                        static_cast<int>(message.image_height), message.header);
   const auto stamp_sec = stampSec(message.header.stamp);
-  if (!camera && window) {
-    out.reject = window_ingress::WindowPose::NO_CALIBRATION;
-    out.reject_reason = out.filtered_reason = camera.reason;
-  }
   if (camera && T_base_camera_)
-    fill(out, navigation::cameraInBody(*camera.value, *T_base_camera_.value));
+    out.camera = toMsg(navigation::cameraInBody(*camera.value, *T_base_camera_.value));
   else
     out.camera.fault = camera ? T_base_camera_.reason : "no calibration: " + camera.reason;
-  if (!camera || !stamp_sec) return;
+  if (!camera && window) {
+    out.image.reject = Image::NO_CALIBRATION;
+    out.image.reason = camera.reason;
+    return {Filtered::NO_CALIBRATION, camera.reason};
+  }
+  if (!camera || !stamp_sec) return {Filtered::NO_WINDOW, window.reason};
   if (tf_attitude_)
     if (const auto R_odom_base = tf_attitude_->at(*stamp_sec)) tracker_.addAttitude(*stamp_sec, *R_odom_base);
   tracker_.see({*stamp_sec, *camera.value, T_base_camera_.value, window.value, seenWindowsFrom(message)});
   tracker_.flush();
-  expectTarget(*stamp_sec, *camera.value, out);
-  if (!window) return;
-  fill(out, tracker_.lastUpdate().pose);
-  out.filtered_reason = T_base_camera_ ? tracker_.lastUpdate().why_not : T_base_camera_.reason;
-}
-
-void PoseNode::expectTarget(double stamp_sec, const geometry::PinholeCamera& camera,
-                            window_ingress::WindowPose& out) const {
-  if (const facade::KnownWindow* target = tracker_.facade().target()) fill(out, *target);
-  if (!T_base_camera_) return;
-  if (const auto expected = tracker_.expected(stamp_sec, camera, *T_base_camera_.value)) fill(out, *expected);
+  out.target = targetMsg(
+      tracker_.facade().target(),
+      T_base_camera_ ? tracker_.expected(*stamp_sec, *camera.value, *T_base_camera_.value) : std::nullopt);
+  if (!window) return {Filtered::NO_WINDOW, window.reason};
+  const estimation::TargetUpdate& update = tracker_.lastUpdate();
+  out.image = toMsg(update.pose);
+  if (update.pose.estimate) out.size = toMsg(update.pose.estimate->opening);
+  if (!T_base_camera_) return {Filtered::NO_MOUNTING, T_base_camera_.reason};
+  return {update.why_not.empty() ? Filtered::OK : Filtered::REFUSED, update.why_not};
 }
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
@@ -234,15 +240,15 @@ Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame)
 
 void PoseNode::publish(const window_ingress::WindowPose& message) {
   pose_publisher_.publish(message);
-  if (message.reject == window_ingress::WindowPose::OK) {
+  if (message.image.reject == window_ingress::ImagePose::OK) {
     geometry_msgs::PoseWithCovarianceStamped stamped;
     stamped.header = message.header;
-    stamped.pose = message.pose;
+    stamped.pose = message.image.pose;
     covariance_publisher_.publish(stamped);
-    const auto T_camera_window = fromMsg(message.pose.pose);
+    const auto T_camera_window = fromMsg(message.image.pose.pose);
     if (T_camera_window)
       polygon_publisher_.publish(openingPolygon(*T_camera_window.value,
-                                                {message.window_width, message.window_height},
+                                                {message.size.width, message.size.height},
                                                 message.header.stamp, message.header.frame_id));
   }
 }

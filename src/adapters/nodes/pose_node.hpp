@@ -47,9 +47,11 @@ class PoseNode : public Node {
   bool isComplete(const Lockstep::Step& step) const;
   void processInStep();
   void process(const window_ingress::WindowDetection& message);
-  void estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
-  void expectTarget(double stamp_sec, const geometry::PinholeCamera& camera,
-                    window_ingress::WindowPose& out) const;
+  struct Refusal {
+    std::uint8_t reject;
+    std::string reason;
+  };
+  Refusal estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
   void publish(const window_ingress::WindowPose& message);
   void publishFiltered(const window_ingress::WindowPose& message, const estimation::FilteredWindow& window);
 

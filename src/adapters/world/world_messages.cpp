@@ -44,11 +44,11 @@ nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ro
   return message;
 }
 
-window_ingress::ReferencePicture toReferenceMsg(const simulation::World& world,
-                                                const std_msgs::Header& header) {
+window_ingress::ReferenceImage toReferenceMsg(const simulation::World& world,
+                                              const std_msgs::Header& header) {
   geometry::Quadrilateral corners;
-  window_ingress::ReferencePicture message;
-  message.picture = *toImageMsg(world.referencePicture(&corners), header);
+  window_ingress::ReferenceImage message;
+  message.image = *toImageMsg(world.referencePicture(&corners), header);
   for (std::size_t i = 0; i < 4; ++i) {
     message.corner_x[i] = corners[i].x();
     message.corner_y[i] = corners[i].y();

@@ -5,7 +5,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
-#include <window_ingress/ReferencePicture.h>
+#include <window_ingress/ReferenceImage.h>
 
 #include <string>
 #include <vector>
@@ -24,8 +24,7 @@ nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const
 nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ros::Time& stamp,
                                  const FrameNames& frames);
 /// What an operator would have photographed before the flight.
-window_ingress::ReferencePicture toReferenceMsg(const simulation::World& world,
-                                                const std_msgs::Header& header);
+window_ingress::ReferenceImage toReferenceMsg(const simulation::World& world, const std_msgs::Header& header);
 sensor_msgs::Imu toImuMsg(const simulation::ImuSample& sample, const ros::Time& stamp,
                           const FrameNames& frames);
 geometry_msgs::PoseStamped toPoseStampedMsg(const Eigen::Isometry3d& pose, const std_msgs::Header& header);

@@ -4,7 +4,7 @@
 #include <nav_msgs/Odometry.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/Imu.h>
-#include <window_ingress/ReferencePicture.h>
+#include <window_ingress/ReferenceImage.h>
 
 #include "adapters/conversions/image_to_msg.hpp"
 #include "adapters/world/world_messages.hpp"
@@ -25,7 +25,7 @@ WorldPublishers::WorldPublishers(ros::NodeHandle& nh, const FrameNames& frames,
   truth_odom_ = nh.advertise<nav_msgs::Odometry>("ground_truth/odom", newest);
   truth_window_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window", 1, true);
   truth_in_camera_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window_in_camera", newest);
-  reference_ = nh.advertise<window_ingress::ReferencePicture>("reference", 1, true);
+  reference_ = nh.advertise<window_ingress::ReferenceImage>("reference", 1, true);
 }
 
 void WorldPublishers::advertiseVehicle(ros::NodeHandle& nh) {

@@ -19,7 +19,7 @@ from dynamic_reconfigure.client import Client
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger, TriggerResponse
-from window_ingress.msg import ReferencePicture, WindowDetection, WindowPose
+from window_ingress.msg import ImagePose, ReferenceImage, WindowCorner, WindowDetection, WindowPose
 
 import fault_paths  # noqa: F401
 import chain
@@ -210,14 +210,14 @@ class ChainTest(unittest.TestCase):
 
     def test_M35_calibration_changes_in_flight(self):
         poses = support.Listener("window_pose", WindowPose)
-        far = poses.wait(lambda p: p.reject == WindowPose.OK, "a pose").pose.pose.position.z
+        far = poses.wait(lambda p: p.image.reject == ImagePose.OK, "a pose").image.pose.pose.position.z
         self.chain.streams["camera_info"].make = lambda stamp: support.camera_info(stamp, focal=0.8 * support.FOCAL)
         begin = time.monotonic()
-        pose = poses.wait(lambda p: p.reject == WindowPose.OK and abs(p.pose.pose.position.z - 0.8 * far) < 0.05, "the new distance")
+        pose = poses.wait(lambda p: p.image.reject == ImagePose.OK and abs(p.image.pose.pose.position.z - 0.8 * far) < 0.05, "the new distance")
         took = time.monotonic() - begin
         poses.stop()
         self.assertLess(took, 0.5)
-        note("M35", f"{far:.2f} m became {pose.pose.pose.position.z:.2f} m after {took:.2f} s")
+        note("M35", f"{far:.2f} m became {pose.image.pose.pose.position.z:.2f} m after {took:.2f} s")
 
     def corners(self, make):
         return support.Stream("corners", WindowDetection, make, 15.0), support.Listener("pose_of_corners", WindowPose)
@@ -227,22 +227,23 @@ class ChainTest(unittest.TestCase):
 
         def make(stamp):
             message = corners_at(stamp)
-            message.corner_x = [x + shift["px"] for x in message.corner_x]
+            for corner in message.corners:
+                corner.x += shift["px"]
             return message
         stream, poses = self.corners(make)
         try:
-            before = poses.wait(lambda p: p.filtered_valid and p.filtered_updates > 10, "a settled pose").filtered.pose.position.y
+            before = poses.wait(lambda p: p.filtered.valid and p.filtered.updates > 10, "a settled pose").filtered.pose.pose.position.y
             begin = time.monotonic()
             shift["px"] = -support.FOCAL / corners_distance()  # one metre to the left
-            poses.wait(lambda p: p.reject == WindowPose.OK and p.pose.pose.position.x < -0.8, "the frame that jumps", begin=begin)
+            poses.wait(lambda p: p.image.reject == ImagePose.OK and p.image.pose.pose.position.x < -0.8, "the frame that jumps", begin=begin)
             shift["px"] = 0.0
-            jumped = [p.filtered.pose.position.y for p in poses.since(begin) if p.filtered_valid]
+            jumped = [p.filtered.pose.pose.position.y for p in poses.since(begin) if p.filtered.valid]
             self.assertLess(max(abs(y - before) for y in jumped), 0.2, "not believed at once")
             begin = time.monotonic()
-            poses.wait(lambda p: p.filtered_valid and abs(p.filtered.pose.position.y - before) < 0.05, "the old place", begin=begin)
+            poses.wait(lambda p: p.filtered.valid and abs(p.filtered.pose.pose.position.y - before) < 0.05, "the old place", begin=begin)
             begin = time.monotonic()
             shift["px"] = -support.FOCAL / corners_distance()
-            poses.wait(lambda p: p.filtered_valid and abs(p.filtered.pose.position.y - before - 1.0) < 0.1, "the new place", begin=begin)
+            poses.wait(lambda p: p.filtered.valid and abs(p.filtered.pose.pose.position.y - before - 1.0) < 0.1, "the new place", begin=begin)
             note("M57", f"one frame: moved {max(abs(y - before) for y in jumped):.3f} m; lasting: believed after {time.monotonic() - begin:.1f} s")
         finally:
             stream.stop()
@@ -251,13 +252,13 @@ class ChainTest(unittest.TestCase):
     def test_M58_covariances_that_say_nothing_are_no_certainty(self):
         stream, poses = self.corners(corners_at)
         try:
-            usual = poses.wait(lambda p: p.reject == WindowPose.OK, "a pose").pose.covariance
+            usual = poses.wait(lambda p: p.image.reject == ImagePose.OK, "a pose").image.pose.covariance
             for what, number in (("zero", 0.0), ("NaN", NAN), ("negative", -1.0), ("infinite", INF)):
                 begin = time.monotonic() + 0.2
-                stream.make = changed(corners_at, corner_covariance=[number, 0.0, 0.0, number] * 4)
+                stream.make = changed(corners_at, corners=lambda m, c=number: [WindowCorner(True, p.x, p.y, [c, 0.0, 0.0, c]) for p in m.corners])
                 pose = poses.wait(what="a verdict", begin=begin)
-                sure = pose.reject == WindowPose.OK and pose.pose.covariance[14] < 0.5 * usual[14]
-                self.assertFalse(sure, f"{what}: {pose.pose.covariance[14]} m2, usually {usual[14]}")
+                sure = pose.image.reject == ImagePose.OK and pose.image.pose.covariance[14] < 0.5 * usual[14]
+                self.assertFalse(sure, f"{what}: {pose.image.pose.covariance[14]} m2, usually {usual[14]}")
             note("M58", "zero, NaN, negative, infinite: refused, or no surer than without")
         finally:
             stream.stop()
@@ -282,11 +283,11 @@ class ChainTest(unittest.TestCase):
                 begin = time.monotonic() + 0.3
                 stream.make = changed(corners_at, header__frame_id=frame)
                 infos.make = lambda stamp, frame=frame: support.camera_info(stamp, frame)
-                pose = poses.wait(lambda p: p.header.frame_id == frame and p.reject == WindowPose.OK and
-                                  (not right or p.filtered_reason == ""), f"a pose in {frame}", begin=begin)
-                seen.append(f"{frame}: {'used' if pose.filtered_reason == '' else pose.filtered_reason[:60]}")
+                pose = poses.wait(lambda p: p.header.frame_id == frame and p.image.reject == ImagePose.OK and
+                                  (not right or p.filtered.reason == ""), f"a pose in {frame}", begin=begin)
+                seen.append(f"{frame}: {'used' if pose.filtered.reason == '' else pose.filtered.reason[:60]}")
                 if not right:
-                    self.assertIn(frame.lstrip("/"), pose.filtered_reason)
+                    self.assertIn(frame.lstrip("/"), pose.filtered.reason)
         finally:
             stream.stop()
             poses.stop()
@@ -368,9 +369,9 @@ class ChainTest(unittest.TestCase):
     def test_M89_a_callback_that_throws_each_time_is_caught_counted_and_reported(self):
         self.chain.fly(self.monitor)
         begin = time.monotonic()
-        bad = support.Stream("reference", ReferencePicture, lambda _: ReferencePicture(), 20.0)
+        bad = support.Stream("reference", ReferenceImage, lambda _: ReferenceImage(), 20.0)
         try:
-            self.assert_none(self.monitor.names(begin, "window_detector: callbacks", "callbacks failed", "reference picture"), "counted")
+            self.assert_none(self.monitor.names(begin, "window_detector: callbacks", "callbacks failed", "reference image"), "counted")
             support.wait_for(lambda: [s for s in self.monitor.part(begin).said if s.name == "window_detector: callbacks" and s.level == 2],
                              "an ERROR after many in a row")
         finally:

@@ -82,7 +82,7 @@ class ClockRowsTest(unittest.TestCase):
         after = rospy.Time.from_sec(self.clock.now + 0.5)
         support.wait_for(lambda: [s for s in self.monitor.states_since(begin) if s.name == "ABORTED"], "ABORTED")
         windows.wait(lambda w: w.detected and w.header.stamp < after, "a window in the new time", 3.0, begin=begin)
-        poses.wait(lambda p: p.filtered_valid, "a pose in the new time", 3.0, begin=begin + 0.5)
+        poses.wait(lambda p: p.filtered.valid, "a pose in the new time", 3.0, begin=begin + 0.5)
         took = time.monotonic() - begin
         self.watch(1.0)
         moving = [s for s in self.monitor.part(begin + 0.3).setpoints if not oracles.is_still(s)]

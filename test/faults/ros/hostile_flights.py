@@ -38,6 +38,8 @@ def numbers_of(message):
             found += [(getattr(message, name), i) for i in range(len(part))]
         elif hasattr(part, "_slot_types"):
             found += numbers_of(part)
+        elif kind.endswith("]") and part and hasattr(part[0], "_slot_types"):
+            found += [place for item in part for place in numbers_of(item)]
     return found
 
 
@@ -60,10 +62,11 @@ def lie(message, topic, stranger):
     if topic == "odom":
         message.pose.pose.position.y += aside
     elif topic == "window_pose":
-        message.filtered.pose.position.y += aside
-        message.pose.pose.position.x += aside
+        message.filtered.pose.pose.position.y += aside
+        message.image.pose.pose.position.x += aside
     elif topic == "window":
-        message.corner_x = [x + 100.0 * aside for x in message.corner_x]
+        for corner in message.corners:
+            corner.x += 100.0 * aside
     elif topic == "camera/camera_info":
         message.K = [1.3 * message.K[0], *message.K[1:4], 1.3 * message.K[4], *message.K[5:]]
     elif topic == "imu":

@@ -12,14 +12,13 @@ from geometry_msgs.msg import TransformStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from std_msgs.msg import Bool
-from window_ingress.msg import ReferencePicture, WindowDetection, WindowPose
+from window_ingress.msg import ReferenceImage, WindowDetection, WindowPose
 
 import chain
 import monitor as monitors
 import oracles
 import support
 from homography_pose_test import detection
-from ingress_navigator_test import no_window
 
 try:
     from hypothesis import HealthCheck, given, settings, strategies
@@ -35,7 +34,7 @@ def inputs():
     """topic -> a sound message"""
     transforms = support.transforms_type()
     return {"image_raw": chain.Camera()(NOW), "camera_info": support.camera_info(NOW), "imu": support.imu(NOW), "odom": support.odometry(NOW),
-            "window": detection(NOW), "window_pose": no_window(NOW), "engaged": Bool(True), "reference": ReferencePicture(),
+            "window": detection(NOW), "window_pose": support.no_window(NOW), "engaged": Bool(True), "reference": ReferenceImage(),
             "ingress_navigator/cmd_vel": TwistStamped(), "/tf": transforms([transform()])}
 
 
@@ -47,7 +46,7 @@ def transform():
 
 
 KINDS = {"image_raw": Image, "camera_info": CameraInfo, "imu": Imu, "odom": Odometry, "window": WindowDetection, "window_pose": WindowPose,
-         "engaged": Bool, "reference": ReferencePicture, "ingress_navigator/cmd_vel": TwistStamped}
+         "engaged": Bool, "reference": ReferenceImage, "ingress_navigator/cmd_vel": TwistStamped}
 
 
 @unittest.skipUnless(given, "python3-hypothesis is not installed")

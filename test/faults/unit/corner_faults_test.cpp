@@ -82,10 +82,9 @@ TEST(Fault, M47_TooFewOrTooManyCorners) {
         << numbers;
   auto flooded = adapters::toMsg(seen({a, b, c, d}));
   flooded.header.stamp = ros::Time(1.0);
-  flooded.interior_id.resize(1000000);
-  for (auto* list :
-       {&flooded.interior_key_x, &flooded.interior_key_y, &flooded.interior_x, &flooded.interior_y})
-    list->resize(1000000);
+  window_ingress::InteriorPoints& interior = flooded.interior;
+  interior.id.resize(1000000);
+  for (auto* list : {&interior.key_x, &interior.key_y, &interior.x, &interior.y}) list->resize(1000000);
   const std::clock_t begin = std::clock();
   const auto refused = adapters::fromMsg(flooded);
   EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC / 20);

@@ -26,11 +26,11 @@ window_ingress::WindowDetection detection(const ros::Time& stamp) {
 
 window_ingress::WindowPose target(const ros::Time& stamp) {
   window_ingress::WindowPose message;
-  message.filtered_valid = true;
-  message.filtered_frame_id = "odom";
-  message.filtered_stamp = stamp;
-  message.filtered.pose.orientation.w = 1.0;
-  message.window_width = message.window_height = 1.0;
+  message.filtered.valid = true;
+  message.filtered.header.frame_id = "odom";
+  message.filtered.header.stamp = stamp;
+  message.filtered.pose.pose.orientation.w = 1.0;
+  message.size.width = message.size.height = 1.0;
   return message;
 }
 

@@ -9,6 +9,6 @@ int main() {
   window_ingress::WindowPose message;
   const window_ingress::geometry::Quadrilateral square = {{{0, 0}, {2, 0}, {2, 2}, {0, 2}}};
   const double area = window_ingress::geometry::signedArea(square);
-  std::printf("area %.0f px^2, reject %d\n", area, message.reject);
+  std::printf("area %.0f px^2, reject %d\n", area, message.image.reject);
   return area == 4.0 || area == -4.0 ? 0 : 1;
 }

@@ -78,11 +78,14 @@ TEST(WindowDetection, WhatIsFollowedWithinGoesThereAndBack) {
   EXPECT_EQ(interior.points[1].normal, window.interior.points[1].normal);
   EXPECT_EQ(interior.points[0].beside, window.interior.points[0].beside);
   EXPECT_EQ(interior.points[1].beside, window.interior.points[1].beside);
-  message.interior_x.pop_back();
+  message.interior.x.pop_back();
   EXPECT_TRUE(fromMsg(message).value->interior.empty()) << "lists of different lengths";
+  message.interior = toMsg(window.interior);
+  message.interior.key_corners[2].visible = false;
+  EXPECT_TRUE(fromMsg(message).value->interior.empty()) << "a key image without all corners";
   message = toMsg(window);
   message.header.stamp = ros::Time(12.5);
-  message.interior_y[0] = static_cast<float>(kNan);
+  message.interior.y[0] = static_cast<float>(kNan);
   EXPECT_FALSE(fromMsg(message));
 }
 
@@ -90,10 +93,10 @@ TEST(WindowDetection, ACornerThatIsNotSeenGoesThereAndBackAsNone) {
   detection::WindowObservation window = makeWindow();
   window.corner_visible = {true, true, false, false};
   window_ingress::WindowDetection message = toMsg(window);
-  EXPECT_EQ(message.corner_x[2], 0.0);
-  EXPECT_EQ(message.corner_covariance[15], 0.0);
+  EXPECT_EQ(message.corners[2].x, 0.0);
+  EXPECT_EQ(message.corners[3].covariance[3], 0.0);
   message.header.stamp = ros::Time(12.5);
-  message.corner_x[3] = 77.0;  // invalid, whatever it says
+  message.corners[3].x = 77.0;  // invalid, whatever it says
   const auto back = fromMsg(message);
   ASSERT_TRUE(back);
   EXPECT_FALSE(back.value->whole());
@@ -105,14 +108,17 @@ TEST(WindowDetection, ACornerThatIsNotSeenGoesThereAndBackAsNone) {
 }
 
 TEST(WindowDetection, WhatIsNotVisibleHasNoFigures) {
-  EXPECT_EQ(makeDetection().edge_sigma_px[2], 0.0);
-  EXPECT_FALSE(makeDetection().edge_visible[2]);
+  EXPECT_EQ(makeDetection().edges[2].sigma_px, 0.0);
+  EXPECT_FALSE(makeDetection().edges[2].visible);
 }
 
 TEST(WindowDetection, RefusesNoWindowWithTheDetectorsReason) {
-  window_ingress::WindowDetection message;
+  detection::DetectionTrace trace;
+  trace.outcome = detection::RejectReason::kAspect;
+  trace.detail = "nothing with four sides";
+  window_ingress::WindowDetection message = toMsg(trace);
+  EXPECT_EQ(message.reject, window_ingress::WindowDetection::ASPECT);
   message.header.stamp = ros::Time(1.0);
-  message.reject_reason = "nothing with four sides";
   const auto window = fromMsg(message);
   EXPECT_FALSE(window);
   EXPECT_NE(window.reason.find("four sides"), std::string::npos);
@@ -124,12 +130,14 @@ TEST(WindowDetection, RefusesAnyNumberThatIsNotFinite) {
     change(message);
     return !fromMsg(message);
   };
-  EXPECT_TRUE(refused([](auto& m) { m.corner_x[3] = kNan; }));
-  EXPECT_TRUE(refused([](auto& m) { m.edge_b_y[1] = kNan; }));
-  EXPECT_TRUE(refused([](auto& m) { m.corner_y[0] = std::numeric_limits<double>::infinity(); }));
-  EXPECT_TRUE(refused([](auto& m) { m.corner_covariance[7] = kNan; }));
-  EXPECT_TRUE(refused([](auto& m) { m.edge_sigma_rad[1] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.corners[3].x = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.edges[1].b_y = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.corners[0].y = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(refused([](auto& m) { m.corners[1].covariance[3] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.edges[1].sigma_rad = kNan; }));
   EXPECT_TRUE(refused([](auto& m) { m.score = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.appearance.runner_up = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.interior.key_corners[0].x = kNan; }));
   EXPECT_TRUE(refused([](auto& m) { m.header.stamp = ros::Time(); }));
 }
 

@@ -67,7 +67,7 @@ TEST(FacadeConversion, WhatIsTooSmallOrBadOrOfAnotherLookIsDrawnFaintlyWithoutAN
   EXPECT_GT(markers[9].pose.position.z, 0.6) << "above its border";
 }
 
-TEST(FacadeConversion, WindowsOfAPictureGoThereAndBackAndBadOnesAreLeftOut) {
+TEST(FacadeConversion, WindowsOfAnImageGoThereAndBackAndBadOnesAreLeftOut) {
   std::mt19937 random(2);
   const test::WindowRow row;
   detection::SeenWindow window = *row.seen(0, row.from({-5.0, 0.0, 1.5}), random);
@@ -89,15 +89,29 @@ TEST(FacadeConversion, WindowsOfAPictureGoThereAndBackAndBadOnesAreLeftOut) {
 
 TEST(FacadeConversion, APlaceIsRememberedOnlyWithANumberAndInTheSameFrame) {
   window_ingress::WindowPose message;
-  message.filtered_frame_id = "odom";
-  message.remembered.x = 2.0;
+  message.filtered.header.frame_id = "odom";
+  message.target.position.x = 2.0;
   EXPECT_FALSE(rememberedFrom(message, "odom"));
-  message.window_id = 3;
+  message.target.window_id = 3;
   ASSERT_TRUE(rememberedFrom(message, "odom"));
   EXPECT_EQ(rememberedFrom(message, "odom")->x(), 2.0);
   EXPECT_FALSE(rememberedFrom(message, "map"));
-  message.remembered.y = std::numeric_limits<double>::quiet_NaN();
+  message.target.position.y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(rememberedFrom(message, "odom"));
+}
+
+TEST(FacadeConversion, WhereTheTargetIsExpectedGoesThereAndBack) {
+  const auto memory = memoryOfARow();
+  const geometry::Quadrilateral expected = {{{1, 2}, {30, 2}, {30, 40}, {1, 40}}};
+  window_ingress::RememberedTarget message = targetMsg(memory.target(), expected);
+  EXPECT_EQ(message.window_id, memory.targetId());
+  EXPECT_EQ(message.position.y, memory.target()->place.position_m.y());
+  ASSERT_TRUE(expectedFrom(message));
+  EXPECT_EQ(*expectedFrom(message), expected);
+  message.expected_x[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(expectedFrom(message));
+  EXPECT_FALSE(expectedFrom(targetMsg(nullptr, std::nullopt)));
+  EXPECT_EQ(targetMsg(nullptr, std::nullopt).window_id, 0u);
 }
 
 }  // namespace

@@ -23,64 +23,112 @@ estimation::PoseResult makePoseResult() {
 }
 
 TEST(WindowPose, CarriesTheEstimate) {
-  window_ingress::WindowPose message;
-  fill(message, makePoseResult());
-  EXPECT_EQ(message.reject, window_ingress::WindowPose::OK);
+  estimation::PoseResult result = makePoseResult();
+  result.estimate->euler = {0.01, 0.02, 0.03};
+  result.estimate->opening_width_m = 1.1;
+  result.estimate->right_side_px = 80.0;
+  window_ingress::ImagePose message = toMsg(result);
+  EXPECT_EQ(message.reject, window_ingress::ImagePose::OK);
   EXPECT_EQ(message.pose.pose.position.z, 4.0);
-  EXPECT_EQ(message.yaw, 0.1);
-  EXPECT_EQ(message.sigma_u, 0.02);
-  EXPECT_TRUE(message.sign_trusted);
+  EXPECT_EQ(message.relative_yaw.angle, 0.1);
+  EXPECT_EQ(message.relative_yaw.sigma_unknown_size, 0.02);
+  EXPECT_TRUE(message.relative_yaw.sign_trusted);
+  EXPECT_EQ(message.euler.roll, 0.01);
+  EXPECT_EQ(message.euler.pitch, 0.02);
+  EXPECT_EQ(message.euler.yaw, 0.03);
+  EXPECT_EQ(message.apparent.width, 1.1);
+  EXPECT_EQ(message.apparent.right_side, 80.0);
+  EXPECT_EQ(message.apparent.aspect, 0.0);
   EXPECT_FALSE(message.has_alternative);
+  result.estimate->aspect = estimation::MeasuredAspect{1.2, 0.05};
+  result.estimate->alternative = result.estimate->best;
+  result.estimate->alternative->reprojection_rms_px = 0.4;
+  message = toMsg(result);
+  EXPECT_EQ(message.apparent.aspect_sigma, 0.05);
+  EXPECT_TRUE(message.has_alternative);
+  EXPECT_EQ(message.alternative_reprojection_rms_px, 0.4);
 }
 
 TEST(WindowPose, CarriesTheCameraThereAndBack) {
-  window_ingress::WindowPose message;
-  EXPECT_FALSE(cameraFromMsg(message.camera));
-  fill(message, navigation::CameraInBody{0.1, 1.2, 0.9, 0.002});
-  const auto back = cameraFromMsg(message.camera);
+  EXPECT_FALSE(cameraFromMsg(window_ingress::CameraInBody()));
+  window_ingress::CameraInBody message = toMsg(navigation::CameraInBody{0.1, 1.2, 0.9, 0.002});
+  const auto back = cameraFromMsg(message);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->forward_m, 0.1);
   EXPECT_EQ(back->horizontal_fov_rad, 1.2);
   EXPECT_EQ(back->vertical_fov_rad, 0.9);
   EXPECT_EQ(back->pixel_rad, 0.002);
-  message.camera.fault = "no calibration";
-  EXPECT_FALSE(cameraFromMsg(message.camera));
+  message.fault = "no calibration";
+  EXPECT_FALSE(cameraFromMsg(message));
 }
 
 TEST(WindowPose, CarriesTheReasonWhereThereIsNoPose) {
   estimation::PoseResult result;
   result.reject = estimation::PoseReject::kTilt;
-  window_ingress::WindowPose message;
-  fill(message, result);
-  EXPECT_EQ(message.reject, window_ingress::WindowPose::TILT);
-  EXPECT_FALSE(message.reject_reason.empty());
+  const window_ingress::ImagePose message = toMsg(result);
+  EXPECT_EQ(message.reject, window_ingress::ImagePose::TILT);
+  EXPECT_FALSE(message.reason.empty());
   EXPECT_EQ(message.pose.pose.orientation.w, 0.0);
 }
 
-TEST(WindowPose, CarriesSizeFitFramesAndConsistency) {
+TEST(WindowPose, CarriesTheOtherHypothesis) {
   estimation::FilteredWindow filtered;
   filtered.age_sec = 0.25;
-  filtered.size = {{1.3, 0.9}, 0.0004 * Eigen::Matrix2d::Identity()};
   filtered.alternative = estimation::FilteredWindow::Alternative();
   filtered.alternative->T_odom_window.translation().x() = 7.0;
-  filtered.consistency = {40, 1.5, true};
-  window_ingress::WindowPose message;
-  fill(message, filtered);
-  fill(message, estimation::SizeEstimate{{1.31, 0.91}, 0.0001 * Eigen::Matrix2d::Identity()});
-  fill(message, estimation::FitVerdict{estimation::Fit::kNoGo, "too narrow"});
-  fill(message, estimation::FramesVerdict{estimation::FramesVerdict::kWrong, "twist looks odd"});
-  EXPECT_EQ(message.filtered_age, 0.25);
-  EXPECT_EQ(message.window_width, 1.3);
-  EXPECT_NEAR(message.window_height_sigma, 0.018, 1e-12);
-  EXPECT_TRUE(message.has_filtered_alternative);
-  EXPECT_EQ(message.filtered_alternative.pose.position.x, 7.0);
-  EXPECT_EQ(message.measured_width, 1.31);
-  EXPECT_NEAR(message.measured_width_sigma, 0.0131, 1e-12);
-  EXPECT_EQ(message.fit, window_ingress::WindowPose::FIT_NO_GO);
-  EXPECT_EQ(message.frames, window_ingress::WindowPose::FRAMES_WRONG);
+  const window_ingress::FilteredPose message = toMsg(filtered);
+  EXPECT_EQ(message.age, 0.25);
+  EXPECT_EQ(message.reject, window_ingress::FilteredPose::OK);
+  EXPECT_TRUE(message.has_alternative);
+  EXPECT_EQ(message.alternative.pose.position.x, 7.0);
+}
+
+TEST(WindowPose, CarriesASizeWithItsDeviation) {
+  const window_ingress::WindowSize message =
+      toMsg(estimation::SizeEstimate{{1.31, 0.9}, 0.0001 * Eigen::Matrix2d::Identity()});
+  EXPECT_EQ(message.width, 1.31);
+  EXPECT_NEAR(message.width_sigma, 0.0131, 1e-12);
+  EXPECT_NEAR(message.height_sigma, 0.009, 1e-12);
+  EXPECT_EQ(toMsg(geometry::OpeningSize{1.3, 0.9}).height, 0.9);
+  EXPECT_EQ(toMsg(geometry::OpeningSize{1.3, 0.9}).height_sigma, 0.0);
+}
+
+TEST(WindowPose, CarriesWhatWasVerified) {
+  VerifiedTarget verified;
+  EXPECT_EQ(toMsg(verified).fit, window_ingress::SystemChecks::FIT_UNKNOWN);
+  verified.fit = {estimation::Fit::kNoGo, "too narrow"};
+  verified.frames = {estimation::FramesVerdict::kWrong, "twist looks odd"};
+  verified.consistency = {40, 1.5, true};
+  verified.other_window = 1.8;
+  verified.approach_forbidden = "fit NO_GO";
+  const window_ingress::SystemChecks message = toMsg(verified);
+  EXPECT_EQ(message.fit, window_ingress::SystemChecks::FIT_NO_GO);
+  EXPECT_EQ(message.frames, window_ingress::SystemChecks::FRAMES_WRONG);
   EXPECT_EQ(message.frames_reason, "twist looks odd");
   EXPECT_EQ(message.nis, 1.5);
   EXPECT_EQ(message.nis_images, 40u);
+  EXPECT_TRUE(message.is_other_window);
+  EXPECT_EQ(message.other_window_factor, 1.8);
+  EXPECT_EQ(message.approach_forbidden, "fit NO_GO");
+}
+
+TEST(WindowPose, CarriesOpennessThereAndBackAndWhatIsNoVerdictIsNone) {
+  openness::OpennessVerdict verdict;
+  verdict.openness = openness::Openness::kClosed;
+  verdict.log_odds = -12.0;
+  verdict.has_depth = true;
+  verdict.depth_behind_m = 0.02;
+  verdict.open_share = 0.25;
+  window_ingress::Openness message = toMsg(verdict);
+  EXPECT_EQ(fromMsg(message).openness, openness::Openness::kClosed);
+  EXPECT_EQ(fromMsg(message).log_odds, -12.0);
+  EXPECT_EQ(fromMsg(message).depth_behind_m, 0.02);
+  EXPECT_EQ(fromMsg(message).open_share, 0.25);
+  message.verdict = 3;
+  EXPECT_EQ(fromMsg(message).openness, openness::Openness::kUnknown);
+  message.verdict = window_ingress::Openness::OPEN;
+  message.log_odds = kNan;
+  EXPECT_EQ(fromMsg(message).openness, openness::Openness::kUnknown);
 }
 
 window_ingress::WindowPose makeFiltered() {
@@ -91,10 +139,9 @@ window_ingress::WindowPose makeFiltered() {
   filtered.sign_trusted = true;
   filtered.updates = 9;
   window_ingress::WindowPose message;
-  fill(message, filtered);
-  message.filtered_frame_id = "odom";
-  message.window_width = 1.2;
-  message.window_height = 1.0;
+  message.filtered = toMsg(filtered);
+  message.filtered.header.frame_id = "odom";
+  message.size = toMsg(geometry::OpeningSize{1.2, 1.0});
   return message;
 }
 
@@ -115,11 +162,10 @@ TEST(WindowPose, CarriesTheMotionOfAWindow) {
   filtered.stamp_sec = 12.0;
   filtered.age_sec = 0.25;
   filtered.covariance = 0.01 * estimation::Matrix6d::Identity();
-  filtered.size = {{1.3, 0.9}, Eigen::Matrix2d::Zero()};
   filtered.motion = {{0.12, 2.0}, {0.1, -0.05, 0.01}, 0.04};
-  window_ingress::WindowPose message;
-  message.filtered_frame_id = "odom";
-  fill(message, filtered);
+  window_ingress::WindowPose message = makeFiltered();
+  message.filtered = toMsg(filtered);
+  message.filtered.header.frame_id = "odom";
   const auto target = targetFromMsg(message, "odom");
   ASSERT_TRUE(target) << target.reason;
   EXPECT_EQ(target.value->pose_stamp_sec, 12.25);
@@ -127,16 +173,15 @@ TEST(WindowPose, CarriesTheMotionOfAWindow) {
   EXPECT_EQ(target.value->motion.velocity_sigma_mps, 0.04);
   EXPECT_EQ(target.value->motion.model.speed_mps, 0.12);
   EXPECT_EQ(target.value->motion.model.time_sec, 2.0);
-  filtered.motion = {};
-  fill(message, filtered);
+  message.filtered.motion = toMsg(estimation::FilteredWindow()).motion;
   EXPECT_TRUE(targetFromMsg(message, "odom").value->motion.model.stands());
 }
 
 TEST(WindowPose, WhatForbidsTheApproachReachesTheTarget) {
   auto message = makeFiltered();
   EXPECT_EQ(targetFromMsg(message, "odom").value->fit, estimation::Fit::kGo) << "nothing said against it";
-  message.fit = window_ingress::WindowPose::FIT_UNKNOWN;
-  message.approach_forbidden = "fit UNKNOWN";
+  message.checks.fit = window_ingress::SystemChecks::FIT_UNKNOWN;
+  message.checks.approach_forbidden = "fit UNKNOWN";
   EXPECT_EQ(targetFromMsg(message, "odom").value->fit, estimation::Fit::kUnknown);
   EXPECT_EQ(targetFromMsg(message, "odom").value->approach_forbidden, "fit UNKNOWN");
 }
@@ -147,15 +192,15 @@ TEST(WindowPose, TargetsThatCannotBeUsedAreRefused) {
     change(message);
     return !targetFromMsg(message, "odom");
   };
-  EXPECT_TRUE(refused([](auto& m) { m.filtered_valid = false; }));
-  EXPECT_TRUE(refused([](auto& m) { m.filtered_frame_id = "map"; }));
-  EXPECT_TRUE(refused([](auto& m) { m.filtered_stamp = ros::Time(); }));
-  EXPECT_TRUE(refused([](auto& m) { m.filtered.pose.position.x = kNan; }));
-  EXPECT_TRUE(
-      refused([](auto& m) { m.filtered.pose.orientation.w = 0.0, m.filtered.pose.orientation.z = 0.0; }));
-  EXPECT_TRUE(refused([](auto& m) { m.filtered.covariance[35] = kNan; }));
-  EXPECT_TRUE(refused([](auto& m) { m.window_width = 0.0; }));
-  EXPECT_TRUE(refused([](auto& m) { m.window_height = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.valid = false; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.header.frame_id = "map"; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.header.stamp = ros::Time(); }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.pose.pose.position.x = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.pose.pose.orientation = geometry_msgs::Quaternion(); }));
+  EXPECT_TRUE(refused([](auto& m) { m.filtered.pose.covariance[35] = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.size.width = 0.0; }));
+  EXPECT_TRUE(refused([](auto& m) { m.size.height = kNan; }));
+  EXPECT_TRUE(refused([](auto& m) { m.checks.is_other_window = true; })) << "without a factor";
 }
 
 TEST(IngressState, SaysWhatTheNavigatorSays) {
