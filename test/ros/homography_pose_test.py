@@ -146,7 +146,7 @@ class HomographyPoseTest(unittest.TestCase):
         self.assertAlmostEqual(polygon.polygon.points[0].x, -WINDOW_W / 2, delta=0.05)  # top left, x right, y down
         self.assertAlmostEqual(polygon.polygon.points[0].y, -WINDOW_H / 2, delta=0.05)
         self.assertAlmostEqual(polygon.polygon.points[0].z, DISTANCE, delta=0.1)
-        self.assertAlmostEqual(poses.wait(what="a pose").image.pose.pose.position.z, DISTANCE, delta=0.05)
+        self.assertAlmostEqual(poses.wait(what="a pose").pose.pose.position.z, DISTANCE, delta=0.05)
 
     def test_uncalibrated_camera_is_named(self):
         self.start_vehicle()

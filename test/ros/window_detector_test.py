@@ -143,8 +143,8 @@ class WindowDetectorTest(unittest.TestCase):
         self.assertGreater(os.path.getsize(CAPTURE_FILE), 1000)
         self.assertGreater(os.path.getsize(os.path.splitext(CAPTURE_FILE)[0] + "_understood.png"), 1000)
         for (x, y), wanted in zip(zip(kept["corners"][::2], kept["corners"][1::2]), support.CORNERS):
-            self.assertAlmostEqual(corner.x, wanted[0], delta=1.5)
-            self.assertAlmostEqual(corner.y, wanted[1], delta=1.5)
+            self.assertAlmostEqual(x, wanted[0], delta=1.5)
+            self.assertAlmostEqual(y, wanted[1], delta=1.5)
 
     def test_tuning_is_taken_or_refused_aloud_and_reaches_the_detector(self):
         client = Client("window_detector/tuning", timeout=support.DEADLINE_S)
