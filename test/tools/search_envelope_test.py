@@ -14,7 +14,8 @@ DEADLY = CALM + "time_limit_sec: 30\nfaults: [{unit: cmd_vel, kind: garbage, at_
 
 
 def search(folder, *arguments):
-    command = [ROOT / "tools/search_envelope", "--output", folder, "--jobs", "2", *arguments]
+    """As `ingress evaluate envelope` runs it: in a workspace through catkin's relay, which has no module's name."""
+    command = [ROOT / "scripts/ingress", "evaluate", "envelope", "--output", folder, "--jobs", "2", *arguments]
     return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
 
 
