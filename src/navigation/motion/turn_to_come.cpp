@@ -9,7 +9,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kMemorySec = 2.0;
-constexpr double kMostRad = 0.5;  // a second at the usual limit
+constexpr double kMaxRad = 0.5;  // a second at the usual limit
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void TurnToCome::update(double heading_rad, double told_radps, double dt_sec) {
   if (last_heading_rad_) {
     const double turned_rad = geometry::wrapAngle(heading_rad - *last_heading_rad_);
     const double kept_rad = to_come_rad_ * std::exp(-dt_sec / kMemorySec);
-    to_come_rad_ = std::clamp(kept_rad + told_radps * dt_sec - turned_rad, -kMostRad, kMostRad);
+    to_come_rad_ = std::clamp(kept_rad + told_radps * dt_sec - turned_rad, -kMaxRad, kMaxRad);
   }
   last_heading_rad_ = heading_rad;
 }
