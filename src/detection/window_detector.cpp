@@ -54,6 +54,8 @@ struct WindowDetector::Impl {
   std::optional<Rejection> objection(const ScoredCandidate& rival) const;
   std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
+  std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const cv::Mat& image,
+                                               const geometry::PinholeCamera* camera, RefinedBorders& fitted);
   double leastScore(const ScoredCandidate& rival) const;
   double runnerUp(const ScoredCandidate& target) const;
   void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
@@ -75,7 +77,7 @@ double WindowDetector::Impl::leastScore(const ScoredCandidate& rival) const {
 }
 
 std::optional<Rejection> WindowDetector::Impl::objection(const ScoredCandidate& rival) const {
-  if (rival.correlation) return reference.objectionTo(rival.match);
+  if (rival.correlation && rival.located) return reference.objectionTo(rival.match);
   if (rival.appearance)
     if (const auto refused = reference.objectionTo(*rival.appearance)) return refused;
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
@@ -106,6 +108,25 @@ double WindowDetector::Impl::runnerUp(const ScoredCandidate& target) const {
   return best;
 }
 
+// Borders that do not lie where the surroundings fit are those of something before them: fitted anew there.
+// Without a camera nothing keeps the surroundings from shearing, and the borders are left.
+std::optional<Rejection> WindowDetector::Impl::judgeSurroundingsOf(const ScoredCandidate& rival,
+                                                                   const cv::Mat& image,
+                                                                   const geometry::PinholeCamera* camera,
+                                                                   RefinedBorders& fitted) {
+  const auto ring = reference.surroundingsOf(fitted.corners, image, camera);
+  if (!ring) return std::nullopt;
+  if (auto fault = reference.objectionTo(ring->match)) return fault;
+  if (!camera || furthestCorner(ring->quad, fitted.corners) <= kAlignedStrayPx) return std::nullopt;
+  ScoredCandidate aligned = rival;
+  aligned.quad = ring->quad;
+  aligned.located = true;
+  aligned.correlation = ring->match.correlation;
+  double inliers = 0.0;
+  if (const auto anew = refine(aligned, image, camera, inliers)) fitted = *anew;
+  return std::nullopt;
+}
+
 // The best to which there is no objection and whose borders can be fitted.
 std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& image, double stamp_sec,
                                                               const geometry::PinholeCamera* camera) {
@@ -121,7 +142,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
       record(rival, RejectReason::kBudget, tries, kRefinementTries);
     } else {
       double inliers = 0.0;
-      const auto fitted = refine(rival, image, camera, inliers);
+      auto fitted = refine(rival, image, camera, inliers);
       if (!fitted) {
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
@@ -131,8 +152,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         continue;
       }
       auto fault = reference.objectionTo(*fitted, image, camera);
-      if (!fault && !rival.correlation)
-        fault = reference.objectionToSurroundings(fitted->corners, image, camera);
+      if (!fault && !rival.correlation) fault = judgeSurroundingsOf(rival, image, camera, *fitted);
       if (fault) {
         record(rival, fault->reason, fault->value, fault->limit);
         continue;
@@ -160,6 +180,8 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
     const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
   rivals = search.kept();
   rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
+  const auto& open = search.open();
+  rivals.insert(rivals.end(), open.begin(), open.end());
   if (!reference.judgeSurroundings(image, camera, rivals)) return std::nullopt;
   done(watch, Stage::kReference);
   return choose(image, stamp_sec, camera);

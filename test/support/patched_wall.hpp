@@ -14,6 +14,8 @@ namespace window_ingress::test {
 /// same seed.
 class PatchedWall {
  public:
+  static constexpr double kAspect = 1.2;  ///< of the opening: width over height
+
   explicit PatchedWall(unsigned seed, double frame_m = 0.0, double contrast = 40.0) : frame_m_(frame_m) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(-1.1, 1.1), size(0.05, 0.25), colour(-contrast, contrast);
@@ -30,7 +32,7 @@ class PatchedWall {
     cv::Mat image(480, 640, CV_8UC3, cv::Scalar(150, 155, 165));
     for (const Patch& p : patches_)
       fill(image, camera, T_camera_window, p.left, p.top, p.right, p.bottom, p.colour);
-    const double w = 0.6, h = 0.5;
+    const double h = 0.5, w = kAspect * h;
     if (frame_m_ > 0.0)
       fill(image, camera, T_camera_window, -w - frame_m_, -h - frame_m_, w + frame_m_, h + frame_m_, paint);
     const geometry::Quadrilateral quad = cornersOf(camera, T_camera_window, -w, -h, w, h);

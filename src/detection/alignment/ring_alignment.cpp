@@ -28,6 +28,7 @@ constexpr float kMinGain = 0.15F;   ///< a segment that shows less of the refere
 constexpr float kMaxGain = 2.0F;
 constexpr double kGainSpread =
     0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
+constexpr int kCoverPasses = 3;
 constexpr double kMaxCovered = 1.0 / 3.0;                  ///< of the ring
 constexpr double kMinContrast = 0.8, kMaxContrast = 1.25;  ///< of the ring: another exposure or tone curve
 constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;         ///< least depth, relative to the centre's
@@ -76,6 +77,8 @@ void RingAlignment::CorrelationSum::add(float samples, float xx, float yy, float
 void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
   model_ = &model;
   lens_ = camera && camera->hasDistortion() ? camera : nullptr;
+  prior_.reset();
+  if (camera && model.aspect()) prior_.emplace(*camera, *model.aspect());
   pyramid_.set(image);
 }
 
@@ -155,21 +158,58 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   const double seen = read(scale, centred(ideal));
   if (seen < kMinSeen) return {-1.0, seen};
   correlation_ = {};
+  for (int s = 0; s < scale.ring->segmentCount(); ++s) measure(*scale.ring, s);
+  return {correlation_.correlation(), seen};
+}
+
+RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
+  RingMatch match = compare(quad, side_px);
+  if (!(correlation_.most > 0.0) || match.seen < kMinSeen) return match;
+  const RingLevel& ring = *scaleFor(meanSide(undistorted(quad, lens_)), side_px).ring;
+  shareOut(ring);
+  match.contrast = weighContrasts();
+  for (const Share& share : shares_) match.faithful += share.faithful / correlation_.most;
+  for (int n = 0; n < kCoverPasses; ++n) coverOutliers(ring);
+  shareOut(ring);
+  weighContrasts();
+  match.uncovered = uncovered(&Share::alike);
+  match.faithful_uncovered = uncovered(&Share::faithful);
+  return match;
+}
+
+// What each segment adds.
+void RingAlignment::shareOut(const RingLevel& ring) {
+  correlation_ = {};
   shares_.clear();
-  for (int s = 0; s < scale.ring->segmentCount(); ++s) {
+  for (int s = 0; s < ring.segmentCount(); ++s) {
     const CorrelationSum before = correlation_;
-    const Segment segment = measure(*scale.ring, s);
+    const Segment segment = measure(ring, s);
     if (correlation_.most > before.most)
       shares_.push_back({correlation_.alike - before.alike, correlation_.most - before.most, segment.gain,
                          kGainSpread * kGainSpread + segment.noise / segment.xx, 0.0});
   }
-  RingMatch match{correlation_.correlation(), seen};
-  if (!(correlation_.most > 0.0)) return match;
-  match.contrast = weighContrasts();
-  for (const Share& share : shares_) match.faithful += share.faithful / correlation_.most;
-  match.uncovered = uncovered(&Share::alike);
-  match.faithful_uncovered = uncovered(&Share::faithful);
-  return match;
+}
+
+// Where most of the ring fits well, what does not is something before it; where nothing fits, all counts.
+void RingAlignment::coverOutliers(const RingLevel& ring) {
+  residuals_.assign(values_.size(), 0.0F);
+  const std::size_t count = ring.x.size();
+  for (int s = 0; s < ring.segmentCount(); ++s) {
+    const Segment segment = measure(ring, s);
+    for (int c = 0; c < channels_; ++c) {
+      const Moments& m = segment.moments[c];
+      for (std::size_t i = segment.begin, at = c * count + i; static_cast<int>(i) < segment.end; ++i, ++at)
+        residuals_[at] = values_[at] - m.meanY() - segment.gain * (ring.values[at] - m.meanX());
+    }
+  }
+  weigh(ring.size());
+  const float outlier = 1.0F / (kOutlier * scale_ * kOutlier * scale_);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (weights_[i] == 0.0F) continue;
+    float squares = 0.0F;
+    for (int c = 0; c < channels_; ++c) squares += residuals_[c * count + i] * residuals_[c * count + i];
+    weights_[i] = 1.0F / (1.0F + outlier * squares);
+  }
 }
 
 // A frame in another paint correlates with the reference's; its contrast with the wall is another.
@@ -254,7 +294,7 @@ void RingAlignment::accumulate(const RingLevel& ring, const Segment& segment, No
 }
 
 // The change of the homography that takes off most of the residuals; none if nothing tells.
-std::optional<Matrix3d> RingAlignment::change(const RingLevel& ring) {
+std::optional<Matrix3d> RingAlignment::change(const RingLevel& ring, const Matrix3d& map) {
   NormalSum normal_sum;
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
@@ -271,7 +311,9 @@ std::optional<Matrix3d> RingAlignment::change(const RingLevel& ring) {
     const float spread = k < 6 ? kStepSpread : kPerspectiveSpread;
     normal(k, k) += noise / (spread * spread);
   }
-  const Vector8f p = normal.ldlt().solve(right.vector());
+  Vector8f toward = right.vector();
+  if (prior_) prior_->addTo(map, noise, normal, toward);
+  const Vector8f p = normal.ldlt().solve(toward);
   if (!p.allFinite()) return std::nullopt;
   Matrix3d change = Matrix3d::Identity();
   change.row(0) += Eigen::RowVector3f(p[0], p[1], p[2]).cast<double>();
@@ -301,7 +343,7 @@ RingMatch RingAlignment::refine(const Scale& scale, const Quadrilateral& start, 
   for (int n = 0;; ++n) {
     const double seen = read(scale, at);
     if (seen < kMinSeen) break;
-    const auto step = change(*scale.ring);
+    const auto step = change(*scale.ring, at);
     if (correlation_.correlation() > best.correlation) best = {correlation_.correlation(), seen}, map = at;
     if (!step || n == most_steps) break;
     at = at * step->inverse();

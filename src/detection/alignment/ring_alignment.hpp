@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "detection/alignment/homography_sums.hpp"
+#include "detection/alignment/rectangle_prior.hpp"
 #include "detection/alignment/ring_match.hpp"
 #include "detection/alignment/ring_model.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -29,11 +30,15 @@ struct AlignedRing {
 class RingAlignment {
  public:
   /// \param model, image outlive the comparisons \param camera null: the image is taken as free of
-  /// distortion
+  /// distortion, and any homography as possible
   void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
 
   /// \param side_px resolution at which they are compared, at most [px a mean side]
   RingMatch compare(const geometry::Quadrilateral& quad, double side_px);
+
+  /// The same, and what it says where something stands before the ring: samples that differ far more than
+  /// most count less.
+  RingMatch judge(const geometry::Quadrilateral& quad, double side_px);
 
   /// Nothing if it runs away from the start. \param finest_px as `side_px`
   std::optional<AlignedRing> align(const geometry::Quadrilateral& start, double finest_px);
@@ -85,17 +90,20 @@ class RingAlignment {
   void place(const Scale& scale, const Eigen::Matrix3d& map);
   template <int kChannels>
   int readPixels(const cv::Mat& picture);
+  void coverOutliers(const RingLevel& ring);
+  void shareOut(const RingLevel& ring);
   double weighContrasts();
   double uncovered(double Share::*part);
   Segment measure(const RingLevel& ring, int s);
   void accumulate(const RingLevel& ring, const Segment& segment, NormalSum& normal, DerivativeSum& right,
                   Matrix8f& explained);
-  std::optional<Eigen::Matrix3d> change(const RingLevel& ring);
+  std::optional<Eigen::Matrix3d> change(const RingLevel& ring, const Eigen::Matrix3d& map);
   RingMatch refine(const Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
                    int most_steps);
 
   const RingModel* model_ = nullptr;
   const geometry::PinholeCamera* lens_ = nullptr;
+  std::optional<RectanglePrior> prior_;
   ImagePyramid pyramid_;
   int channels_ = 0;
   std::vector<float> at_x_, at_y_;  ///< the ring's samples on the image's level

@@ -47,7 +47,9 @@ std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, 
   rival.proposal = 0.0;
   rival.located = true;
   rival.size = 1.0;
-  rival.correlation = rival.score = std::max(0.0, found->match.correlation);
+  rival.match = alignment_.judge(rival.quad, finest_px);
+  rival.correlation = std::max(0.0, rival.match.correlation);
+  rival.score = 0.5 * (*rival.correlation + std::max(0.0, rival.match.faithful_uncovered));
   return rival;
 }
 
@@ -62,13 +64,13 @@ void RingJudge::keep(const ScoredCandidate& rival) {
     *same = rival;
 }
 
-std::optional<RingMatch> RingJudge::matchAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                            const geometry::Quadrilateral& quad) {
+std::optional<AlignedRing> RingJudge::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                                const geometry::Quadrilateral& quad) {
   if (!known() || image.channels() != model_.channels()) return std::nullopt;
   alignment_.set(model_, image, camera);
-  const auto found = alignment_.align(quad, kFinestPx);
-  if (!found) return std::nullopt;
-  return alignment_.compare(found->quad, kFinestPx);
+  auto found = alignment_.align(quad, kFinestPx);
+  if (found) found->match = alignment_.judge(found->quad, kFinestPx);
+  return found;
 }
 
 const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
@@ -99,7 +101,6 @@ const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
   for (std::size_t i = 0; i < std::min(aligned_.size(), kFinePlaces); ++i)
     if (const auto rival = aligned(aligned_[i], kFinestPx)) aligned_[i] = *rival;
   sortByScore(aligned_);
-  for (ScoredCandidate& rival : aligned_) rival.match = alignment_.compare(rival.quad, kFinestPx);
   return aligned_;
 }
 

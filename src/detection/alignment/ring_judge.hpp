@@ -12,8 +12,10 @@ namespace window_ingress::detection {
 class RingJudge {
  public:
   /// See RingModel.
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0) {
+  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0,
+             const std::optional<OpeningAspect>& aspect = std::nullopt) {
     model_.learn(picture, opening, colour);
+    model_.setAspect(aspect);
   }
   void forget() { model_.forget(); }
   bool known() const { return model_.known(); }
@@ -23,9 +25,9 @@ class RingJudge {
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
-  /// How well it fits where it fits best near this place; nothing where it does not.
-  std::optional<RingMatch> matchAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                   const geometry::Quadrilateral& quad);
+  /// Where it fits best near this place, and how well; nothing where it does not.
+  std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                       const geometry::Quadrilateral& quad);
 
  private:
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);

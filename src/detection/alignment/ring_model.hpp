@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
+#include "detection/alignment/rectangle_prior.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
@@ -57,9 +59,13 @@ class RingModel {
   /// \param picture CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels \param colour weight of
   /// the differences between channels, beside brightness
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0);
-  void forget() { levels_.clear(); }
+  void forget() { levels_.clear(), aspect_.reset(); }
   bool known() const { return !levels_.empty(); }
   int channels() const { return channels_; }
+
+  /// Of the opening, where it is known.
+  void setAspect(const std::optional<OpeningAspect>& aspect) { aspect_ = aspect; }
+  const std::optional<OpeningAspect>& aspect() const { return aspect_; }
 
   /// Gives the differences of three logarithms their weight.
   void weighColour(float& blue, float& green, float& red) const;
@@ -72,6 +78,7 @@ class RingModel {
   std::vector<RingLevel> levels_;
   int channels_ = 0;
   float colour_ = 1.0F;
+  std::optional<OpeningAspect> aspect_;
 };
 
 }  // namespace window_ingress::detection

@@ -122,6 +122,21 @@ const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads:
   return kept_;
 }
 
+const std::vector<ScoredCandidate>& CandidateSearch::open() {
+  open_.clear();
+  for (const Quadrilateral& quad : segment_quads_.open(*segments_)) {
+    ScoredCandidate rival;
+    rival.candidate.quad = quad;
+    rival.candidate.source = CandidateSource::kSegments;
+    for (int i = 0; i < 4; ++i) rival.candidate.seen[i] = lens_.distort(quad[i]);
+    if (gates_.shape(rival.candidate, level_size_)) continue;
+    rival.quad = inFullImage(rival.candidate.seen, factor_);
+    rival.score = kDoubtfulScore;
+    open_.push_back(rival);
+  }
+  return open_;
+}
+
 void CandidateSearch::doubt(ScoredCandidate rival, const Rejection& rejection) {
   const bool is_dented = rejection.reason == RejectReason::kSolidity;
   if (doubtful_.size() >= kMaxDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))

@@ -50,6 +50,9 @@ class CandidateSearch {
   /// better.
   const std::vector<ScoredCandidate>& doubtful() const { return doubtful_; }
 
+  /// What three sides of the last call enclose, see SegmentQuads::open: likewise. Valid until the next call.
+  const std::vector<ScoredCandidate>& open();
+
   /// \param watch told of each stage that is done, or null; outlives this
   void setWatch(StageWatch* watch) { watch_ = watch; }
 
@@ -77,7 +80,7 @@ class CandidateSearch {
   const std::vector<Segment>* segments_ = nullptr;
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
-  std::vector<ScoredCandidate> admitted_, kept_, doubtful_;
+  std::vector<ScoredCandidate> admitted_, kept_, doubtful_, open_;
   StageWatch* watch_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;

@@ -24,6 +24,12 @@ constexpr double kLargest = 2.0;      ///< the same at a corner, in the mean len
 constexpr float kNoWay = 1e9F;
 constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
 
+constexpr double kOpenCoverage = 0.6;  ///< of the side between two others that no fourth closes
+constexpr double kOpenSide = 0.3;      ///< the shorter of the two over the longer one
+constexpr double kOpenLongest = 3.0;  ///< the longer one over the side between them, or that over the shorter
+constexpr double kOpenCosine = 0.8;   ///< of the angle between the two
+constexpr std::size_t kMostOpen = 200;
+
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Part of the stretch from t1 to t2 that the segment, 0 to 1, covers.
@@ -192,6 +198,62 @@ void SegmentQuads::keepBest() {
     candidate.closure = one.closure;
     result_.candidates.push_back(candidate);
   }
+}
+
+// Pairs of sides that leave the segment i on one side of it.
+void SegmentQuads::openFrom(const std::vector<Segment>& segments, int i, int side) {
+  for (const Junction& first : junctions_[i]) {
+    if (first.gapPx(kToB, side) >= kNoWay) continue;
+    for (const Junction& second : junctions_[i]) {
+      if (second.t_own <= first.t_own || second.gapPx(kToA, side) >= kNoWay) continue;
+      const double stretch = (second.t_own - first.t_own) * sides_[i].length;
+      const double gap_px = first.gapPx(kToB, side) + second.gapPx(kToA, side), most_px = mostGap(stretch);
+      if (stretch * stretch < 0.1 * min_area_px_ || gap_px > most_px) continue;
+      if (coverage(first.t_own, second.t_own) < kOpenCoverage) continue;
+      closeOpen(segments, {i, side, &first, &second, gap_px, most_px}, stretch);
+    }
+  }
+}
+
+// Two sides that may be opposite ones end where something stands before the fourth, or before one of them.
+void SegmentQuads::closeOpen(const std::vector<Segment>& segments, const Base& base, double stretch_px) {
+  const auto wayAlong = [&](const Junction& corner) {
+    const Segment& segment = segments[corner.other];
+    return Vector2d((corner.otherTowards(base.side) == kToA ? segment.a : segment.b) - corner.point);
+  };
+  const Vector2d one = wayAlong(*base.first), other = wayAlong(*base.second);
+  const double one_px = one.norm(), other_px = other.norm();
+  const auto [shorter, longer] = std::minmax(one_px, other_px);
+  if (shorter < kOpenSide * longer || longer > kOpenLongest * stretch_px ||
+      shorter * kOpenLongest < stretch_px)
+    return;
+  if (one.dot(other) < kOpenCosine * one_px * other_px) return;
+  const double closed = std::exp(-base.gap_px / closurePx(stretch_px));
+  for (double far_px : {longer, shorter}) {
+    const Vector2d far_one = base.first->point + one * far_px / one_px,
+                   far_other = base.second->point + other * far_px / other_px;
+    const auto quad = geometry::canonical({base.first->point, far_one, far_other, base.second->point});
+    const double area = quad ? geometry::signedArea(*quad) : 0.0;
+    if (area >= min_area_px_) open_found_.push_back({closed * std::pow(area, 0.25), closed, *quad});
+  }
+}
+
+const std::vector<geometry::Quadrilateral>& SegmentQuads::open(const std::vector<Segment>& segments) {
+  open_found_.clear();
+  open_.clear();
+  for (int i = 0; i < count_; ++i)
+    for (int side : {kLeft, kRight}) openFrom(segments, i, side);
+  std::stable_sort(open_found_.begin(), open_found_.end(),
+                   [](const Found& a, const Found& b) { return a.value > b.value; });
+  for (const Found& one : open_found_) {
+    if (open_.size() == kMostOpen) break;
+    const Sameness same(one.quad);
+    const bool known = std::any_of(open_.begin(), open_.end(), [&](const geometry::Quadrilateral& better) {
+      return same.sameQuad(better);
+    });
+    if (!known) open_.push_back(one.quad);
+  }
+  return open_;
 }
 
 const SegmentQuads::Result& SegmentQuads::run(const std::vector<Segment>& segments, double min_area_px,

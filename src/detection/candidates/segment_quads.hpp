@@ -36,6 +36,11 @@ class SegmentQuads {
   /// \param segments strongest first, in pixels of the search level. Valid until the next call.
   const Result& run(const std::vector<Segment>& segments, double min_area_px, const Effort& effort);
 
+  /// Three sides of the last run each, as if something stood before the fourth: closed where the longer and
+  /// where the shorter of two opposite sides ends. Likeliest first, each once.
+  /// \param segments those of the last run. Valid until the next call
+  const std::vector<geometry::Quadrilateral>& open(const std::vector<Segment>& segments);
+
  private:
   /// The ways along a segment, and the sides of it as seen when going from a to b.
   enum Way { kToA, kToB };
@@ -83,6 +88,8 @@ class SegmentQuads {
   const Junction& between(int i, int j) const { return junctions_[i][places_[i * count_ + j]]; }
   std::uint64_t* corners(int i, int way, int side) { return &corners_[((i * 2 + way) * 2 + side) * words_]; }
   void keepBest();
+  void openFrom(const std::vector<Segment>& segments, int i, int side);
+  void closeOpen(const std::vector<Segment>& segments, const Base& base, double stretch_px);
 
   SegmentQuadsParams params_;
   Effort effort_ = kQuick;
@@ -93,7 +100,8 @@ class SegmentQuads {
   std::vector<std::uint64_t>
       corners_;                       ///< of each segment by way and side: a bit for each that makes a corner
   std::vector<std::int16_t> places_;  ///< of the junction of a pair
-  std::vector<Found> found_;
+  std::vector<Found> found_, open_found_;
+  std::vector<geometry::Quadrilateral> open_;
   std::vector<int> order_;
   Result result_;
 };

@@ -18,7 +18,7 @@ constexpr int kVariantsLocated = 2;         ///< loops of one place from which t
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
 constexpr double kMinContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
-constexpr double kUncovered = 0.82;   ///< where there is no frame
+constexpr double kUncovered = 0.88;   ///< where there is no frame
 constexpr double kSureWorth = 0.3;    ///< of located borders; then loops about the same place are forgotten
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
@@ -62,8 +62,9 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
       !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
     return;
   borders_.learn(inChannels(reference_->picture()), reference_->opening());
-  ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames);
   shape_.learn(reference_->picture(), reference_->opening());
+  ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
+              shape_.aspect());
   const auto colours = ringColours(reference_->picture(), reference_->opening(),
                                    {appearance_.near_width, appearance_.far_width}, 1);
   if (colours && !frameless()) paint_ = colours->means.paint();
@@ -170,14 +171,14 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) con
   return Rejection{RejectReason::kUnlike, value, least};
 }
 
-std::optional<Rejection> ReferenceJudge::objectionToSurroundings(const geometry::Quadrilateral& corners,
-                                                                 const cv::Mat& image,
-                                                                 const geometry::PinholeCamera* camera) {
+std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadrilateral& corners,
+                                                          const cv::Mat& image,
+                                                          const geometry::PinholeCamera* camera) {
   if (!compares(image)) return std::nullopt;
-  const auto match = ring_.matchAt(inChannels(image), camera, corners);
-  if (!match || match->correlation < min_correlation_) return std::nullopt;
-  if (match->contrast < kMinContrast * match->correlation) return std::nullopt;
-  return objectionTo(*match);
+  const auto ring = ring_.alignedAt(inChannels(image), camera, corners);
+  if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
+  if (ring->match.contrast < kMinContrast * ring->match.correlation) return std::nullopt;
+  return ring;
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,

@@ -54,11 +54,10 @@ class ReferenceJudge {
   /// Why what lies round a place is not what lies round the reference's opening.
   std::optional<Rejection> objectionTo(const RingMatch& match) const;
 
-  /// The same for a window that was found by its frame; nothing where there is something else behind that
-  /// frame, as behind a gate.
-  std::optional<Rejection> objectionToSurroundings(const geometry::Quadrilateral& corners,
-                                                   const cv::Mat& image,
-                                                   const geometry::PinholeCamera* camera);
+  /// Where what lies round a window that was found by its frame fits best; nothing where there is something
+  /// else behind that frame, as behind a gate.
+  std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
+                                            const geometry::PinholeCamera* camera);
 
   /// Why fitted borders cannot be the reference's, if they cannot.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,

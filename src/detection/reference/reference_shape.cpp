@@ -23,7 +23,8 @@ using geometry::Quadrilateral;
 constexpr double kCornerSigmaPx = 0.3;  ///< least standard deviation of a corner, each way [px]
 constexpr double kAspectSigma =
     0.03;  ///< of the logarithm of the aspect: how well the reference shows it, at best
-constexpr double kFrameSigmaPx = 0.03;  ///< standard deviation of the width of a frame [px]
+constexpr double kLeastAspectSigma = 0.01;  ///< the same, for a prior: its corners are good to a pixel or so
+constexpr double kFrameSigmaPx = 0.03;      ///< standard deviation of the width of a frame [px]
 
 using Parameters = Eigen::Matrix<double, 7, 1>;  ///< turn, place, logarithm of the aspect over the expected
 using Residuals = Eigen::Matrix<double, 9, 1>;
@@ -207,13 +208,18 @@ void ReferenceShape::learn(const cv::Mat& picture, const Quadrilateral& opening)
   }
 }
 
+std::optional<OpeningAspect> ReferenceShape::aspect() const {
+  if (!aspect_) return std::nullopt;
+  return OpeningAspect{aspect_->value, std::max(kLeastAspectSigma, aspect_->sigma / aspect_->value)};
+}
+
 std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
     const Quadrilateral& corners, const std::array<Eigen::Matrix2d, 4>& covariance,
     const PinholeCamera* camera) const {
   if (!aspect_ || !camera) return std::nullopt;
   RectangleMisfit misfit;
-  misfit.aspect = aspect_->value;
-  misfit.log_aspect_sigma = std::max(kAspectSigma, aspect_->sigma / aspect_->value);
+  misfit.aspect = aspect()->value;
+  misfit.log_aspect_sigma = std::max(kAspectSigma, aspect()->log_sigma);
   misfit.least_px = kCornerSigmaPx;
   const auto seen =
       misfit.of(undistorted(corners, camera->hasDistortion() ? camera : nullptr), covariance, *camera);

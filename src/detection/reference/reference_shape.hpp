@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "detection/alignment/rectangle_prior.hpp"
 #include "detection/reference/side_profile.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
@@ -44,6 +45,9 @@ class ReferenceShape {
   /// \param picture by an unknown camera: its focal length is taken to be half to twice the longer side
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
   void forget() { aspect_.reset(), frame_.fill(0.0); }
+
+  /// Of the opening; nothing before `learn`.
+  std::optional<OpeningAspect> aspect() const;
 
   /// Where a shape differs by more than it may: value and limit; nothing where it does not, or cannot be
   /// told.

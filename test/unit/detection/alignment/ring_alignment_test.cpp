@@ -30,7 +30,7 @@ struct Scene {
     const auto aligned = alignment.align(start, 400.0);
     if (!aligned) return 1e9;
     correlation = aligned->match.correlation;
-    match = alignment.compare(aligned->quad, 200.0);
+    match = alignment.judge(aligned->quad, 200.0);
     return test::worstCorner(aligned->quad, opening);
   }
 
@@ -86,6 +86,42 @@ TEST(RingAlignment, AThirdOfTheRingMayBeCovered) {
   EXPECT_GT(scene.correlation, 0.5);
   EXPECT_GT(scene.match.uncovered, scene.match.correlation + 0.1) << "what is not covered fits";
   EXPECT_GT(scene.match.faithful_uncovered, scene.match.faithful + 0.1);
+}
+
+// Each segment of the ring is crossed: none of them fits as a whole.
+TEST(RingAlignment, WhatCrossesAllOfTheRingIsLeftOut) {
+  Scene scene{PatchedWall(6)};
+  scene.look(seenFrom(2.5, -0.2));
+  for (int n = 0; n < 12; ++n)
+    cv::line(scene.image, {60 * n - 60, 0}, {60 * n, 480}, cv::Scalar(30, 120, 230), 7);
+  EXPECT_LT(scene.found(3.0), 0.5);
+  EXPECT_LT(scene.match.faithful, 0.75);
+  EXPECT_GT(scene.match.faithful_uncovered, 0.9);
+  Scene other{PatchedWall(4)};
+  other.look(seenFrom(2.5, -0.2));
+  RingAlignment alignment;
+  alignment.set(scene.model, other.image, nullptr);
+  EXPECT_LT(alignment.judge(other.opening, 200.0).faithful_uncovered, 0.6) << "nothing fits another wall";
+}
+
+// The left side is hidden by something that ends in an edge like a border's, 4 % of the side off.
+TEST(RingAlignment, ACalibratedCameraKeepsAHiddenSideFromShearing) {
+  Scene scene{PatchedWall(6)};
+  scene.look(seenFrom(2.5, -0.2));
+  test::fillQuad(scene.image, test::rectangle(0, 0, scene.opening[0].x() + 30, 480), cv::Scalar(40, 90, 60));
+  const geometry::PinholeCamera camera = PatchedWall::lensless();
+  const auto worst = [&](const std::optional<OpeningAspect>& aspect) {
+    scene.model.setAspect(aspect);
+    RingAlignment alignment;
+    alignment.set(scene.model, scene.image, &camera);
+    Quadrilateral start = scene.opening;
+    start[0] += Eigen::Vector2d(6.0, 5.0), start[3] += Eigen::Vector2d(6.0, -5.0);
+    const auto aligned = alignment.align(start, 400.0);
+    return aligned ? test::worstCorner(aligned->quad, scene.opening) : 1e9;
+  };
+  const double free = worst(std::nullopt), held = worst(OpeningAspect{PatchedWall::kAspect, 0.01});
+  EXPECT_LT(held, 1.0);
+  EXPECT_LT(held, 0.5 * free) << free;
 }
 
 TEST(RingAlignment, HazeTakesContrast) {

@@ -154,11 +154,11 @@ TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
 
 TEST(RingJudge, TellsHowWellAPlaceFits) {
   Known known{PatchedWall(3)};
-  const auto right = known.judge.matchAt(known.image, nullptr, test::grown(known.opening, 2.0));
+  const auto right = known.judge.alignedAt(known.image, nullptr, test::grown(known.opening, 2.0));
   ASSERT_TRUE(right);
-  EXPECT_GT(right->correlation, 0.8);
-  const auto wrong = known.judge.matchAt(known.image, nullptr, test::rectangle(40, 60, 160, 150));
-  EXPECT_LT(wrong ? wrong->correlation : 0.0, 0.5);
+  EXPECT_GT(right->match.correlation, 0.8);
+  const auto wrong = known.judge.alignedAt(known.image, nullptr, test::rectangle(40, 60, 160, 150));
+  EXPECT_LT(wrong ? wrong->match.correlation : 0.0, 0.5);
 }
 
 TEST(WindowDetector, AHoleInAnotherWallIsNotTheTarget) {

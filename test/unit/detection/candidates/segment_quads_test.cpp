@@ -95,6 +95,20 @@ TEST(SegmentQuads, StopsAtItsBudgetAndSaysSo) {
   EXPECT_LE(result.candidates.size(), 20u);
 }
 
+TEST(SegmentQuads, ClosesWhatHasThreeSidesWhereTheyEnd) {
+  const geometry::Quadrilateral quad = test::rectangle(90, 60, 210, 170);
+  const std::vector<Segment> segments = {segment({88, 60}, {190, 60}), segment({90, 61}, {90, 168}),
+                                         segment({92, 170}, {208, 170})};  // above it ends earlier
+  SegmentQuads quads{SegmentQuadsParams()};
+  EXPECT_TRUE(quads.run(segments, 100.0, SegmentQuads::kQuick).candidates.empty());
+  const auto& open = quads.open(segments);
+  ASSERT_FALSE(open.empty());
+  EXPECT_LE(open.size(), 4u);
+  EXPECT_TRUE(std::any_of(open.begin(), open.end(), [&](const geometry::Quadrilateral& one) {
+    return test::worstCorner(one, quad) < 3.0;
+  }));
+}
+
 TEST(SegmentQuads, NothingFromNothing) {
   EXPECT_TRUE(SegmentQuads(SegmentQuadsParams()).run({}, 1.0, SegmentQuads::kQuick).candidates.empty());
   const Segment one{{0, 0}, {10, 0}, {0, 1}, 10, 20.0};

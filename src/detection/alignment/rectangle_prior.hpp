@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "detection/alignment/homography_sums.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// Width over height of an opening, as its reference image shows it.
+struct OpeningAspect {
+  double value = 1.0;
+  double log_sigma = 0.0;  ///< of its logarithm; above 0
+};
+
+/// What is known of a homography before anything is seen: that it is a calibrated camera's view of a
+/// rectangle. Of its eight numbers six are a pose's; the other two, the aspect and the angle between its
+/// sides, are free only as far as they are uncertain. Where a part of the ring is hidden, nothing else keeps
+/// the homography from shearing.
+class RectanglePrior {
+ public:
+  RectanglePrior(const geometry::PinholeCamera& camera, const OpeningAspect& aspect);
+
+  /// Adds it to the normal equations of a step p, for maps that become map * (1 + P)^-1.
+  /// \param map from the opening, its sides of length 1, to ideal pixels \param noise variance of a residual
+  void addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal, Vector8f& right) const;
+
+ private:
+  Eigen::Matrix3d inverse_camera_;
+  OpeningAspect aspect_;
+};
+
+}  // namespace window_ingress::detection

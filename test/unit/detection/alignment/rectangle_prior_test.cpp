@@ -1,0 +1,75 @@
+#include "detection/alignment/rectangle_prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr double kAspect = 1.3;
+
+geometry::PinholeCamera camera() { return geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2); }
+
+// Of a rectangle of that aspect, seen from the side.
+Eigen::Matrix3d mapOf(double aspect, double skew) {
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()) *
+       Eigen::AngleAxisd(-0.1, Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
+  Eigen::Matrix3d view;
+  view << aspect * R.col(0), R.col(1) + skew * R.col(0), Eigen::Vector3d(0.3, -0.2, 4.0);
+  return camera().K() * view;
+}
+
+struct Shape {
+  double log_aspect, skew;
+};
+Shape shapeOf(const Eigen::Matrix3d& map) {
+  const Eigen::Matrix3d view = camera().K().inverse() * map;
+  return {std::log(view.col(0).norm() / view.col(1).norm()),
+          view.col(0).normalized().dot(view.col(1).normalized())};
+}
+
+// One step with next to nothing else known.
+Eigen::Matrix3d stepped(const Eigen::Matrix3d& map) {
+  Matrix8f normal = 1e-3F * Matrix8f::Identity();
+  Vector8f right = Vector8f::Zero();
+  RectanglePrior(camera(), {kAspect, 0.01}).addTo(map, 1.0, normal, right);
+  const Vector8f p = normal.ldlt().solve(right);
+  Eigen::Matrix3d change = Eigen::Matrix3d::Identity();
+  change.row(0) += Eigen::RowVector3f(p[0], p[1], p[2]).cast<double>();
+  change.row(1) += Eigen::RowVector3f(p[3], p[4], p[5]).cast<double>();
+  change(2, 0) += p[6], change(2, 1) += p[7];
+  return map * change.inverse();
+}
+
+TEST(RectanglePrior, AViewOfTheRectangleStaysAsItIs) {
+  const Eigen::Matrix3d map = mapOf(kAspect, 0.0);
+  EXPECT_LT((stepped(map) - map).cwiseAbs().maxCoeff(), 1e-3 * map.cwiseAbs().maxCoeff());
+}
+
+TEST(RectanglePrior, AspectAndSkewGoBack) {
+  for (double aspect : {kAspect * 0.95, kAspect * 1.05})
+    for (double skew : {-0.05, 0.05}) {
+      const Shape before = shapeOf(mapOf(aspect, skew)), after = shapeOf(stepped(stepped(stepped(mapOf(aspect, skew)))));
+      EXPECT_LT(std::abs(after.log_aspect - std::log(kAspect)),
+                0.1 * std::abs(before.log_aspect - std::log(kAspect)));
+      EXPECT_LT(std::abs(after.skew), 0.1 * std::abs(before.skew));
+    }
+}
+
+TEST(RectanglePrior, WhatAPoseMayChangeCostsNothing) {
+  Matrix8f normal = Matrix8f::Zero();
+  Vector8f right = Vector8f::Zero();
+  RectanglePrior(camera(), {kAspect, 0.01}).addTo(mapOf(kAspect, 0.0), 1.0, normal, right);
+  const Eigen::SelfAdjointEigenSolver<Matrix8f> eigen(normal);
+  EXPECT_LT(eigen.eigenvalues()[5], 1e-4F * eigen.eigenvalues()[6]) << "six of eight are free";
+}
+
+}  // namespace
+}  // namespace window_ingress::detection
