@@ -12,9 +12,10 @@ function(add_sanitized_library name)
     file(GLOB_RECURSE found CONFIGURE_DEPENDS ${pattern})
     list(APPEND sources ${found})
   endforeach()
+  list(REMOVE_ITEM sources ${OFFSCREEN_EXCLUDED})
   add_library(${name} STATIC EXCLUDE_FROM_ALL ${sources})
   target_include_directories(${name} PRIVATE ${source_root})
-  target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS} ${OSMESA_INCLUDE_DIR})
+  target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS} ${OFFSCREEN_INCLUDE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_LIBRARIES})
 endfunction()
 
@@ -24,7 +25,8 @@ foreach(stage geometry parameters detection openness estimation facade perceptio
 endforeach()
 add_sanitized_library(fuzz_core FILES ${core_files}
                       LIBRARIES opencv_core opencv_imgproc opencv_video opencv_calib3d opencv_imgcodecs yaml-cpp)
-add_sanitized_library(fuzz_world FILES ${source_root}/simulation/*.cpp LIBRARIES fuzz_core ${OSMESA_LIBRARY})
+add_sanitized_library(fuzz_world FILES ${source_root}/simulation/*.cpp LIBRARIES fuzz_core ${OFFSCREEN_LIBRARY})
+target_compile_definitions(fuzz_world PRIVATE ${OFFSCREEN_DEFINITIONS})
 add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
                       LIBRARIES fuzz_world nlohmann_json::nlohmann_json Threads::Threads)
 

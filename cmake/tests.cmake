@@ -21,6 +21,10 @@ foreach(folder ${unit_folders})
                                                WINDOW_INGRESS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(folder STREQUAL adapters)
     target_link_libraries(${target} ${PROJECT_NAME}_bags)
+  elseif(folder STREQUAL simulation AND with_OSMESA AND with_EGL)  # the library has one of them: both are compared
+    target_sources(${target} PRIVATE ${OFFSCREEN_EXCLUDED})
+    target_link_libraries(${target} ${OFFSCREEN_OTHER_LIBRARY})
+    target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_WITH_OSMESA_AND_EGL)
   endif()
 endforeach()
 

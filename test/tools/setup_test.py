@@ -17,9 +17,11 @@ def system(name, number):
 
 @pytest.fixture(name="setup")
 def fixture_setup(tmp_path):
-    """Calls it on a system where nothing is installed and packages named in `absent` do not exist: (done, what it installed)."""
-    def call(os_release, *more, absent=()):
-        tools = {"dpkg-query": "exit 1", "id": "echo 0", "apt-get": f'echo "$@" >>{tmp_path}/apt',
+    """Calls it on a system where nothing is installed, or all but what is `missing`, and packages named in `absent` do not exist:
+    (done, what it installed)."""
+    def call(os_release, *more, absent=(), missing=None):
+        query = "exit 1" if missing is None else f'case " {" ".join(missing)} " in *" ${{!#}} "*) exit 1 ;; *) echo -n installed ;; esac'
+        tools = {"dpkg-query": query, "id": "echo 0", "apt-get": f'echo "$@" >>{tmp_path}/apt',
                  "apt-cache": f'case " {" ".join(absent)} " in *" ${{!#}} "*) exit 100 ;; esac'}
         for name, text in tools.items():
             (tmp_path / name).write_text(f"#!/bin/bash\n{text}\n")
@@ -51,12 +53,24 @@ def test_refuses_another_system_in_one_line(setup, name, number, reason):
     assert "Debian 12 and 13" in done.stderr and "Ubuntu 20.04" in done.stderr and reason in done.stderr
 
 
+def test_takes_egl_where_there_is_no_osmesa(setup):
+    done, installed = setup(UNSTABLE, "doxygen", absent=["libosmesa6-dev"])
+    assert done.returncode == 0 and "draws by EGL" in done.stdout
+    expected = [package for package in LISTS["debian"].split() if package != "libosmesa6-dev"]
+    assert installed == [*expected, "doxygen", "libegl-dev", "libegl-mesa0", "libgl1-mesa-dri"]
+
+
+def test_has_nothing_to_do_where_egl_is_installed_and_there_is_no_osmesa(setup):
+    done, installed = setup(UNSTABLE, absent=["libosmesa6-dev"], missing=["libosmesa6-dev"])
+    assert done.returncode == 0 and not installed and not done.stdout
+    done, installed = setup(system("debian", "12"), missing=["libosmesa6-dev"])
+    assert done.returncode == 0 and installed == ["libosmesa6-dev"]
+
+
 def test_names_what_the_system_does_not_have_and_installs_nothing(setup):
-    done, installed = setup(UNSTABLE, absent=["libosmesa6-dev", "rviz"])
+    done, installed = setup(UNSTABLE, absent=["libosmesa6-dev", "rviz", "parallel"])
     assert done.returncode == 2 and not installed
-    assert "no OSMesa" in done.stderr and "Debian GNU/Linux sid has no libosmesa6-dev rviz" in done.stderr
-    done, installed = setup(UNSTABLE, absent=["rviz"])
-    assert done.returncode == 2 and not installed and "OSMesa" not in done.stderr
+    assert "Debian GNU/Linux sid has no parallel rviz; nothing installed" in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])

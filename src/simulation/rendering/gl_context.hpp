@@ -6,22 +6,50 @@
 
 namespace window_ingress::simulation {
 
-/// An off-screen OpenGL context of OSMesa, drawn by llvmpipe in this process.
+/// An off-screen OpenGL context, drawn by llvmpipe in this process.
 class GlContext {
  public:
-  /// \throws std::runtime_error if there is no context, a function is missing, or the renderer is not
-  /// llvmpipe (softpipe is ten times slower).
-  GlContext();
-  ~GlContext();
+  virtual ~GlContext() = default;
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// To be called in each thread and before each image: another context may have been current.
-  const GlFunctions& makeCurrent();
+  /// In the calling thread; another context may have been current.
+  virtual void makeCurrent() = 0;
+  /// Another thread may then make it current.
+  virtual void release() = 0;
+  const GlFunctions& functions() const { return gl_; }
+
+ protected:
+  using Function = void (*)();
+
+  GlContext() = default;
+  /// Mesa reads its environment when a process makes its first context; what the user has set stands.
+  static void chooseDriver();
+  /// To be called once it is current.
+  /// \throws std::runtime_error if a function is missing or the renderer is not llvmpipe (softpipe is ten
+  /// times slower).
+  void load(Function (*find)(const char* name));
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  GlFunctions gl_;
+};
+
+/// By the library that the package was configured with.
+/// \throws std::runtime_error if it gives no context
+std::unique_ptr<GlContext> makeGlContext();
+
+/// Keeps a context current in this thread.
+class CurrentContext {
+ public:
+  explicit CurrentContext(GlContext& context) : context_(context) { context_.makeCurrent(); }
+  ~CurrentContext() { context_.release(); }
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+  const GlFunctions& gl() const { return context_.functions(); }
+
+ private:
+  GlContext& context_;
 };
 
 }  // namespace window_ingress::simulation

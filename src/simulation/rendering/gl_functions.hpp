@@ -1,5 +1,5 @@
-/// The functions of OpenGL, all fetched from OSMesa itself: were they linked by name, another libGL in the
-/// process (a window toolkit's) could take their place and draw nothing.
+/// The functions of OpenGL, all fetched from the library that makes the context: were they linked by name,
+/// another libGL in the process (a window toolkit's) could take their place and draw nothing.
 #pragma once
 
 #include <GL/gl.h>

@@ -75,16 +75,19 @@ void requireUsable(const geometry::PinholeCamera& camera) {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const Scene& scene, const geometry::PinholeCamera& ideal, Antialiasing kind)
+  Impl(const Scene& scene, const geometry::PinholeCamera& ideal, Antialiasing kind,
+       std::unique_ptr<GlContext> given)
       : camera(ideal),
         opening(scene.opening),
         other_clear_holes(scene.other_clear_holes),
         fog(scene.fog),
         antialiasing(kind),
+        context(std::move(given)),
         faces(facesOf(scene.mesh)),
         smoother(ideal),
         rgba(ideal.height, ideal.width, CV_8UC4) {
-    const GlFunctions& gl = context.makeCurrent();
+    const CurrentContext current(*context);
+    const GlFunctions& gl = current.gl();
     target.create(gl, rgba.size(), kind == Antialiasing::kMultisampling ? 4 : 0);
     upload(gl, scene);
     setState(gl);
@@ -242,9 +245,11 @@ struct Renderer::Impl {
   }
 
   void render(const Eigen::Isometry3d& T_camera_window, const cv::Range& rows, cv::Mat& image) {
-    const GlFunctions& gl = context.makeCurrent();
-    draw(gl, T_camera_window, rows);
-    target.read(gl, rows, rgba);
+    {
+      const CurrentContext current(*context);
+      draw(current.gl(), T_camera_window, rows);
+      target.read(current.gl(), rows, rgba);
+    }
     cv::Mat part = image.rowRange(rows);
     cv::cvtColor(rgba.rowRange(rows), part, cv::COLOR_RGBA2BGR);
     if (antialiasing == Antialiasing::kEdges)
@@ -256,7 +261,7 @@ struct Renderer::Impl {
   bool other_clear_holes;
   std::optional<Fog> fog;
   Antialiasing antialiasing;
-  GlContext context;
+  std::unique_ptr<GlContext> context;
   GlTarget target;
   std::vector<Face> faces;
   Glazing glazing;
@@ -270,7 +275,13 @@ struct Renderer::Impl {
 
 Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing) {
   requireUsable(camera);
-  impl_ = std::make_unique<Impl>(scene, camera, antialiasing);
+  impl_ = std::make_unique<Impl>(scene, camera, antialiasing, makeGlContext());
+}
+
+Renderer::Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing,
+                   std::unique_ptr<GlContext> context) {
+  requireUsable(camera);
+  impl_ = std::make_unique<Impl>(scene, camera, antialiasing, std::move(context));
 }
 
 Renderer::~Renderer() = default;

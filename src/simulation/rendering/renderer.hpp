@@ -9,6 +9,8 @@
 
 namespace window_ingress::simulation {
 
+class GlContext;
+
 /// How the edges of surfaces are smoothed.
 enum class Antialiasing {
   kEdges,         ///< one sample a pixel, then by the exact area on either side of each visible edge
@@ -27,6 +29,9 @@ class Renderer {
   /// cannot be used or has distortion
   Renderer(const Scene& scene, const geometry::PinholeCamera& camera,
            Antialiasing antialiasing = Antialiasing::kEdges);
+  /// By `context` instead of the one the package was configured with.
+  Renderer(const Scene& scene, const geometry::PinholeCamera& camera, Antialiasing antialiasing,
+           std::unique_ptr<GlContext> context);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

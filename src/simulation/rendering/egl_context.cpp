@@ -1,0 +1,63 @@
+#include "simulation/rendering/egl_context.hpp"
+
+#define EGL_NO_X11  // some systems' headers include X11 without it
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace window_ingress::simulation {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  char code[16];
+  std::snprintf(code, sizeof code, "0x%x", static_cast<unsigned>(eglGetError()));
+  throw std::runtime_error("EGL " + what + " (" + code +
+                           "); are libegl-mesa0 and libgl1-mesa-dri installed?");
+}
+
+EGLDisplay initialised() {
+  const EGLDisplay display =
+      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+    fail("does not start without a display");
+  return display;
+}
+
+// One for the process; it is never terminated: other threads may have contexts of it.
+EGLDisplay theDisplay() {
+  static const EGLDisplay display = initialised();
+  return display;
+}
+
+}  // namespace
+
+EglContext::EglContext() {
+  chooseDriver();
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};  // with what OpenGL had before
+  const EGLDisplay display = theDisplay();
+  context_ = eglBindAPI(EGL_OPENGL_API)
+                 ? eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)
+                 : EGL_NO_CONTEXT;
+  if (context_ == EGL_NO_CONTEXT) fail("gives no OpenGL context");
+  try {
+    const CurrentContext current(*this);
+    load(eglGetProcAddress);
+  } catch (...) {
+    eglDestroyContext(display, context_);
+    throw;
+  }
+}
+
+EglContext::~EglContext() { eglDestroyContext(theDisplay(), context_); }
+
+void EglContext::makeCurrent() {
+  if (!eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    fail("refuses to make its context current");
+}
+
+void EglContext::release() { eglMakeCurrent(theDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
+}  // namespace window_ingress::simulation
