@@ -1,5 +1,6 @@
 # What the simulated world draws by: OSMesa where it is found, else EGL without a surface; both are llvmpipe.
-# Sets OFFSCREEN_LIBRARY, OFFSCREEN_INCLUDE_DIR, OFFSCREEN_DEFINITIONS and OFFSCREEN_EXCLUDED, the source left out.
+# Sets OFFSCREEN_LIBRARY and OFFSCREEN_INCLUDE_DIR; OFFSCREEN_EXCLUDED is the source left out, OFFSCREEN_OTHER_LIBRARY what it
+# would need.
 set(WINDOW_INGRESS_OFFSCREEN AUTO CACHE STRING "What the simulated world draws by: AUTO, OSMESA or EGL")
 set_property(CACHE WINDOW_INGRESS_OFFSCREEN PROPERTY STRINGS AUTO OSMESA EGL)
 
@@ -30,8 +31,8 @@ message(STATUS "The simulated world draws by ${offscreen}")
 
 set(OFFSCREEN_LIBRARY ${${offscreen}_LIBRARY})
 set(OFFSCREEN_INCLUDE_DIR ${${offscreen}_INCLUDE_DIR})
-set(OFFSCREEN_DEFINITIONS WINDOW_INGRESS_OFFSCREEN_${offscreen})
 set(rendering ${PROJECT_SOURCE_DIR}/src/simulation/rendering)
+set_source_files_properties(${rendering}/gl_context.cpp PROPERTIES COMPILE_DEFINITIONS WINDOW_INGRESS_OFFSCREEN_${offscreen})
 set(OFFSCREEN_EXCLUDED ${rendering}/egl_context.cpp)
 set(OFFSCREEN_OTHER_LIBRARY ${EGL_LIBRARY})
 if(offscreen STREQUAL EGL)

@@ -26,7 +26,6 @@ endforeach()
 add_sanitized_library(fuzz_core FILES ${core_files}
                       LIBRARIES opencv_core opencv_imgproc opencv_video opencv_calib3d opencv_imgcodecs yaml-cpp)
 add_sanitized_library(fuzz_world FILES ${source_root}/simulation/*.cpp LIBRARIES fuzz_core ${OFFSCREEN_LIBRARY})
-target_compile_definitions(fuzz_world PRIVATE ${OFFSCREEN_DEFINITIONS})
 add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
                       LIBRARIES fuzz_world nlohmann_json::nlohmann_json Threads::Threads)
 

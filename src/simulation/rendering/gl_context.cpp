@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #ifdef WINDOW_INGRESS_OFFSCREEN_EGL
 #include "simulation/rendering/egl_context.hpp"
