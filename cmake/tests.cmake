@@ -28,6 +28,15 @@ foreach(folder ${unit_folders})
   endif()
 endforeach()
 
+# The example of doc/ros2.md, run by test/tools/ros2_test.py.
+set(target ${PROJECT_NAME}_flies_without_ros)
+add_executable(${target} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/install/without_ros/main.cpp)
+set_target_properties(${target} PROPERTIES OUTPUT_NAME flies_without_ros PREFIX "")
+target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_core)
+if(NOT WINDOW_INGRESS_CORE_ONLY)
+  add_dependencies(tests ${target})
+endif()
+
 # The rows of test/faults/rows.yaml that need no node, and what the fuzzers have found: one program.
 if(NOT WINDOW_INGRESS_CORE_ONLY)
   file(GLOB fault_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/faults/unit/*_test.cpp ${PROJECT_SOURCE_DIR}/test/fuzz/*.cpp)
