@@ -18,9 +18,10 @@ function(add_adapters name)
           LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
-add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources world
-             DEPENDS ${PROJECT_NAME}_simulation ${PROJECT_NAME}_core)
-add_adapters(${PROJECT_NAME}_bags FOLDERS bags DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_evaluation)
+add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources DEPENDS ${PROJECT_NAME}_core)
+# Apart from what flies: the renderer's libraries would take 46 MB in each node.
+add_adapters(${PROJECT_NAME}_world_adapters FOLDERS world DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_simulation)
+add_adapters(${PROJECT_NAME}_bags FOLDERS bags DEPENDS ${PROJECT_NAME}_world_adapters ${PROJECT_NAME}_evaluation)
 
 # Only the registration macros: a node that links the classes must not register plugins.
 add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodes/nodelets.cpp)
@@ -33,6 +34,9 @@ foreach(source ${node_sources})
   add_executable(${target} ${source})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${node} PREFIX "")
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters)
+  if(node STREQUAL world)
+    target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_world_adapters)
+  endif()
   list(APPEND node_targets ${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()

@@ -2,8 +2,8 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include "adapters/conversions/tf_conversion.hpp"
 #include "adapters/sources/parameters.hpp"
-#include "adapters/world/world_messages.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {

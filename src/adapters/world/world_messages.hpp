@@ -2,20 +2,17 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 #include <window_ingress/ReferenceImage.h>
 
 #include <string>
-#include <vector>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/conversions/tf_conversion.hpp"
 #include "simulation/world.hpp"
 
 namespace window_ingress::adapters {
-
-std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id);
 
 /// The twist stands in the child frame (REP 147). \param twist_in_odom the velocity stands in the axes of
 /// odom instead, as some simulators have it
@@ -28,15 +25,6 @@ window_ingress::ReferenceImage toReferenceMsg(const simulation::World& world, co
 sensor_msgs::Imu toImuMsg(const simulation::ImuSample& sample, const ros::Time& stamp,
                           const FrameNames& frames);
 geometry_msgs::PoseStamped toPoseStampedMsg(const Eigen::Isometry3d& pose, const std_msgs::Header& header);
-geometry_msgs::TransformStamped toTransformStampedMsg(const Eigen::Isometry3d& pose,
-                                                      const std_msgs::Header& header,
-                                                      const std::string& child);
-
-/// base_link -> camera_link (forward-left-up) -> `camera_frame` (right-down-forward), REP 103.
-std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d& T_base_camera,
-                                                        const ros::Time& stamp, const FrameNames& frames,
-                                                        const std::string& camera_frame);
-
 /// The address of a calibration file as camera_info_manager has it, or none. \throws ParameterError
 std::string checkedUrl(const std::string& url);
 
