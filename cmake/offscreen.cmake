@@ -1,6 +1,7 @@
 # What the simulated world draws by: OSMesa where it is found, else EGL without a surface; both are llvmpipe.
 # Sets OFFSCREEN_LIBRARY and OFFSCREEN_INCLUDE_DIR; OFFSCREEN_EXCLUDED is the source left out, OFFSCREEN_OTHER_LIBRARY what it
 # would need.
+#catkin_lint: ignore_once global_var_collision
 set(WINDOW_INGRESS_OFFSCREEN AUTO CACHE STRING "What the simulated world draws by: AUTO, OSMESA or EGL")
 set_property(CACHE WINDOW_INGRESS_OFFSCREEN PROPERTY STRINGS AUTO OSMESA EGL)
 
