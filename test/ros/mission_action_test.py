@@ -24,6 +24,15 @@ import plant
 import support
 
 GLASS_FREE = {"glass": IngressGoal.GLASS_EXCLUDED}
+# Put before a client's program: its send_goal returns a second after the goal was sent, when the answer is there already.
+ANSWERED_FIRST = """
+import threading, time, actionlib.action_client
+_handle = actionlib.action_client.ClientGoalHandle
+def _late(machine):
+    time.sleep(1.0 if threading.current_thread() is threading.main_thread() else 0.0)
+    return _handle(machine)
+actionlib.action_client.ClientGoalHandle = _late
+"""
 STALE_WITHIN_S = 0.6  # limit of the age, plus a loaded machine
 
 
@@ -247,13 +256,20 @@ class MissionActionTest(unittest.TestCase):
         self.assertTrue(enable(True).success)
         self.setpoints.wait(plant.is_zero, "zeros in IDLE")
 
-    def documented_client(self):
+    def documented_client(self, before=""):
         page = pathlib.Path(rospkg.RosPack().get_path("window_ingress")) / "doc/ros_api.md"
         if not page.is_file():
             self.skipTest("documents are not installed")
         program = re.search(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), flags=re.M | re.S)[1]
         self.assertLessEqual(program.count("\n"), 20)
-        return subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+        return subprocess.Popen([sys.executable, "-c", before + program], stdout=subprocess.PIPE, text=True)
+
+    def test_the_documented_client_hears_a_refusal_that_comes_at_once(self):
+        enable(False)
+        client = self.documented_client(before=ANSWERED_FIRST)
+        said, _ = client.communicate(timeout=30.0)
+        self.assertEqual(client.returncode, 1, said)
+        self.assertIn("disabled (~enable)", said)
 
     def test_the_documented_client_flies(self):
         client = self.documented_client()

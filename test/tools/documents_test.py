@@ -83,6 +83,13 @@ def test_every_document_is_reached_from_the_readme():
     assert set(DOCUMENTS) <= reached, set(DOCUMENTS) - reached
 
 
+def test_each_node_that_is_launched_stands_in_the_table():
+    launched = {node.get("type") for file in ROOT.glob("launch/*.launch")
+                for node in ElementTree.parse(file).getroot().iter("node") if node.get("pkg") == "window_ingress"}
+    rows = re.findall(r"^\| `([\w.]+)` \|", (ROOT / "doc/ros_api.md").read_text(encoding="utf-8"), flags=re.M)
+    assert launched | {file.name for file in ROOT.glob("nodes/*.py")} <= set(rows)
+
+
 def test_doxygen_has_nothing_to_say(tmp_path):
     if not shutil.which("doxygen"):
         pytest.skip("doxygen is not installed")
