@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Starts the navigator's mission as soon as it accepts, waits for the referee, says how the flight ended.
 
+Parameter ~wait_sec, default 0: wall time before it asks the navigator, for who wants to watch the start.
 Last line: [INGRESS] outcome=PASSED time_s=... offset_y_m=... offset_z_m=...; exit code 0 if PASSED, else 1.
 """
 import sys
@@ -41,6 +42,7 @@ def main():
             over.set()
 
     rospy.Subscriber("referee", FlightVerdict, receive)
+    time.sleep(rospy.get_param("~wait_sec", 0.0))  # wall time: /clock may not run yet
     print(start(time.monotonic() + READY_WITHIN_S), file=sys.stderr)
     if not over.wait(FLIGHT_WITHIN_S):
         raise RuntimeError(f"no verdict within {FLIGHT_WITHIN_S:.0f} s")

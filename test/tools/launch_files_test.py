@@ -286,6 +286,14 @@ def test_a_replay_in_rviz_waits_for_it_and_stays_until_it_is_closed():
     assert dump("replay", "rviz:=true", "stay:=false")["nodes"]["/play"]["required"]
 
 
+def test_a_simulated_flight_in_rviz_waits_for_it_and_stays_until_it_is_closed():
+    alone, seen = dump("sim", "auto_start:=true"), dump("sim", "auto_start:=true", "rviz:=true", "software:=true")
+    assert alone["nodes"]["/start_mission"]["required"] and not seen["nodes"]["/start_mission"]["required"]
+    assert seen["nodes"]["/rviz"]["required"]
+    assert (alone["params"]["/start_mission/wait_sec"], seen["params"]["/start_mission/wait_sec"]) == (0.0, 8.0)
+    assert dump("sim", "auto_start:=true", "rviz:=true", "stay:=false")["nodes"]["/start_mission"]["required"]
+
+
 @pytest.mark.parametrize("name", ["ingress", "replay", "px4", "ardupilot"])
 def test_size_and_corners_are_given_as_to_the_tools(name):
     size, corners = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/corners"
