@@ -2,8 +2,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <boost/program_options.hpp>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "adapters/sources/parameters.hpp"
 #include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
+#include "launch_arguments.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
@@ -20,7 +23,7 @@ using namespace window_ingress;
 using tools::UsageError;
 
 struct Options {
-  std::string file, reference, corners, window_size, camera_pose, needs_window_size;
+  std::string file, reference, corners, window_size, camera_pose, needs_window_size, launch_folder;
 };
 
 po::options_description describe(Options& o) {
@@ -38,6 +41,10 @@ po::options_description describe(Options& o) {
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
       ("needs-window-size", po::value(&o.needs_window_size), "true: refused if nobody says it")          //
+      (
+          "launch-folder", po::value(&o.launch_folder),
+          "of the package: who starts this by roslaunch may give no argument that its file there does not "
+          "have")  //
       ("camera-pose", po::value(&o.camera_pose), "x,y,z,yaw,pitch,roll in base_link [m, rad]");
   return description;
 }
@@ -66,13 +73,38 @@ void checkReference(const Options& o, const configuration::DetectorNodeParams& d
   }
 }
 
-void checkWindowSize(const std::string& text, estimation::PoseParams pose) {
+void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
+
+void checkWindowSize(const std::string& text, const configuration::Overlay& overlay,
+                     const std::string& file) {
   if (text.empty()) return;
   const auto size = tools::numbers("window_size", text, 2);
+  estimation::PoseParams pose = overlay.homography_pose.pose;
+  const auto contradicts = [&](const char* key, double in_file, double given) {
+    return overlay.said.count(std::string("homography_pose/pose/") + key) != 0 &&
+           std::abs(in_file - given) > 1e-9;
+  };
+  if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
+      contradicts("opening_height_m", pose.opening_height_m, size[1])) {
+    std::ostringstream said;
+    said << pose.opening_width_m << "," << pose.opening_height_m;
+    warn("window_size " + text + " counts more than " + file + ", which says " + said.str());
+  }
   pose.opening_width_m = size[0];
   pose.opening_height_m = size[1];
   const auto faults = parameters::outOfRange(pose);
   if (!faults.empty()) throw UsageError("window_size " + text + ": " + parameters::joined(faults));
+}
+
+void checkSpeeds(const configuration::Overlay& overlay) {
+  const double speed = overlay.ingress_navigator.navigator.limits.speed_mps;
+  const double guarded = overlay.setpoint_guard.max_speed_mps;
+  if (speed < guarded) return;
+  std::ostringstream text;
+  text << "setpoint_guard/max_speed_mps " << guarded
+       << " is not above ingress_navigator/navigator/limits/speed_mps " << speed
+       << ": all that is faster becomes zero";
+  warn(text.str());
 }
 
 // A drone does not fly by the size of somebody else's window.
@@ -103,10 +135,12 @@ int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty();
   if (asks_nothing) throw UsageError("no file given; see --help");
+  if (!o.launch_folder.empty()) tools::checkLaunchArguments(tools::wordsOfParent(), o.launch_folder);
   const std::string file = given(o.file);
   const auto overlay = configuration::readOverlay(file);
   checkReference(o, overlay.window_detector);
-  checkWindowSize(given(o.window_size), overlay.homography_pose.pose);
+  checkWindowSize(given(o.window_size), overlay, file);
+  checkSpeeds(overlay);
   checkSizeIsSaid(o);
   checkCameraPose(given(o.camera_pose));
   std::cout << file;

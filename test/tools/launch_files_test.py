@@ -146,6 +146,44 @@ def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, 
     assert done.returncode == 1 and "camera_pose" in done.stderr and said in done.stderr, done.stderr
 
 
+@pytest.mark.parametrize("name", ["px4", "rehearse"])
+def test_a_mounting_is_given_with_or_without_brackets(name):
+    for pose in ("[0.1,0,0.02,0,0.1,0]", "0.1,0,0.02,0,0.1,0"):
+        assert dump(name, f"camera_pose:={pose}")["params"]["/camera_mounting/pose"] == [0.1, 0, 0.02, 0, 0.1, 0]
+
+
+@pytest.mark.parametrize("file", [("window_ingress", "px4.launch"), (ROOT / "launch/px4.launch",)], ids=["package", "path"])
+def test_an_argument_that_the_launch_file_does_not_have_ends_the_launch(file):
+    for wrong, said in (("cammera_pose:=[0,0,0,0,0,0]", "'cammera_pose'; did you mean 'camera_pose'?"),
+                        ("refrence:=/w.png", "'refrence'; did you mean 'reference'?"), ("seed:=3", "'seed'")):
+        done = run("roslaunch", "--nodes", *file, *SIZE, wrong)
+        assert done.returncode == 1 and f"px4.launch has no argument {said}" in done.stderr, done.stderr
+    done = run("roslaunch", "--nodes", *file, *SIZE, "image_transport:=compressed")  # of mavros.launch, by pass_all_args
+    assert done.returncode == 0, done.stderr
+
+
+def test_each_launch_file_takes_its_arguments():
+    for name in ("ingress", "sim", "demo", "px4", "ardupilot", "mavros", "rehearse", "replay"):
+        given = {text.split(":=")[0]: text for text in GIVEN.get(name, [])}
+        for arg in ElementTree.parse(ROOT / f"launch/{name}.launch").getroot().findall("arg"):
+            if arg.get("default") is not None and "$(" not in arg.get("default"):
+                given.setdefault(arg.get("name"), f"{arg.get('name')}:={arg.get('default')}")
+        done = run("roslaunch", "--nodes", ROOT / f"launch/{name}.launch", *given.values())
+        assert done.returncode == 0, done.stderr
+
+
+def test_contradictions_are_said(tmp_path):
+    config = tmp_path / "drone.yaml"
+    config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n"
+                      "ingress_navigator: {navigator: {limits: {speed_mps: 0.6}}}\nsetpoint_guard: {max_speed_mps: 0.5}\n")
+    done = run("check_overlay", config, "--window-size", "1.2,1.4")
+    assert done.returncode == 0
+    assert f"window_size 1.2,1.4 counts more than {config}, which says 1.6,1.4" in done.stderr
+    assert "max_speed_mps 0.5 is not above ingress_navigator/navigator/limits/speed_mps 0.6" in done.stderr
+    config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n")
+    assert run("check_overlay", config, "--window-size", "1.6,1.4").stderr == ""
+
+
 def test_nothing_that_dies_takes_the_guard_with_it():
     for name in ("ingress", "px4", "ardupilot"):
         assert not any(node["required"] for node in dump(name)["nodes"].values()), name
