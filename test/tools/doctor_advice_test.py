@@ -46,6 +46,30 @@ def test_without_another_topic_the_argument_is_named(doctor):
     assert doctor.suggest(seen(doctor), "/imu", "sensor_msgs/Imu") == "start what publishes /imu, or give imu:=ITS_TOPIC"
 
 
+def test_of_a_topic_of_mavros_it_is_mavros_that_is_started(doctor):
+    mend = doctor.suggest(seen(doctor), "/mavros/imu/data", "sensor_msgs/Imu")
+    assert mend.startswith("start MAVROS (roslaunch mavros px4.launch") and mend.endswith("or give imu:=ITS_TOPIC")
+
+
+@pytest.mark.parametrize("required, publishers, words", [(True, [], "ERROR  /engaged: 0 publishers"), (False, [], "nothing is wrong"),
+                                                         (True, ["/engaged_from_mavros"], "nothing is wrong")])
+def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypatch, capsys, required, publishers, words):
+    monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default=None: required if name.endswith("engagement/required") else default)
+    system = seen(doctor, said={} if publishers else {"ingress_navigator: engaged": 2})
+    for status in system.said.values():
+        status.message = "nothing on /engaged yet, and engagement/required: no mission can start"
+    system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
+    system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
+    system.graph.publishers["/engaged"] = publishers
+    report = doctor.Report()
+    doctor.check_engaged(system, report)
+    if system.said and required:
+        doctor.check_what_nodes_say(system, report)
+    report.say()
+    said = capsys.readouterr().out
+    assert said.startswith(words) and "arm, and switch" not in said
+
+
 @pytest.mark.parametrize("mounting, window, known", [(0, 0, True), (2, 0, False), (0, 2, False), (None, None, False)])
 def test_a_transform_that_the_pose_node_has_is_not_missed(doctor, mounting, window, known):
     levels = {"/homography_pose: camera mounting": mounting, "/homography_pose: window": window}
