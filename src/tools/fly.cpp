@@ -322,12 +322,13 @@ int flyJob(const Job& job, const std::vector<std::uint32_t>& seeds, Results& res
     return flight;
   };
   int flown = 0;
+  const int passed_before = results.passed();  // those of a campaign that is resumed
   const auto began = std::chrono::steady_clock::now();
   const auto report = [&](const evaluation::FlightResult& flight, int done, int total) {
     results.add(flight);
     flown = done;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    printProgress(done, total, results.passed(), spent.count());
+    printProgress(done, total, results.passed() - passed_before, spent.count());
   };
   try {
     evaluation::flyAll(seeds, job.jobs, flyTimed, report);

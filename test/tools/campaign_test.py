@@ -82,7 +82,9 @@ def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
     flown = len((out / "flights.csv").read_text().splitlines()) - 1
     assert flown == int(said.group(1)) and not (out / "summary.json").exists()
     wanted = ["--seeds", f"1..{flown + 5}"]
-    assert fly(scenario, out, *wanted, "--resume").returncode == 0
+    resumed = fly(scenario, out, *wanted, "--resume")
+    counts = re.findall(r"^(\d+) of \d+ flights, (\d+) passed", resumed.stderr, flags=re.M)
+    assert resumed.returncode == 0 and counts and all(int(passed) <= int(done) for done, passed in counts), resumed.stderr
     assert fly(scenario, tmp_path / "whole", *wanted).returncode == 0
     for name in FILES:
         assert (out / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name

@@ -34,6 +34,17 @@ def test_the_target_is_part_of_the_package_and_installed(words):
         assert (ROOT / "src/tools" / f"{tool}.cpp").is_file()
 
 
+def test_a_reader_that_stops_early_sees_no_traceback():
+    for _ in range(3):
+        done = run("bash", "-c", f"{INGRESS} --help | true")
+        assert done.stderr == ""
+
+
+def test_what_report_cannot_read_is_said_with_what_can(tmp_path):
+    done = run(INGRESS, "report", tmp_path, "--output", tmp_path / "out")
+    assert done.returncode == 2 and "is a folder; give a bag" in done.stderr, done.stderr
+
+
 @pytest.mark.parametrize("words", ingress.COMMANDS)
 def test_help_is_that_of_the_tool(words):
     tool = ingress.COMMANDS[words][0]

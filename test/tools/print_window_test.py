@@ -63,15 +63,15 @@ def test_sheets_without_a_bit_of_the_frame_are_left_out():
 
 
 def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
-    done = run("--output", tmp_path / "window.pdf", "--size", "0.5,0.4")
+    done = run("--output", tmp_path / "new/window.pdf", "--size", "0.5,0.4")
     assert done.returncode == 0 and "at 100 %" in done.stdout, done.stderr
-    pdf = (tmp_path / "window.pdf").read_bytes()
+    pdf = (tmp_path / "new/window.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox \[ ?0 0 ([\d.]+) ([\d.]+) ?\]", pdf)
     sheets = len(list(printer.Window(500, 400, 50).sheets()))
     assert len(boxes) == 1 + sheets and f"{sheets} sheets" in done.stdout
     for box in boxes:
         assert [float(side) for side in box] == pytest.approx([595.28, 841.89], abs=0.1)
-    parameters = yaml.safe_load((tmp_path / "window.yaml").read_text())
+    parameters = yaml.safe_load((tmp_path / "new/window.yaml").read_text())
     assert parameters["homography_pose"]["pose"] == {"opening_width_m": 0.5, "opening_height_m": 0.4}
     reference = parameters["window_detector"]["reference"]
     picture = cv2.imread(reference["picture"])
@@ -80,7 +80,7 @@ def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
     middle = picture[round(top) + 40]
     edge = round(left)
     assert middle[edge - 3][2] > 200 and middle[edge - 3][0] < 40 and max(middle[edge + 3]) < 100  # frame, opening
-    checked = subprocess.run([ROOT / "scripts/run", "check_overlay", tmp_path / "window.yaml"], capture_output=True, text=True, check=False)
+    checked = subprocess.run([ROOT / "scripts/run", "check_overlay", tmp_path / "new/window.yaml"], capture_output=True, text=True, check=False)
     assert checked.returncode == 0, checked.stderr
 
 
