@@ -41,10 +41,9 @@ po::options_description describe(Options& o) {
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
       ("needs-window-size", po::value(&o.needs_window_size), "true: refused if nobody says it")          //
-      (
-          "launch-folder", po::value(&o.launch_folder),
-          "of the package: who starts this by roslaunch may give no argument that its file there does not "
-          "have")  //
+      ("launch-folder", po::value(&o.launch_folder),
+       "of the package: who starts this by roslaunch may give no argument that its file there does not "
+       "have")  //
       ("camera-pose", po::value(&o.camera_pose), "x,y,z,yaw,pitch,roll in base_link [m, rad]");
   return description;
 }
