@@ -147,7 +147,9 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
-      if (rival.correlation && fitted->seen < kFewestSeen) {
+      const bool bare = rival.correlation && reference.frameless();
+      if ((rival.correlation && fitted->seen < kFewestSeen) ||
+          (bare && !reference.showsOpening(image, fitted->corners, camera))) {
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }

@@ -19,7 +19,9 @@ constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the refe
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
 constexpr double kMinContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
 constexpr double kUncovered = 0.88;   ///< where there is no frame
-constexpr double kSureWorth = 0.3;    ///< of located borders; then loops about the same place are forgotten
+constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
+constexpr double kMinStep = 0.12;   ///< of the mean colours there, relative to them; right ones have 0.2 to 1
+constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
 
@@ -179,6 +181,18 @@ std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadri
   if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
   if (ring->match.contrast < kMinContrast * ring->match.correlation) return std::nullopt;
   return ring;
+}
+
+bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                                  const geometry::PinholeCamera* camera) {
+  const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  measureSides(inChannels(image), undistorted(corners, lens), lens, {kStepReach, kStepReach}, sides_);
+  const auto differs = [](const SideProfile& side) {
+    Eigen::Vector3f within, without;
+    if (!side.mean(-kStepTo, -kStepFrom, within) || !side.mean(kStepFrom, kStepTo, without)) return false;
+    return (within - without).norm() > 0.5 * kMinStep * (within + without).norm();
+  };
+  return std::count_if(sides_.begin(), sides_.end(), differs) >= 3;
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,

@@ -59,6 +59,11 @@ class ReferenceJudge {
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera);
 
+  /// True if what lies within three of the borders differs from the wall without: a wall whose pattern
+  /// repeats itself looks like that round the opening elsewhere, too, but goes on within.
+  bool showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                    const geometry::PinholeCamera* camera);
+
   /// Why fitted borders cannot be the reference's, if they cannot.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera);
@@ -81,6 +86,7 @@ class ReferenceJudge {
   std::optional<Eigen::Vector3f> paint_;
   bool is_grey_ = false;  ///< the reference; then by brightness alone
   cv::Mat channels_;
+  std::array<SideProfile, 4> sides_;
   std::vector<std::size_t> places_;  ///< of the rivals that are looked at
   std::vector<ScoredCandidate> located_;
 };
