@@ -109,6 +109,9 @@ struct Detected {
   std::optional<WindowObservation> look(const PatchedWall& wall, double yaw_rad, Quadrilateral* opening) {
     cv::Mat image = wall.draw(seenFrom(3.0, yaw_rad), opening, cv::Scalar(30, 40, 35));
     if (evening) shine(image, *opening);
+    if (outlined)
+      for (int i = 0; i < 4; ++i) drawLine(image, (*opening)[i], (*opening)[(i + 1) % 4]);
+    if (person) cover(image, *opening);
     test::addNoise(image, 2.0, 3);
     const geometry::PinholeCamera camera = PatchedWall::lensless();
     return detector.detect(image, 0.0, &camera);
@@ -120,9 +123,43 @@ struct Detected {
     cv::Mat dark = image.colRange(from, image.cols);
     dark *= 0.5;
   }
+  static void drawLine(cv::Mat& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    cv::line(image, cv::Point2d(a.x(), a.y()), cv::Point2d(b.x(), b.y()), cv::Scalar(40, 40, 40), 2,
+             cv::LINE_AA);
+  }
+  // Something stands before the right border, from top to bottom.
+  static void cover(cv::Mat& image, const Quadrilateral& opening) {
+    const double x = 0.5 * (opening[1].x() + opening[2].x());
+    test::fillQuad(image, test::rectangle(x - 14, opening[1].y() - 40, x + 18, 480), cv::Scalar(120, 60, 90));
+  }
+
   WindowDetector detector;
-  bool evening = false;
+  bool evening = false, outlined = false, person = false;
 };
+
+TEST(WindowDetector, AFrameOfWhichOneSideIsHiddenIsFound) {
+  const PatchedWall wall(3, 0.07, 25.0);
+  Detected detected(wall);
+  detected.person = true;
+  for (double yaw : {-0.4, 0.0, 0.4}) {
+    Quadrilateral opening;
+    const auto window = detected.look(wall, yaw, &opening);
+    ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
+    EXPECT_LT(test::worstCorner(window->corners, opening), 3.0) << yaw;
+  }
+}
+
+// A wall whose pattern repeats itself, with something of the opening's outline on it.
+TEST(WindowDetector, WhereTheWallGoesOnWithinThereIsNoHole) {
+  PatchedWall wall(3, 0.0, 25.0);
+  Detected detected(wall);
+  wall.is_open = false;
+  detected.outlined = true;
+  for (double yaw : {-0.3, 0.0, 0.3}) {
+    Quadrilateral opening;
+    EXPECT_FALSE(detected.look(wall, yaw, &opening)) << yaw;
+  }
+}
 
 TEST(WindowDetector, AFrameInOtherLightIsKnownByItsContrasts) {
   PatchedWall wall(3, 0.07, 15.0);
