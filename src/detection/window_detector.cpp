@@ -54,6 +54,8 @@ struct WindowDetector::Impl {
   std::optional<Rejection> objection(const ScoredCandidate& rival) const;
   std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, double& inliers) const;
+  bool showsOpening(const RefinedBorders& fitted, const cv::Mat& image,
+                    const geometry::PinholeCamera* camera);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const cv::Mat& image,
                                                const geometry::PinholeCamera* camera, RefinedBorders& fitted);
   double leastScore(const ScoredCandidate& rival) const;
@@ -108,6 +110,13 @@ double WindowDetector::Impl::runnerUp(const ScoredCandidate& target) const {
   return best;
 }
 
+// The surroundings alone fit where a wall was closed, too.
+bool WindowDetector::Impl::showsOpening(const RefinedBorders& fitted, const cv::Mat& image,
+                                        const geometry::PinholeCamera* camera) {
+  return fitted.seen >= kFewestSeen &&
+         (!reference.frameless() || reference.showsOpening(image, fitted.corners, camera));
+}
+
 // Borders that do not lie where the surroundings fit are those of something before them: fitted anew there.
 // Without a camera nothing keeps the surroundings from shearing, and the borders are left.
 std::optional<Rejection> WindowDetector::Impl::judgeSurroundingsOf(const ScoredCandidate& rival,
@@ -147,9 +156,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
-      const bool bare = rival.correlation && reference.frameless();
-      if ((rival.correlation && fitted->seen < kFewestSeen) ||
-          (bare && !reference.showsOpening(image, fitted->corners, camera))) {
+      if (rival.correlation && !showsOpening(*fitted, image, camera)) {
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
