@@ -22,7 +22,9 @@ class ImageSource {
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
               const ImageLimits& limits, const StampLimits& stamps, Callback callback);
 
-  bool isConnected() const { return plugin_subscriber_.getNumPublishers() > 0; }
+  bool isConnected() const {
+    return plugin_subscriber_.getNumPublishers() + compressed_subscriber_.getNumPublishers() > 0;
+  }
 
  private:
   void subscribeCompressed(ros::NodeHandle& nh);
