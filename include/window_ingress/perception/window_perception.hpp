@@ -8,6 +8,9 @@
 
 namespace window_ingress::perception {
 
+/// Where the target was expected as of one image says nothing of another one so much later [s].
+constexpr double kExpectationLastsSec = 0.5;
+
 /// Image to window observation: the target is searched or tracked, then the texture within its opening is
 /// followed. Node, replay and closed loop all see through this.
 ///

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <deque>
 #include <map>
@@ -91,6 +92,7 @@ class Replay {
   std::map<ros::Time, Eigen::Isometry3d> truth_;
   std::deque<Waiting> waiting_;
   std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the image before
+  double expected_as_of_sec_ = -1.0;
   double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
@@ -223,9 +225,11 @@ void Replay::processFirst() {
   frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
   const double begun_ms = nowMs();
   frame.row.window = perception_.update(inputOf(picture.image, waiting.header, camera));
-  frame.trace = &perception_.trace();
+  frame.perception = &perception_;
+  frame.tracker = &tracker_;
   frame.detector_ms = nowMs() - begun_ms;
   if (!frame.row.window) frame.row.reject_reason = detection::toString(perception_.trace().outcome);
+  expected_.reset();
   if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
   frame.pose_ms = nowMs() - begun_ms - frame.detector_ms;
   count(frame);
@@ -249,7 +253,8 @@ detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Head
   input.image = image;
   input.stamp_sec = header.stamp.toSec();
   input.camera = camera ? &*camera.value : nullptr;
-  input.expected = expected_;
+  if (std::abs(input.stamp_sec - expected_as_of_sec_) <= perception::kExpectationLastsSec)
+    input.expected = expected_;
   const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
   if (!T_odom_base) return input;
   if (const auto T_base_camera = mounting(header.frame_id).value)
@@ -265,6 +270,7 @@ void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
   const std::optional<Eigen::Isometry3d>& T_base_camera = mounted.value;
   tracker_.see({stamp_sec, *frame.camera, T_base_camera, frame.row.window, perception_.windows()});
   tracker_.flush();
+  expected_as_of_sec_ = stamp_sec;
   expected_ = T_base_camera ? tracker_.expected(stamp_sec, *frame.camera, *T_base_camera) : std::nullopt;
   if (frame.row.window) {
     const estimation::PoseResult& result = tracker_.lastUpdate().pose;

@@ -136,7 +136,7 @@ void DetectorNode::publishDebugImage(const std_msgs::Header& header, const cv::M
 // Where the memory of all windows says the target is: as of the image before.
 std::optional<geometry::Quadrilateral> DetectorNode::expectedAt(const std_msgs::Header& header) const {
   if (!last_pose_ || last_pose_->header.frame_id != header.frame_id ||
-      std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > kLateSec)
+      std::abs(header.stamp.toSec() - last_pose_->header.stamp.toSec()) > perception::kExpectationLastsSec)
     return std::nullopt;
   return expectedFrom(last_pose_->target);
 }

@@ -3,12 +3,10 @@
 #include <cmath>
 
 #include "evaluation/flights/flight_facts.hpp"
+#include "evaluation/flights/flight_perception.hpp"
 #include "simulation/world.hpp"
-#include "window_ingress/estimation/pose_buffer.hpp"
-#include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/navigator.hpp"
-#include "window_ingress/perception/window_perception.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -18,7 +16,6 @@ using simulation::Claim;
 using simulation::Outcome;
 
 constexpr double kTrackPeriod_sec = 0.1;
-constexpr double kMaxAttitudeGap_sec = 0.02;
 
 simulation::World::Pictures picturesFor(const FlightParams& params) {
   using Pictures = simulation::World::Pictures;
@@ -43,9 +40,8 @@ class Flight {
       : observers_(observers),
         world_(flyable(scenario), seed, picturesFor(params)),
         params_(withFactsOf(world_, params)),
-        perception_(params_.detector, params_.interior),
+        perception_(params_),
         sight_(params_.sight, seed),
-        tracker_(params_.pose, params_.filter, params_.tracker),
         navigator_(params_.navigator) {
     if (!params_.without_pictures) showReference();
     timing_.lap(Stage::kOther);
@@ -82,8 +78,9 @@ class Flight {
   void showReference();
   void look(const simulation::CameraFrame& frame);
   std::optional<detection::WindowObservation> detect(const simulation::CameraFrame& frame);
-  void expectTarget();
   void chooseTarget();
+  estimation::TargetEstimator& tracker() { return perception_.tracker(); }
+  const estimation::TargetEstimator& tracker() const { return perception_.tracker(); }
   void step();
   void keepTrack();
   void report() const;
@@ -94,18 +91,12 @@ class Flight {
   std::vector<FlightObserver*> observers_;
   simulation::World world_;
   FlightParams params_;
-  perception::WindowPerception perception_;
+  FlightPerception perception_;
   ProjectedSight sight_;
-  estimation::PoseBuffer attitude_;
-  estimation::SenderClock odometry_clock_;
-  estimation::TargetEstimator tracker_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput output_;
-  std::optional<geometry::PinholeCamera> camera_;  // as camera_info last said
   std::optional<double> started_sec_;
-  std::optional<geometry::Quadrilateral> expected_;
-  std::optional<double> last_seen_sec_;
   bool detected_ = false, was_chosen_ = false;
   std::vector<TrackPoint> track_;
   FlightTiming timing_;
@@ -114,25 +105,21 @@ class Flight {
 void Flight::sense() {
   while (const auto odometry = world_.takeOdometry()) {
     for (auto* observer : observers_) observer->onOdometry(*odometry);
-    const double stamp_sec = odometry_clock_.atReceiver(odometry->stamp_sec, world_.timeSec());
-    tracker_.addOdometry(stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps);
+    const double stamp_sec = perception_.addOdometry(odometry->stamp_sec, world_.timeSec(),
+                                                     odometry->T_odom_base, odometry->velocity_odom_mps);
     input_.vehicle = navigation::VehicleState{stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
   }
   while (const auto imu = world_.takeImu()) {
     for (auto* observer : observers_) observer->onImu(*imu);
-    tracker_.addAttitude(imu->stamp_sec, imu->R_odom_base);
-    attitude_.add(imu->stamp_sec,
-                  geometry::makePose(imu->R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
+    perception_.addAttitude(imu->stamp_sec, imu->R_odom_base);
   }
   while (const auto calibration = world_.takeCalibration()) calibrate(*calibration);
   if (const auto frame = world_.takeFrame()) look(*frame);
 }
 
-// A calibration that cannot be used withdraws the one before.
 void Flight::calibrate(const simulation::CalibrationSample& sample) {
   for (auto* observer : observers_) observer->onCalibration(sample);
-  camera_.reset();
-  if (sample.camera.validate().empty()) camera_ = sample.camera;
+  perception_.calibrate(sample.camera);
 }
 
 void Flight::showReference() {
@@ -145,39 +132,21 @@ std::optional<detection::WindowObservation> Flight::detect(const simulation::Cam
   if (params_.without_pictures && !world_.scenario().window.present) return std::nullopt;
   if (params_.without_pictures)
     return sight_.look(world_.camera(), frame.T_camera_window, world_.opening(), frame.stamp_sec);
-  detection::TrackInput seen;
-  seen.image = frame.image;
-  seen.stamp_sec = frame.stamp_sec;
-  seen.camera = camera_ ? &*camera_ : nullptr;
-  seen.expected = expected_;
-  if (const auto T_odom_base = attitude_.at(frame.stamp_sec, kMaxAttitudeGap_sec))
-    seen.R_world_camera = T_odom_base->linear() * world_.T_base_camera().linear();
-  return perception_.update(seen);
+  return perception_.detect(frame.image, frame.stamp_sec, world_.T_base_camera());
 }
 
 void Flight::look(const simulation::CameraFrame& frame) {
   timing_.lap(Stage::kPicture);
   timing_.countFrame();
-  expectTarget();
   const auto window = detect(frame);
   timing_.lap(Stage::kDetector);
   detected_ = window.has_value();
   input_.image_stamp_sec = frame.stamp_sec;
   if (!frame.image.empty())
-    for (auto* observer : observers_) observer->onImage(frame, perception_.trace(), window);
+    for (auto* observer : observers_) observer->onImage(frame, perception_.perception().trace(), window);
   timing_.lap(Stage::kOther);
-  if (camera_) {
-    tracker_.see({frame.stamp_sec, *camera_, world_.T_base_camera(), window, perception_.windows()});
-    last_seen_sec_ = frame.stamp_sec;
-  }
+  perception_.see(frame.stamp_sec, world_.T_base_camera(), window);
   timing_.lap(Stage::kPose);
-}
-
-// As the nodes do: said with the pose of an image, heard with the next one.
-void Flight::expectTarget() {
-  expected_.reset();
-  if (camera_ && last_seen_sec_)
-    expected_ = tracker_.expected(*last_seen_sec_, *camera_, world_.T_base_camera());
 }
 
 // What the operator of a scenario does: points at the target as soon as it is in the memory of all windows,
@@ -185,19 +154,19 @@ void Flight::expectTarget() {
 void Flight::chooseTarget() {
   if (!world_.scenario().target_chosen || was_chosen_ || params_.without_pictures) return;
   const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
-  was_chosen_ = tracker_.selectWindowNear(T_odom_window.translation()).success;
+  was_chosen_ = tracker().selectWindowNear(T_odom_window.translation()).success;
 }
 
 void Flight::step() {
   const double now_sec = world_.timeSec();
   chooseTarget();
-  input_.target = tracker_.target(now_sec);
-  const facade::KnownWindow* remembered = tracker_.facade().target();
+  input_.target = tracker().target(now_sec);
+  const facade::KnownWindow* remembered = tracker().facade().target();
   input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
   const bool may_start = input_.image_stamp_sec && (was_chosen_ || !world_.scenario().target_chosen);
   if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
   output_ = navigator_.step(input_, now_sec);
-  tracker_.heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
+  tracker().heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);
   if (!output_.enabled) return;
   world_.command({output_.setpoint.velocity_odom_mps, output_.setpoint.yaw_rate_radps});
 }
@@ -227,7 +196,7 @@ FlightRecord Flight::record() const {
       R_window_odom * (world_.odometryDrift().linear().transpose() * output_.setpoint.velocity_odom_mps);
   record.setpoint_yaw_rate_radps = output_.setpoint.yaw_rate_radps;
   record.detected = detected_;
-  record.sighting = tracker_.lastUpdate().why_not;
+  record.sighting = tracker().lastUpdate().why_not;
   record.predicted_miss_m = output_.report.predicted_miss_m;
   recordTarget(record);
   recordImage(record);
@@ -250,7 +219,7 @@ void Flight::recordTarget(FlightRecord& record) const {
 }
 
 void Flight::recordImage(FlightRecord& record) const {
-  const auto& seen = tracker_.lastUpdate().pose.estimate;
+  const auto& seen = tracker().lastUpdate().pose.estimate;
   if (!seen || !started_sec_) return;
   record.image = ImageRecord{
       seen->stamp_sec - *started_sec_, seen->yaw_rad,      seen->sign_trusted, seen->opening_width_m,
@@ -274,7 +243,7 @@ FlightResult Flight::result(std::uint32_t seed, const simulation::Verdict& verdi
   result.max_speed_mps = referee.maxSpeed();
   result.nearest_m = referee.nearest();
   result.blind_sec = output_.report.blind_sec;
-  result.clock_offset = tracker_.clockOffset();
+  result.clock_offset = tracker().clockOffset();
   if (output_.report.predicted_miss_m > 0.0) result.predicted_miss_m = output_.report.predicted_miss_m;
   result.reason = verdict.outcome == Outcome::kPassed
                       ? verdict.reason

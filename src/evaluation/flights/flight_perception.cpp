@@ -1,0 +1,54 @@
+#include "evaluation/flights/flight_perception.hpp"
+
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+constexpr double kMaxAttitudeGap_sec = 0.02;
+
+}  // namespace
+
+FlightPerception::FlightPerception(const FlightParams& params)
+    : perception_(params.detector, params.interior), tracker_(params.pose, params.filter, params.tracker) {}
+
+void FlightPerception::calibrate(const geometry::PinholeCamera& camera) {
+  camera_.reset();
+  if (camera.validate().empty()) camera_ = camera;
+}
+
+double FlightPerception::addOdometry(double stamp_sec, double arrival_sec,
+                                     const Eigen::Isometry3d& T_odom_base,
+                                     const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
+  stamp_sec = odometry_clock_.atReceiver(stamp_sec, arrival_sec);
+  tracker_.addOdometry(stamp_sec, T_odom_base, velocity_odom_mps);
+  return stamp_sec;
+}
+
+void FlightPerception::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base) {
+  tracker_.addAttitude(stamp_sec, R_odom_base);
+  attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
+}
+
+// Where the target is expected is said with the pose of an image, and heard with the next one.
+const std::optional<detection::WindowObservation>& FlightPerception::detect(
+    const cv::Mat& image, double stamp_sec, const Eigen::Isometry3d& T_base_camera) {
+  detection::TrackInput seen;
+  seen.image = image;
+  seen.stamp_sec = stamp_sec;
+  seen.camera = camera_ ? &*camera_ : nullptr;
+  if (camera_ && last_seen_sec_ && stamp_sec - *last_seen_sec_ <= perception::kExpectationLastsSec)
+    seen.expected = tracker_.expected(*last_seen_sec_, *camera_, T_base_camera);
+  if (const auto T_odom_base = attitude_.at(stamp_sec, kMaxAttitudeGap_sec))
+    seen.R_world_camera = T_odom_base->linear() * T_base_camera.linear();
+  return perception_.update(seen);
+}
+
+void FlightPerception::see(double stamp_sec, const Eigen::Isometry3d& T_base_camera,
+                           const std::optional<detection::WindowObservation>& window) {
+  if (!camera_) return last_seen_sec_.reset();
+  tracker_.see({stamp_sec, *camera_, T_base_camera, window, perception_.windows()});
+  last_seen_sec_ = stamp_sec;
+}
+
+}  // namespace window_ingress::evaluation

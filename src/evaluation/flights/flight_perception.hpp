@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "evaluation/flights/closed_loop_flight.hpp"
+#include "window_ingress/estimation/pose_buffer.hpp"
+#include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/perception/window_perception.hpp"
+
+namespace window_ingress::evaluation {
+
+/// What a flight in one process sees and knows of its target, put together as the nodes do it between them.
+/// It takes everything in the order in which it comes.
+class FlightPerception {
+ public:
+  /// \throws std::invalid_argument that lists every parameter out of range
+  explicit FlightPerception(const FlightParams& params);
+
+  void setReference(const detection::ReferenceAppearance& reference) { perception_.setReference(reference); }
+  /// A calibration that cannot be used withdraws the one before.
+  void calibrate(const geometry::PinholeCamera& camera);
+  /// \return its stamp by the clock of the receiver
+  double addOdometry(double stamp_sec, double arrival_sec, const Eigen::Isometry3d& T_odom_base,
+                     const std::optional<Eigen::Vector3d>& velocity_odom_mps);
+  void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
+
+  /// What the detector makes of an image.
+  const std::optional<detection::WindowObservation>& detect(const cv::Mat& image, double stamp_sec,
+                                                            const Eigen::Isometry3d& T_base_camera);
+  /// What was seen in an image, by the detector or otherwise, goes on to the target; not without a
+  /// calibration.
+  void see(double stamp_sec, const Eigen::Isometry3d& T_base_camera,
+           const std::optional<detection::WindowObservation>& window);
+
+  const perception::WindowPerception& perception() const { return perception_; }
+  const std::optional<geometry::PinholeCamera>& camera() const { return camera_; }
+  estimation::TargetEstimator& tracker() { return tracker_; }
+  const estimation::TargetEstimator& tracker() const { return tracker_; }
+
+ private:
+  perception::WindowPerception perception_;
+  estimation::PoseBuffer attitude_;
+  estimation::SenderClock odometry_clock_;
+  estimation::TargetEstimator tracker_;
+  std::optional<geometry::PinholeCamera> camera_;  // as camera_info last said
+  std::optional<double> last_seen_sec_;
+};
+
+}  // namespace window_ingress::evaluation
