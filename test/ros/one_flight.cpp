@@ -1,0 +1,276 @@
+/// For one_flight_test.py: flies and records a flight, and says of its recording what the nodes would say,
+/// once as replay sees it and once as the closed loop does.
+///   one_flight fly SCENARIO PARAMS FLIGHT.bag
+///   one_flight see PARAMS FLIGHT.bag REPLAY.bag LOOP.bag
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <window_ingress/ReferenceImage.h>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapters/bags/flight_bag.hpp"
+#include "adapters/bags/recorded_transforms.hpp"
+#include "adapters/bags/replay.hpp"
+#include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/reference_source.hpp"
+#include "evaluation/flights/closed_loop_flight.hpp"
+#include "evaluation/flights/flight_perception.hpp"
+#include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/navigation/camera_in_body.hpp"
+
+namespace {
+
+using namespace window_ingress;
+using detection::WindowObservation;
+
+constexpr std::uint32_t kSeed = 1;
+
+template <typename Message>
+std::vector<boost::shared_ptr<Message>> messagesOf(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<boost::shared_ptr<Message>> messages;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic)))
+    messages.push_back(message.instantiate<Message>());
+  return messages;
+}
+
+/// What is known before the flight.
+struct Facts {
+  Facts(const rosbag::Bag& bag, const std::string& params_file)
+      : overlay(configuration::readOverlay(params_file)),
+        reference(messagesOf<ReferenceImage>(bag, "/reference").at(0)) {
+    adapters::RecordedTransforms transforms;
+    for (const auto& message : messagesOf<tf2_msgs::TFMessage>(bag, "/tf_static")) transforms.take(*message);
+    T_base_camera = transforms.between(frames.base, reference->image.header.frame_id).value.value();
+  }
+
+  detection::ReferenceAppearance appearance() const {
+    const auto picture =
+        adapters::decode(boost::make_shared<sensor_msgs::Image>(reference->image), adapters::ImageLimits());
+    std::vector<double> corners;
+    for (std::size_t i = 0; i < 4; ++i)
+      corners.insert(corners.end(), {reference->corner_x[i], reference->corner_y[i]});
+    return adapters::makeReference(picture.image, corners, overlay.window_detector.detector);
+  }
+
+  configuration::Overlay overlay;
+  ReferenceImage::ConstPtr reference;
+  adapters::FrameNames frames;
+  Eigen::Isometry3d T_base_camera;
+};
+
+/// Writes what the detector and the pose node publish of an image: all but the time that it took.
+class Words {
+ public:
+  Words(const std::string& file, const Facts& facts) : bag_(file, rosbag::bagmode::Write), facts_(facts) {}
+
+  void seen(const std_msgs::Header& header, const cv::Mat& image, const perception::WindowPerception& seen) {
+    WindowDetection message = seen.window() ? adapters::toMsg(*seen.window()) : adapters::toMsg(seen.trace());
+    for (const detection::SeenWindow& one : seen.windows()) message.windows.push_back(adapters::toMsg(one));
+    message.header = header;
+    message.image_width = static_cast<std::uint32_t>(image.cols);
+    message.image_height = static_cast<std::uint32_t>(image.rows);
+    reason_ = "no window: " + message.reason;
+    is_seen_ = message.detected != 0;
+    bag_.write("/window", header.stamp, message);
+  }
+
+  void located(const std_msgs::Header& header, const geometry::PinholeCamera& camera,
+               const estimation::TargetEstimator& tracker) {
+    WindowPose message;
+    message.header = header;
+    message.camera = adapters::toMsg(navigation::cameraInBody(camera, facts_.T_base_camera));
+    message.target = adapters::targetMsg(
+        tracker.facade().target(), tracker.expected(header.stamp.toSec(), camera, facts_.T_base_camera));
+    message.openness = adapters::toMsg(tracker.openness());
+    if (const auto& measured = tracker.measuredSize()) message.measured_size = adapters::toMsg(*measured);
+    const auto& said = facts_.overlay.homography_pose.pose;
+    message.size = adapters::toMsg(geometry::OpeningSize{said.opening_width_m, said.opening_height_m});
+    tellImage(tracker.lastUpdate(), message);
+    tellFiltered(header.stamp.toSec(), tracker, message);
+    bag_.write("/window_pose", header.stamp, message);
+  }
+
+  void close() { bag_.close(); }
+
+ private:
+  void tellImage(const estimation::TargetUpdate& update, WindowPose& message) const {
+    if (!is_seen_) {
+      message.image.reject = ImagePose::NO_WINDOW;
+      message.image.reason = reason_;
+      return;
+    }
+    message.image = adapters::toMsg(update.pose);
+    if (update.pose.estimate) message.size = adapters::toMsg(update.pose.estimate->opening);
+  }
+
+  void tellFiltered(double stamp_sec, const estimation::TargetEstimator& tracker, WindowPose& message) const {
+    std::uint8_t reject = FilteredPose::NO_WINDOW;
+    std::string reason = reason_;
+    if (is_seen_) reason = tracker.lastUpdate().why_not;
+    if (is_seen_) reject = reason.empty() ? FilteredPose::OK : FilteredPose::REFUSED;
+    adapters::VerifiedTarget verified;
+    verified.frames = tracker.frames();
+    if (const auto state = tracker.filtered(stamp_sec)) {
+      message.filtered = adapters::toMsg(*state);
+      message.size = adapters::toMsg(state->size);
+      verified = {verified.frames, tracker.fit(*state), state->consistency, tracker.otherWindow(),
+                  tracker.approachForbidden(*state)};
+    } else if (reason.empty()) {
+      reject = FilteredPose::REFUSED;
+      reason = "no image has contributed lately";
+    }
+    message.filtered.header.frame_id = facts_.frames.odom;
+    message.filtered.reject = reject;
+    message.filtered.reason = reason;
+    message.checks = adapters::toMsg(verified);
+  }
+
+  rosbag::Bag bag_;
+  const Facts& facts_;
+  std::string reason_;
+  bool is_seen_ = false;
+};
+
+void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
+  adapters::ReplayParams params;
+  params.topics = adapters::chooseTopics(bag, {});
+  params.detector = facts.overlay.window_detector.detector;
+  params.interior = facts.overlay.window_detector.interior;
+  params.pose = facts.overlay.homography_pose.pose;
+  params.filter = facts.overlay.homography_pose.filter;
+  params.tracker = facts.overlay.homography_pose.tracker;
+  params.reference = facts.appearance();
+  params.with_pose = true;
+  adapters::replay(bag, params, [&](const adapters::ReplayedFrame& frame) {
+    std_msgs::Header header;
+    header.stamp = frame.stamp;
+    header.frame_id = facts.reference->image.header.frame_id;
+    words.seen(header, frame.picture, *frame.perception);
+    words.located(header, frame.camera.value(), *frame.tracker);
+  });
+}
+
+/// Hands over what was recorded as the world hands it over in the flight: as it comes, an image waits for
+/// nothing.
+class Loop {
+ public:
+  Loop(const Facts& facts, const evaluation::FlightParams& params, Words& words)
+      : facts_(facts), words_(words), eyes_(params) {
+    eyes_.setReference(facts.appearance());
+  }
+
+  void take(const rosbag::MessageInstance& message) {
+    if (const auto odometry = message.instantiate<nav_msgs::Odometry>())
+      takeOdometry(*odometry, message.getTime().toSec());
+    else if (const auto imu = message.instantiate<sensor_msgs::Imu>())
+      eyes_.addAttitude(imu->header.stamp.toSec(), adapters::attitudeFromMsg(*imu).value.value());
+    else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>())
+      eyes_.calibrate(adapters::cameraFromMsg(*info, false).value.value());
+    else if (const auto picture = message.instantiate<sensor_msgs::CompressedImage>())
+      look(*picture);
+  }
+
+  /// That no odometry came after the last image.
+  void finish() {
+    eyes_.tracker().flush();
+    tell();
+  }
+
+ private:
+  void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
+    const auto vehicle = adapters::fromMsg(message, facts_.frames).value.value();
+    odometry_sec_ =
+        eyes_.addOdometry(vehicle.stamp_sec, arrival_sec, vehicle.T_odom_base, vehicle.velocity_odom_mps);
+    tellIfLocated();
+  }
+
+  void look(const sensor_msgs::CompressedImage& message) {
+    const cv::Mat image = adapters::decode(message, adapters::ImageLimits()).image;
+    const double stamp_sec = message.header.stamp.toSec();
+    const auto window = eyes_.detect(image, stamp_sec, facts_.T_base_camera);
+    words_.seen(message.header, image, eyes_.perception());
+    eyes_.see(stamp_sec, facts_.T_base_camera, window);
+    waiting_ = message.header;
+    tellIfLocated();
+  }
+
+  void tellIfLocated() {
+    if (waiting_ && odometry_sec_ >= waiting_->stamp.toSec()) tell();
+  }
+
+  void tell() {
+    if (waiting_) words_.located(*waiting_, eyes_.camera().value(), eyes_.tracker());
+    waiting_.reset();
+  }
+
+  const Facts& facts_;
+  Words& words_;
+  evaluation::FlightPerception eyes_;
+  std::optional<std_msgs::Header> waiting_;  // an image that odometry has not caught up with
+  double odometry_sec_ = -1.0;
+};
+
+// What came at the same time is in a bag in no order: the flight takes it in that of these topics.
+void seeAsLoop(const rosbag::Bag& bag, const Facts& facts, const evaluation::FlightParams& params,
+               Words& words) {
+  const adapters::BagTopics t = adapters::chooseTopics(bag, {});
+  const std::vector<std::string> topics{t.odom, t.imu, t.camera_info, t.image};
+  rosbag::View view(bag, rosbag::TopicQuery(topics));
+  const std::vector<rosbag::MessageInstance> messages(view.begin(), view.end());
+  std::vector<const rosbag::MessageInstance*> sorted;
+  for (const rosbag::MessageInstance& message : messages) sorted.push_back(&message);
+  const auto place = [&](const rosbag::MessageInstance* message) {
+    const auto found = std::find(topics.begin(), topics.end(), message->getTopic());
+    return std::make_pair(message->getTime(), found - topics.begin());
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto* a, const auto* b) { return place(a) < place(b); });
+  Loop loop(facts, params, words);
+  for (const rosbag::MessageInstance* message : sorted) loop.take(*message);
+  loop.finish();
+}
+
+void fly(const std::string& scenario, const std::string& params_file, const std::string& file) {
+  adapters::FlightBag bag(file);
+  const auto result = evaluation::flyOnce(simulation::loadScenario(scenario, kSeed), kSeed,
+                                          evaluation::readFlightParams(params_file), {&bag});
+  std::cout << result.reason << std::endl;
+}
+
+void see(const std::string& params_file, const std::string& file, const std::string& replay_file,
+         const std::string& loop_file) {
+  rosbag::Bag bag;
+  adapters::openBag(bag, file);
+  const Facts facts(bag, params_file);
+  Words replay(replay_file, facts), loop(loop_file, facts);
+  seeAsReplay(bag, facts, replay);
+  replay.close();
+  evaluation::FlightParams params = evaluation::readFlightParams(params_file);
+  seeAsLoop(bag, facts, params, loop);
+  loop.close();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  try {
+    if (words.size() == 4 && words[0] == "fly")
+      fly(words[1], words[2], words[3]);
+    else if (words.size() == 5 && words[0] == "see")
+      see(words[1], words[2], words[3], words[4]);
+    else
+      return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "one_flight: " << error.what() << std::endl;
+    return 1;
+  }
+  return 0;
+}
