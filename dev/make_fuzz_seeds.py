@@ -65,7 +65,7 @@ def words(folder):
     found = {word for file in sources for call in re.findall(r"field(?:\.\w+)?\(([^;]*)\);", file.read_text())
              for word in re.findall(r'"([\w/]+)"', call)}
     found |= {"image_width", "image_height", "camera_matrix", "distortion_model", "distortion_coefficients", "plumb_bob",
-              "equidistant", "rows", "cols", "data", "one_of", "true", "false", ".nan", ".inf", "1e300", "-1", "[0, 1]"}
+              "equidistant", "fisheye", "rows", "cols", "data", "one_of", "true", "false", ".nan", ".inf", "1e300", "-1", "[0, 1]"}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "yaml.dict").write_text("".join(f'"{word}"\n"{word}: "\n' for word in sorted(found)))
 

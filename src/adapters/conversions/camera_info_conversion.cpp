@@ -15,6 +15,8 @@ constexpr const char* kPlumbBob = "plumb_bob";
 constexpr const char* kRational = "rational_polynomial";
 constexpr const char* kEquidistant = "equidistant";
 
+bool isFisheye(const std::string& model) { return model == kEquidistant || model == "fisheye"; }
+
 std::string text(std::uint64_t value) { return std::to_string(value); }
 
 template <typename Array>
@@ -43,7 +45,7 @@ std::string badNumbers(const sensor_msgs::CameraInfo& m) {
 }
 
 std::size_t coefficientsOf(const std::string& model) {
-  return model == kPlumbBob ? 5 : model == kRational ? 8 : model == kEquidistant ? 4 : 0;
+  return model == kPlumbBob ? 5 : model == kRational ? 8 : isFisheye(model) ? 4 : 0;
 }
 
 std::string badDistortion(const sensor_msgs::CameraInfo& m) {
@@ -55,7 +57,7 @@ std::string badDistortion(const sensor_msgs::CameraInfo& m) {
            "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
            "use "
            "rectified pictures (image_proc) and set image_is_rectified";
-  if (m.D.empty() && m.distortion_model != kEquidistant) return "";
+  if (m.D.empty() && !isFisheye(m.distortion_model)) return "";
   if (m.D.size() != wanted)
     return "D holds " + text(m.D.size()) + " numbers, " + m.distortion_model + " has " + text(wanted);
   if (m.distortion_model == kRational &&
@@ -100,7 +102,7 @@ PinholeCamera fullCamera(const sensor_msgs::CameraInfo& m, bool rectified) {
   camera.fy = rectified ? m.P[5] : m.K[4];
   camera.cx = rectified ? m.P[2] : m.K[2];
   camera.cy = rectified ? m.P[6] : m.K[5];
-  if (!rectified && m.distortion_model == kEquidistant) camera.model = geometry::LensModel::kEquidistant;
+  if (!rectified && isFisheye(m.distortion_model)) camera.model = geometry::LensModel::kEquidistant;
   const std::size_t known = rectified ? 0 : std::min(m.D.size(), camera.distortion.size());
   std::copy(m.D.begin(), m.D.begin() + static_cast<std::ptrdiff_t>(known), camera.distortion.begin());
   return camera;

@@ -101,7 +101,7 @@ TEST(Fault, M28_DOfTheWrongLength) {
 
 TEST(Fault, M29_ModelsThatAreNone) {
   std::vector<Refusal> all;
-  for (const std::string model : {"", "Equidistant", "fisheye", "PLUMB_BOB", "division"})
+  for (const std::string model : {"", "Equidistant", "Fisheye", "PLUMB_BOB", "division"})
     all.push_back({[=](auto& info) { info.distortion_model = model; },
                    "only plumb_bob, equidistant (fisheye) and rational_polynomial"});
   expectRefused(all);

@@ -53,6 +53,15 @@ TEST(CalibrationFile, ReadsAFisheyeWithItsFourCoefficients) {
   expectRefused(written(model), "5 numbers; equidistant has 4");
 }
 
+TEST(CalibrationFile, TheWordFisheyeIsEquidistant) {
+  const std::string model = replaced(kGood, "plumb_bob", "fisheye");
+  const std::string four = replaced(replaced(model, "cols: 5", "cols: 4"), ", 0, 0]}\n", ", 0]}\n");
+  const auto camera = readCalibrationFile(written(four));
+  EXPECT_EQ(camera.model, geometry::LensModel::kEquidistant);
+  EXPECT_EQ(camera.distortion[0], -0.2);
+  expectRefused(written(model), "5 numbers; fisheye has 4");
+}
+
 TEST(CalibrationFile, RefusesWithFileAndReason) {
   expectRefused("/nowhere/camera.yaml", "cannot be read");
   expectRefused("/", "cannot be read");
@@ -65,7 +74,8 @@ TEST(CalibrationFile, RefusesWithFileAndReason) {
   expectRefused(written(replaced(kGood, "554, ", "")), "camera_matrix");
   expectRefused(written(replaced(kGood, "554", ".nan")), "finite");
   expectRefused(written(replaced(kGood, "plumb_bob", "division")), "division");
-  expectRefused(written(replaced(kGood, "rows: 3, cols: 3", "rows: 316228, cols: 316228")), "rows times cols");
+  expectRefused(written(replaced(kGood, "rows: 3, cols: 3", "rows: 316228, cols: 316228")),
+                "rows times cols");
   expectRefused(written(replaced(kGood, ", 0.001, 0, 0", "")), "distortion_coefficients");
 }
 

@@ -97,6 +97,18 @@ TEST(CameraInfo, RefusesUnknownModelsAndSaysWhichAreKnown) {
       << "rectified pictures have no model any more";
 }
 
+TEST(CameraInfo, TheWordFisheyeIsEquidistant) {
+  sensor_msgs::CameraInfo info = makeInfo();
+  info.distortion_model = "fisheye";
+  info.D = {-0.02, 0.005, 0.001, -0.0002};
+  const auto camera = cameraFromMsg(info, false);
+  ASSERT_TRUE(camera) << camera.reason;
+  EXPECT_EQ(camera.value->model, geometry::LensModel::kEquidistant);
+  EXPECT_EQ(camera.value->distortion[3], -0.0002);
+  EXPECT_EQ(toMsg(*camera.value).distortion_model, "equidistant") << "the word of sensor_msgs";
+  EXPECT_TRUE(contains(refusal([](auto& i) { i.distortion_model = "fisheye"; }), "fisheye has 4"));
+}
+
 TEST(CameraInfo, RationalModelOnlyWithoutItsDenominator) {
   const auto rational = [](double k4) {
     return [k4](auto& info) {
