@@ -21,6 +21,13 @@ CameraMotion CameraMotion::of(const VehicleTruth& truth, const Eigen::Isometry3d
   return motion;
 }
 
+CameraMotion CameraMotion::turned(const Eigen::Matrix3d& R_turned_camera) const {
+  CameraMotion motion = *this;
+  motion.T_window_camera.rotate(R_turned_camera.transpose());
+  motion.angular_velocity_camera_radps = R_turned_camera * angular_velocity_camera_radps;
+  return motion;
+}
+
 Eigen::Isometry3d CameraMotion::T_camera_window(double after_sec) const {
   Eigen::Isometry3d pose = T_window_camera;
   pose.translation() += after_sec * velocity_window_mps;

@@ -18,6 +18,9 @@ struct CameraMotion {
   static CameraMotion of(const VehicleTruth& truth, const Eigen::Isometry3d& T_odom_window,
                          const Eigen::Isometry3d& T_base_camera);
 
+  /// Of a camera at the same place with axes of its own.
+  CameraMotion turned(const Eigen::Matrix3d& R_turned_camera) const;
+
   /// So long after the stamp, or before it if negative.
   Eigen::Isometry3d T_camera_window(double after_sec) const;
 

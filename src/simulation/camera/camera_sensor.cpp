@@ -1,6 +1,8 @@
 #include "simulation/camera/camera_sensor.hpp"
 
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <vector>
 
 #include "simulation/camera/camera_noise.hpp"
 #include "simulation/camera/exposure_control.hpp"
@@ -40,18 +42,35 @@ struct CameraSensor::Impl {
   Impl(const Scene& scene, const CameraParams& given, std::uint32_t seed)
       : params(given),
         lens(given.model()),
-        renderer(scene, lens.idealCamera(), antialiasingOf(given)),
         shutter(given.exposure_sec, given.readout_sec),
         control(given),
-        noise(given, lens.size(), seed) {}
+        noise(given, lens.size(), seed) {
+    if (lens.planes().size() > 1 && given.readout_sec > 0.0)
+      throw std::invalid_argument("camera/readout_sec: must be 0 with a lens that needs several planes");
+    for (const IdealPlane& plane : lens.planes())
+      renderers.push_back(std::make_unique<Renderer>(scene, plane.camera, antialiasingOf(given)));
+  }
+
+  void takeIdeal(const CameraMotion& motion) {
+    const auto& planes = lens.planes();
+    if (planes.size() == 1) {
+      shutter.take(*renderers[0], planes[0].camera, motion, ideal);
+      return;
+    }
+    ideal.create(lens.idealSize(), CV_8UC3);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      shutter.take(*renderers[i], planes[i].camera, motion.turned(planes[i].R_plane_camera), face);
+      face.copyTo(ideal(planes[i].part));
+    }
+  }
 
   CameraParams params;
   Lens lens;
-  Renderer renderer;
+  std::vector<std::unique_ptr<Renderer>> renderers;  // one a plane of the lens
   Shutter shutter;
   ExposureControl control;
   CameraNoise noise;
-  cv::Mat ideal, image;
+  cv::Mat ideal, face, image;
 };
 
 CameraSensor::CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed)
@@ -61,7 +80,7 @@ CameraSensor::~CameraSensor() = default;
 
 cv::Mat CameraSensor::expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec) {
   Impl& own = *impl_;
-  own.shutter.take(own.renderer, own.lens.idealCamera(), motion, own.ideal);
+  own.takeIdeal(motion);
   own.lens.distort(own.ideal, own.image);
   if (own.params.blur_px > 0.0) cv::GaussianBlur(own.image, own.image, cv::Size(), own.params.blur_px);
   const cv::Vec3d gains = own.control.gainsAt(stamp_sec);

@@ -1,55 +1,174 @@
 #include "simulation/camera/lens.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace window_ingress::simulation {
 namespace {
 
+using geometry::PinholeCamera;
+
 constexpr double kInverseTolerance_px = 1e-3;
 constexpr int kMargin_px = 2;
 
-// Ideal pixel of each distorted one.
-cv::Mat idealPixels(const geometry::PinholeCamera& camera) {
-  cv::Mat map(camera.height, camera.width, CV_32FC2);
+bool isFisheye(const PinholeCamera& camera) { return camera.model == geometry::LensModel::kEquidistant; }
+
+[[noreturn]] void refuse(const PinholeCamera& camera, const std::string& why) {
+  const std::string names = isFisheye(camera) ? "k1, k2, k3, k4" : "k1, k2, p1, p2, k3";
+  throw std::invalid_argument("camera: distortion " + names + " " + why);
+}
+
+// Ideal pixels of the distorted ones, and which of those the lens does not see (255).
+struct IdealPixels {
+  cv::Mat map, unseen;
+};
+
+IdealPixels idealPixels(const PinholeCamera& camera) {
+  IdealPixels ideal{cv::Mat(camera.height, camera.width, CV_32FC2),
+                    cv::Mat::zeros(camera.height, camera.width, CV_8U)};
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) {
-      const Eigen::Vector2d pixel(u, v), ideal = camera.undistort(pixel);
-      if (!ideal.allFinite() || (camera.distort(ideal) - pixel).norm() > kInverseTolerance_px)
-        throw std::invalid_argument(
-            "camera: distortion k1, k2, p1, p2, k3 cannot be undone at the image's border");
-      map.at<cv::Vec2f>(v, u) = {static_cast<float>(ideal.x()), static_cast<float>(ideal.y())};
+      const Eigen::Vector2d pixel(u, v), point = camera.undistort(pixel), back = camera.distort(point);
+      const bool undone = point.allFinite() && (back - pixel).norm() <= kInverseTolerance_px;
+      const Eigen::Vector2d middle(camera.cx, camera.cy);
+      const bool beyond = isFisheye(camera) && (back - middle).norm() < (pixel - middle).norm();
+      if (!undone && !beyond) refuse(camera, "cannot be undone at the image's border");
+      ideal.unseen.at<unsigned char>(v, u) = undone ? 0 : 255;
+      ideal.map.at<cv::Vec2f>(v, u) = {static_cast<float>(point.x()), static_cast<float>(point.y())};
     }
-  return map;
+  return ideal;
+}
+
+// Grows with the points that it shall hold.
+struct Bounds {
+  double left = std::numeric_limits<double>::infinity(), top = left, right = -left, bottom = -left;
+
+  void add(const cv::Vec2f& point) {
+    left = std::min<double>(left, point[0]), right = std::max<double>(right, point[0]);
+    top = std::min<double>(top, point[1]), bottom = std::max<double>(bottom, point[1]);
+  }
+  bool empty() const { return left > right; }
+};
+
+// Of the focal lengths of `ideal`, just large enough for `bounds`, which become its pixels less `origin`.
+PinholeCamera around(const Bounds& bounds, PinholeCamera ideal, cv::Vec2f& origin) {
+  const double x0 = std::floor(bounds.left) - kMargin_px, y0 = std::floor(bounds.top) - kMargin_px;
+  ideal.cx -= x0;
+  ideal.cy -= y0;
+  ideal.width = static_cast<int>(std::ceil(bounds.right) - x0) + kMargin_px + 1;
+  ideal.height = static_cast<int>(std::ceil(bounds.bottom) - y0) + kMargin_px + 1;
+  origin = {static_cast<float>(x0), static_cast<float>(y0)};
+  return ideal;
+}
+
+constexpr std::size_t kFaces = 5;
+
+// From the optical frame to those of the faces ahead, right, left, below and above.
+std::array<Eigen::Matrix3d, kFaces> cube() {
+  const auto turned = [](double angle_rad, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix().transpose().eval();
+  };
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitX(), down = Eigen::Vector3d::UnitY();
+  return {Eigen::Matrix3d::Identity(), turned(M_PI_2, down), turned(-M_PI_2, down), turned(-M_PI_2, right),
+          turned(M_PI_2, right)};
+}
+
+std::size_t faceOf(const Eigen::Vector3d& ray) {
+  const double x = ray.x(), y = ray.y();
+  if (std::max(std::abs(x), std::abs(y)) <= ray.z()) return 0;
+  return std::abs(x) >= std::abs(y) ? (x > 0.0 ? 1 : 2) : (y > 0.0 ? 3 : 4);
+}
+
+// The pixels of `map` that each face shows, in coordinates of its own; which face that is, in `face_of`.
+std::array<Bounds, kFaces> spreadOverCube(const PinholeCamera& ideal, const cv::Mat& unseen, cv::Mat& map,
+                                          cv::Mat& face_of) {
+  const auto faces = cube();
+  std::array<Bounds, kFaces> bounds;
+  face_of.create(map.size(), CV_8U);
+  for (int v = 0; v < map.rows; ++v)
+    for (int u = 0; u < map.cols; ++u) {
+      if (unseen.at<unsigned char>(v, u) != 0) continue;
+      auto& point = map.at<cv::Vec2f>(v, u);
+      const Eigen::Vector3d ray((point[0] - ideal.cx) / ideal.fx, (point[1] - ideal.cy) / ideal.fy, 1.0);
+      const std::size_t face = faceOf(ray);
+      const Eigen::Vector3d seen = faces[face] * ray;
+      point = {static_cast<float>(ideal.fx * seen.x() / seen.z() + ideal.cx),
+               static_cast<float>(ideal.fy * seen.y() / seen.z() + ideal.cy)};
+      face_of.at<unsigned char>(v, u) = static_cast<unsigned char>(face);
+      bounds[face].add(point);
+    }
+  return bounds;
+}
+
+// In place of the pixels of `map` those of the ideal image, which is as large as the planes returned need.
+std::vector<IdealPlane> planesOfCube(const PinholeCamera& ideal, const cv::Mat& unseen, cv::Mat& map) {
+  cv::Mat face_of;
+  const auto bounds = spreadOverCube(ideal, unseen, map, face_of);
+  const auto faces = cube();
+  std::vector<IdealPlane> planes;
+  std::array<cv::Vec2f, kFaces> origins;
+  int rows = 0;
+  for (std::size_t face = 0; face < kFaces; ++face) {
+    if (bounds[face].empty()) continue;
+    const PinholeCamera camera = around(bounds[face], ideal, origins[face]);
+    planes.push_back({camera, faces[face], cv::Rect(0, rows, camera.width, camera.height)});
+    origins[face][1] -= static_cast<float>(rows);
+    rows += camera.height;
+  }
+  for (int v = 0; v < map.rows; ++v)
+    for (int u = 0; u < map.cols; ++u)
+      if (unseen.at<unsigned char>(v, u) == 0)
+        map.at<cv::Vec2f>(v, u) -= origins[face_of.at<unsigned char>(v, u)];
+  return planes;
 }
 
 }  // namespace
 
-Lens::Lens(const geometry::PinholeCamera& camera) : ideal_(camera), size_(camera.width, camera.height) {
-  if (!camera.hasDistortion()) return;
-  cv::Mat map = idealPixels(camera), channels[2];
-  cv::split(map, channels);
-  double left, right, top, bottom;
-  cv::minMaxLoc(channels[0], &left, &right);
-  cv::minMaxLoc(channels[1], &top, &bottom);
-  const double x0 = std::floor(left) - kMargin_px, y0 = std::floor(top) - kMargin_px;
-  ideal_ = camera.withoutDistortion();
-  ideal_.cx -= x0;
-  ideal_.cy -= y0;
-  ideal_.width = static_cast<int>(std::ceil(right) - x0) + kMargin_px + 1;
-  ideal_.height = static_cast<int>(std::ceil(bottom) - y0) + kMargin_px + 1;
-  if (ideal_.width > 2 * camera.width || ideal_.height > 2 * camera.height)
-    throw std::invalid_argument("camera: distortion k1, k2, p1, p2, k3 is too strong for this field of view");
-  map -= cv::Scalar(x0, y0);
+Lens::Lens(const PinholeCamera& camera) : size_(camera.width, camera.height) {
+  const Eigen::Matrix3d ahead = Eigen::Matrix3d::Identity();
+  if (!camera.hasDistortion()) {
+    planes_ = {{camera, ahead, cv::Rect({}, size_)}};
+    ideal_size_ = size_;
+    return;
+  }
+  IdealPixels pixels = idealPixels(camera);
+  Bounds bounds;
+  for (const auto& point : cv::Mat_<cv::Vec2f>(pixels.map)) bounds.add(point);
+  cv::Vec2f origin;
+  const PinholeCamera whole = around(bounds, camera.withoutDistortion(), origin);
+  if (whole.width <= 2 * camera.width && whole.height <= 2 * camera.height) {
+    pixels.map -= cv::Scalar(origin[0], origin[1]);
+    planes_ = {{whole, ahead, cv::Rect(0, 0, whole.width, whole.height)}};
+  } else if (isFisheye(camera)) {
+    planes_ = planesOfCube(camera.withoutDistortion(), pixels.unseen, pixels.map);
+  } else {
+    refuse(camera, "is too strong for this field of view");
+  }
+  if (cv::countNonZero(pixels.unseen) > 0) unseen_ = pixels.unseen;
+  keep(pixels.map);
+}
+
+void Lens::keep(const cv::Mat& map) {
+  for (const IdealPlane& plane : planes_) {
+    ideal_size_.width = std::max(ideal_size_.width, plane.part.br().x);
+    ideal_size_.height = std::max(ideal_size_.height, plane.part.br().y);
+  }
   cv::convertMaps(map, cv::noArray(), map_, map_fraction_, CV_16SC2);
 }
 
 void Lens::distort(const cv::Mat& ideal_image, cv::Mat& image) const {
-  if (map_.empty())
+  if (map_.empty()) {
     image = ideal_image;
-  else
-    cv::remap(ideal_image, image, map_, map_fraction_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    return;
+  }
+  cv::remap(ideal_image, image, map_, map_fraction_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  if (!unseen_.empty()) image.setTo(cv::Scalar::all(0), unseen_);
 }
 
 }  // namespace window_ingress::simulation

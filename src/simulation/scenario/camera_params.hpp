@@ -12,13 +12,15 @@ namespace window_ingress::simulation {
 struct CameraParams {
   int width_px = 640;                 ///< of the image [px]
   int height_px = 480;                ///< of the image [px]
-  double horizontal_fov_rad = 1.20;   ///< of the lens without its distortion [rad]
-  double k1 = 0.0;                    ///< radial distortion of the model plumb_bob
+  std::string lens = "plumb_bob";     ///< model of its distortion; equidistant: a fisheye
+  double horizontal_fov_rad = 1.20;   ///< of the lens without its distortion; plumb_bob: 2.4 at most [rad]
+  double k1 = 0.0;                    ///< radial distortion of the lens's model
   double k2 = 0.0;                    ///< radial distortion
-  double p1 = 0.0;                    ///< tangential distortion
-  double p2 = 0.0;                    ///< tangential distortion
+  double p1 = 0.0;                    ///< tangential distortion, of plumb_bob only
+  double p2 = 0.0;                    ///< tangential distortion, of plumb_bob only
   double k3 = 0.0;                    ///< radial distortion
-  std::string calibration_file = "";  ///< yaml file in place of size, field of view and distortion
+  double k4 = 0.0;                    ///< radial distortion, of equidistant only
+  std::string calibration_file = "";  ///< yaml file in place of size, lens, field of view and distortion
   double x_m = 0.10;                  ///< of the camera, forward of the vehicle's centre [m]
   double y_m = 0.0;                   ///< of the camera, to the left [m]
   double z_m = 0.02;                  ///< of the camera, up [m]
@@ -50,12 +52,14 @@ struct CameraParams {
   static void visit(Self& self, Visitor&& field) {
     field("width_px", self.width_px, 64, 1920);
     field("height_px", self.height_px, 48, 1440);
-    field("horizontal_fov_rad", self.horizontal_fov_rad, 0.2, 2.4);
+    field.choice("lens", self.lens, {"plumb_bob", "equidistant"});
+    field("horizontal_fov_rad", self.horizontal_fov_rad, 0.2, 2.8);
     field("k1", self.k1, -1.0, 1.0);
     field("k2", self.k2, -1.0, 1.0);
     field("p1", self.p1, -0.1, 0.1);
     field("p2", self.p2, -0.1, 0.1);
     field("k3", self.k3, -1.0, 1.0);
+    field("k4", self.k4, -1.0, 1.0);
     field("calibration_file", self.calibration_file);
     field("x_m", self.x_m, -1.0, 1.0);
     field("y_m", self.y_m, -1.0, 1.0);

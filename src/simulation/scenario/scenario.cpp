@@ -95,6 +95,18 @@ void checkPayload(const Scenario& s, std::vector<std::string>& faults) {
   if (part < 0.6) faults.push_back("vehicle/payload_kg: too heavy for its thrust");
 }
 
+void checkLens(const Scenario& s, std::vector<std::string>& faults) {
+  const CameraParams& camera = s.camera;
+  if (camera.lens == "equidistant") {
+    if (camera.p1 != 0.0 || camera.p2 != 0.0)
+      faults.push_back("camera/p1, camera/p2: must be 0, a lens that is equidistant has none");
+    return;
+  }
+  if (camera.k4 != 0.0) faults.push_back("camera/k4: must be 0, only a lens that is equidistant has it");
+  if (camera.horizontal_fov_rad > 2.4)
+    faults.push_back("camera/horizontal_fov_rad: more than 2.4 needs a lens that is equidistant");
+}
+
 void checkFaults(const Scenario& s, std::vector<std::string>& faults) {
   for (std::size_t i = 0; i < s.faults.size(); ++i) {
     std::string why_not = whyNoSuchFault(s.faults[i]);
@@ -110,6 +122,10 @@ geometry::PinholeCamera CameraParams::model() const {
   if (!calibration_file.empty()) return parameters::readCalibrationFile(calibration_file);
   auto camera = geometry::PinholeCamera::fromFieldOfView(width_px, height_px, horizontal_fov_rad);
   camera.distortion = {k1, k2, p1, p2, k3};
+  if (lens != "equidistant") return camera;
+  camera.model = geometry::LensModel::kEquidistant;
+  camera.fx = camera.fy = width_px / horizontal_fov_rad;
+  camera.distortion = {k1, k2, k3, k4, 0.0};
   return camera;
 }
 
@@ -158,6 +174,7 @@ std::vector<std::string> faultsOf(const Scenario& scenario) {
   checkOpenDecoys(scenario, faults);
   checkStart(scenario, faults);
   checkPayload(scenario, faults);
+  checkLens(scenario, faults);
   checkFaults(scenario, faults);
   return faults;
 }

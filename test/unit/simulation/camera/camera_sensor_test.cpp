@@ -68,6 +68,29 @@ double leftBorder(const geometry::PinholeCamera& camera, const Eigen::Isometry3d
   return camera.project(T_camera_window * Eigen::Vector3d(0.0, 0.6, z_m))->x();
 }
 
+TEST(CameraMotion, TurnedItIsThatOfACameraAtTheSamePlace) {
+  CameraMotion motion = standingAt(2.0, 0.3, -0.2);
+  motion.velocity_window_mps = {0.8, -0.3, 0.2};
+  motion.angular_velocity_camera_radps = {0.3, -1.2, 0.4};
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const CameraMotion turned = motion.turned(R);
+  for (const double after_sec : {-0.05, 0.0, 0.05}) {
+    Eigen::Isometry3d expected = motion.T_camera_window(after_sec);
+    expected.prerotate(R);
+    EXPECT_LT((turned.T_camera_window(after_sec).matrix() - expected.matrix()).norm(), 1e-12) << after_sec;
+  }
+}
+
+TEST(CameraSensor, RefusesToReadOutAFisheyeThatNeedsSeveralPlanes) {
+  const Scene scene = buildScene(blackAndWhite());
+  CameraParams params = plain();
+  params.lens = "equidistant";
+  params.horizontal_fov_rad = 2.618;
+  EXPECT_NO_THROW(CameraSensor(scene, params, 1));
+  params.readout_sec = 0.02;
+  EXPECT_THROW(CameraSensor(scene, params, 1), std::invalid_argument);
+}
+
 TEST(CameraSensor, MotionSmearsAnEdgeBySpeedTimesExposureAroundTheMiddlePose) {
   const Scene scene = buildScene(blackAndWhite());
   CameraParams params = plain();

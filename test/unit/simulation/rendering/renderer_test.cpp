@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "../edge_fit.hpp"
+#include "simulation/camera/camera_sensor.hpp"
 #include "simulation/camera/lens.hpp"
 #include "simulation/random_stream.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -52,7 +53,7 @@ Errors compareCorners(const PinholeCamera& camera, int views,
   Scenario scenario;
   const Scene scene = whiteFrameBeforeBlackRoom(scenario);
   const Lens lens(camera);
-  Renderer renderer(scene, lens.idealCamera(), antialiasing);
+  Renderer renderer(scene, lens.planes().front().camera, antialiasing);
   RandomStream random(11, "views");
   PinholeCamera straight = camera;
   straight.distortion = {};
@@ -117,6 +118,83 @@ TEST(Renderer, RenderedCornersEqualProjectedCornersThroughALensThatBends) {
 TEST(Renderer, RenderedCornersEqualProjectedCornersWithMultisampling) {
   expectSmall(
       compareCorners(PinholeCamera::fromFieldOfView(640, 480, 1.2), 15, Antialiasing::kMultisampling));
+}
+
+// The opening's corners in an image of a lens that bends its sides, in pixels of that image. Each side is
+// looked for piece by piece, and straight in a plane that faces the opening.
+std::optional<geometry::Quadrilateral> fitBentCorners(const cv::Mat& grey, const PinholeCamera& camera,
+                                                      const Eigen::Isometry3d& T_camera_window,
+                                                      const geometry::OpeningSize& size) {
+  constexpr int kPieces = 12;
+  const auto corners = geometry::openingCorners(size);
+  const Eigen::Quaterniond R =
+      Eigen::Quaterniond::FromTwoVectors(T_camera_window.translation(), Eigen::Vector3d::UnitZ());
+  std::array<Eigen::Vector3d, 4> lines;
+  for (int side = 0; side < 4; ++side) {
+    const auto at = [&](int k) {
+      const Eigen::Vector3d way = corners[(side + 1) % 4] - corners[side];
+      return *camera.project(T_camera_window * (corners[side] + way * (k / double{kPieces})));
+    };
+    std::vector<Eigen::Vector2d> points;
+    for (int k = 1; k + 1 < kPieces; ++k)
+      for (const auto& pixel : test::edgePoints(grey, at(k), at(k + 1), 5))
+        points.emplace_back((R * camera.ray(pixel)).hnormalized());
+    if (points.size() < 10) return std::nullopt;
+    lines[side] = test::fitLine(points);
+  }
+  geometry::Quadrilateral found;
+  for (int i = 0; i < 4; ++i) {
+    Eigen::Matrix2d normals;
+    normals << lines[(i + 3) % 4].head<2>().transpose(), lines[i].head<2>().transpose();
+    const Eigen::Vector2d corner = normals.inverse() * Eigen::Vector2d(lines[(i + 3) % 4].z(), lines[i].z());
+    found[i] = *camera.project(R.inverse() * corner.homogeneous());
+  }
+  return found;
+}
+
+TEST(Renderer, RenderedCornersEqualProjectedCornersThroughAFisheyeOf150Degrees) {
+  CameraParams params;
+  params.lens = "equidistant";
+  params.horizontal_fov_rad = 2.618;
+  params.k1 = -0.01;
+  params.noise_grey = params.blur_px = params.exposure_sec = 0.0;
+  const PinholeCamera camera = params.model();
+  Scenario scenario;
+  const Scene scene = whiteFrameBeforeBlackRoom(scenario);
+  CameraSensor sensor(scene, params, 1);
+  RandomStream random(12, "views");
+  Errors errors;
+  double furthest_rad = 0.0;
+  for (int view = 0; view < 150; ++view) {
+    Eigen::Vector3d turn;
+    turn.z() = random.uniform(-1.2, 1.2), turn.y() = random.uniform(-0.8, 0.8);
+    turn.x() = random.uniform(-0.2, 0.2);
+    const double up_m = random.uniform(-0.4, 0.4), azimuth_rad = random.uniform(-0.5, 0.5);
+    CameraMotion motion;
+    const auto T_camera_window = lookingFrom(random.uniform(0.8, 3.0), azimuth_rad, up_m, turn);
+    motion.T_window_camera = T_camera_window.inverse();
+    const auto expected = geometry::projectOpening(camera, T_camera_window, scenario.opening());
+    if (!expected || !std::all_of(expected->begin(), expected->end(), [&](const Eigen::Vector2d& corner) {
+          return camera.contains(corner, 10.0);
+        }))
+      continue;
+    cv::Mat grey;
+    cv::cvtColor(sensor.expose(motion, view, 0.0), grey, cv::COLOR_BGR2GRAY);
+    const auto measured = fitBentCorners(grey, camera, T_camera_window, scenario.opening());
+    if (!measured) continue;  // seen too obliquely
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector2d error = (*measured)[i] - (*expected)[i];
+      errors.worst_px = std::max(errors.worst_px, error.norm());
+      errors.sum_of_squares += error.squaredNorm();
+      errors.sum += error;
+      ++errors.corners;
+      furthest_rad = std::max(furthest_rad, std::acos(camera.ray((*expected)[i]).z()));
+    }
+  }
+  std::cout << errors.corners << " corners, up to " << furthest_rad << " rad off the axis\n";
+  EXPECT_GT(errors.corners, 200);
+  EXPECT_GT(furthest_rad, 1.2);
+  expectSmall(errors);
 }
 
 // Fraction of the pixels in which two images differ by more than `limit` grey levels in any channel.

@@ -272,6 +272,22 @@ TEST(Scenario, CameraLooksForwardAndDownWhenPitched) {
   EXPECT_GT((camera.T_base_camera().linear() * Eigen::Vector3d::UnitZ()).y(), 0.2);
 }
 
+TEST(Scenario, ALensHasTheCoefficientsOfItsModel) {
+  Scenario scenario;
+  CameraParams& camera = scenario.camera;
+  camera.k4 = 0.01;
+  camera.horizontal_fov_rad = 2.618;
+  EXPECT_EQ(faultsOf(scenario).size(), 2u);
+  camera.lens = "equidistant";
+  EXPECT_TRUE(faultsOf(scenario).empty());
+  const auto model = camera.model();
+  EXPECT_EQ(model.model, geometry::LensModel::kEquidistant);
+  EXPECT_EQ(model.distortion[3], 0.01);
+  EXPECT_DOUBLE_EQ(model.fx, 640 / 2.618);
+  camera.p1 = 0.01;
+  EXPECT_EQ(faultsOf(scenario).size(), 1u);
+}
+
 TEST(Scenario, FaultsOfAnImpossibleWorldAreListed) {
   EXPECT_TRUE(faultsOf(Scenario()).empty());
   Scenario scenario;

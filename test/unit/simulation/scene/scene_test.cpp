@@ -83,9 +83,46 @@ TEST(Lens, WithoutDistortionItSharesThePictureAndWithItSeesWider) {
   Lens(camera).distort(picture, same);
   EXPECT_EQ(same.data, picture.data);
   camera.distortion[0] = -0.2;
-  EXPECT_GT(Lens(camera).idealCamera().width, 64);
+  EXPECT_GT(Lens(camera).idealSize().width, 64);
   camera.distortion[0] = -5.0;
   EXPECT_THROW(Lens{camera}, std::invalid_argument);
+}
+
+geometry::PinholeCamera fisheye(double horizontal_fov_rad) {
+  geometry::PinholeCamera camera = geometry::PinholeCamera::fromFieldOfView(64, 48, 1.2);
+  camera.model = geometry::LensModel::kEquidistant;
+  camera.fx = camera.fy = camera.width / horizontal_fov_rad;
+  return camera;
+}
+
+TEST(Lens, AFisheyeTakesOnePlaneWhereThatIsEnoughAndFacesOfACubeBeyond) {
+  EXPECT_EQ(Lens(fisheye(1.68)).planes().size(), 1u);
+  geometry::PinholeCamera low = fisheye(2.4);
+  low.height = 16;
+  low.cy = 7.5;
+  EXPECT_EQ(Lens(low).planes().size(), 3u) << "nothing that is nearer to straight up or down than to ahead";
+  const Lens wide(fisheye(2.618));
+  ASSERT_EQ(wide.planes().size(), 5u);
+  int rows = 0;
+  for (const IdealPlane& plane : wide.planes()) {
+    EXPECT_EQ(plane.part, cv::Rect(0, rows, plane.camera.width, plane.camera.height));
+    EXPECT_FALSE(plane.camera.hasDistortion());
+    rows += plane.part.height;
+  }
+  EXPECT_EQ(wide.idealSize().height, rows);
+}
+
+TEST(Lens, BeyondOneAndAHalfRadiansAFisheyeIsBlack) {
+  const geometry::PinholeCamera camera = fisheye(2.618);
+  const Lens lens(camera);
+  cv::Mat image;
+  lens.distort(cv::Mat(lens.idealSize(), CV_8UC3, cv::Scalar::all(200)), image);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u) {
+      const double off_rad = std::hypot(u - camera.cx, v - camera.cy) / camera.fx;
+      if (std::abs(off_rad - 1.5) < 0.01) continue;
+      EXPECT_EQ(image.at<cv::Vec3b>(v, u)[1], off_rad < 1.5 ? 200 : 0) << u << " " << v;
+    }
 }
 
 }  // namespace
