@@ -21,6 +21,7 @@ constexpr int kFewestSeen =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
 constexpr double kAlignedShiftPx = 0.8;  ///< and from where the wall round a hole was aligned, to count
 constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
+constexpr double kAlignedStray = 0.025;  ///< the same, of those found by the frame [mean sides]
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -126,7 +127,8 @@ std::optional<Rejection> WindowDetector::Impl::judgeSurroundingsOf(const ScoredC
   const auto ring = reference.surroundingsOf(fitted.corners, image, camera);
   if (!ring) return std::nullopt;
   if (auto fault = reference.objectionTo(ring->match)) return fault;
-  if (!camera || furthestCorner(ring->quad, fitted.corners) <= kAlignedStrayPx) return std::nullopt;
+  const double stray_px = std::max(kAlignedStrayPx, kAlignedStray * meanSide(ring->quad));
+  if (!camera || furthestCorner(ring->quad, fitted.corners) <= stray_px) return std::nullopt;
   ScoredCandidate aligned = rival;
   aligned.quad = ring->quad;
   aligned.located = true;

@@ -93,6 +93,7 @@ def test_wrong_usage_is_one_line(arguments, said):
     assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
-def test_a_place_that_cannot_be_written_is_said():
-    done = run("--output", "/nowhere/window.pdf")
-    assert done.returncode == 1 and "/nowhere/window.pdf" in done.stderr and done.stderr.count("\n") == 1
+def test_a_place_that_cannot_be_written_is_said(tmp_path):
+    (tmp_path / "file").write_text("no folder", encoding="utf-8")
+    done = run("--output", str(tmp_path / "file/window.pdf"))
+    assert done.returncode == 1 and str(tmp_path / "file") in done.stderr and done.stderr.count("\n") == 1
