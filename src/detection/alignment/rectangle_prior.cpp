@@ -19,11 +19,7 @@ void add(double value, const RowVector8d& slope, double weight, Matrix8f& normal
 }  // namespace
 
 RectanglePrior::RectanglePrior(const geometry::PinholeCamera& camera, const OpeningAspect& aspect)
-    : aspect_(aspect) {
-  Eigen::Matrix3d K;
-  K << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
-  inverse_camera_ = K.inverse();
-}
+    : inverse_camera_(camera.K().inverse()), aspect_(aspect) {}
 
 void RectanglePrior::addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal,
                            Vector8f& right) const {
