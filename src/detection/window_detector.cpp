@@ -162,8 +162,9 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
-      auto fault = reference.objectionTo(*fitted, image, camera);
-      if (!fault && !rival.correlation) fault = judgeSurroundingsOf(rival, image, camera, *fitted);
+      auto fault =
+          rival.correlation ? std::nullopt : judgeSurroundingsOf(rival, image, camera, *fitted);
+      if (!fault) fault = reference.objectionTo(*fitted, image, camera);
       if (fault) {
         record(rival, fault->reason, fault->value, fault->limit);
         continue;
@@ -222,8 +223,9 @@ void WindowDetector::Impl::searchOnColours() {
         return candidate.reject == RejectReason::kOtherFrame ||
                candidate.reject == RejectReason::kOtherAspect;
       });
-  if (reference.paint() && !has_decoy)
-    search.runOnPaint(*reference.paint(), trace);
+  const auto paint = reference.paint();
+  if (paint && !has_decoy)
+    search.runOnPaint(*paint, trace);
   else
     search.runOnColours(trace);
 }

@@ -61,7 +61,7 @@ double blindSec(const CommitCriterionInput& input, const NavigatorParams& params
 
 /// Where the vehicle is by the time it answers.
 Eigen::Vector3d coastedOffset(const RelativeState& relative, const NavigatorParams& params) {
-  return relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
+  return relative.position_window_m + relative.velocity_window_mps.cwiseProduct(params.vehicle.responsesSec());
 }
 
 /// Of an offset, what is left when the nose is in the opening: it is steered away meanwhile, after a delay.

@@ -115,6 +115,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
     params.vehicle.response_sec = observer.response().responseSec();
+    params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
     params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();

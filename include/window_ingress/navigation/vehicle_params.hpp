@@ -2,6 +2,9 @@
 /// config/navigator.yaml).
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+
 namespace window_ingress::navigation {
 
 /// The vehicle's body, camera and manners. Said once, for all who need it.
@@ -17,6 +20,12 @@ struct VehicleParams {
   double exposure_sec = 0.004;  ///< of an image, at the darkest [s]
   double response_sec = 0.3;    ///< from a setpoint to the velocity following it, latency included [s]
   double braking_mps2 = 1.2;    ///< deceleration that can be relied upon [m/s^2]
+  std::optional<double> climb_response_sec;  ///< up and down; no parameter, measured in flight
+
+  /// The time to answer of each axis: forward, sideways, up.
+  Eigen::Vector3d responsesSec() const {
+    return {response_sec, response_sec, climb_response_sec.value_or(response_sec)};
+  }
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -18,6 +18,7 @@ constexpr int kVariantsLocated = 2;         ///< loops of one place from which t
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
 constexpr double kMinContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
+constexpr double kMaxThroughHaze = 0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
 constexpr double kUncovered = 0.88;   ///< where there is no frame
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;   ///< of the mean colours there, relative to them; right ones have 0.2 to 1
@@ -58,7 +59,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   borders_.forget();
   ring_.forget();
   shape_.forget();
-  paint_.reset();
+  frame_colours_.reset();
   is_grey_ = reference_ && isGrey(reference_->picture());
   if (!reference_ || !reference_->openingIsKnown() ||
       !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
@@ -67,9 +68,9 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   shape_.learn(reference_->picture(), reference_->opening());
   ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
               shape_.aspect());
-  const auto colours = ringColours(reference_->picture(), reference_->opening(),
-                                   {appearance_.near_width, appearance_.far_width}, 1);
-  if (colours && !frameless()) paint_ = colours->means.paint();
+  if (!frameless())
+    frame_colours_ = ringColours(reference_->picture(), reference_->opening(),
+                                 {appearance_.near_width, appearance_.far_width}, 1);
 }
 
 // The rival with its borders where the reference's are, if they are found near it.
@@ -128,6 +129,10 @@ void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandida
   }
 }
 
+std::optional<Eigen::Vector3f> ReferenceJudge::paint() const {
+  return frame_colours_ ? frame_colours_->means.paint() : std::nullopt;
+}
+
 bool ReferenceJudge::compares(const cv::Mat& image) const { return reference_ && isGrey(image) == is_grey_; }
 
 bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCamera* camera,
@@ -173,13 +178,20 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) con
   return Rejection{RejectReason::kUnlike, value, least};
 }
 
+bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const {
+  if (!frame_colours_) return false;
+  const auto seen = ringColours(image, corners, {appearance_.near_width, appearance_.far_width}, 1);
+  return seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze;
+}
+
 std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadrilateral& corners,
                                                           const cv::Mat& image,
                                                           const geometry::PinholeCamera* camera) {
   if (!compares(image)) return std::nullopt;
   const auto ring = ring_.alignedAt(inChannels(image), camera, corners);
   if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
-  if (ring->match.contrast < kMinContrast * ring->match.correlation) return std::nullopt;
+  if (ring->match.contrast < kMinContrast * ring->match.correlation && isHazy(image, ring->quad))
+    return std::nullopt;
   return ring;
 }
 

@@ -10,6 +10,7 @@
 #include "detection/candidates/candidate_search.hpp"
 #include "detection/reference/reference_borders.hpp"
 #include "detection/reference/reference_shape.hpp"
+#include "detection/reference/ring_histogram.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
@@ -33,7 +34,7 @@ class ReferenceJudge {
   bool frameless() const { return borders_.frameless(); }
 
   /// Colour of the reference's frame, see `RingMeans::paint`; nothing where it has none.
-  const std::optional<Eigen::Vector3f>& paint() const { return paint_; }
+  std::optional<Eigen::Vector3f> paint() const;
 
   /// False if there is no reference or only one of reference and image has colours.
   bool compares(const cv::Mat& image) const;
@@ -69,6 +70,7 @@ class ReferenceJudge {
                                        const geometry::PinholeCamera* camera);
 
  private:
+  bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const;
   const cv::Mat& inChannels(const cv::Mat& picture);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                         const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
@@ -83,7 +85,7 @@ class ReferenceJudge {
   RingJudge ring_;
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
-  std::optional<Eigen::Vector3f> paint_;
+  std::optional<RingColours> frame_colours_;  ///< of the reference
   bool is_grey_ = false;  ///< the reference; then by brightness alone
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;

@@ -139,7 +139,7 @@ Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEst
                                   double forward_mps, const Eigen::Vector3d& wind_odom_mps,
                                   const NavigatorParams& params) {
   const Eigen::Vector3d coasted =
-      relative.position_window_m + relative.velocity_window_mps * params.vehicle.response_sec;
+      relative.position_window_m + relative.velocity_window_mps.cwiseProduct(params.vehicle.responsesSec());
   const auto& align = params.align;
   Eigen::Vector3d velocity_window(0.0, velocityTowards(-coasted.y(), align.lateral_speed_mps, params),
                                   velocityTowards(-coasted.z(), align.vertical_speed_mps, params));

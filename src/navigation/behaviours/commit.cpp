@@ -11,6 +11,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr int kDisagreementsToTurnBack = 3;
+constexpr double kReserve = 2.0;     // of the way to stop, to turn back from beyond the point of no return
 constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
 
 std::string text(const char* pattern, double value) {
@@ -28,13 +29,13 @@ bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
 }
 
 /// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
-/// up.
+/// up, in the part of the way before it that `reserve` leaves.
 bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& memory,
-             const NavigatorParams& params) {
+             const NavigatorParams& params, double reserve = 1.0) {
   const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
   const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
   const double stop_m = stoppingDistance(speed_mps, params.vehicle.braking_mps2, params.vehicle.response_sec);
-  return relative.distance() - params.vehicle.half_length_m > stop_m;
+  return relative.distance() - params.vehicle.half_length_m > reserve * stop_m;
 }
 
 /// Of the velocity that wind adds, what leads along the window's normal [m/s].
@@ -77,9 +78,12 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
     decision.reason = text("%.2f m behind the window", -relative.distance());
     const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
     if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
-  } else if (canStop(relative, target, memory, *params_)) {
+  } else if (canStop(relative, target, memory, *params_, is_bound_ ? kReserve : 1.0)) {
+    is_bound_ = false;
     memory.predicted_miss_m = criterion.missM();
     turnBackIfUnsafe(criterion, blind_sec, decision);
+  } else {
+    is_bound_ = true;
   }
   return decision;
 }

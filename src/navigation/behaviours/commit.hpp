@@ -7,7 +7,8 @@ namespace window_ingress::navigation {
 /// COMMIT: through the opening on `MissionState::committed`, which is frozen in odom; sightings on the way
 /// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back.
 /// Heading along the normal. Ends standing still behind the window; turns back only while the nose can still
-/// be stopped in front of the plane.
+/// be stopped in front of the plane, once it could not only with twice the way to do so: half stopped, it
+/// would drift where it can neither pass nor turn.
 class Commit {
  public:
   explicit Commit(const NavigatorParams& params) : params_(&params) {}
@@ -35,6 +36,7 @@ class Commit {
   double disagreement_m_ = 0.0;  ///< of the last sighting
   int forbidden_ = 0;            ///< new sightings in a row that say not to fly there
   std::string why_forbidden_;
+  bool is_bound_ = false;    ///< was past the point of no return
   bool is_through_ = false;  ///< has reached the exit distance once
 };
 

@@ -18,6 +18,8 @@ double share(double dt_sec, double time_constant_sec) {
   return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
 }
 
+Eigen::Vector3d verticalOf(const Eigen::Vector3d& velocity_mps) { return {0.0, 0.0, velocity_mps.z()}; }
+
 Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
   const double norm = velocity_mps.norm();
   return norm > limit_mps ? Eigen::Vector3d(velocity_mps * (limit_mps / norm)) : velocity_mps;
@@ -30,13 +32,21 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& velocity_mps, double by_mps) {
 
 }  // namespace
 
+// What the setpoints alone would have given.
+Eigen::Vector3d DisturbanceObserver::modelVelocity() const {
+  const Eigen::Vector3d& all_mps = response_.velocity();
+  return {all_mps.x(), all_mps.y(), climbResponse().velocity().z()};
+}
+
 void DisturbanceObserver::reset() {
   restart();
   response_.reset();
+  climb_.reset();
 }
 
 void DisturbanceObserver::restart() {
   response_.restart();
+  climb_.restart();
   disturbance_mps_.setZero();
   gust_mps_.setZero();
   gusts_m2ps_.setZero();
@@ -82,11 +92,13 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
                                  double dt_sec) {
   if (!measured_mps.allFinite() || !commanded_mps.allFinite() || !(dt_sec > 0.0)) return;
   response_.update(measured_mps, commanded_mps, dt_sec);
+  climb_.update(verticalOf(measured_mps), verticalOf(commanded_mps), dt_sec);
   compareDirections(measured_mps, dt_sec);
-  const Eigen::Vector3d surprise_mps = measured_mps - response_.velocity() - disturbance_mps_;
+  const Eigen::Vector3d model_mps = modelVelocity();
+  const Eigen::Vector3d surprise_mps = measured_mps - model_mps - disturbance_mps_;
   disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
   disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);
-  const double to_come_mps = (commanded_mps - response_.velocity()).norm();
+  const double to_come_mps = (commanded_mps - model_mps).norm();
   const Eigen::Vector3d gust_mps =
       shortened(clipped(surprise_mps, kStrongestGustMps), kModelError * to_come_mps);
   gust_mps_ += share(dt_sec, response_.responseSec()) * (gust_mps - gust_mps_);

@@ -16,7 +16,7 @@ namespace window_ingress::navigation {
 class DisturbanceObserver {
  public:
   DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
-      : approach_(approach), response_(vehicle.response_sec) {}
+      : approach_(approach), response_(vehicle.response_sec), climb_(vehicle.response_sec) {}
 
   /// What moves the vehicle now is not known to be wind.
   void restart();
@@ -34,6 +34,8 @@ class DisturbanceObserver {
   /// (wind, a biased velocity) turns nothing.
   double turnedRad() const;
   const ResponseEstimator& response() const { return response_; }
+  /// Of up and down alone, which most vehicles answer later; of all axes until it has shown.
+  const ResponseEstimator& climbResponse() const { return climb_.isMeasured() ? climb_ : response_; }
 
  private:
   /// What the setpoints alone would have given, and what was measured, both in the plane: sums over the time.
@@ -46,7 +48,9 @@ class DisturbanceObserver {
   void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
 
   ApproachParams approach_;
-  ResponseEstimator response_;
+  Eigen::Vector3d modelVelocity() const;
+
+  ResponseEstimator response_, climb_;
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
   Directions directions_;
