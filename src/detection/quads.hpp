@@ -5,6 +5,10 @@
 
 namespace window_ingress::detection {
 
+inline constexpr double kSkip = 0.06;  ///< left out at both ends of a side: corners are rounded [its lengths]
+/// Of fitted borders from where the surroundings were aligned.
+inline constexpr double kAlignedStrayPx = 2.0;
+
 /// Root of a quadrilateral's area [px].
 double sizeOf(const geometry::Quadrilateral& quad);
 /// Mean length of its four sides [px].

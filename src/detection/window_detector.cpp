@@ -20,8 +20,7 @@ constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
 constexpr int kFewestSeen =
     3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
 constexpr double kAlignedShiftPx = 0.8;  ///< and from where the wall round a hole was aligned, to count
-constexpr double kAlignedStrayPx = 2.0;  ///< of fitted borders from where the surroundings were aligned
-constexpr double kAlignedStray = 0.025;  ///< the same, of those found by the frame [mean sides]
+constexpr double kAlignedStray = 0.025;  ///< as `kAlignedStrayPx`, of borders found by the frame [mean sides]
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -162,8 +161,7 @@ std::optional<WindowObservation> WindowDetector::Impl::choose(const cv::Mat& ima
         record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
         continue;
       }
-      auto fault =
-          rival.correlation ? std::nullopt : judgeSurroundingsOf(rival, image, camera, *fitted);
+      auto fault = rival.correlation ? std::nullopt : judgeSurroundingsOf(rival, image, camera, *fitted);
       if (!fault) fault = reference.objectionTo(*fitted, image, camera);
       if (fault) {
         record(rival, fault->reason, fault->value, fault->limit);

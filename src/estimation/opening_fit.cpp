@@ -1,7 +1,8 @@
 #include "window_ingress/estimation/opening_fit.hpp"
 
 #include <cmath>
-#include <cstdio>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -13,10 +14,8 @@ struct Side {
 };
 
 std::string text(const Side& side, const char* relation) {
-  char buffer[120];
-  std::snprintf(buffer, sizeof buffer, "%s %.3f m +- %.3f %s %.3f m that are needed", side.name, side.size_m,
-                side.sigma_m, relation, side.needed_m);
-  return buffer;
+  return formatted("%s %.3f m +- %.3f %s %.3f m that are needed", side.name, side.size_m, side.sigma_m,
+                   relation, side.needed_m);
 }
 
 }  // namespace

@@ -1,24 +1,19 @@
 // What the tracker verifies on the way: size, clocks, openness, and what forbids the approach.
 #include <cmath>
-#include <cstdio>
 
 #include "estimation/target_checks.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
 
 std::string otherWindowText(double factor) {
-  char text[100];
-  std::snprintf(text, sizeof text, "another window: about %.1f times as large as the one looked for", factor);
-  return text;
+  return formatted("another window: about %.1f times as large as the one looked for", factor);
 }
 
 std::string contradictedText(const Consistency& consistency) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%d of %d pictures contradict the window that was made out: of another size than told?",
-                consistency.refused, consistency.refused + consistency.images);
-  return text;
+  return formatted("%d of %d pictures contradict the window that was made out: of another size than told?",
+                   consistency.refused, consistency.refused + consistency.images);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "estimation/planar/observation_check.hpp"
@@ -11,6 +10,7 @@
 #include "estimation/planar/view_description.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -20,9 +20,7 @@ PoseResult rejected(PoseReject reason, std::string detail) {
 }
 
 std::string exceeds(const char* what, double value, const char* relation, double limit, const char* unit) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, "%s %.3g %s %s %.3g %s", what, value, unit, relation, limit, unit);
-  return buffer;
+  return formatted("%s %.3g %s %s %.3g %s", what, value, unit, relation, limit, unit);
 }
 
 // Limits on the pose itself; `result` keeps the first that is broken.

@@ -7,6 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::facade {
 namespace {
@@ -141,10 +142,8 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
   const KnownWindow* seen = map_.at(*place, window.stamp_sec);
   if (seen != nullptr && seen->id == target->id) return "";
   const double apart_m = (place->position_m - target->place.position_m).norm();
-  char text[120];
-  std::snprintf(text, sizeof text, "%s, %.1f m from window %u, which is the target",
-                seen != nullptr ? name(seen->id).c_str() : "another window", apart_m, target->id);
-  return text;
+  return formatted("%s, %.1f m from window %u, which is the target",
+                   seen != nullptr ? name(seen->id).c_str() : "another window", apart_m, target->id);
 }
 
 std::optional<geometry::Quadrilateral> FacadeMemory::expected(const Viewpoint& from) const {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::geometry {
 
@@ -10,10 +11,8 @@ std::string yawText(double yaw_rad, double sigma_rad, bool sign_trusted) {
   if (!std::isfinite(yaw_rad) || !std::isfinite(sigma_rad)) return "yaw not finite";
   constexpr double kDegreesPerRad = 180.0 / M_PI;
   const double sigma_deg = std::clamp(sigma_rad * kDegreesPerRad, 0.0, 180.0);
-  char text[64];
-  std::snprintf(text, sizeof text, sigma_deg < 0.095 ? "yaw %+.2f +-%.2f deg%s" : "yaw %+.1f +-%.1f deg%s",
-                yaw_rad * kDegreesPerRad, sigma_deg, sign_trusted ? "" : ", sign unknown");
-  return text;
+  return formatted(sigma_deg < 0.095 ? "yaw %+.2f +-%.2f deg%s" : "yaw %+.1f +-%.1f deg%s",
+                   yaw_rad * kDegreesPerRad, sigma_deg, sign_trusted ? "" : ", sign unknown");
 }
 
 }  // namespace window_ingress::geometry

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "navigation/motion/moving_target.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 
@@ -61,7 +61,8 @@ double blindSec(const CommitCriterionInput& input, const NavigatorParams& params
 
 /// Where the vehicle is by the time it answers.
 Eigen::Vector3d coastedOffset(const RelativeState& relative, const NavigatorParams& params) {
-  return relative.position_window_m + relative.velocity_window_mps.cwiseProduct(params.vehicle.responsesSec());
+  return relative.position_window_m +
+         relative.velocity_window_mps.cwiseProduct(params.vehicle.responsesSec());
 }
 
 /// Of an offset, what is left when the nose is in the opening: it is steered away meanwhile, after a delay.
@@ -96,16 +97,9 @@ double fullnessOf(double offset_m, double wall_m) {
                                                  : std::numeric_limits<double>::infinity();
 }
 
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
-
 std::string predictedMiss(const char* way, double miss_m, double clearance_m, double gust_mps) {
-  return format("predicted %s miss %.2f m in gusts of %.2f m/s, clearance %.2f m", way, miss_m, gust_mps,
-                clearance_m);
+  return formatted("predicted %s miss %.2f m in gusts of %.2f m/s, clearance %.2f m", way, miss_m, gust_mps,
+                   clearance_m);
 }
 
 std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInput& input,
@@ -113,10 +107,10 @@ std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInpu
   const RelativeState& relative = input.relative;
   const Eigen::Vector3d coasted = coastedOffset(relative, params);
   if (!(std::abs(coasted.y()) < criterion.clearance_lateral_m)) {
-    return format("lateral offset %.2f m, clearance %.2f m", coasted.y(), criterion.clearance_lateral_m);
+    return formatted("lateral offset %.2f m, clearance %.2f m", coasted.y(), criterion.clearance_lateral_m);
   }
   if (!(std::abs(coasted.z()) < criterion.clearance_vertical_m)) {
-    return format("vertical offset %.2f m, clearance %.2f m", coasted.z(), criterion.clearance_vertical_m);
+    return formatted("vertical offset %.2f m, clearance %.2f m", coasted.z(), criterion.clearance_vertical_m);
   }
   if (!(criterion.miss_lateral_m < criterion.clearance_lateral_m))
     return predictedMiss("lateral", criterion.miss_lateral_m, criterion.clearance_lateral_m,
@@ -125,11 +119,11 @@ std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInpu
     return predictedMiss("vertical", criterion.miss_vertical_m, criterion.clearance_vertical_m,
                          input.gust_vertical_mps);
   if (std::abs(relative.heading_error_rad) > params.commit.max_heading_error_rad) {
-    return format("heading %.2f rad off the normal", relative.heading_error_rad);
+    return formatted("heading %.2f rad off the normal", relative.heading_error_rad);
   }
   const double across_mps = relative.velocity_window_mps.tail<2>().norm();
   if (across_mps > params.commit.max_lateral_speed_mps)
-    return format("%.2f m/s across the normal", across_mps);
+    return formatted("%.2f m/s across the normal", across_mps);
   return "";
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::openness {
 namespace {
@@ -47,12 +47,6 @@ bool passesReveal(const Eigen::Vector2d& place, const Eigen::Vector3d& eye_windo
   if (!(way.x() > 0.0)) return false;
   const Eigen::Vector3d back = front + reveal_m / way.x() * way;
   return std::abs(back.y()) < 0.5 * opening.width_m && std::abs(back.z()) < 0.5 * opening.height_m;
-}
-
-std::string text(const char* format, double a, double b = 0.0) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
 }
 
 }  // namespace
@@ -169,30 +163,32 @@ void OpennessJudge::conclude() {
   const bool may_be_a_room = says_.depth_m - says_.depth_sigma_m < params_.max_depth_behind_m;
   if (sure_closed) {
     verdict.openness = Openness::kClosed;
-    verdict.reason = text("what is within the border moves with it: %.2f +- %.2f m behind it",
-                          verdict.depth_behind_m, verdict.depth_sigma_m);
+    verdict.reason = formatted("what is within the border moves with it: %.2f +- %.2f m behind it",
+                               verdict.depth_behind_m, verdict.depth_sigma_m);
   } else if (says_.is_moving && (most_moves || !sure_open)) {
-    verdict.reason = text("%.0f of %.0f points do not move as anything that stands still", says_.unsteady,
-                          says_.unsteady + says_.points);
+    verdict.reason = formatted("%d of %d points do not move as anything that stands still", says_.unsteady,
+                               says_.unsteady + says_.points);
   } else if (says_.is_too_deep && !(sure_open && may_be_a_room)) {
-    verdict.reason = text("deeper than a room: %.1f m; a mirror shows that, too", verdict.depth_behind_m);
+    verdict.reason =
+        formatted("deeper than a room: %.1f m; a mirror shows that, too", verdict.depth_behind_m);
   } else if (all.open > 0 && all.closed > 0 && !sure_open) {
-    verdict.reason = text("%.0f stretches of the flight say open, %.0f closed", all.open, all.closed);
+    verdict.reason = formatted("%d stretches of the flight say open, %d closed", all.open, all.closed);
   } else if (all.moving > 0 && !sure_open) {
-    verdict.reason = text("something moved by itself on %.0f stretches of the flight, log odds %.1f",
-                          all.moving, all.log_odds);
+    verdict.reason = formatted("something moved by itself on %d stretches of the flight, log odds %.1f",
+                               all.moving, all.log_odds);
   } else if (!sure_open) {
-    verdict.reason = text("%.0f points followed, log odds %.1f", says_.points, all.log_odds);
+    verdict.reason = formatted("%d points followed, log odds %.1f", says_.points, all.log_odds);
   } else if (share.closed > kMaxClosed) {
     verdict.reason =
-        text("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
+        formatted("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
   } else if (share.open < params_.min_open_share || share.least_quarter_open < kMinQuarter ||
              share.least_side_open < kMinSide) {
-    verdict.reason = text("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
+    verdict.reason =
+        formatted("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);
   } else {
     verdict.openness = Openness::kOpen;
-    verdict.reason = text("what is within the border lies %.1f +- %.1f m behind it", verdict.depth_behind_m,
-                          verdict.depth_sigma_m);
+    verdict.reason = formatted("what is within the border lies %.1f +- %.1f m behind it",
+                               verdict.depth_behind_m, verdict.depth_sigma_m);
   }
   verdict_ = verdict;
 }

@@ -12,17 +12,17 @@ namespace window_ingress::parameters {
 
 namespace {
 
-/// What the readers of one file share.
-struct File {
-  std::vector<std::string> known;
-  std::set<std::string> said;
-};
-
 bool isFinite(double value) { return std::isfinite(value); }
 
 }  // namespace
 
 struct YamlReader::Impl {
+  /// What the readers of one file share.
+  struct File {
+    std::vector<std::string> known;
+    std::set<std::string> said;
+  };
+
   YamlMapping mapping;
   std::shared_ptr<File> shared;
 
@@ -60,7 +60,8 @@ struct YamlReader::Impl {
 };
 
 YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known)
-    : impl_(new Impl{YamlMapping(file, mapping), std::make_shared<File>(File{std::move(known), {}})}) {}
+    : impl_(new Impl{YamlMapping(file, mapping),
+                     std::make_shared<Impl::File>(Impl::File{std::move(known), {}})}) {}
 
 YamlReader::YamlReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::simulation {
 namespace {
 
 constexpr double kAirborneGap_m = 0.05;
-
-std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, a, b, c);
-  return buffer;
-}
 
 }  // namespace
 
@@ -130,17 +125,19 @@ Verdict Referee::judge(Claim claim, double mission_start_sec) const {
   const auto sinceStart = [&](double sec) { return sec - mission_start_sec; };  // as all times that are told
   const bool crossed_inside = crossing_ && crossing_->inside;
   if (touched())
-    return {Outcome::kCollision, "touched " + contact_ + text(" at %.2f s", sinceStart(contact_time_sec_))};
+    return {Outcome::kCollision,
+            "touched " + contact_ + formatted(" at %.2f s", sinceStart(contact_time_sec_))};
   if (crossed_inside && stood_behind_)
     return {Outcome::kPassed,
-            text("crossed at %.2f s, %+.3f m left and %+.3f m up of the centre",
-                 sinceStart(crossing_->time_sec), crossing_->offset_y_m, crossing_->offset_z_m)};
+            formatted("crossed at %.2f s, %+.3f m left and %+.3f m up of the centre",
+                      sinceStart(crossing_->time_sec), crossing_->offset_y_m, crossing_->offset_z_m)};
   if (claim == Claim::kPassed && !crossed_inside)
     return {Outcome::kFalseIngress,
-            text("claims to have passed at %.2f s and has not", sinceStart(time_sec_))};
-  if (claim == Claim::kAborted) return {Outcome::kAborted, text("gave up at %.2f s", sinceStart(time_sec_))};
+            formatted("claims to have passed at %.2f s and has not", sinceStart(time_sec_))};
+  if (claim == Claim::kAborted)
+    return {Outcome::kAborted, formatted("gave up at %.2f s", sinceStart(time_sec_))};
   if (time_sec_ - mission_start_sec >= course_.time_limit_sec)
-    return {Outcome::kTimeout, text("not done after %.1f s", course_.time_limit_sec)};
+    return {Outcome::kTimeout, formatted("not done after %.1f s", course_.time_limit_sec)};
   return {Outcome::kRunning, ""};
 }
 

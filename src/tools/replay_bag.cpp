@@ -20,6 +20,7 @@
 #include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
@@ -96,12 +97,6 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   return params;
 }
 
-std::string text(const char* format, double value) {
-  char buffer[48];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 /// The script lies beside this program when installed, in tools/ of the source tree when not. No shell in
 /// between.
 void runScript(const std::string& name, const std::vector<std::string>& arguments) {
@@ -159,8 +154,8 @@ void judge(const Options& options, const adapters::ReplayParams& params,
     throw UsageError(options.bag + ": no picture in " + params.topics.image + " can be read");
   if (params.with_pose && summary.calibrated == 0)
     throw UsageError(options.bag + ": no calibration: " + summary.refusal);
-  say(std::to_string(summary.images) + " images, " + text("%.2f", summary.milliseconds / summary.images) +
-      " ms each");
+  say(std::to_string(summary.images) + " images, " +
+      formatted("%.2f", summary.milliseconds / summary.images) + " ms each");
 }
 
 int run(const Options& options, const std::string& command) {

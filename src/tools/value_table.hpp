@@ -4,13 +4,13 @@
 #include <window_ingress/WindowDetectorConfig.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 
@@ -30,9 +30,7 @@ inline std::string unitOf(const std::string& field) {
 
 inline std::string valueOf(const parameters::NamedField& field) {
   if (field.kind != parameters::NamedField::kNumber) return parameters::toText(field);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", field.get());
-  return text;
+  return formatted("%.4g", field.get());
 }
 
 /// "edges/floor = 4.5 grey levels a pixel", with the default behind it where it is another one.

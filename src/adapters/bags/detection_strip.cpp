@@ -1,7 +1,6 @@
 #include "adapters/bags/detection_strip.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -9,17 +8,14 @@
 #include "adapters/bags/replay_tables.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/yaw_text.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
 constexpr int kWidestPx = 640, kQuality = 80;
 
-std::string named(std::size_t number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "pictures/%05zu.jpg", number);
-  return text;
-}
+std::string named(std::size_t number) { return formatted("pictures/%05zu.jpg", number); }
 
 std::string captionOf(const ReplayedFrame& frame) {
   if (!frame.row.window) return "no window: " + frame.row.reject_reason;

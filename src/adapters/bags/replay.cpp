@@ -20,7 +20,7 @@
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/frames.hpp"
-#include "window_ingress/parameters/text.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -76,7 +76,7 @@ class Replay {
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   void refuse(const std::string& what, const std::string& why) {
     ++summary_.refused;
-    ++summary_.reasons[what + ": " + parameters::withoutNumbers(why)];
+    ++summary_.reasons[what + ": " + withoutNumbers(why)];
     summary_.refusal = what + ": " + why;
   }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -22,56 +23,50 @@ constexpr const char* kDetailColumns =
     "filtered_weight,window_width_m,window_height_m,why_not_filtered\n";
 constexpr int kPoseDetails = 10, kFilterDetails = 5;
 
-std::string text(const char* format, double value) {
-  char buffer[48];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
 std::string filteredValues(const std::optional<estimation::FilteredWindow>& filtered) {
   if (!filtered) return std::string(13, ',');
   const Eigen::Quaterniond q(filtered->T_odom_window.linear());
   const Eigen::Vector3d t = filtered->T_odom_window.translation();
   std::string values;
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) values += "," + text("%.9f", value);
-  for (const double value : {t.x(), t.y(), t.z()}) values += "," + text("%.6f", value);
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) values += "," + formatted("%.9f", value);
+  for (const double value : {t.x(), t.y(), t.z()}) values += "," + formatted("%.6f", value);
   for (int i = 0; i < 6; ++i)
-    values += "," + text("%.6f", std::sqrt(std::max(0.0, filtered->covariance(i, i))));
+    values += "," + formatted("%.6f", std::sqrt(std::max(0.0, filtered->covariance(i, i))));
   return values;
 }
 
 std::string truthValues(const evaluation::TruthErrors& errors) {
   std::string values = errors.whole ? ",1" : ",0";
   for (const double value : {errors.iou, errors.true_distance_m, errors.true_yaw_rad})
-    values += "," + text("%.6f", value);
+    values += "," + formatted("%.6f", value);
   for (const auto& value : {errors.yaw_rad, errors.distance_m})
-    values += value ? "," + text("%.6f", *value) : ",";
+    values += value ? "," + formatted("%.6f", *value) : ",";
   if (!errors.found || !errors.truth) return values + ",";
-  return values + "," + text("%.4f", evaluation::worstCornerDistance(*errors.found, *errors.truth));
+  return values + "," + formatted("%.4f", evaluation::worstCornerDistance(*errors.found, *errors.truth));
 }
 
 std::string opennessValues(const openness::OpennessVerdict& verdict) {
-  return "," + std::string(openness::toString(verdict.openness)) + "," + text("%.4f", verdict.log_odds) +
-         "," + (verdict.has_depth ? text("%.4f", verdict.depth_behind_m) : "");
+  return "," + std::string(openness::toString(verdict.openness)) + "," + formatted("%.4f", verdict.log_odds) +
+         "," + (verdict.has_depth ? formatted("%.4f", verdict.depth_behind_m) : "");
 }
 
 std::string poseDetails(const std::optional<estimation::WindowPoseEstimate>& pose) {
   if (!pose) return std::string(kPoseDetails, ',');
-  std::string values = "," + text("%.6f", pose->yaw_rad) + "," + text("%.6f", pose->sigma_u_rad);
+  std::string values = "," + formatted("%.6f", pose->yaw_rad) + "," + formatted("%.6f", pose->sigma_u_rad);
   values += pose->sign_trusted ? ",1" : ",0";
   for (const double value :
        {pose->euler.theta_rad, pose->euler.phi_rad, pose->euler.psi_rad, pose->opening_width_m,
         pose->opening_height_m, pose->left_side_px, pose->right_side_px})
-    values += "," + text("%.6f", value);
+    values += "," + formatted("%.6f", value);
   return values;
 }
 
 std::string filterDetails(const std::optional<estimation::FilteredWindow>& filtered) {
   if (!filtered) return std::string(kFilterDetails, ',');
-  std::string values = "," + text("%.3f", filtered->age_sec) + (filtered->sign_trusted ? ",1" : ",0");
+  std::string values = "," + formatted("%.3f", filtered->age_sec) + (filtered->sign_trusted ? ",1" : ",0");
   for (const double value :
        {filtered->hypothesis_weight, filtered->size.size.width_m, filtered->size.size.height_m})
-    values += "," + text("%.6f", value);
+    values += "," + formatted("%.6f", value);
   return values;
 }
 
@@ -86,11 +81,7 @@ std::ofstream opened(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string exactText(const ros::Time& stamp) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%u.%09u", stamp.sec, stamp.nsec);
-  return buffer;
-}
+std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stamp.sec, stamp.nsec); }
 
 ReplayTables::ReplayTables(const std::filesystem::path& folder, const ReplayParams& params)
     : params_(params),
@@ -113,7 +104,8 @@ void ReplayTables::add(const ReplayedFrame& frame) {
            << frame.has_attitude << "," << (frame.row.window ? frame.row.window->visibleSides() : 0)
            << poseDetails(frame.row.pose) << filterDetails(frame.filtered) << ","
            << evaluation::csvField(frame.why_not_filtered) << "\n";
-  latency_ << stamp << "," << text("%.3f", frame.detector_ms) << "," << text("%.3f", frame.pose_ms) << "\n";
+  latency_ << stamp << "," << formatted("%.3f", frame.detector_ms) << "," << formatted("%.3f", frame.pose_ms)
+           << "\n";
 }
 
 void ReplayTables::close() {

@@ -11,11 +11,6 @@ using DetectionMsg = window_ingress::WindowDetection;
 using RowMajor2d = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
 constexpr std::size_t kMaxInteriorPoints = 1000;  // what a detector sends stays far below
 
-// Constants of the messages are the enums of the core.
-template <typename Enum>
-constexpr bool same(int constant, Enum value) {
-  return constant == static_cast<int>(value);
-}
 static_assert(same(DetectionMsg::TOP_LEFT, geometry::kTopLeft) &&
               same(DetectionMsg::TOP_RIGHT, geometry::kTopRight) &&
               same(DetectionMsg::BOTTOM_RIGHT, geometry::kBottomRight) &&
@@ -49,21 +44,18 @@ static_assert(same(DetectionMsg::OK, RejectReason::kNone) &&
               same(DetectionMsg::BUDGET, RejectReason::kBudget) &&
               detection::kRejectReasons == DetectionMsg::BUDGET + 1);
 
-// Numbers that must be finite, whether visible or not.
-bool finite(double number) { return std::isfinite(number); }
-
 template <typename Numbers>
 bool allFinite(const Numbers& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), finite);
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
 }
 
 bool isFinite(const window_ingress::WindowCorner& m) {
-  return finite(m.x) && finite(m.y) && allFinite(m.covariance);
+  return std::isfinite(m.x) && std::isfinite(m.y) && allFinite(m.covariance);
 }
 
 bool isFinite(const window_ingress::WindowEdge& m) {
-  return finite(m.sigma_px) && finite(m.sigma_rad) && finite(m.a_x) && finite(m.a_y) && finite(m.b_x) &&
-         finite(m.b_y);
+  return std::isfinite(m.sigma_px) && std::isfinite(m.sigma_rad) && std::isfinite(m.a_x) &&
+         std::isfinite(m.a_y) && std::isfinite(m.b_x) && std::isfinite(m.b_y);
 }
 
 template <typename Parts>
@@ -72,14 +64,14 @@ bool areFinite(const Parts& parts) {
 }
 
 bool isFinite(const window_ingress::InteriorPoints& m) {
-  return areFinite(m.key_corners) && finite(m.sigma_px) && allFinite(m.key_x) && allFinite(m.key_y) &&
+  return areFinite(m.key_corners) && std::isfinite(m.sigma_px) && allFinite(m.key_x) && allFinite(m.key_y) &&
          allFinite(m.x) && allFinite(m.y) && allFinite(m.normal_x) && allFinite(m.normal_y);
 }
 
 bool isFinite(const DetectionMsg& m) {
-  return areFinite(m.corners) && areFinite(m.edges) && finite(m.score) &&
-         finite(m.appearance.bhattacharyya) && finite(m.appearance.correlation) &&
-         finite(m.appearance.runner_up) && isFinite(m.interior);
+  return areFinite(m.corners) && areFinite(m.edges) && std::isfinite(m.score) &&
+         std::isfinite(m.appearance.bhattacharyya) && std::isfinite(m.appearance.correlation) &&
+         std::isfinite(m.appearance.runner_up) && isFinite(m.interior);
 }
 
 window_ingress::WindowCorner cornerMsg(const Eigen::Vector2d& corner, const Eigen::Matrix2d& covariance) {

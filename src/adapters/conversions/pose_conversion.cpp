@@ -12,11 +12,6 @@ using ChecksMsg = window_ingress::SystemChecks;
 using OpennessMsg = window_ingress::Openness;
 using StateMsg = window_ingress::IngressState;
 
-// Constants of the messages are the enums of the core.
-template <typename Enum>
-constexpr bool same(int constant, Enum value) {
-  return constant == static_cast<int>(value);
-}
 static_assert(same(ImagePoseMsg::OK, estimation::PoseReject::kNone) &&
               same(ImagePoseMsg::BAD_CAMERA, estimation::PoseReject::kBadCamera) &&
               same(ImagePoseMsg::BAD_CORNERS, estimation::PoseReject::kBadCorners) &&

@@ -1,19 +1,12 @@
 #include "adapters/conversions/stamps.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "window_ingress/text/text.hpp"
+
 namespace window_ingress::adapters {
-namespace {
-
-std::string withNumber(const char* format, double value, double limit) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, value, limit);
-  return text;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<double> stampSec(const ros::Time& stamp) {
   if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
@@ -34,21 +27,21 @@ std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double 
   if (!sec) return "header.stamp is zero or not normalised; the source must stamp its messages";
   const double age_sec = now_sec - *sec;
   if (age_sec > 86400.0)
-    return withNumber(
+    return formatted(
         "stamp is %.0f days old; recorded data? then set use_sim_time and play with --clock (limit %.2f s)",
         age_sec / 86400.0, limits_.max_age_sec);
   if (age_sec > limits_.max_age_sec)
-    return withNumber("stamp is %.2f s old, limit %.2f s", age_sec, limits_.max_age_sec);
+    return formatted("stamp is %.2f s old, limit %.2f s", age_sec, limits_.max_age_sec);
   if (-age_sec > 86400.0 && now_sec <= 0.0) return "the clock has not begun: nothing has come on /clock yet";
   if (-age_sec > 86400.0)
-    return withNumber(
+    return formatted(
         "stamp is %.0f days ahead of the clock; is use_sim_time set beside a real source? (limit %.2f s)",
         -age_sec / 86400.0, limits_.max_future_sec);
   if (-age_sec > limits_.max_future_sec)
-    return withNumber("stamp is %.2f s ahead of the clock, limit %.2f s", -age_sec, limits_.max_future_sec);
+    return formatted("stamp is %.2f s ahead of the clock, limit %.2f s", -age_sec, limits_.max_future_sec);
   if (clock_.jumpedBack(now_sec)) last_sec_.reset();
   if (last_sec_ && *sec <= *last_sec_)
-    return withNumber("stamp %.3f is not after the one before, %.3f", *sec, *last_sec_);
+    return formatted("stamp %.3f is not after the one before, %.3f", *sec, *last_sec_);
   last_sec_ = sec;
   return std::nullopt;
 }

@@ -26,7 +26,7 @@ Eigen::Isometry3d uprightPose(const navigation::TargetEstimate& target) {
   return T_odom_window;
 }
 
-Points cornersOf(const Eigen::Isometry3d& T_odom_window, const FunnelSection& section) {
+Points sectionCorners(const Eigen::Isometry3d& T_odom_window, const FunnelSection& section) {
   Points corners;
   for (Eigen::Vector3d corner :
        geometry::openingCorners({2.0 * section.half_width_m, 2.0 * section.half_height_m})) {
@@ -47,8 +47,8 @@ void drawFunnel(MarkerSketch& sketch, const Eigen::Isometry3d& T_odom_window,
                 const std::vector<FunnelSection>& sections) {
   Points sides, edges, commit_line;
   for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
-    const Points near = cornersOf(T_odom_window, sections[i]),
-                 far = cornersOf(T_odom_window, sections[i + 1]);
+    const Points near = sectionCorners(T_odom_window, sections[i]),
+                 far = sectionCorners(T_odom_window, sections[i + 1]);
     for (int k = 0; k < 4; ++k) {
       appendFace(sides, near[k], near[(k + 1) % 4], far[(k + 1) % 4], far[k]);
       edges.insert(edges.end(), {near[k], far[k]});

@@ -7,6 +7,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -93,10 +94,8 @@ bool isHint(const window_ingress::KnownWindow& window) {
 }
 
 std::string chances(const estimation::FilteredWindow& window) {
-  char text[80];
-  std::snprintf(text, sizeof text, "\namber or violet: %.1f : %.1f %%", 100.0 * window.hypothesis_weight,
-                100.0 * (1.0 - window.hypothesis_weight));
-  return text;
+  return formatted("\namber or violet: %.1f : %.1f %%", 100.0 * window.hypothesis_weight,
+                   100.0 * (1.0 - window.hypothesis_weight));
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/sources/guarded.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -32,11 +32,8 @@ std::string whyOtherSize(const window_ingress::IngressGoal& goal, const window_i
       !isOther(goal.window_height, known.height, known.height_sigma))
     return "";
   if (known.width == 0.0) return "the window's size cannot be compared: nothing on window_pose so far";
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the goal's window is %.2f x %.2f m, the pose node flies by %.2f x %.2f m (window_size:=)",
-                goal.window_width, goal.window_height, known.width, known.height);
-  return text;
+  return formatted("the goal's window is %.2f x %.2f m, the pose node flies by %.2f x %.2f m (window_size:=)",
+                   goal.window_width, goal.window_height, known.width, known.height);
 }
 
 window_ingress::IngressResult resultOf(std::uint8_t outcome, const std::string& why) {

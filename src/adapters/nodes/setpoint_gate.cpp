@@ -1,19 +1,12 @@
 #include "adapters/nodes/setpoint_gate.hpp"
 
 #include <cmath>
-#include <cstdio>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 
-namespace {
-
-std::string tooMuch(const char* format, double value, double limit) {
-  char text[100];
-  std::snprintf(text, sizeof text, format, value, limit);
-  return text;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params) {
   const auto &v = twist.linear, &w = twist.angular;
@@ -23,10 +16,11 @@ std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& para
   const double speed = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
   const double turning = std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z);
   if (!(speed <= params.max_speed_mps))
-    return tooMuch("speed of %.2f m/s is above the limit, max_speed_mps: %.2f", speed, params.max_speed_mps);
+    return formatted("speed of %.2f m/s is above the limit, max_speed_mps: %.2f", speed,
+                     params.max_speed_mps);
   if (!(turning <= params.max_yaw_rate_radps))
-    return tooMuch("turning at %.2f rad/s is above the limit, max_yaw_rate_radps: %.2f", turning,
-                   params.max_yaw_rate_radps);
+    return formatted("turning at %.2f rad/s is above the limit, max_yaw_rate_radps: %.2f", turning,
+                     params.max_yaw_rate_radps);
   return "";
 }
 

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "adapters/sources/console_pump.hpp"
-#include "window_ingress/parameters/text.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -22,11 +21,7 @@ constexpr double kGraceSec =
 constexpr double kQuietSec = 5.0;   // between two warnings about one topic
 constexpr double kSmoothing = 0.1;  // of the period of messages
 
-std::string withTwoDecimals(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
+std::string withTwoDecimals(double value) { return formatted("%.2f", value); }
 
 Health consoleHealth() {
   if (!consoleIsStuck()) return {};
@@ -98,7 +93,7 @@ bool Diagnostics::lookAt(const std::string& name, Item& item) {
   item.now = item.check();
   const Health& now = item.now;
   sayOnConsole(name, item);
-  const std::string said = parameters::withoutNumbers(now.text);
+  const std::string said = withoutNumbers(now.text);
   const bool news = before != now.level || (now.level != Health::kOk && said != item.said);
   item.said = said;
   return news;

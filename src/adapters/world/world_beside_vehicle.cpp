@@ -6,7 +6,6 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kStepSec = simulation::World::kStepSec;
 constexpr double kMaxSilenceSec = 5.0;   // after a longer one it is another flight
 constexpr double kMaxLateSec = 0.5;      // a stamp that goes back further begins another flight
 constexpr std::size_t kMaxPictures = 2;  // that are drawn of those which fall due at once
@@ -44,7 +43,7 @@ void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vec
   followed_sec_ = vehicle.stamp_sec;
   const double until_sec = vehicle.stamp_sec - epoch_sec_;
   world_->follow({vehicle.T_odom_base, vehicle.velocity_odom_mps, turning_radps}, until_sec);
-  while (world_->timeSec() + kStepSec <= until_sec + 1e-9) stepOnce();
+  while (world_->timeSec() + simulation::World::kStepSec <= until_sec + 1e-9) stepOnce();
 }
 
 // An external vehicle waits for nobody: what a slow machine cannot draw in time is lost, not late.

@@ -30,7 +30,7 @@ constexpr double kGainSpread =
     0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
 constexpr int kCoverPasses = 3;
 constexpr double kMaxCovered = 1.0 / 3.0;                  ///< of the ring
-constexpr double kMinContrast = 0.8, kMaxContrast = 1.25;  ///< of the ring: another exposure or tone curve
+constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: another exposure or tone curve
 constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;         ///< least depth, relative to the centre's
 constexpr float kFirstScale = 0.2F;                        ///< of the residuals, before they are known
 constexpr float kStepSpread = 0.06F,
@@ -220,7 +220,7 @@ double RingAlignment::weighContrasts() {
   if (scratch_.empty()) return 1.0;
   const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
   std::nth_element(scratch_.begin(), middle, scratch_.end());
-  const double contrast = std::clamp<double>(*middle, kMinContrast, kMaxContrast);
+  const double contrast = std::clamp<double>(*middle, kMinRingGain, kMaxRingGain);
   for (Share& share : shares_) {
     if (share.alike <= 0.0 || share.gain <= 0.0) continue;
     const double off = std::log(share.gain / contrast);

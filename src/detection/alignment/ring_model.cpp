@@ -58,9 +58,9 @@ int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side)
 }
 
 /// The image, smoothed for one level, read between its pixels.
-class Reader {
+class RingReader {
  public:
-  Reader(const cv::Mat& picture, const geometry::UnitSquare& map, int level, const RingModel& model)
+  RingReader(const cv::Mat& picture, const geometry::UnitSquare& map, int level, const RingModel& model)
       : picture_(picture), map_(map), level_(level), model_(model) {}
 
   bool read(const Vector2d& p, std::array<float, 3>& value) const {
@@ -86,7 +86,7 @@ class Reader {
   const RingModel& model_;
 };
 
-bool sampleAt(const Reader& reader, const Vector2d& p, const Vector2d& half_step, int channels,
+bool sampleAt(const RingReader& reader, const Vector2d& p, const Vector2d& half_step, int channels,
               Sample& sample) {
   std::array<float, 3> left, right, up, down;
   if (!reader.read(p, sample.value) || !reader.read(p - Vector2d(half_step.x(), 0), left) ||
@@ -147,7 +147,7 @@ RingLevel levelFrom(const std::vector<Sample>& samples, int channels, int segmen
 }
 
 // The ring on a grid of this resolution.
-RingLevel sampled(const Reader& reader, const Shape& shape, int channels, double side_px) {
+RingLevel sampled(const RingReader& reader, const Shape& shape, int channels, double side_px) {
   const double pitch = 1.0 / side_px, half = RingModel::kWidth + 0.5 * std::max(shape.width, shape.height);
   const int a_side = segmentsASide(side_px);
   const Vector2d step(pitch / shape.width, pitch / shape.height);
@@ -225,7 +225,7 @@ void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening, doub
     const double blur = kBlur * std::sqrt(std::max(0.0, ratio * ratio - (from > 0 ? 0.5 : 0.0)));
     if (ratio > 1.1 && blur > 0.1)
       cv::GaussianBlur(smooth, smooth, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
-    levels_.push_back(sampled(Reader(smooth, map, from, *this), shape, channels_, wanted));
+    levels_.push_back(sampled(RingReader(smooth, map, from, *this), shape, channels_, wanted));
   }
   levels_.erase(
       std::remove_if(levels_.begin(), levels_.end(), [](const RingLevel& l) { return l.size() < 40; }),

@@ -8,6 +8,7 @@
 #include "detection/borders/border_fit.hpp"
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
+#include "detection/quads.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3f;
 
-constexpr int kSamples = 80;    ///< profiles across each side, at most one a pixel
-constexpr double kSkip = 0.06;  ///< left out at both ends of a side, in its lengths
+constexpr int kSamples = 80;  ///< profiles across each side, at most one a pixel
 constexpr double kNominalSide =
     640.0;  ///< longer side of an image up to which pixel parameters hold as they are
 constexpr double kFaintestChange =

@@ -41,9 +41,9 @@ Vector2d clamped(const cv::Mat& image, const Vector2d& p) {
 
 /// One pixel after another, by bilinear interpolation or the nearest one.
 template <int kChannels, bool kRough>
-class Reader {
+class ProfileReader {
  public:
-  Reader(const cv::Mat& image, int stride) : data_(image.data), row_(image.step[0]), stride_(stride) {}
+  ProfileReader(const cv::Mat& image, int stride) : data_(image.data), row_(image.step[0]), stride_(stride) {}
 
   void operator()(const Vector2d& p, float* out) const {
     const float x = static_cast<float>(p.x()), y = static_cast<float>(p.y());
@@ -77,7 +77,7 @@ constexpr float kTrusted = 0.35f;    // part of a change of colour beside one of
 
 template <int kChannels, bool kRough>
 void EdgeProfiles::fill(const cv::Mat& image, const geometry::PinholeCamera* lens) {
-  const Reader<kChannels, kRough> read(image, width());
+  const ProfileReader<kChannels, kRough> read(image, width());
   for (int i = 0; i < count_; ++i) {
     const Path path(point(position_[i], 0.0), normal_, reach_, lens);
     inside_[i] = isInside(image, path.at, kMarginPx);

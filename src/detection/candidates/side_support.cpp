@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -11,7 +13,6 @@ using Eigen::Vector2d;
 constexpr double kTolerancePx = 2.0;  ///< distance of an edge pixel from the side, on the search level [px]
 constexpr double kDirection_rad = 0.35;  ///< angle between its gradient and the side's normal [rad]
 constexpr double kBeyond = 0.2;    ///< stretch beyond each corner that is looked at, in lengths of the side
-constexpr double kSkip = 0.06;     ///< left out at both ends: corners are rounded, in lengths of the side
 constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
 
 /// The edges, and the lens that bends them.

@@ -14,8 +14,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
-constexpr double kInward = 0.14;   ///< borders are looked for so far inside a rough loop, in mean sides of it
-constexpr double kOutward = 0.40;  ///< borders are looked for so far outside a rough loop
+constexpr double kBorderInward =
+    0.14;  ///< borders are looked for so far inside a rough loop, in mean sides of it
+constexpr double kBorderOutward = 0.40;  ///< borders are looked for so far outside a rough loop
 constexpr double kAlike =
     0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
 constexpr double kContrastFull =
@@ -45,7 +46,7 @@ Vector3f features(const Vector3f& bgr) {
 // The profiles of all four sides.
 void ReferenceBorders::measure(const cv::Mat& image, const Quadrilateral& ideal,
                                const geometry::PinholeCamera* lens, double aspect, const Effort& effort) {
-  const ProfileReach reach{kInward, kOutward, aspect, effort.along, effort.across};
+  const ProfileReach reach{kBorderInward, kBorderOutward, aspect, effort.along, effort.across};
   measureSides(image, ideal, lens, reach, sides_);
 }
 
@@ -153,7 +154,7 @@ double ReferenceBorders::choose(int side, double& border) const {
     const double goes_on = difference(within, beside);
     // Where the end of the frame tells the place, a faint border will do.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
-    const double away = at / kInward / kFarAway;
+    const double away = at / kBorderInward / kFarAway;
     const double worth = std::exp(-off / kAlike - 0.5 * away * away) * visible;
     if (worth > best) best = worth, border = at;
   }

@@ -17,9 +17,10 @@ constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
-constexpr double kMinContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
-constexpr double kMaxThroughHaze = 0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
-constexpr double kUncovered = 0.88;   ///< where there is no frame
+constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
+constexpr double kMaxThroughHaze =
+    0.45;                            ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
+constexpr double kUncovered = 0.88;  ///< where there is no frame
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;   ///< of the mean colours there, relative to them; right ones have 0.2 to 1
 constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
@@ -190,7 +191,7 @@ std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadri
   if (!compares(image)) return std::nullopt;
   const auto ring = ring_.alignedAt(inChannels(image), camera, corners);
   if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
-  if (ring->match.contrast < kMinContrast * ring->match.correlation && isHazy(image, ring->quad))
+  if (ring->match.contrast < kMinClearContrast * ring->match.correlation && isHazy(image, ring->quad))
     return std::nullopt;
   return ring;
 }

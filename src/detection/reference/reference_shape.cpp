@@ -118,12 +118,12 @@ Matrix2d whiteningOf(const Matrix2d& covariance, double least_px) {
   return root.matrixL().solve(Matrix2d::Identity());
 }
 
-constexpr double kInward = 0.02, kOutward = 0.36;         ///< of the profiles [mean sides of the opening]
-constexpr double kThinnest = 0.015, kWidest = 0.14;       ///< frame [mean sides of the opening]
-constexpr double kBlur_px = 3.0;                          ///< nearer to the border its own edge shows
-constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;  ///< where the wall is, in widths of the frame
-constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;          ///< and the frame's own colour
-constexpr float kMinContrast = 20.0F;                     ///< of frame and wall [grey levels]
+constexpr double kShapeInward = 0.02, kShapeOutward = 0.36;  ///< of the profiles [mean sides of the opening]
+constexpr double kThinnest = 0.015, kWidest = 0.14;          ///< frame [mean sides of the opening]
+constexpr double kBlur_px = 3.0;                             ///< nearer to the border its own edge shows
+constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;     ///< where the wall is, in widths of the frame
+constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;             ///< and the frame's own colour
+constexpr float kMinFrameContrast = 20.0F;                   ///< of frame and wall [grey levels]
 constexpr std::size_t kFewestSides = 3;
 constexpr double kScatter = 0.1;                               ///< of the difference of the middle two widths
 constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the image
@@ -147,7 +147,7 @@ double paintedWidth(const SideProfile& side, double expected) {
   for (int k = 0; k < count && side.at(k) <= kCoreTo * expected; ++k)
     if (side.at(k) >= kCoreFrom * expected && (side.means[k] - wall).norm() > contrast)
       contrast = (side.means[k] - wall).norm(), core = k;
-  if (contrast < kMinContrast) return 0.0;
+  if (contrast < kMinFrameContrast) return 0.0;
   const Vector3f direction = (side.means[core] - wall) / (contrast * contrast);
   double width = side.at(core) - 0.5 * side.step;
   for (int k = core; k < count && side.at(k) < kSurroundFrom * expected; ++k)
@@ -199,11 +199,11 @@ void ReferenceShape::learn(const cv::Mat& picture, const Quadrilateral& opening)
   aspect_ = Measured{std::sqrt(least * most), 0.5 * (most - least)};
   seen_aspect_ = geometry::aspectRatio(opening);
   if (picture.type() != CV_8UC3) return;
-  measureSides(picture, opening, nullptr, {kInward, kOutward, seen_aspect_}, sides_);
+  measureSides(picture, opening, nullptr, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
   const double thinnest = std::max(kThinnest, kBlur_px / meanSide(opening));
   for (int i = 0; i < 4; ++i) {
     double end = 0.0;
-    if (sides_[i].largestChange(thinnest, kWidest, &end) < kMinContrast) continue;
+    if (sides_[i].largestChange(thinnest, kWidest, &end) < kMinFrameContrast) continue;
     frame_[i] = paintedWidth(sides_[i], end);
   }
 }
@@ -234,7 +234,7 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
   if (*std::max_element(frame_.begin(), frame_.end()) <= 0.0) return std::nullopt;
   const PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
   const Quadrilateral ideal = undistorted(corners, lens);
-  measureSides(image, ideal, lens, {kInward, kOutward, seen_aspect_}, sides_);
+  measureSides(image, ideal, lens, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
   ratios_.clear();
   double widths = 0.0;
   for (int i = 0; i < 4; ++i) {

@@ -12,9 +12,9 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSteps = 16;     ///< places between two bins
-constexpr int kDarkest = 45;   ///< sum of the channels below which chroma is noise
-constexpr double kTop = 0.80;  ///< chromaticity at the last bin; the first is at 0
+constexpr int kSteps = 16;         ///< places between two bins
+constexpr int kMinColourSum = 45;  ///< sum of the channels below which chroma is noise
+constexpr double kTop = 0.80;      ///< chromaticity at the last bin; the first is at 0
 constexpr double kWeight[RingHistogram::kBands] = {2.0, 1.0};
 /// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
 constexpr double kSharing = 4.0 / 9.0;
@@ -39,7 +39,7 @@ bool addPixel(const cv::Vec3b& pixel, Counts& counts) {
   static const auto kPerSum = reciprocals();
   constexpr std::uint32_t kLast = (RingHistogram::kBins - 1) * kSteps - 1;
   const int blue = pixel[0], green = pixel[1], red = pixel[2], sum = blue + green + red;
-  if (sum < kDarkest) return false;
+  if (sum < kMinColourSum) return false;
   const std::uint32_t r = std::min(red * kPerSum[sum] >> 16, kLast),
                       g = std::min(green * kPerSum[sum] >> 16, kLast);
   const std::uint32_t u = r % kSteps, v = g % kSteps;

@@ -75,8 +75,9 @@ std::array<Vector2d, 4> ringCorners(const Vector2d& out) {
 }
 
 /// An opening with its size in the image.
-struct Measured {
-  explicit Measured(const Quadrilateral& opening) : map(opening), sides(geometry::sideLengths(opening)) {
+struct MeasuredOpening {
+  explicit MeasuredOpening(const Quadrilateral& opening)
+      : map(opening), sides(geometry::sideLengths(opening)) {
     girth = sides[0] + sides[1] + sides[2] + sides[3];
     mean = 0.25 * girth;
   }
@@ -89,7 +90,7 @@ struct Measured {
   double girth, mean;
 };
 
-void sampleLines(const cv::Mat& image, const Measured& opening, double out, RingSamples::Band& band,
+void sampleLines(const cv::Mat& image, const MeasuredOpening& opening, double out, RingSamples::Band& band,
                  DarkCounts& dark) {
   const auto corners = ringCorners(opening.inUnits(out));
   for (int side = 0; side < 4; ++side) {
@@ -104,7 +105,7 @@ void sampleLines(const cv::Mat& image, const Measured& opening, double out, Ring
   }
 }
 
-void sampleBand(const cv::Mat& image, const Measured& opening, double from, double to,
+void sampleBand(const cv::Mat& image, const MeasuredOpening& opening, double from, double to,
                 RingSamples::Band& band, DarkCounts& dark) {
   band.count = band.asked = 0;
   band.area_px = opening.girth * (to - from) * opening.mean;
@@ -117,7 +118,7 @@ void sampleBand(const cv::Mat& image, const Measured& opening, double from, doub
 
 void sampleRing(const cv::Mat& image, const Quadrilateral& quad, double near_width, double far_width,
                 RingSamples& samples) {
-  const Measured opening(quad);
+  const MeasuredOpening opening(quad);
   DarkCounts dark;
   for (int i = 0; i < kGrid; ++i) {
     const double y = (i + 0.5) / kGrid;
@@ -131,7 +132,7 @@ void sampleRing(const cv::Mat& image, const Quadrilateral& quad, double near_wid
 }
 
 geometry::Quadrilateral ringLine(const Quadrilateral& quad, double distance) {
-  const Measured opening(quad);
+  const MeasuredOpening opening(quad);
   const auto corners = ringCorners(opening.inUnits(distance));
   Quadrilateral line;
   for (int i = 0; i < 4; ++i)

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3f;
 using geometry::Quadrilateral;
 
-constexpr double kSkip = 0.08;  ///< left out at both ends of a side
+constexpr double kProfileSkip = 0.08;  ///< left out at both ends of a side
 constexpr int kFewestAcross = 12;
 
 // Point of the unit square's plane beside side `i`, t along it, `out` from it in sides across.
@@ -37,7 +37,7 @@ bool meanAlong(const cv::Mat& image, const geometry::UnitSquare& map, const geom
   int count = 0;
   mean.setZero();
   for (int n = 0; n < along; ++n) {
-    Vector2d p = map.toImage(beside(i, kSkip + (1.0 - 2.0 * kSkip) * (n + 0.5) / along, out));
+    Vector2d p = map.toImage(beside(i, kProfileSkip + (1.0 - 2.0 * kProfileSkip) * (n + 0.5) / along, out));
     if (lens) p = lens->distort(p);
     if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
     const cv::Vec3b& pixel =

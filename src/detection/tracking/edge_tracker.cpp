@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "detection/borders/edge_profiles.hpp"
+#include "detection/quads.hpp"
 
 namespace window_ingress::detection {
 namespace {
@@ -74,7 +75,6 @@ Vector3f colourAt(const float* mean, int channels, int half, int offset) {
 }
 
 constexpr double kNominalSide = 640.0;  // longer side of an image at which pixel parameters hold
-constexpr double kSkip = 0.06;          // of a side at its ends
 constexpr double kViewMarginPx = 3.0;   // of a side from the border of the image
 constexpr double kMaxOfASide = 0.8;     // of a short side must be in the image
 constexpr double kSigmas = 3.0;

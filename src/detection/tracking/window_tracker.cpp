@@ -22,9 +22,8 @@ constexpr double kQualityRate = 0.25;    // part of the certainty that a frame r
 constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
 constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
 constexpr double kMinMovePx = 1.5,
-                 kMinMove = 0.012;  // of a corner, to be led by the wall; in the window's sizes
-constexpr double kAlignedSigmaPx = 1.0,
-                 kAlignedStrayPx = 2.0;  // of borders from where the wall says they are
+                 kMinMove = 0.012;       // of a corner, to be led by the wall; in the window's sizes
+constexpr double kAlignedSigmaPx = 1.0;  // of borders, where the wall says they are
 constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
 
 }  // namespace

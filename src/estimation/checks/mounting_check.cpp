@@ -7,6 +7,7 @@
 
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -19,8 +20,8 @@ constexpr double kKeptSpacingM = 0.1;
 constexpr int kRefusedUntilRestart = 5, kMinUpdates = 15;
 constexpr double kOpenScaleSigma = 0.5, kOpenAspectSigma = 0.2;
 constexpr double kMeasuredSigma = 0.2;  // a size less certain is not told
-constexpr double kMaxMisfit = 2.0, kMuchBetter = 0.3;
-constexpr double kUnexplained = 100.0, kMaxRefused = 0.3;
+constexpr double kMaxMisfit = 2.0, kOtherMountingBetter = 0.3;
+constexpr double kUnexplained = 100.0, kMaxRefusedToTry = 0.3;
 constexpr int kSetupsAnImage = 4;
 
 FilterParams openParams(FilterParams filter, const FramesParams& params) {
@@ -229,10 +230,8 @@ std::string MountingCheck::faultOfSize(const SizeEstimate& found) const {
   const Eigen::Vector2d sigma = found.log_covariance.diagonal().cwiseSqrt();
   const double least = (grown.cwiseAbs() - params_.certain_sigmas * sigma).maxCoeff();
   if (!(least > params_.max_size_error)) return "";
-  char text[120];
-  std::snprintf(text, sizeof text, "opening looks like %.2f x %.2f m, said to be %.2f x %.2f m",
-                found.size.width_m, found.size.height_m, said_.size.width_m, said_.size.height_m);
-  return text;
+  return formatted("opening looks like %.2f x %.2f m, said to be %.2f x %.2f m", found.size.width_m,
+                   found.size.height_m, said_.size.width_m, said_.size.height_m);
 }
 
 // Mean of the images' normalised squares; those that do not fit at all count much.
@@ -242,7 +241,7 @@ double MountingCheck::misfitOf(const Setup& setup) const {
   int refused = 0;
   for (const Image& image : images_) {
     refused += !feed(filter, image, setup.T_odom_camera(image));
-    if (refused > kMaxRefused * images) return kUnexplained;
+    if (refused > kMaxRefusedToTry * images) return kUnexplained;
   }
   const auto found = filter.state(images_.back().window.stamp_sec);
   return found ? found->consistency.mean_nis + kUnexplained * refused / images : kUnexplained;
@@ -260,7 +259,7 @@ void MountingCheck::tryNextSetups() {
     trial_->misfit = misfit;
   }
   if (!trial_->left.empty()) return;
-  if (trial_->misfit < kMaxMisfit && trial_->misfit < kMuchBetter * trial_->misfit_as_said)
+  if (trial_->misfit < kMaxMisfit && trial_->misfit < kOtherMountingBetter * trial_->misfit_as_said)
     verdict_ = {FramesVerdict::kWrong, trial_->best.text(images_.back().T_base_camera.linear())};
   trial_.reset();
 }

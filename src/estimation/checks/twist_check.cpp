@@ -11,17 +11,17 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kLongestGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
+constexpr double kMaxPieceGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
 constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
 constexpr double kMaxBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
-constexpr double kJitterM = 0.02, kDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
-constexpr double kMaxSquares = 9.0;      // of one piece: mad numbers and slides are no frame
-constexpr double kMaxMeanSquares = 2.0;  // of its errors, normalised; 1 is expected
-constexpr double kMuchBetter = 0.5;      // of the other meaning's squares
-constexpr double kMinEvidence = 10.0;    // for it [nats]
+constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
+constexpr double kMaxSquares = 9.0;          // of one piece: mad numbers and slides are no frame
+constexpr double kMaxMeanSquares = 2.0;      // of its errors, normalised; 1 is expected
+constexpr double kOtherMeaningBetter = 0.5;  // of the other meaning's squares
+constexpr double kMinEvidence = 10.0;        // for it [nats]
 
 const std::array<const char*, TwistCheck::kMeanings> kNames{
     "",
@@ -59,7 +59,7 @@ void TwistCheck::add(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
   const Sample now{stamp_sec, R, T_odom_base.translation(), meanings(R, velocity_odom_mps)};
   const double dt_sec = last_ ? stamp_sec - last_->stamp_sec : -1.0;
   if (dt_sec == 0.0) return;
-  const bool continues = dt_sec > 0.0 && dt_sec <= kLongestGapSec;
+  const bool continues = dt_sec > 0.0 && dt_sec <= kMaxPieceGapSec;
   if (!continues || last_->stamp_sec - first_->stamp_sec > kLongestPieceSec) return startAt(now);
   for (int k = 0; k < kMeanings; ++k)
     integrated_m_[k] += 0.5 * dt_sec * (last_->velocity_mps[k] + now.velocity_mps[k]);
@@ -79,8 +79,8 @@ void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
   const double changed_mps = (last_->velocity_mps[0] - first_->velocity_mps[0]).norm();
   Piece piece;
   piece.way_m = std::max(moved_m.norm(), integrated_m_[0].norm());
-  piece.variance = 2.0 * square(kJitterM) + square(kDriftMPerSqrtSec) * sec + square(kScale * piece.way_m) +
-                   square(kLateSec * changed_mps);
+  piece.variance = 2.0 * square(kJitterM) + square(kVelocityDriftMPerSqrtSec) * sec +
+                   square(kScale * piece.way_m) + square(kLateSec * changed_mps);
   piece.sec = sec;
   for (int k = 0; k < kMeanings; ++k)
     piece.error_base_m[k] = first_->R_odom_base.transpose() * (integrated_m_[k] - moved_m);
@@ -122,7 +122,7 @@ TwistCheck::Sums TwistCheck::sums() const {
 std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
   const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
   const double evidence = 1.5 * static_cast<double>(pieces_.size()) * std::log(sums.misfits[0] / *least);
-  const bool is_better = *least < kMuchBetter * sums.misfits[0] && evidence > kMinEvidence;
+  const bool is_better = *least < kOtherMeaningBetter * sums.misfits[0] && evidence > kMinEvidence;
   return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
 }
 

@@ -26,7 +26,7 @@ double halfLogDeterminant(const Llt& llt) {
 }
 
 /// The posterior's negative logarithm and its normal equations at one state.
-struct FitPoint {
+struct FitState {
   WindowState state;
   double cost = 0.0;
   Matrix information;
@@ -54,7 +54,7 @@ class HypothesisFit {
     return noise_.info() == Eigen::Success;
   }
 
-  std::optional<FitPoint> evaluate(const WindowState& at) const {
+  std::optional<FitState> evaluate(const WindowState& at) const {
     const auto linear = linearise(*image_, view_.camera, cameraAt(at), at);
     if (!linear) return std::nullopt;
     Residual r = linear->residual;
@@ -62,7 +62,7 @@ class HypothesisFit {
     noise_.matrixL().solveInPlace(r);
     noise_.matrixL().solveInPlace(J);
     const Vector off = difference(at.values, prior_.values), pull = prior_information_ * off;
-    FitPoint point;
+    FitState point;
     point.state = at;
     point.cost = 0.5 * (r.squaredNorm() + off.dot(pull));
     point.information = prior_information_;
@@ -74,7 +74,7 @@ class HypothesisFit {
     return point;
   }
 
-  FitPoint descend(FitPoint best) const {
+  FitState descend(FitState best) const {
     double damping = 1e-6;
     for (int iteration = 0; iteration < kMaxIterations && damping < 1e8; ++iteration) {
       Matrix damped = best.information;
@@ -110,7 +110,7 @@ class HypothesisFit {
 };
 
 // Least cost next to a point that is nearly the best: one more step, taken in the quadratic alone.
-double leastCostNear(const FitPoint& point) {
+double leastCostNear(const FitState& point) {
   return point.cost - 0.5 * point.gradient.dot(point.information.llt().solve(point.gradient));
 }
 
@@ -187,7 +187,7 @@ std::optional<WindowHypothesis::Outcome> WindowHypothesis::update(const FilterPa
   if (!fit.setNoise(params, view.image)) return std::nullopt;
   const auto start = fit.evaluate(state_);
   if (!start) return std::nullopt;
-  const FitPoint best = fit.descend(*start);
+  const FitState best = fit.descend(*start);
   const Eigen::LLT<Matrix> posterior(best.information);
   if (posterior.info() != Eigen::Success) return std::nullopt;
   Outcome outcome;

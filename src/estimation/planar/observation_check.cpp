@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
 
 using detection::WindowObservation;
 using geometry::Quadrilateral;
-
-std::string text(const char* format, double a, double b) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
 
 bool isNearImage(const Quadrilateral& corners, const geometry::PinholeCamera& camera) {
   const double margin = std::max(camera.width, camera.height);
@@ -62,7 +57,8 @@ std::string faultOfPartial(const WindowObservation& window, const geometry::Pinh
     if (!camera.contains(edge.a, -margin) || !camera.contains(edge.b, -margin))
       return "a border's end lies more than an image's size outside the image";
     const double length = (edge.b - edge.a).norm();
-    if (length < params.min_side_px) return text("border of %.2f px < %.2f px", length, params.min_side_px);
+    if (length < params.min_side_px)
+      return formatted("border of %.2f px < %.2f px", length, params.min_side_px);
   }
   return "";
 }
@@ -83,13 +79,16 @@ std::string faultOfCorners(const WindowObservation& window, const geometry::Pinh
   if (!geometry::isConvex(window.corners)) return "corners coincide, cross or are not convex";
   const auto lengths = geometry::sideLengths(window.corners);
   const double shortest = *std::min_element(lengths.begin(), lengths.end());
-  if (shortest < params.min_side_px) return text("side of %.2f px < %.2f px", shortest, params.min_side_px);
+  if (shortest < params.min_side_px)
+    return formatted("side of %.2f px < %.2f px", shortest, params.min_side_px);
   for (const double angle : geometry::interiorAngles(window.corners))
     if (angle < params.min_corner_angle_rad || angle > M_PI - params.min_corner_angle_rad)
-      return text("corner of %.3f rad is nearer than %.3f rad to flat", angle, params.min_corner_angle_rad);
+      return formatted("corner of %.3f rad is nearer than %.3f rad to flat", angle,
+                       params.min_corner_angle_rad);
   const auto visible =
       std::count_if(window.edges.begin(), window.edges.end(), [](auto& e) { return e.visible; });
-  if (visible > 0 && visible < 4) return text("only %.0f of %.0f borders are seen", double(visible), 4.0);
+  if (visible > 0 && visible < 4)
+    return formatted("only %.0f of %.0f borders are seen", double(visible), 4.0);
   return "";
 }
 

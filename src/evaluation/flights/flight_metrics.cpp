@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "window_ingress/parameters/text.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -21,7 +21,7 @@ FlightSummary summarise(const std::vector<FlightResult>& flights) {
     ++summary.outcomes[outcome];
     wrong_sides.push_back(flight.wrong_side_m);
     if (hasPassed(flight)) times.push_back(flight.time_sec);
-    if (!hasPassed(flight)) ++summary.causes[outcome + ": " + parameters::withoutNumbers(flight.reason)];
+    if (!hasPassed(flight)) ++summary.causes[outcome + ": " + withoutNumbers(flight.reason)];
     if (flight.offset_y_m && flight.offset_z_m) {
       offsets.push_back(std::max(std::abs(*flight.offset_y_m), std::abs(*flight.offset_z_m)));
     }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 #include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -104,10 +104,8 @@ void drawLegend(cv::Mat& image, const std::vector<FlightResult>& flights, const 
 }
 
 std::string captionOf(const FlightRecord& record) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.2f s %s x %.2f y %+.2f", record.time_sec, toString(record.state),
-                record.position_m.x(), record.position_m.y());
-  return text;
+  return formatted("%.2f s %s x %.2f y %+.2f", record.time_sec, toString(record.state), record.position_m.x(),
+                   record.position_m.y());
 }
 
 }  // namespace

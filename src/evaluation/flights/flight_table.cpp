@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "evaluation/flights/flight_draws.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -16,9 +17,7 @@ using simulation::Outcome;
 
 std::string number(const std::optional<double>& value, const char* pattern = "%.4f") {
   if (!value) return "";
-  char text[40];
-  std::snprintf(text, sizeof text, pattern, *value);
-  return text;
+  return formatted(pattern, *value);
 }
 
 /// As one csv field: quoted if it has to be.

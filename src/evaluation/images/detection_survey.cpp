@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "evaluation/images/detection_table.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -16,16 +16,10 @@ using geometry::Quadrilateral;
 constexpr double kOnTargetIou = 0.5, kOnBorderIou = 0.8;
 constexpr double kDegreesPerRad = 57.29577951308232;
 
-std::string number(const char* pattern, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
 std::string corners(const Quadrilateral& quad) {
   std::string text;
   for (const Eigen::Vector2d& corner : quad)
-    text += "," + number("%.4f", corner.x()) + "," + number("%.4f", corner.y());
+    text += "," + formatted("%.4f", corner.x()) + "," + formatted("%.4f", corner.y());
   return text;
 }
 
@@ -96,23 +90,23 @@ std::string surveyColumns() {
 std::string surveyRow(const SurveyResult& result) {
   const auto& window = result.window;
   std::string text =
-      result.scenario + "," + std::to_string(result.seed) + "," + number("%.3f", result.distance_m) + "," +
-      number("%.2f", result.off_axis_rad * kDegreesPerRad) + "," + toString(result.verdict) + ",";
-  if (window) text += number("%.4f", window->score);
+      result.scenario + "," + std::to_string(result.seed) + "," + formatted("%.3f", result.distance_m) + "," +
+      formatted("%.2f", result.off_axis_rad * kDegreesPerRad) + "," + toString(result.verdict) + ",";
+  if (window) text += formatted("%.4f", window->score);
   text += ",";
-  if (window && window->has_appearance) text += number("%.4f", window->bhattacharyya);
+  if (window && window->has_appearance) text += formatted("%.4f", window->bhattacharyya);
   text += ",";
   if (window && result.truth.present)
-    text += number("%.3f", worstCornerDistance(window->corners, result.truth.inner));
+    text += formatted("%.3f", worstCornerDistance(window->corners, result.truth.inner));
   text += window ? corners(window->corners) : ",,,,,,,,";
   text += corners(result.truth.inner);
   return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +
-         number("%.3f", result.milliseconds);
+         formatted("%.3f", result.milliseconds);
 }
 
 std::string DistanceBin::name() const {
-  const std::string nearest = number("%g", nearest_m);
-  return (nearest_m == farthest_m ? nearest : nearest + "-" + number("%g", farthest_m)) + " m";
+  const std::string nearest = formatted("%g", nearest_m);
+  return (nearest_m == farthest_m ? nearest : nearest + "-" + formatted("%g", farthest_m)) + " m";
 }
 
 std::vector<DistanceBin> defaultBins() { return {{2.0, 3.0}, {3.0, 5.0}, {5.0, 8.0}}; }

@@ -2,41 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <tuple>
 #include <vector>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
 using detection::CandidateTrace;
 
-std::string number(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string windowValues(const std::optional<detection::WindowObservation>& window) {
   if (!window) return "0,,,,,,,,,,";
-  std::string text = "1," + number("%.4f", window->score) + ",";
-  if (window->has_appearance) text += number("%.4f", window->bhattacharyya);
+  std::string text = "1," + formatted("%.4f", window->score) + ",";
+  if (window->has_appearance) text += formatted("%.4f", window->bhattacharyya);
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector2d& corner = window->corners[i];
-    text += window->corner_visible[i] ? "," + number("%.3f", corner.x()) + "," + number("%.3f", corner.y())
-                                      : ",,";
+    text += window->corner_visible[i]
+                ? "," + formatted("%.3f", corner.x()) + "," + formatted("%.3f", corner.y())
+                : ",,";
   }
   return text;
 }
 
 std::string candidateValues(const CandidateTrace& candidate) {
   std::string text = std::string(",") + toString(candidate.source) + "," + toString(candidate.reject) + "," +
-                     number("%.4g", candidate.value) + "," + number("%.4g", candidate.limit) + "," +
-                     number("%.4f", candidate.score) + ",";
-  if (candidate.has_appearance) text += number("%.4f", candidate.bhattacharyya);
+                     formatted("%.4g", candidate.value) + "," + formatted("%.4g", candidate.limit) + "," +
+                     formatted("%.4f", candidate.score) + ",";
+  if (candidate.has_appearance) text += formatted("%.4f", candidate.bhattacharyya);
   for (const Eigen::Vector2d& corner : candidate.quad)
-    text += "," + number("%.3f", corner.x()) + "," + number("%.3f", corner.y());
+    text += "," + formatted("%.3f", corner.x()) + "," + formatted("%.3f", corner.y());
   return text;
 }
 
@@ -55,10 +51,10 @@ std::string poseValues(const std::optional<estimation::WindowPoseEstimate>& pose
   const Eigen::Quaterniond q(pose->best.T_camera_window.linear());
   const Eigen::Vector3d t = pose->best.T_camera_window.translation();
   std::string text;
-  for (double value : {q.x(), q.y(), q.z(), q.w()}) text += number("%.9f", value) + ",";
-  for (double value : {t.x(), t.y(), t.z()}) text += number("%.6f", value) + ",";
+  for (double value : {q.x(), q.y(), q.z(), q.w()}) text += formatted("%.9f", value) + ",";
+  for (double value : {t.x(), t.y(), t.z()}) text += formatted("%.6f", value) + ",";
   const double odds = pose->alternative ? std::exp(-pose->log_likelihood_ratio) : 0.0;
-  return text + number("%.6f", pose->yaw_sigma_rad) + "," + number("%.4g", odds);
+  return text + formatted("%.6f", pose->yaw_sigma_rad) + "," + formatted("%.4g", odds);
 }
 
 }  // namespace
@@ -71,7 +67,7 @@ std::string detectionColumns() {
 
 std::string detectionValues(const DetectionRow& row) {
   return windowValues(row.window) + "," + csvField(row.reject_reason) + "," + poseValues(row.pose) + "," +
-         number("%.3f", row.milliseconds);
+         formatted("%.3f", row.milliseconds);
 }
 
 std::string candidateColumns() {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +17,7 @@
 #include "evaluation/flights/flight_table.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -91,10 +91,8 @@ class Annotations {
 std::string rate(const char* name, double value, int part, int all) {
   if (all == 0) return std::string(name) + " unknown (0 of 0)";
   const Interval interval = wilson95(part, all);
-  char text[120];
-  std::snprintf(text, sizeof text, "%s %.1f %% (%.1f to %.1f %%, %d of %d)", name, 100.0 * value,
-                100.0 * interval.low, 100.0 * interval.high, part, all);
-  return text;
+  return formatted("%s %.1f %% (%.1f to %.1f %%, %d of %d)", name, 100.0 * value, 100.0 * interval.low,
+                   100.0 * interval.high, part, all);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "evaluation/images/survey_folder.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include "evaluation/flights/flight_table.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -28,16 +28,10 @@ std::string columns() {
   return text;
 }
 
-std::string format(const char* pattern, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
 std::string numbers(const Quadrilateral& quad) {
   std::string text;
   for (const Eigen::Vector2d& corner : quad)
-    text += "," + format("%.9f", corner.x()) + "," + format("%.9f", corner.y());
+    text += "," + formatted("%.9f", corner.x()) + "," + formatted("%.9f", corner.y());
   return text;
 }
 
@@ -50,8 +44,8 @@ Quadrilateral quadrilateral(const double* numbers) {
 std::string rowOf(const SurveyPicture& picture) {
   const SurveyTruth& truth = picture.truth;
   const Quadrilateral none = quadrilateral(std::array<double, 8>{}.data());
-  return picture.scenario + "," + std::to_string(picture.seed) + "," + format("%.6f", picture.distance_m) +
-         "," + format("%.6f", picture.off_axis_rad) + "," + (truth.present ? "1," : "0,") +
+  return picture.scenario + "," + std::to_string(picture.seed) + "," + formatted("%.6f", picture.distance_m) +
+         "," + formatted("%.6f", picture.off_axis_rad) + "," + (truth.present ? "1," : "0,") +
          (truth.outer ? "1," : "0,") + (picture.reference.empty() ? "0" : "1") + numbers(truth.inner) +
          numbers(truth.outer.value_or(none)) + numbers(truth.far) +
          numbers(picture.reference.empty() ? none : picture.reference_corners);
@@ -77,7 +71,7 @@ void writeText(const std::string& file, const std::string& text) {
 std::string calibrationOf(const geometry::PinholeCamera& camera) {
   const auto list = [](const auto& values) {
     std::string text;
-    for (const double value : values) text += (text.empty() ? "" : ", ") + format("%.17g", value);
+    for (const double value : values) text += (text.empty() ? "" : ", ") + formatted("%.17g", value);
     return "[" + text + "]";
   };
   const std::array<double, 9> k{camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};

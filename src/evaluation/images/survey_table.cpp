@@ -1,16 +1,10 @@
 #include <algorithm>
-#include <cstdio>
 
 #include "evaluation/images/detection_survey.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
-
-std::string number(const char* pattern, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
 
 std::string missesOf(const SurveySummary& summary) {
   std::string text;
@@ -22,9 +16,9 @@ std::string missesOf(const SurveySummary& summary) {
 std::string found(const std::string& name, const SurveySummary& s) {
   std::string text = "| " + name + " | " + std::to_string(s.frames());
   for (int i = 0; i < kSurveyVerdicts; ++i)
-    text += " | " + number("%.1f", 100.0 * s.part(static_cast<SurveyVerdict>(i)));
-  text += " | " + number("%.1f", 100.0 * s.innerPart());
-  return text + " | " + missesOf(s) + " | " + number("%.2f", s.medianMilliseconds()) + " |\n";
+    text += " | " + formatted("%.1f", 100.0 * s.part(static_cast<SurveyVerdict>(i)));
+  text += " | " + formatted("%.1f", 100.0 * s.innerPart());
+  return text + " | " + missesOf(s) + " | " + formatted("%.2f", s.medianMilliseconds()) + " |\n";
 }
 
 std::string exactness(const std::string& name, const SurveySummary& s) {
@@ -36,9 +30,9 @@ std::string exactness(const std::string& name, const SurveySummary& s) {
       text += " | | | |";
       continue;
     }
-    text += " | " + number("%.3f", c.rms().x()) + ", " + number("%.3f", c.rms().y()) + " | " +
-            number("%+.3f", c.mean().x()) + ", " + number("%+.3f", c.mean().y()) + " | " +
-            number("%+.3f", c.outward()) + " | " + number("%.3f", c.median());
+    text += " | " + formatted("%.3f", c.rms().x()) + ", " + formatted("%.3f", c.rms().y()) + " | " +
+            formatted("%+.3f", c.mean().x()) + ", " + formatted("%+.3f", c.mean().y()) + " | " +
+            formatted("%+.3f", c.outward()) + " | " + formatted("%.3f", c.median());
   }
   return text + " |\n";
 }
@@ -78,9 +72,9 @@ std::string SurveyTable::csv() const {
       text += "," + std::to_string(c.frames());
       for (const double value :
            {c.rms().x(), c.rms().y(), c.mean().x(), c.mean().y(), c.outward(), c.median()})
-        text += "," + number("%.4f", value);
+        text += "," + formatted("%.4f", value);
     }
-    text += "," + number("%.3f", s.medianMilliseconds()) + "\n";
+    text += "," + formatted("%.3f", s.medianMilliseconds()) + "\n";
   }
   return text;
 }

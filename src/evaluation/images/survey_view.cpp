@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using simulation::RandomStream;
 
 constexpr int kTries = 20000;
-constexpr double kHeight_m = 0.4, kTilt_rad = 0.15, kSpeed_mps = 0.25, kTurn_radps = 0.08;
+constexpr double kViewHeight_m = 0.4, kTilt_rad = 0.15, kSpeed_mps = 0.25, kTurn_radps = 0.08;
 constexpr double kMinHeight_m = 0.3;  // above the ground
 constexpr double kInFront_m = 0.004;  // of the border: what the line of sight must reach
 constexpr int kPointsOfSide = 4;
@@ -57,7 +57,7 @@ SurveyView draw(RandomStream& random, const ViewRange& range, double ground_z_m,
   SurveyView view;
   view.distance_m = random.uniform(range.nearest_m, range.farthest_m);
   view.off_axis_rad = random.uniform(-range.off_axis_rad, range.off_axis_rad);
-  const double height_m = std::max(random.uniform(-kHeight_m, kHeight_m), ground_z_m + kMinHeight_m);
+  const double height_m = std::max(random.uniform(-kViewHeight_m, kViewHeight_m), ground_z_m + kMinHeight_m);
   const Vector3d eye(-view.distance_m * std::cos(view.off_axis_rad),
                      view.distance_m * std::sin(view.off_axis_rad), height_m);
   const double heading_rad = random.uniform(-half_fov_rad, half_fov_rad) - view.off_axis_rad;

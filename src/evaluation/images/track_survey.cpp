@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -14,12 +14,6 @@ using Eigen::Vector2d;
 
 constexpr double kMinStretch = 1.0 / 12.0;  // of the image's longer side
 constexpr int kMinSides = 2;
-
-std::string number(const char* pattern, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
 
 // Length of a segment's part within the image, by clipping along both axes (Liang and Barsky).
 double lengthWithin(const Vector2d& from, const Vector2d& to, const geometry::PinholeCamera& camera) {
@@ -101,14 +95,14 @@ std::string trackColumns() {
 
 std::string trackRow(const TrackResult& result) {
   std::string text = std::to_string(result.seed) + "," + std::to_string(result.frame) + "," +
-                     number("%.3f", result.plane_m) + "," + std::to_string(result.sides_in_view) + "," +
+                     formatted("%.3f", result.plane_m) + "," + std::to_string(result.sides_in_view) + "," +
                      toString(result.verdict) + "," + (result.searched ? "1," : "0,");
   if (result.window)
     text += std::to_string(result.window->target_id) + "," + std::to_string(result.window->visibleSides()) +
-            "," + number("%.4f", result.window->score) + "," + number("%.4f", result.error_px);
+            "," + formatted("%.4f", result.window->score) + "," + formatted("%.4f", result.error_px);
   else
     text += ",,,";
-  return text + "," + number("%.3f", result.milliseconds);
+  return text + "," + formatted("%.3f", result.milliseconds);
 }
 
 int TrackSummary::count(std::size_t range, TrackVerdict verdict) const {
@@ -148,18 +142,19 @@ std::string TrackSummary::markdown(const std::string& name) const {
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     const Range& range = ranges_[i];
     text += "| " + name + " | " +
-            (i == 0 ? "over " + number("%g m", kFrom_m[0])
-                    : number("%g", kFrom_m[i - 1]) + " to " + number("%g m", kFrom_m[i])) +
+            (i == 0 ? "over " + formatted("%g m", kFrom_m[0])
+                    : formatted("%g", kFrom_m[i - 1]) + " to " + formatted("%g m", kFrom_m[i])) +
             " | " + std::to_string(range.frames);
     for (const int count : range.counts)
-      text += " | " + number("%.1f", 100.0 * count / std::max(1, range.frames));
+      text += " | " + formatted("%.1f", 100.0 * count / std::max(1, range.frames));
     const bool has_corners = range.corners.frames() > 0;
-    text += has_corners ? " | " + number("%.3f", range.corners.rms().x()) + ", " +
-                              number("%.3f", range.corners.rms().y()) + " | " +
-                              number("%+.3f", range.corners.outward())
+    text += has_corners ? " | " + formatted("%.3f", range.corners.rms().x()) + ", " +
+                              formatted("%.3f", range.corners.rms().y()) + " | " +
+                              formatted("%+.3f", range.corners.outward())
                         : " | | ";
-    text += " | " + (range.side_errors_px.empty() ? "" : number("%.3f", quantile(range.side_errors_px, 0.5)));
-    text += " | " + (range.following_ms.empty() ? "" : number("%.3f", quantile(range.following_ms, 0.5)));
+    text +=
+        " | " + (range.side_errors_px.empty() ? "" : formatted("%.3f", quantile(range.side_errors_px, 0.5)));
+    text += " | " + (range.following_ms.empty() ? "" : formatted("%.3f", quantile(range.following_ms, 0.5)));
     text += " | " + (i == 0 ? std::to_string(swaps_) : "") + " |\n";
   }
   return text;

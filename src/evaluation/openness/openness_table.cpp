@@ -1,17 +1,15 @@
 #include <algorithm>
-#include <cstdio>
 
 #include "evaluation/openness/openness_survey.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
 template <typename... Numbers>
 std::string text(const char* format, Numbers... numbers) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, numbers...);
-  return buffer;
+  return formatted(format, numbers...);
 }
 
 std::string rate(int count, int trials) {

@@ -1,21 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "evaluation/poses/pose_chain.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 const char* const kSides[] = {"top", "right", "bottom", "left"};
-
-std::string number(const char* pattern, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
 
 using Group = std::vector<const PoseChainResult*>;
 
@@ -59,9 +53,9 @@ std::string poseRow(int distance_m, const Group& group) {
     trusted_wrong += r->wrong_sign && r->estimate->sign_trusted;
   }
   return "| " + std::to_string(distance_m) + " | " + std::to_string(group.size()) + " | " +
-         std::to_string(detected) + " | " + std::to_string(yaw.size()) + number(" | %.4f", rms(yaw)) +
-         number(" | %.4f", medianMagnitude(yaw)) + number(" | %.3f", rms(lateral)) +
-         number(" | %.3f", rms(distance)) + number(" | %.2f", std::pow(rms(normalised), 2)) + " | " +
+         std::to_string(detected) + " | " + std::to_string(yaw.size()) + formatted(" | %.4f", rms(yaw)) +
+         formatted(" | %.4f", medianMagnitude(yaw)) + formatted(" | %.3f", rms(lateral)) +
+         formatted(" | %.3f", rms(distance)) + formatted(" | %.2f", std::pow(rms(normalised), 2)) + " | " +
          std::to_string(trusted) + " | " + std::to_string(wrong) + " | " + std::to_string(trusted_wrong) +
          " |\n";
 }
@@ -77,12 +71,12 @@ std::string borderRow(int distance_m, int side, const Group& group) {
   }
   if (offset.empty()) return "";
   return "| " + std::to_string(distance_m) + " | " + kSides[side] + " | " + std::to_string(offset.size()) +
-         number(" | %.4f", rms(offset)) + number(" | %+.4f", mean(offset)) +
-         number(" | %.4f", medianMagnitude(offset)) + number(" | %.4f", rms(ends)) +
-         number(" | %.2f", std::pow(rms(offset_sigmas), 2)) +
-         number(" | %.2f", std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2)) +
-         number(" | %.2f", std::pow(rms(turn_sigmas), 2)) +
-         number(" | %.2f |\n", std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
+         formatted(" | %.4f", rms(offset)) + formatted(" | %+.4f", mean(offset)) +
+         formatted(" | %.4f", medianMagnitude(offset)) + formatted(" | %.4f", rms(ends)) +
+         formatted(" | %.2f", std::pow(rms(offset_sigmas), 2)) +
+         formatted(" | %.2f", std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2)) +
+         formatted(" | %.2f", std::pow(rms(turn_sigmas), 2)) +
+         formatted(" | %.2f |\n", std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
 }
 
 }  // namespace
@@ -101,24 +95,24 @@ std::string poseChainColumns() {
 std::string poseChainRow(const PoseChainResult& r) {
   std::string reject = r.reject;
   std::replace(reject.begin(), reject.end(), ',', ';');
-  std::string text = r.scenario + "," + std::to_string(r.seed) + number(",%.4f", r.distance_m) +
-                     number(",%.6f", r.true_yaw_rad) + number(",%.6f", r.true_yaw_from_sight_rad) +
+  std::string text = r.scenario + "," + std::to_string(r.seed) + formatted(",%.4f", r.distance_m) +
+                     formatted(",%.6f", r.true_yaw_rad) + formatted(",%.6f", r.true_yaw_from_sight_rad) +
                      (r.detected ? ",1," : ",0,") + reject;
   if (!r.estimate) {
     text += std::string(12, ',');
   } else {
     const auto& e = *r.estimate;
-    text += number(",%.7f", r.yaw_error_rad) + number(",%.6f", r.lateral_error_m) +
-            number(",%.6f", r.distance_error_m) + number(",%.7f", e.yaw_sigma_rad) +
-            number(",%.7f", e.sigma_u_rad) + number(",%.3f", e.log_likelihood_ratio) +
+    text += formatted(",%.7f", r.yaw_error_rad) + formatted(",%.6f", r.lateral_error_m) +
+            formatted(",%.6f", r.distance_error_m) + formatted(",%.7f", e.yaw_sigma_rad) +
+            formatted(",%.7f", e.sigma_u_rad) + formatted(",%.3f", e.log_likelihood_ratio) +
             (e.sign_trusted ? ",1" : ",0") + (r.wrong_sign ? ",1" : ",0") +
-            number(",%.4f", e.best.reprojection_rms_px) + number(",%.3f", e.best.cost);
-    text +=
-        e.aspect ? number(",%.5f", e.aspect->ratio) + number(",%.5f", e.aspect->sigma) : std::string(",,");
+            formatted(",%.4f", e.best.reprojection_rms_px) + formatted(",%.3f", e.best.cost);
+    text += e.aspect ? formatted(",%.5f", e.aspect->ratio) + formatted(",%.5f", e.aspect->sigma)
+                     : std::string(",,");
   }
   for (const auto& border : r.borders)
-    text += border ? number(",%.4f", border->offset_px) + number(",%.4f", border->ends_px) +
-                         number(",%.3f", border->offset_sigmas) + number(",%.3f", border->turn_sigmas)
+    text += border ? formatted(",%.4f", border->offset_px) + formatted(",%.4f", border->ends_px) +
+                         formatted(",%.3f", border->offset_sigmas) + formatted(",%.3f", border->turn_sigmas)
                    : std::string(",,,,");
   return text;
 }

@@ -1,19 +1,13 @@
 #include <algorithm>
-#include <cstdio>
 
 #include "evaluation/poses/pose_survey.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-
-std::string number(const char* pattern, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
 
 double ratio(const PoseCellResult& result, int method) {
   return result.methods[method].yawRms() / result.yaw_bound_rad;
@@ -40,15 +34,15 @@ std::string poseSurveyColumns() {
 }
 
 std::string poseSurveyRow(const PoseCellResult& r) {
-  std::string text = number("%g", r.cell.distance_m) + number(",%g", r.cell.yaw_rad / kDegree) +
-                     number(",%g", r.cell.sample_sigma_px) + "," + std::to_string(r.draws) +
-                     number(",%.6f", r.yaw_bound_rad / kDegree) + number(",%.6f", r.lateral_bound_m) +
-                     number(",%.6f", r.sigma_u_rad / kDegree) + (r.signIsDecidable() ? ",1," : ",0,") +
+  std::string text = formatted("%g", r.cell.distance_m) + formatted(",%g", r.cell.yaw_rad / kDegree) +
+                     formatted(",%g", r.cell.sample_sigma_px) + "," + std::to_string(r.draws) +
+                     formatted(",%.6f", r.yaw_bound_rad / kDegree) + formatted(",%.6f", r.lateral_bound_m) +
+                     formatted(",%.6f", r.sigma_u_rad / kDegree) + (r.signIsDecidable() ? ",1," : ",0,") +
                      std::to_string(r.trusted) + "," + std::to_string(r.trusted_wrong) +
-                     number(",%.6f", std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted)) / kDegree) +
-                     number(",%.4f", r.yaw_consistency);
+                     formatted(",%.6f", std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted)) / kDegree) +
+                     formatted(",%.4f", r.yaw_consistency);
   for (const MethodErrors& errors : r.methods)
-    text += number(",%.6f", errors.yawRms() / kDegree) + number(",%.6f", errors.lateralRms()) + "," +
+    text += formatted(",%.6f", errors.yawRms() / kDegree) + formatted(",%.6f", errors.lateralRms()) + "," +
             std::to_string(errors.wrong_signs) + "," + std::to_string(errors.failed);
   return text;
 }
@@ -60,11 +54,11 @@ std::string poseSurveyTable(const std::vector<PoseCellResult>& results) {
     text += " " + nameOfMethod(method) + " |", rule += "---|";
   text += "\n" + rule + "\n";
   for (const PoseCellResult& r : results) {
-    text += "| " + number("%g", r.cell.distance_m) + number(" | %g", r.cell.yaw_rad / kDegree) +
-            number(" | %g", r.cell.sample_sigma_px) + number(" | %.3f", r.yaw_bound_rad / kDegree) +
-            number(" | %.3f", r.sigma_u_rad / kDegree) +
-            number(" | %.0f |", 100.0 * r.trusted / std::max(1, r.draws));
-    for (int method = 0; method < kPoseMethods; ++method) text += number(" %.2f |", ratio(r, method));
+    text += "| " + formatted("%g", r.cell.distance_m) + formatted(" | %g", r.cell.yaw_rad / kDegree) +
+            formatted(" | %g", r.cell.sample_sigma_px) + formatted(" | %.3f", r.yaw_bound_rad / kDegree) +
+            formatted(" | %.3f", r.sigma_u_rad / kDegree) +
+            formatted(" | %.0f |", 100.0 * r.trusted / std::max(1, r.draws));
+    for (int method = 0; method < kPoseMethods; ++method) text += formatted(" %.2f |", ratio(r, method));
     text += "\n";
   }
   return text;
@@ -82,16 +76,15 @@ std::string poseSurveySummary(const std::vector<PoseCellResult>& results) {
     if (ratio(r, kOurs) > worst) worst = ratio(r, kOurs), at = &r;
   }
   const Interval rate = wilson95(wrong, trusted);
-  std::string text =
-      number("%.0f draws, sign trusted in ", draws) + number("%.0f, of these wrong ", trusted) +
-      number("%.0f", wrong) + number(" (%.4f %%, ", 100.0 * wrong / std::max(1, trusted)) +
-      number("95 %% interval %.4f", 100.0 * rate.low) + number(" to %.4f %%)\n", 100.0 * rate.high);
-  text += "best or equal (0.5 %) in " + std::to_string(best) + " of " + std::to_string(results.size()) +
-          " cells\n";
+  std::string text = formatted(
+      "%d draws, sign trusted in %d, of these wrong %d (%.4f %%, 95 %% interval %.4f to %.4f %%)\n", draws,
+      trusted, wrong, 100.0 * wrong / std::max(1, trusted), 100.0 * rate.low, 100.0 * rate.high);
+  text += formatted("best or equal (0.5 %%) in %d of %zu cells\n", best, results.size());
   if (at != nullptr)
-    text += number("largest yaw RMSE / bound %.3f", worst) + " of " + std::to_string(decidable) +
-            " cells with sigma_u < yaw / 3, at " + number("%g m, ", at->cell.distance_m) +
-            number("%g deg, ", at->cell.yaw_rad / kDegree) + number("%g px\n", at->cell.sample_sigma_px);
+    text += formatted("largest yaw RMSE / bound %.3f", worst) + " of " + std::to_string(decidable) +
+            " cells with sigma_u < yaw / 3, at " + formatted("%g m, ", at->cell.distance_m) +
+            formatted("%g deg, ", at->cell.yaw_rad / kDegree) +
+            formatted("%g px\n", at->cell.sample_sigma_px);
   return text;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/motion/moving_target.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -13,12 +13,6 @@ namespace {
 constexpr int kDisagreementsToTurnBack = 3;
 constexpr double kReserve = 2.0;     // of the way to stop, to turn back from beyond the point of no return
 constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
-
-std::string text(const char* pattern, double value) {
-  char buffer[80];
-  std::snprintf(buffer, sizeof buffer, pattern, value);
-  return buffer;
-}
 
 /// The predicted miss exceeds the clearance by half of the margin that was kept: less is no reason to turn
 /// back.
@@ -69,13 +63,13 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
   decision.wish.velocity_odom_mps =
       velocityAlongAxis(relative, target, forwardSpeed(criterion, relative), memory.wind_odom_mps, *params_);
   decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, memory, *params_);
-  decision.reason = text("through the opening, window seen %.2f s ago", blind_sec);
+  decision.reason = formatted("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
     const double room_m = params_->commit.exit_distance_m + relative.distance();
     decision.wish.velocity_odom_mps =
         velocityAlongAxis(relative, target, speedToExit(room_m, relative) - windAlong(target, memory),
                           memory.wind_odom_mps, *params_);
-    decision.reason = text("%.2f m behind the window", -relative.distance());
+    decision.reason = formatted("%.2f m behind the window", -relative.distance());
     const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
     if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
   } else if (canStop(relative, target, memory, *params_, is_bound_ ? kReserve : 1.0)) {
@@ -94,13 +88,14 @@ void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec
     decision.reason = "turning back: " + criterion.unmet;
   } else if (disagreements_ >= kDisagreementsToTurnBack) {
     decision.event = Event::kContractUnmet;
-    decision.reason = text("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
+    decision.reason =
+        formatted("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
   } else if (forbidden_ >= kDisagreementsToTurnBack) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + why_forbidden_;
   } else if (blind_sec > params_->commit.max_blind_sec) {
     decision.event = Event::kContractUnmet;
-    decision.reason = text("turning back: window not seen for %.2f s", blind_sec);
+    decision.reason = formatted("turning back: window not seen for %.2f s", blind_sec);
   }
 }
 

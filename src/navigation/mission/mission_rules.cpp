@@ -1,11 +1,11 @@
 #include "navigation/mission/mission_rules.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "navigation/mission/window_choice.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 
@@ -59,16 +59,11 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
   const double shift_m =
       (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
   if (shift_m <= params.max_window_shift_m) return "";
-  char text[80];
-  std::snprintf(text, sizeof text, "another window, %.1f m from the one flown at", shift_m);
-  return text;
+  return formatted("another window, %.1f m from the one flown at", shift_m);
 }
 
 std::string goesAstray(double turned_rad) {
-  char text[120];
-  std::snprintf(text, sizeof text,
-                "goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
-  return text;
+  return formatted("goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
 }
 std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
                                       const NavigatorParams& params) {

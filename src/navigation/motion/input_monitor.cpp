@@ -4,28 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "navigation/motion/moving_target.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 namespace {
-
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
 
 /// Empty if the stamp is young enough and not from the future.
 std::string ageFault(const char* what, double stamp_sec, double now_sec, double max_age_sec,
                      double max_future_sec) {
   const double age_sec = now_sec - stamp_sec;
-  if (!std::isfinite(age_sec)) return format("%s: stamp is not finite", what);
-  if (age_sec > max_age_sec) return format("%s %.2f s old", what, age_sec);
-  if (age_sec < -max_future_sec) return format("%s: stamp is %.2f s in the future", what, -age_sec);
+  if (!std::isfinite(age_sec)) return formatted("%s: stamp is not finite", what);
+  if (age_sec > max_age_sec) return formatted("%s %.2f s old", what, age_sec);
+  if (age_sec < -max_future_sec) return formatted("%s: stamp is %.2f s in the future", what, -age_sec);
   return "";
 }
 
@@ -69,10 +62,10 @@ std::string faultOf(const VehicleState& vehicle) {
   if (!geometry::isValidPose(vehicle.T_odom_base)) return "odometry: pose is not finite or not a rotation";
   if (!vehicle.velocity_odom_mps.allFinite()) return "odometry: velocity is not finite";
   const double position_m = vehicle.T_odom_base.translation().stableNorm();
-  if (position_m > kFarAwayM) return format("odometry: position %.3g m is out of this world", position_m);
+  if (position_m > kFarAwayM) return formatted("odometry: position %.3g m is out of this world", position_m);
   const double speed_mps = vehicle.velocity_odom_mps.stableNorm();
   if (speed_mps > kFasterThanAnyMps)
-    return format("odometry: speed %.3g m/s is out of this world", speed_mps);
+    return formatted("odometry: speed %.3g m/s is out of this world", speed_mps);
   return "";
 }
 
@@ -82,7 +75,7 @@ std::string faultOf(const TargetEstimate& target, double max_tilt_rad) {
   if (target.T_odom_window.translation().stableNorm() > kFarAwayM)
     return "window: position is out of this world";
   const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
-  if (tilt_rad > max_tilt_rad) return format("window: leans by %.2f rad", tilt_rad);
+  if (tilt_rad > max_tilt_rad) return formatted("window: leans by %.2f rad", tilt_rad);
   if (!isPositive(target.covariance)) return "window: covariance unknown";
   if (!hasUsableMotion(target)) return "window: its motion is out of this world";
   const auto& opening = target.opening;
@@ -146,7 +139,7 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
   if (is_newer && isStuck(sample)) {
     vehicle_ = sample;
     const double for_sec = sample.stamp_sec - unchanged_since_sec_;
-    situation.vehicle_fault = format("odometry stuck for %.2f s", for_sec);
+    situation.vehicle_fault = formatted("odometry stuck for %.2f s", for_sec);
     return;
   }
   vehicle_ = sample;

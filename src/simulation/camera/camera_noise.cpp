@@ -10,7 +10,7 @@ namespace window_ingress::simulation {
 namespace {
 
 // The noise is larger than the image; each image takes it from elsewhere.
-constexpr int kMargin_px = 97;
+constexpr int kNoiseMargin_px = 97;
 constexpr int kUnit = 32, kScale = 256;
 
 }  // namespace
@@ -18,7 +18,7 @@ constexpr int kUnit = 32, kScale = 256;
 CameraNoise::CameraNoise(const CameraParams& params, const cv::Size& size, std::uint32_t seed) : seed_(seed) {
   const bool by_grey = params.shot_noise_grey > 0.0;
   if (!by_grey && params.noise_grey <= 0.0) return;
-  cv::Mat noise(size.height + kMargin_px, size.width + kMargin_px, CV_16SC3);
+  cv::Mat noise(size.height + kNoiseMargin_px, size.width + kNoiseMargin_px, CV_16SC3);
   cv::RNG random(RandomStream(seed, "camera noise").bits());
   random.fill(noise, cv::RNG::NORMAL, 0.0, by_grey ? kUnit : params.noise_grey);
   if (!by_grey) {
@@ -37,7 +37,7 @@ CameraNoise::CameraNoise(const CameraParams& params, const cv::Size& size, std::
 void CameraNoise::addTo(cv::Mat& image, std::uint64_t index) const {
   if (brighter_.empty() && unit_.empty()) return;
   RandomStream random(seed_, "camera noise of picture " + std::to_string(index));
-  const int x = random.uniformInt(0, kMargin_px), y = random.uniformInt(0, kMargin_px);
+  const int x = random.uniformInt(0, kNoiseMargin_px), y = random.uniformInt(0, kNoiseMargin_px);
   const cv::Rect part(x, y, image.cols, image.rows);
   if (!unit_.empty()) return addByGrey(image, part);
   cv::add(image, brighter_(part), image);

@@ -7,7 +7,6 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kNear_m = 0.03;
 constexpr double kSnap_px =
     0.02;  // OpenGL moves vertices to a grid of 1/256 px: sides may pass beyond a centre
 

@@ -20,7 +20,6 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kNear_m = 0.03;
 constexpr double kFar_m = 1000.0;
 
 // From the optical frame to clip coordinates. Row 0 of the image is OpenGL's lowest, so that no row needs

@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "simulation/surfaces/faces.hpp"
+
 namespace window_ingress::simulation {
 namespace {
 
 constexpr int kCells = 16;  // along each side of a pane: between their corners the mirrored part is linear
-constexpr double kNear_m = 0.03;
 
 // From clip coordinates to those of a texture that is the whole image.
 Eigen::Matrix4d textureFromClip() {

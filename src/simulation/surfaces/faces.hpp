@@ -12,6 +12,8 @@
 
 namespace window_ingress::simulation {
 
+inline constexpr double kNear_m = 0.03;  ///< nothing nearer to the camera is drawn
+
 struct Face {
   std::array<Eigen::Vector3d, 4> corners;  ///< window frame [m]
   Eigen::Vector3d normal;                  ///< unit length; the face is seen from where it points to

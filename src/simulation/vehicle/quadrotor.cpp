@@ -12,11 +12,6 @@ constexpr double kThrustTimeConstant_sec = 0.04;
 constexpr double kMinThrust_mps2 = 0.2 * Quadrotor::kGravity_mps2;
 constexpr double kMaxThrust_mps2 = 2.0 * Quadrotor::kGravity_mps2;
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
-  const double length = v.norm();
-  return length > longest ? Eigen::Vector3d(v * (longest / length)) : v;
-}
-
 // Keeps the vertical part, shortens the horizontal one.
 Eigen::Vector3d limitTilt(Eigen::Vector3d force, double max_tilt_rad) {
   force.z() = std::clamp(force.z(), kMinThrust_mps2, kMaxThrust_mps2);

@@ -10,14 +10,14 @@ namespace {
 constexpr double kLongestLag_m = 1.0;      // beyond, the place that it is pulled to comes along
 constexpr double kNearSetpoint_mps = 0.3;  // beyond, the trim learns the less the further
 
+double limitOr(double limit) { return limit > 0.0 ? limit : std::numeric_limits<double>::infinity(); }
+
+}  // namespace
+
 Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
   const double length = v.norm();
   return length > longest ? Eigen::Vector3d(v * (longest / length)) : v;
 }
-
-double limitOr(double limit) { return limit > 0.0 ? limit : std::numeric_limits<double>::infinity(); }
-
-}  // namespace
 
 void VelocityController::restart() {
   reference_mps_.setZero();

@@ -6,6 +6,9 @@
 
 namespace window_ingress::simulation {
 
+/// The vector, made `longest` long if it is longer.
+Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest);
+
 /// How an autopilot turns a velocity setpoint into an acceleration, each step and all axes alike:
 ///
 ///     r' = a,  a -> (gain * setpoint - r) / setpoint_time_constant, limited in size and in change  (shaping)

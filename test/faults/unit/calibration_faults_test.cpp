@@ -12,8 +12,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::calibration_faults_test {
 
 using sensor_msgs::CameraInfo;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -269,5 +268,4 @@ TEST(Fault, M36_CalibrationFiles) {
                  std::to_string(refused + 2) + " files refused by name; nothing but an exception comes back");
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::calibration_faults_test

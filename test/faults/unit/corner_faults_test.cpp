@@ -10,8 +10,7 @@
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::corner_faults_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -225,5 +224,4 @@ TEST(Fault, M53_TwoPosesThatExplainTheSameImage) {
                              std::to_string(static_cast<int>(sigma_rad / kDegree)) + " deg");
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::corner_faults_test

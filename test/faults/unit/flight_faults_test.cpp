@@ -10,8 +10,7 @@
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::flight_faults_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -119,5 +118,4 @@ TEST(Fault, M66_SetpointsThatAreNone) {
   RecordProperty("seen", "zero, and the diagnostics' ERROR says: " + fault);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::flight_faults_test

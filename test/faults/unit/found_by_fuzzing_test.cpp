@@ -8,8 +8,7 @@
 
 #include "targets.hpp"
 
-namespace window_ingress::fuzz {
-namespace {
+namespace window_ingress::fuzz::found_by_fuzzing_test {
 
 namespace fs = std::filesystem;
 
@@ -53,5 +52,4 @@ TEST_P(FoundByFuzzing, AFewRandomInputsAreTakenAsWell) {
 INSTANTIATE_TEST_SUITE_P(Targets, FoundByFuzzing, testing::ValuesIn(kTargets),
                          [](const auto& info) { return std::string(info.param.name); });
 
-}  // namespace
-}  // namespace window_ingress::fuzz
+}  // namespace window_ingress::fuzz::found_by_fuzzing_test

@@ -6,8 +6,7 @@
 
 #include "adapters/conversions/image_from_msg.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::image_faults_test {
 
 const ImageLimits kLimits;
 
@@ -159,5 +158,4 @@ TEST(Fault, M14_FramesTooLarge) {
                  "48 and 200 Mpx refused, memory + " + std::to_string(residentKb() - before_kb) + " KB");
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::image_faults_test

@@ -11,8 +11,7 @@
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::picture_faults_test {
 
 cv::Mat windowPicture() {
   test::WindowPicture picture;
@@ -212,5 +211,4 @@ TEST(Fault, M16_PicturesWithNothingOrFarTooMuchInThem) {
                              std::to_string(static_cast<int>(slowest_ms)) + " ms; budget exceeded is said");
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::picture_faults_test

@@ -4,8 +4,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::stamp_faults_test {
 
 nav_msgs::Odometry odometry(const ros::Time& stamp) {
   nav_msgs::Odometry message;
@@ -63,5 +62,4 @@ TEST(Fault, M39_NanosecondsBeyondASecond) {
   RecordProperty("seen", "4 kinds of input: dropped, not read as 4 s later");
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::stamp_faults_test

@@ -14,8 +14,7 @@
 #include "adapters/nodes/setpoint_gate.hpp"
 #include "adapters/world/world_node.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::parameter_files_test {
 
 // Visitor that compares each field with a yaml mapping, and counts.
 class YamlComparison {
@@ -197,5 +196,4 @@ TEST(Reconfigure, StructGoesThereAndBack) {
   EXPECT_EQ(back.max_candidates, 9);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::parameter_files_test

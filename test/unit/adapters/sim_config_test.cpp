@@ -6,8 +6,7 @@
 
 #include "simulation/scenario/scenario.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::sim_config_test {
 
 constexpr double kRounded = 0.005;
 
@@ -33,5 +32,4 @@ TEST_F(SimConfig, CameraIsThatOfTheNominalScenario) {
 
 TEST_F(SimConfig, SaysNothingElse) { EXPECT_EQ(vehicle_.size(), 6u); }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::sim_config_test

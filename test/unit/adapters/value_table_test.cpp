@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::tools {
-namespace {
+namespace window_ingress::tools::value_table_test {
 
 class ValueTable : public testing::Test {
  protected:
@@ -37,5 +36,4 @@ TEST_F(ValueTable, ShowsEveryFieldOfAGroup) {
   EXPECT_NEAR(ink(wide), 10 * ink(narrow), 0.01 * ink(wide));
 }
 
-}  // namespace
-}  // namespace window_ingress::tools
+}  // namespace window_ingress::tools::value_table_test

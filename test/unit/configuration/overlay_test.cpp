@@ -9,8 +9,7 @@
 
 #include "window_ingress/parameters/yaml.hpp"
 
-namespace window_ingress::configuration {
-namespace {
+namespace window_ingress::configuration::overlay_test {
 
 class OverlayFile : public testing::Test {
  protected:
@@ -89,5 +88,4 @@ TEST_F(OverlayFile, ShippedOnesAreGood) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::configuration
+}  // namespace window_ingress::configuration::overlay_test

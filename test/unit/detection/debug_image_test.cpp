@@ -6,8 +6,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::debug_image_test {
 
 TEST(DebugImage, TargetIsGreenWithAYellowCentre) {
   WindowObservation window;
@@ -120,5 +119,4 @@ TEST(DebugImage, AnySizeAndAnyNumberOfCandidatesIsBorne) {
   EXPECT_EQ(canvas.size(), cv::Size(2000, 1500)) << "left as it was";
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::debug_image_test

@@ -4,8 +4,7 @@
 
 #include <set>
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::detection_trace_test {
 
 TEST(DetectionTrace, EveryReasonHasItsOwnName) {
   std::set<std::string> names;
@@ -37,5 +36,4 @@ TEST(DetectionTrace, DescribesTheGateWithNumbers) {
   EXPECT_EQ(describe(candidate), "target, score 0.50");
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::detection_trace_test

@@ -4,8 +4,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::test {
-namespace {
+namespace window_ingress::test::opencv_composition_test {
 
 constexpr double kFramePx = 14.0, kLinePx = 8.0;  ///< it may take the outer border, and its lines are thick
 constexpr double kLeft = 220, kTop = 140, kRight = 420, kBottom = 320;
@@ -69,5 +68,4 @@ TEST(OpencvComposition, OddSizesAndOtherSizesAfterwards) {
     EXPECT_NO_THROW(composition.run(cv::Mat(size, CV_8UC3, cv::Scalar(10, 20, 30)))) << size;
 }
 
-}  // namespace
-}  // namespace window_ingress::test
+}  // namespace window_ingress::test::opencv_composition_test

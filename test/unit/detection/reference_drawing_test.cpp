@@ -6,8 +6,7 @@
 #include "drawn_window.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::reference_drawing_test {
 
 const geometry::Quadrilateral kOpening{Eigen::Vector2d(200, 150), {400, 150}, {400, 350}, {200, 350}};
 
@@ -53,5 +52,4 @@ TEST(DrawReference, GreyPicturesAndGuessesAreDrawn) {
   EXPECT_GT(cv::norm(known, guessed), 0.0) << "the text says so";
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::reference_drawing_test

@@ -4,8 +4,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::seen_windows_test {
 
 CandidateTrace candidate(double x, double y, double size, RejectReason reject, double score) {
   CandidateTrace trace;
@@ -55,5 +54,4 @@ TEST(WindowsSeen, WithoutAWholeTargetAreTheOthersAndNeverMoreThanADozen) {
   for (std::size_t i = 1; i < windows.size(); ++i) EXPECT_GE(windows[i - 1].score, windows[i].score);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::seen_windows_test

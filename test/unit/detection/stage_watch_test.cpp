@@ -9,8 +9,7 @@
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::stage_watch_test {
 
 // Each look at it takes a millisecond.
 double slow_clock_sec = 0.0;
@@ -74,5 +73,4 @@ TEST(StageWatch, NobodyNeedsOne) {
   EXPECT_TRUE(detector.detect(picture(), 0.0));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::stage_watch_test

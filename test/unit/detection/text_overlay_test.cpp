@@ -7,8 +7,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::text_overlay_test {
 
 const cv::Scalar kWhite(255, 255, 255);
 
@@ -73,5 +72,4 @@ TEST(TextOverlay, BadQuadrilateralsAreNotDrawn) {
   EXPECT_FALSE(isBlank(canvas));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::text_overlay_test

@@ -13,8 +13,7 @@
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::window_detector_test {
 
 using test::WindowPicture;
 
@@ -243,5 +242,4 @@ TEST(DetectorParams, TheShippedFileHoldsEveryFieldAtItsDefault) {
     EXPECT_NE(text.find(" " + name.substr(name.find('/') + 1) + ":"), std::string::npos) << name;
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::window_detector_test

@@ -7,8 +7,7 @@
 #include "simulation/world.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::chain_on_renderings_test {
 
 using namespace fixtures;
 
@@ -82,5 +81,4 @@ TEST(ChainOnRenderings, OnePictureGivesTheYawToAFractionOfADegree) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::chain_on_renderings_test

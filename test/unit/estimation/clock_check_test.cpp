@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::clock_check_test {
 
 /// A vehicle that turns towards a window 4 m ahead, stands, and turns on a little; 20 images a second.
 struct Turning {
@@ -86,5 +85,4 @@ TEST(ClockCheck, IgnoresWhatIsNotFinite) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::clock_check_test

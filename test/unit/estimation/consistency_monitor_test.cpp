@@ -5,8 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::consistency_monitor_test {
 
 double chiSquared(int degrees_of_freedom, std::mt19937& random) {
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -77,5 +76,4 @@ TEST(ConsistencyMonitor, IgnoresWhatIsNoSquare) {
   EXPECT_EQ(monitor.consistency().images, 0);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::consistency_monitor_test

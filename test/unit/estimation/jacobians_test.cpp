@@ -7,8 +7,7 @@
 #include "estimation/planar/relative_yaw.hpp"
 #include "pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::jacobians_test {
 
 using namespace fixtures;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -139,5 +138,4 @@ TEST(Jacobians, YawByRotation) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::jacobians_test

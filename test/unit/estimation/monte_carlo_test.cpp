@@ -5,8 +5,7 @@
 
 #include "pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::monte_carlo_test {
 
 using namespace fixtures;
 
@@ -131,5 +130,4 @@ TEST(MonteCarlo, TrustedSignsAreRight) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::monte_carlo_test

@@ -5,8 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::opening_fit_test {
 
 SizeEstimate opening(double width_m, double height_m, double sigma) {
   return {{width_m, height_m}, sigma * sigma * Eigen::Matrix2d::Identity()};
@@ -53,5 +52,4 @@ TEST(OpeningFit, OfNoSizeNothingIsSaid) {
             Fit::kUnknown);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::opening_fit_test

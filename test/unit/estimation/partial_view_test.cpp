@@ -6,8 +6,7 @@
 #include "estimation/planar/predicted_opening.hpp"
 #include "pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::partial_view_test {
 
 using namespace fixtures;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -182,5 +181,4 @@ TEST(PosePrior, ResidualSlopes) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::partial_view_test

@@ -6,8 +6,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::pose_buffer_test {
 
 using geometry::makePose;
 using geometry::yawOf;
@@ -91,5 +90,4 @@ TEST(PoseBuffer, RefusesWhatIsNotAPose) {
   EXPECT_FALSE(buffer.at(nan));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::pose_buffer_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::sender_clock_test {
 
 constexpr double kPeriodSec = 1.0 / 30.0;
 
@@ -47,5 +46,4 @@ TEST(SenderClock, ForgetsSlowlyAndIgnoresWhatIsNoNumber) {
   EXPECT_NEAR(clock.aheadSec(), 0.08, 0.005);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::sender_clock_test

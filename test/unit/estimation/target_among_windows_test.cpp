@@ -4,8 +4,7 @@
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_row.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::target_among_windows_test {
 
 /// A vehicle that stands before a row of windows and sways a little, and a detector that follows one of them.
 struct Watch {
@@ -75,5 +74,4 @@ TEST(TargetAmongWindows, TheOneInUseIsGivenUpAndTheNextTakenWhereThatIsAllowed) 
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::target_among_windows_test

@@ -7,8 +7,7 @@
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::target_estimator_odd_input_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -159,5 +158,4 @@ TEST(TargetEstimatorOddInput, WhateverComesWhatLeavesIsSoundAndTheWindowIsFoundA
   EXPECT_LE(wrong, 2) << "numbers that are wrong but finite may look like wrong frames for a while";
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::target_estimator_odd_input_test

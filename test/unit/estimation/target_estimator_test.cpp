@@ -7,8 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::target_estimator_test {
 
 const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 const Eigen::Isometry3d kMounting =
@@ -322,5 +321,4 @@ TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
                std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::target_estimator_test

@@ -9,8 +9,7 @@
 #include "pose_fixtures.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::target_motion_test {
 
 using namespace fixtures;
 
@@ -150,5 +149,4 @@ TEST(MovingTarget, IsExpectedFurtherOnWhileUnseen) {
   EXPECT_GT(unseen->covariance(1, 1), 2.0 * seen->covariance(1, 1));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::target_motion_test

@@ -8,8 +8,7 @@
 
 #include "pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::window_filter_test {
 
 using namespace fixtures;
 
@@ -315,5 +314,4 @@ TEST(WindowFilter, ParametersOutOfRangeAreAllNamed) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::window_filter_test

@@ -7,8 +7,7 @@
 
 #include "pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::window_pose_estimator_test {
 
 using namespace fixtures;
 
@@ -260,5 +259,4 @@ TEST(WindowPoseEstimator, APartialViewGivesNoPoseAndSaysWhichSidesAreMissing) {
   EXPECT_NE(result.detail.find("3 of 4 sides in view: right not seen"), std::string::npos) << result.detail;
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::window_pose_estimator_test

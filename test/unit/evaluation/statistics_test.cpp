@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::statistics_test {
 
 TEST(Wilson95, AgreesWithPublishedValues) {
   // Newcombe (1998), table I: 81 of 263 and 0 of 20.
@@ -25,5 +24,4 @@ TEST(Quantile, IsLinearBetweenNeighbours) {
   EXPECT_DOUBLE_EQ(quantile({}, 0.5), 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::statistics_test

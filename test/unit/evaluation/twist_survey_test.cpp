@@ -10,8 +10,7 @@
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress {
-namespace {
+namespace window_ingress::twist_survey_test {
 
 using Meaning =
     std::function<Eigen::Vector3d(const Eigen::Matrix3d& R, const Eigen::Vector3d& velocity_odom)>;
@@ -147,5 +146,4 @@ TEST(TwistSurvey, WrongAxesAreNamedWhateverTheOdometry) {
     }
 }
 
-}  // namespace
-}  // namespace window_ingress
+}  // namespace window_ingress::twist_survey_test

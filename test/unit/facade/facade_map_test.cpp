@@ -4,8 +4,7 @@
 
 #include "window_row.hpp"
 
-namespace window_ingress::facade {
-namespace {
+namespace window_ingress::facade::facade_map_test {
 
 const Wall kWall{{0.0, 0.0, 1.5}, 0.0, 0.02, 0.01};
 
@@ -120,5 +119,4 @@ TEST(FacadeMap, KeepsItsSizeHoweverMuchIsSeen) {
   for (const KnownWindow& window : map.windows()) EXPECT_TRUE(window.place.position_m.allFinite());
 }
 
-}  // namespace
-}  // namespace window_ingress::facade
+}  // namespace window_ingress::facade::facade_map_test

@@ -7,8 +7,7 @@
 
 #include "window_row.hpp"
 
-namespace window_ingress::facade {
-namespace {
+namespace window_ingress::facade::facade_memory_test {
 
 using openness::Openness;
 
@@ -244,5 +243,4 @@ TEST(FacadeMemory, RefusesParametersOutOfRange) {
   EXPECT_THROW(FacadeMemory{params}, std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace window_ingress::facade
+}  // namespace window_ingress::facade::facade_memory_test

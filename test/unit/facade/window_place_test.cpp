@@ -6,8 +6,7 @@
 
 #include "window_row.hpp"
 
-namespace window_ingress::facade {
-namespace {
+namespace window_ingress::facade::window_place_test {
 
 const FacadeParams kParams;
 
@@ -98,5 +97,4 @@ TEST(WindowPlace, FusedIsNeverSurerThanItsBetterPartAndNeverWorse) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::facade
+}  // namespace window_ingress::facade::window_place_test

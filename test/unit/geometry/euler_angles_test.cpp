@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::euler_angles_test {
 
 TEST(EulerAngles, RoundTripOfRandomAngles) {
   std::mt19937 random(1);
@@ -26,10 +25,12 @@ TEST(EulerAngles, RotationSurvivesTheRoundTripAtGimbalLock) {
 }
 
 TEST(EulerAngles, SignsAreThoseOfTheAxes) {
-  EXPECT_TRUE((rotationFromEuler({0, 0, M_PI_2}) * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY()));
-  EXPECT_TRUE((rotationFromEuler({0, M_PI_2, 0}) * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX()));
-  EXPECT_TRUE((rotationFromEuler({M_PI_2, 0, 0}) * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(
+      (rotationFromEuler({0, 0, M_PI_2}) * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(
+      (rotationFromEuler({0, M_PI_2, 0}) * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX()));
+  EXPECT_TRUE(
+      (rotationFromEuler({M_PI_2, 0, 0}) * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ()));
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::euler_angles_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::frames_test {
 
 TEST(Frames, OpticalAxesAreRightDownForward) {
   const Eigen::Matrix3d R = R_optical_flu();
@@ -43,5 +42,4 @@ TEST(Frames, ValidPoseRefusesNanScaleAndMirror) {
   EXPECT_FALSE(isValidPose(makePose(mirror, {0, 0, 0})));
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::frames_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::median_test {
 
 TEST(Median, IsTheMiddleValueAndTheUpperOneOfTwo) {
   std::vector<double> odd{5.0, -1.0, 2.0}, even{4.0, 1.0, 3.0, 2.0}, one{7.0};
@@ -17,5 +16,4 @@ TEST(Median, OfVectorsIsThatOfEachComponent) {
   EXPECT_EQ(componentwiseMedian(values), Eigen::Vector3d(2, 8, -5));
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::median_test

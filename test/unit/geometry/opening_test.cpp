@@ -4,8 +4,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::opening_test {
 
 const PinholeCamera kCamera = PinholeCamera::fromFieldOfView(640, 480, 1.2);
 
@@ -28,8 +27,8 @@ TEST(Opening, WindowTurnedLeftShowsItsLeftBorderNearerAndLonger) {
 }
 
 TEST(Opening, NoImageWhenACornerIsBehindTheCamera) {
-  EXPECT_FALSE(projectOpening(kCamera, makePose(R_optical_flu() * yawRotation(1.5), {0, 0, 0.3}), {1.2, 1.0}));
+  EXPECT_FALSE(
+      projectOpening(kCamera, makePose(R_optical_flu() * yawRotation(1.5), {0, 0, 0.3}), {1.2, 1.0}));
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::opening_test

@@ -7,8 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::pinhole_camera_test {
 
 PinholeCamera distortedCamera() {
   PinholeCamera camera = PinholeCamera::fromFieldOfView(640, 480, 1.2);
@@ -123,5 +122,4 @@ TEST(PinholeCamera, ARayHasLengthOneHoweverFarAside) {
     EXPECT_NEAR(camera.ray({aside, -aside}).norm(), 1.0, 1e-12) << aside;
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::pinhole_camera_test

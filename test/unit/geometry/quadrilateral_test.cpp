@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::quadrilateral_test {
 
 using Eigen::Vector2d;
 
@@ -80,5 +79,4 @@ TEST(Quadrilateral, IntersectionOverUnionAgreesWithCountingPixels) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::quadrilateral_test

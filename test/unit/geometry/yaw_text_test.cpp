@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace window_ingress::geometry {
-namespace {
+namespace window_ingress::geometry::yaw_text_test {
 
 TEST(YawText, IsInDegreesWithSpreadAndDoubt) {
   const double degree = M_PI / 180.0;
@@ -22,5 +21,4 @@ TEST(YawText, SurvivesBadNumbers) {
   EXPECT_EQ(yawText(0.0, 1e9, false), "yaw +0.0 +-180.0 deg, sign unknown");
 }
 
-}  // namespace
-}  // namespace window_ingress::geometry
+}  // namespace window_ingress::geometry::yaw_text_test

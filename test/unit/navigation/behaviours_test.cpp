@@ -12,8 +12,7 @@
 #include "navigation/behaviours/search.hpp"
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::behaviours_test {
 
 const NavigatorParams kDefaults = test::withoutGlass();
 
@@ -399,5 +398,4 @@ TEST(HoldBehaviour, GoesOnFromWhereItCan) {
   EXPECT_EQ(wayOutOf(State::kCommit, committed, false, true), Event::kGiveUp);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::behaviours_test

@@ -6,8 +6,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::camera_in_body_test {
 
 // Nose down by `pitch_rad`, to the left by `yaw_rad`, 0.3 m ahead.
 Eigen::Isometry3d mounted(double pitch_rad, double yaw_rad) {
@@ -65,5 +64,4 @@ TEST(CameraInBody, WhatNobodyCanFlyByIsNamed) {
   EXPECT_NE(faultOf(odd).find("camera_forward_m"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::camera_in_body_test

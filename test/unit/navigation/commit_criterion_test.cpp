@@ -6,8 +6,7 @@
 
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::commit_criterion_test {
 
 RelativeState at(double distance_m, double lateral_m = 0.0, double sigma_m = 0.01) {
   RelativeState relative;
@@ -150,5 +149,4 @@ TEST(CommitCriterion, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {
   EXPECT_GT(criterionOf(at(1.5, 0.2, 0.0)).miss_lateral_m, 0.05);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::commit_criterion_test

@@ -10,8 +10,7 @@
 #include "window_ingress/navigation/navigator.hpp"
 #include "window_ingress/navigation/relative_state.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::invariants_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -207,5 +206,4 @@ TEST(NavigatorInvariants, StaleOrBrokenOdometryStopsInTheSameStepInEveryState) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::invariants_test

@@ -6,8 +6,7 @@
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::navigator_edges_test {
 
 constexpr double kStep = 1.0 / 30.0;
 const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kAside(-4.0, 3.8, 1.5),
@@ -232,5 +231,4 @@ TEST(NavigatorEdges, AResetLeadsOnFromAPassedWindow) {
   EXPECT_EQ(mission.output.state, State::kIdle);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::navigator_edges_test

@@ -6,8 +6,7 @@
 
 #include "kinematic_plant.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::navigator_flight_test {
 
 using test::FlownMission;
 using test::KinematicPlant;
@@ -236,5 +235,4 @@ TEST(NavigatorFlight, PaperStepsPassTooButTakeLonger) {
   EXPECT_GT(slow.duration_sec, 1.25 * fast.duration_sec);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::navigator_flight_test

@@ -11,8 +11,7 @@
 #include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::navigator_test {
 
 using test::inputAt;
 using test::targetAtOrigin;
@@ -466,5 +465,4 @@ TEST(NavigatorParamsCheck, ShippedYamlHasEveryFieldAtItsDefault) {
   EXPECT_EQ(shipped.names, expected.names);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::navigator_test

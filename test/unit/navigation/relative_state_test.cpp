@@ -6,8 +6,7 @@
 
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::relative_state_test {
 
 using test::targetAtOrigin;
 using test::vehicleAt;
@@ -67,5 +66,4 @@ TEST(RelativeState, LateralSigmaIsThatOfAMonteCarlo) {
   EXPECT_NEAR(relate(vehicle, target).sigma_lateral_m / sigma, 1.0, 0.03);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::relative_state_test

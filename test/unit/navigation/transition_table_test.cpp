@@ -8,8 +8,7 @@
 #include <sstream>
 #include <string>
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::transition_table_test {
 
 State stateAt(std::size_t i) { return static_cast<State>(i); }
 Event eventAt(std::size_t i) { return static_cast<Event>(i); }
@@ -127,5 +126,4 @@ TEST(TransitionTable, DocumentIsUpToDate) {
   EXPECT_EQ(text.str(), stateMachineDocument()) << "doc/state_machine.md differs from the table";
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::transition_table_test

@@ -13,8 +13,7 @@
 #include "window_ingress/openness/openness_judge.hpp"
 #include "window_ingress/openness/plane_parallax.hpp"
 
-namespace window_ingress::openness {
-namespace {
+namespace window_ingress::openness::interior_klt_tracker_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -205,5 +204,4 @@ TEST(InteriorKltTracker, anotherTargetBeginsAnew) {
   EXPECT_TRUE(window.interior.empty()) << "time goes back";
 }
 
-}  // namespace
-}  // namespace window_ingress::openness
+}  // namespace window_ingress::openness::interior_klt_tracker_test

@@ -10,8 +10,7 @@
 #include "evaluation/openness/openness_survey.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::openness {
-namespace {
+namespace window_ingress::openness::openness_judge_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -245,5 +244,4 @@ TEST(OpennessJudge, roomsAreCalledOpenInTimeAndNeverClosed) {
   EXPECT_GE(open, 0.9 * kFlights);
 }
 
-}  // namespace
-}  // namespace window_ingress::openness
+}  // namespace window_ingress::openness::openness_judge_test

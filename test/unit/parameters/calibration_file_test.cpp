@@ -5,8 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace window_ingress::parameters {
-namespace {
+namespace window_ingress::parameters::calibration_file_test {
 
 const char* const kGood =
     "image_width: 640\nimage_height: 480\ncamera_name: front\n"
@@ -79,5 +78,4 @@ TEST(CalibrationFile, RefusesWithFileAndReason) {
   expectRefused(written(replaced(kGood, ", 0.001, 0, 0", "")), "distortion_coefficients");
 }
 
-}  // namespace
-}  // namespace window_ingress::parameters
+}  // namespace window_ingress::parameters::calibration_file_test

@@ -13,8 +13,7 @@
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 
-namespace window_ingress::parameters {
-namespace {
+namespace window_ingress::parameters::field_list_test {
 
 using detection::DetectorParams;
 
@@ -108,5 +107,4 @@ TEST(FieldList, YamlReadsBackTheSame) {
   std::filesystem::remove(file);
 }
 
-}  // namespace
-}  // namespace window_ingress::parameters
+}  // namespace window_ingress::parameters::field_list_test

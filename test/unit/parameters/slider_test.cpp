@@ -4,8 +4,7 @@
 
 #include "window_ingress/detection/detector_params.hpp"
 
-namespace window_ingress::parameters {
-namespace {
+namespace window_ingress::parameters::slider_test {
 
 NamedField field(NamedField::Kind kind, double minimum, double maximum) {
   return {"field", kind, minimum, maximum, [] { return 0.0; }, [](double) {}};
@@ -44,5 +43,4 @@ TEST(Slider, FitsEveryParameterOfTheDetector) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::parameters
+}  // namespace window_ingress::parameters::slider_test

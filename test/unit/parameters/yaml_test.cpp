@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace window_ingress::parameters {
-namespace {
+namespace window_ingress::parameters::yaml_test {
 
 struct Inner {
   int count = 3;
@@ -110,5 +109,4 @@ TEST(OutOfRange, ListsAllFaultsWithTheirPath) {
   EXPECT_TRUE(outOfRange(Sample{}).empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::parameters
+}  // namespace window_ingress::parameters::yaml_test

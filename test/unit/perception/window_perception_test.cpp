@@ -4,8 +4,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::perception {
-namespace {
+namespace window_ingress::perception::window_perception_test {
 
 constexpr int kFrames = 12;
 
@@ -33,7 +32,8 @@ std::vector<detection::WindowObservation> look(WindowPerception& perception) {
 }
 
 bool areTheSame(const detection::WindowObservation& a, const detection::WindowObservation& b) {
-  return a.corners == b.corners && a.interior.points.size() == b.interior.points.size() && a.stamp_sec == b.stamp_sec;
+  return a.corners == b.corners && a.interior.points.size() == b.interior.points.size() &&
+         a.stamp_sec == b.stamp_sec;
 }
 
 TEST(WindowPerception, FindsTheWindowAndFollowsWhatLiesInIt) {
@@ -65,5 +65,4 @@ TEST(WindowPerception, ForgetsAllThatItSaw) {
   for (std::size_t i = 0; i < again.size(); ++i) EXPECT_TRUE(areTheSame(again[i], expected[i])) << i;
 }
 
-}  // namespace
-}  // namespace window_ingress::perception
+}  // namespace window_ingress::perception::window_perception_test

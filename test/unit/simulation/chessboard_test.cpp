@@ -11,8 +11,7 @@
 #include "simulation/scene/scene.hpp"
 #include "view.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::chessboard_test {
 
 const cv::Size kCorners(8, 6);
 constexpr double kSquare_m = 0.1;
@@ -73,5 +72,4 @@ TEST(Chessboard, APictureOfAnotherKindIsNone) {
       findCorners(views::photograph(buildScene(scenario), views::lookAt({-1.4, 0, 0}, {0, 0, 0})), corners));
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::chessboard_test

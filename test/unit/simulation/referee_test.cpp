@@ -10,8 +10,7 @@
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::referee_test {
 
 // The course of a real scenario, so that the referee is tested against the walls that are drawn.
 class Flight : public testing::Test {
@@ -206,5 +205,4 @@ TEST(Obstacle, TurnedBoxesTouchExactlyWhenTheyShouldAlongEdges) {
   EXPECT_TRUE(touches(geometry::makePose(eighth, {0, 0, 0}), half, cube)) << "one within the other";
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::referee_test

@@ -9,8 +9,7 @@
 #include "view.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::scene_windows_test {
 
 using Eigen::Vector3d;
 
@@ -182,5 +181,4 @@ TEST(Scenario, RefusesWindowsThatCoverEachOther) {
   EXPECT_EQ(faultsOf(scenario).size(), 1u);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::scene_windows_test

@@ -10,8 +10,7 @@
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::sensors_test {
 
 constexpr double kStep_sec = 0.0025;
 
@@ -315,5 +314,4 @@ TEST(Imu, BiasesStayTheSameAllFlightAndLatencyAndStampsAreTheirOwn) {
   EXPECT_NEAR(deviation(biases), 0.05, 0.008);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::sensors_test

@@ -9,8 +9,7 @@
 #include "view.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::shipped_scenarios_test {
 
 const std::string kFolder = std::string(WINDOW_INGRESS_SOURCE_DIR) + "/config/scenarios/";
 
@@ -132,5 +131,4 @@ TEST(ShippedScenarios, TheReferenceShowsTheOpenTargetWhateverIsThereByNow) {
     EXPECT_EQ(cv::norm(expected, World(scenario, 4).referencePicture(nullptr), cv::NORM_INF), 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::shipped_scenarios_test

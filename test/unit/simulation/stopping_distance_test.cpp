@@ -14,8 +14,7 @@
 #include "simulation/vehicle/quadrotor.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::stopping_distance_test {
 
 constexpr double kStep_sec = 0.0025, kCruise_sec = 8.0, kRest_sec = 14.0;
 constexpr double kGuard_sec = 0.2 + 1.0 / 30.0;  // late_sec and one period of the guard
@@ -80,5 +79,4 @@ TEST(StoppingDistance, TheGuardSavesMetresWhereTheLastVelocityIsHeld) {
     EXPECT_LT(travel(profile, 1.0, kGuard_sec) + 2.5, travel(profile, 1.0, -1.0)) << profile;
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::stopping_distance_test

@@ -7,8 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::world_test {
 
 Scenario quietScenario() {
   Scenario scenario;
@@ -249,5 +248,4 @@ TEST(World, RefusesAPayloadThatItCannotLift) {
   EXPECT_NO_THROW(World(scenario, 1));
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::world_test

@@ -13,8 +13,7 @@
 #include "adapters/bags/replay.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::bag_check_test {
 
 namespace fs = std::filesystem;
 
@@ -124,5 +123,4 @@ TEST_F(BagCheck, FlippedBytesAreReadOrRefused) {
   EXPECT_GT(refused, 100);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::bag_check_test

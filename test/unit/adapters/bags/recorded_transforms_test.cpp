@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::recorded_transforms_test {
 
 tf2_msgs::TFMessage ahead(double x_m) {
   tf2_msgs::TFMessage message;
@@ -40,5 +39,4 @@ TEST(RecordedTransforms, LeaveOutWhatIsNotFinite) {
   EXPECT_FALSE(transforms.between("base_link", "eye"));
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::recorded_transforms_test

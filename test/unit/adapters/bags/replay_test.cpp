@@ -21,8 +21,7 @@
 #include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/world/world_messages.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::replay_test {
 
 namespace fs = std::filesystem;
 
@@ -284,5 +283,4 @@ TEST(CommandLine, IsTakenApartAgainByAShell) {
             "replay_bag --bag 'my flight'\\''s.bag' --window-size 1.2,1.0 ''");
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::replay_test

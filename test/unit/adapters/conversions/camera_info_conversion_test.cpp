@@ -4,8 +4,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::camera_info_conversion_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -171,5 +170,4 @@ TEST(CameraInfo, GoesThereAndBack) {
   EXPECT_EQ(again.value->distortion, camera.value->distortion);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::camera_info_conversion_test

@@ -4,8 +4,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::detection_conversion_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -141,5 +140,4 @@ TEST(WindowDetection, RefusesAnyNumberThatIsNotFinite) {
   EXPECT_TRUE(refused([](auto& m) { m.header.stamp = ros::Time(); }));
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::detection_conversion_test

@@ -8,8 +8,7 @@
 #include "adapters/markers/markers.hpp"
 #include "window_row.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::facade_conversion_test {
 
 facade::FacadeMemory memoryOfARow() {
   const test::WindowRow row;
@@ -114,5 +113,4 @@ TEST(FacadeConversion, WhereTheTargetIsExpectedGoesThereAndBack) {
   EXPECT_EQ(targetMsg(nullptr, std::nullopt).window_id, 0u);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::facade_conversion_test

@@ -9,8 +9,7 @@
 
 #include "adapters/conversions/compressed_size.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::image_from_msg_test {
 
 const ImageLimits kLimits;
 
@@ -233,5 +232,4 @@ TEST(CompressedImage, SurvivesTruncationAndFlippedBytes) {
   EXPECT_FALSE(decode(sensor_msgs::CompressedImage(), kLimits).reason.empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::image_from_msg_test

@@ -5,8 +5,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::pose_conversion_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -225,5 +224,4 @@ TEST(IngressState, SaysWhatTheNavigatorSays) {
   EXPECT_EQ(toMsg(output).acceleration_limit, 0.0) << "none has shown";
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::pose_conversion_test

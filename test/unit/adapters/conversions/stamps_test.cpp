@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::stamps_test {
 
 TEST(Stamps, ZeroAndUnnormalisedAreNoStamps) {
   EXPECT_FALSE(stampSec(ros::Time()));
@@ -77,5 +76,4 @@ TEST(ClockWatch, NoticesEachJumpBackOnce) {
   EXPECT_FALSE(clock.jumpedBack(999.1));
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::stamps_test

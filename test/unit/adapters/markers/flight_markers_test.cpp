@@ -13,8 +13,7 @@
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/commit_criterion.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::flight_markers_test {
 
 using navigation::State;
 using visualization_msgs::Marker;
@@ -189,5 +188,4 @@ TEST(FlightTrail, IsDrawnInTheColoursOfItsStatesUpToTheVehicle) {
   EXPECT_DOUBLE_EQ(line.points[2].x, -4.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::flight_markers_test

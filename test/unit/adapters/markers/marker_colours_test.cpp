@@ -7,8 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::marker_colours_test {
 
 std::string textOf(const std::string& file) {
   std::stringstream text;
@@ -48,5 +47,4 @@ TEST(MarkerColours, ChannelsAreRedGreenBlue) {
   EXPECT_FLOAT_EQ(colour.a, 0.25F);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::marker_colours_test

@@ -9,8 +9,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_colours.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::marker_sketch_test {
 
 using visualization_msgs::Marker;
 
@@ -132,5 +131,4 @@ TEST(Wrapped, KeepsEveryWordAndEveryLineShort) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::marker_sketch_test

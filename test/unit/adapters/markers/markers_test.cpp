@@ -10,8 +10,7 @@
 #include "adapters/markers/marker_colours.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::markers_test {
 
 using visualization_msgs::Marker;
 
@@ -148,5 +147,4 @@ TEST(OpeningPolygon, HasTheCornersOfTheOpening) {
   EXPECT_NEAR(polygon.points[2].z, corner.z(), 1e-5);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::markers_test

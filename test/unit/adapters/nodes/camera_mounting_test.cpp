@@ -6,8 +6,7 @@
 
 #include "adapters/sources/parameters.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::camera_mounting_test {
 
 using Eigen::Vector3d;
 
@@ -45,5 +44,4 @@ TEST(CameraMounting, RefusesWhatIsNotSixNumbersWithTheirMeaning) {
     }
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::camera_mounting_test

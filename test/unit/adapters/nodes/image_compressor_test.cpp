@@ -5,8 +5,7 @@
 #include <boost/make_shared.hpp>
 #include <opencv2/core.hpp>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::image_compressor_test {
 
 boost::shared_ptr<sensor_msgs::Image> gradient(const std::string& encoding, int channels) {
   auto image = boost::make_shared<sensor_msgs::Image>();
@@ -54,5 +53,4 @@ TEST(Compress, WhatIsNoPictureIsRefusedWithAReason) {
   EXPECT_NE(picture.reason.find("32FC1"), std::string::npos) << picture.reason;
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::image_compressor_test

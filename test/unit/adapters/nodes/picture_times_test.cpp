@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::picture_times_test {
 
 using detection::Stage;
 
@@ -74,5 +73,4 @@ TEST_F(PictureTimesTest, PausesAndJumpsBackAreNoPeriods) {
   EXPECT_NEAR(value(times.health(), "budget_ms"), 50.0, 1e-3);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::picture_times_test

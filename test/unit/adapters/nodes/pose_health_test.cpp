@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::pose_health_test {
 
 using Offset = estimation::ClockCheck::Offset;
 
@@ -58,5 +57,4 @@ TEST(ConsistencyHealth, WarnsOfAFilterAtOddsWithItsImages) {
   EXPECT_EQ(consistencyHealth(contradicted, {}).level, Health::kWarn);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::pose_health_test

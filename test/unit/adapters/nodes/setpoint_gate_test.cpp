@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::setpoint_gate_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -150,5 +149,4 @@ TEST(SetpointGate, PropertiesHoldForRandomInputs) {
   EXPECT_GT(silent, 5);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::setpoint_gate_test

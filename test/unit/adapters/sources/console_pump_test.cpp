@@ -8,8 +8,7 @@
 #include <chrono>
 #include <string>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::console_pump_test {
 
 constexpr int kMany = 20000;
 const std::string kLine(99, 'x');
@@ -75,5 +74,4 @@ TEST_F(ConsolePump, SurvivesThatNobodyIsThere) {
   EXPECT_GT(writeLines(100), 0);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::console_pump_test

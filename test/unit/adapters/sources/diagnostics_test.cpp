@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::diagnostics_test {
 
 TEST(FailureCount, CountsInARowForEachCallback) {
   FailureCount failures;
@@ -41,5 +40,4 @@ TEST(Output, NobodyHearsIsAWarningOnceStartUpIsOver) {
   EXPECT_EQ(outputHealth(1, "/window", 5.0).level, Health::kOk);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::diagnostics_test

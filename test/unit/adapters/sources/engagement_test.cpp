@@ -5,8 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::engagement_test {
 
 TEST(Engagement, IsTakenForGrantedWhereNobodySaysUnlessRequired) {
   EngagementParams params;
@@ -64,5 +63,4 @@ TEST(Engagement, NeverHoldsLongerThanTheLastYes) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::engagement_test

@@ -4,8 +4,7 @@
 
 #include "adapters/world/world_referee.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::lockstep_test {
 
 TEST(Lockstep, TheClockDoesNotDecideAboutMessagesThere) {
   StampGate usual(limitsFor(false, {})), lockstep(limitsFor(true, {}));
@@ -33,5 +32,4 @@ TEST(VerdictFile, SaysWhatIsKnownAndNullForWhatIsNot) {
   EXPECT_NE(toJson(verdict).find("\"offset_y_m\": 0.25"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::lockstep_test

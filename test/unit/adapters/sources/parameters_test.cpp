@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::parameters_test {
 
 struct Inner {
   double gain = 0.5;
@@ -153,5 +152,4 @@ TEST(Parameters, NamesReadByOthersAreNoFault) {
   EXPECT_TRUE(reader.faults().empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::parameters_test

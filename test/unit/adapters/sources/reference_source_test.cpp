@@ -10,8 +10,7 @@
 #include "adapters/sources/parameters.hpp"
 #include "drawn_window.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::reference_source_test {
 
 namespace fs = std::filesystem;
 
@@ -65,5 +64,4 @@ TEST_F(ReferenceSource, BadReferencesAreRefused) {
   EXPECT_THROW(loadReference(params, {}), ParameterError);
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::reference_source_test

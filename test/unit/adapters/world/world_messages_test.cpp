@@ -4,8 +4,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::adapters {
-namespace {
+namespace window_ingress::adapters::world_messages_test {
 
 // Heading left, flying along the odometry frame's x: to its own right.
 simulation::OdometrySample flyingToItsRight() {
@@ -45,5 +44,4 @@ TEST(WorldMessages, TheCamerasMountingIsAChainFromBaseToOptical) {
   EXPECT_TRUE(product.isApprox(T_base_camera, 1e-12));
 }
 
-}  // namespace
-}  // namespace window_ingress::adapters
+}  // namespace window_ingress::adapters::world_messages_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::homography_sums_test {
 
 TEST(HomographySums, AreWhatTheDerivativesAddUpTo) {
   std::mt19937 random(1);
@@ -29,5 +28,4 @@ TEST(HomographySums, AreWhatTheDerivativesAddUpTo) {
   EXPECT_TRUE(sum.vector().isApprox(expected_sum, 1e-4F));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::homography_sums_test

@@ -8,8 +8,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::rectangle_prior_test {
 
 constexpr double kAspect = 1.3;
 
@@ -56,7 +55,8 @@ TEST(RectanglePrior, AViewOfTheRectangleStaysAsItIs) {
 TEST(RectanglePrior, AspectAndSkewGoBack) {
   for (double aspect : {kAspect * 0.95, kAspect * 1.05})
     for (double skew : {-0.05, 0.05}) {
-      const Shape before = shapeOf(mapOf(aspect, skew)), after = shapeOf(stepped(stepped(stepped(mapOf(aspect, skew)))));
+      const Shape before = shapeOf(mapOf(aspect, skew)),
+                  after = shapeOf(stepped(stepped(stepped(mapOf(aspect, skew)))));
       EXPECT_LT(std::abs(after.log_aspect - std::log(kAspect)),
                 0.1 * std::abs(before.log_aspect - std::log(kAspect)));
       EXPECT_LT(std::abs(after.skew), 0.1 * std::abs(before.skew));
@@ -71,5 +71,4 @@ TEST(RectanglePrior, WhatAPoseMayChangeCostsNothing) {
   EXPECT_LT(eigen.eigenvalues()[5], 1e-4F * eigen.eigenvalues()[6]) << "six of eight are free";
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::rectangle_prior_test

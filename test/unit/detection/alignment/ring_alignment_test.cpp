@@ -4,8 +4,7 @@
 
 #include "patched_wall.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::ring_alignment_test {
 
 using geometry::Quadrilateral;
 using test::PatchedWall;
@@ -201,5 +200,4 @@ TEST(RingModel, NothingIsLearnedFromWhatIsNoPicture) {
   EXPECT_FALSE(model.known());
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::ring_alignment_test

@@ -6,8 +6,7 @@
 #include "patched_wall.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::ring_judge_test {
 
 using geometry::Quadrilateral;
 using test::PatchedWall;
@@ -212,5 +211,4 @@ TEST(WindowDetector, AWallThatWasClosedIsNoWindow) {
   for (double yaw : {-0.3, 0.0, 0.3}) EXPECT_FALSE(detected.look(wall, yaw, nullptr)) << yaw;
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::ring_judge_test

@@ -6,8 +6,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::border_refinement_test {
 
 geometry::Quadrilateral jittered(const geometry::Quadrilateral& quad, std::mt19937& random, double by_px) {
   std::uniform_real_distribution<double> uniform(-by_px, by_px);
@@ -133,5 +132,4 @@ TEST(BorderRefinement, NothingFromPlainImagesTinyOrOutsideQuads) {
   EXPECT_FALSE(refinement.run(plain, {test::rectangle(-500, -400, -300, -200), 3.0}, nullptr));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::border_refinement_test

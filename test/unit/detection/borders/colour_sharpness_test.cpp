@@ -6,8 +6,7 @@
 #include "detection/borders/edge_profiles.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::colour_sharpness_test {
 
 const cv::Scalar kFrame(70, 158, 209), kPaint(58, 137, 184), kReveal(128, 142, 152), kBehind(60, 60, 60);
 const geometry::Quadrilateral kOpening{
@@ -88,5 +87,4 @@ TEST(ColourSharpness, TheFrontOfARevealIsWhereBrightnessChanges) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::colour_sharpness_test

@@ -1,3 +1,5 @@
+#include "detection/borders/lines.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,10 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "detection/borders/lines.hpp"
-
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::lines_test {
 
 /// Points along a line with noise across it and every n-th one far off.
 struct Sample {
@@ -68,5 +67,4 @@ TEST(RobustLine, TooFewOrCoincidingPointsLeaveTheStart) {
   EXPECT_EQ(line.slope, 0.1);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::lines_test

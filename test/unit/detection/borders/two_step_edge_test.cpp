@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::two_step_edge_test {
 
 using Eigen::Vector3f;
 
@@ -122,5 +121,4 @@ TEST(TwoStepEdge, GreyPicturesAndBadNumbers) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::two_step_edge_test

@@ -7,8 +7,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::candidate_gates_test {
 
 const cv::Size kImage(320, 240);
 
@@ -112,5 +111,4 @@ TEST(WindowScore, SizeRanksButIsNoConfidence) {
   EXPECT_EQ(sizeRank(test::rectangle(0, 0, 319, 239), kImage), 1.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::candidate_gates_test

@@ -8,8 +8,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::candidate_search_test {
 
 test::WindowPicture framed(double scale = 1.0) {
   test::WindowPicture picture;
@@ -128,5 +127,4 @@ TEST(CandidateSearch, AGreyPictureHasNoColours) {
   EXPECT_TRUE(search.runOnPaint(Eigen::Vector3f(-0.7F, 0.0F, 0.7F), trace).empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::candidate_search_test

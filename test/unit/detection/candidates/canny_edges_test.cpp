@@ -1,13 +1,12 @@
+#include "detection/candidates/canny_edges.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "detection/candidates/canny_edges.hpp"
-
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::canny_edges_test {
 
 cv::Mat noise(int rows, int cols, int type, unsigned seed) {
   cv::Mat image(rows, cols, type);
@@ -56,5 +55,4 @@ TEST(EdgeMap, APartOfALargerPictureIsReadRowByRow) {
   EXPECT_EQ(cv::norm(detector.run(part.clone()).edges, edges, cv::NORM_INF), 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::canny_edges_test

@@ -7,8 +7,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::edge_chains_test {
 
 const std::vector<EdgeChain>& runsOf(EdgeChains& runs, const cv::Mat& image) {
   EdgeDetector edges{EdgeMapParams()};
@@ -75,5 +74,4 @@ TEST(LineMoments, GiveTheLineOfLeastSquares) {
   EXPECT_NEAR((halves.mean() - moments.mean()).norm(), 0.0, 1e-9);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::edge_chains_test

@@ -9,8 +9,7 @@
 #include "detection/candidates/side_support.hpp"
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::hough_segments_test {
 
 /// Edges to segments, as the search does it.
 std::vector<Segment> segmentsOf(const EdgeMap& map) {
@@ -161,5 +160,4 @@ TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
     EXPECT_EQ(side.fraction, 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::hough_segments_test

@@ -6,8 +6,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::nested_quads_test {
 
 const auto kOpening = test::rectangle(100, 80, 220, 170);
 
@@ -74,5 +73,4 @@ TEST(NestedLoops, ConcentricMeansABorderAllRound) {
   EXPECT_FALSE(isConcentric(test::rectangle(10, 10, 310, 230), kOpening, 0.6)) << "too wide for a frame";
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::nested_quads_test

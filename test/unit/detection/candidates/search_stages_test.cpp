@@ -8,8 +8,7 @@
 #include "detection/candidates/preprocess.hpp"
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::search_stages_test {
 
 TEST(Preprocess, ReducesByPowersOfTwoUntilItFits) {
   Preprocess preprocess{PreprocessParams()};
@@ -116,5 +115,4 @@ TEST(ContourPolygons, SaysSoWhenThereAreTooMany) {
   EXPECT_TRUE(result.budget_exceeded);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::search_stages_test

@@ -9,8 +9,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::segment_quads_test {
 
 using Eigen::Vector2d;
 
@@ -117,5 +116,4 @@ TEST(SegmentQuads, NothingFromNothing) {
                   .candidates.empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::segment_quads_test

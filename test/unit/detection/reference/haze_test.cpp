@@ -6,8 +6,7 @@
 
 #include "detection/reference/ring_histogram.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::haze_test {
 
 using Eigen::Vector3f;
 
@@ -62,5 +61,4 @@ TEST(DistanceThroughHaze, TellsNothingInClearAirInNoiseOrOfAFramelessReference) 
   EXPECT_FALSE(distanceThroughHaze(ring(kWall, 10.0), foggy(kWall, 0.3F)));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::haze_test

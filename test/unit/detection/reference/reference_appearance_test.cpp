@@ -7,8 +7,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::reference_appearance_test {
 
 const auto kOpening = test::rectangle(100, 80, 220, 170);
 const cv::Scalar kOrange(50, 140, 215), kBlue(200, 120, 40);
@@ -144,5 +143,4 @@ TEST(ReferenceAppearance, DoesNotAdaptToSomethingElse) {
   EXPECT_EQ(reference.drift(), 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::reference_appearance_test

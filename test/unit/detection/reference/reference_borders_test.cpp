@@ -7,8 +7,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::reference_borders_test {
 
 using geometry::Quadrilateral;
 
@@ -101,5 +100,4 @@ TEST(ReferenceBorders, NothingFromPicturesWithoutColourOrWithoutSense) {
   EXPECT_FALSE(borders.known());
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::reference_borders_test

@@ -8,8 +8,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::reference_shape_test {
 
 using Covariances = std::array<Eigen::Matrix2d, 4>;
 using geometry::Quadrilateral;
@@ -163,5 +162,4 @@ TEST(ReferenceShape, NothingToldWithoutAReferenceOrSense) {
   EXPECT_FALSE(shape.inFrame(cv::Mat(480, 640, CV_8UC1), view.opening(), nullptr));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::reference_shape_test

@@ -10,8 +10,7 @@
 #include "drawn_window.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::ring_histogram_test {
 
 const auto kOpening = test::rectangle(100, 80, 220, 170);
 const cv::Scalar kOrange(50, 140, 215), kWall(150, 160, 170);
@@ -164,5 +163,4 @@ TEST(RingSamples, StayWithinThePicture) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::ring_histogram_test

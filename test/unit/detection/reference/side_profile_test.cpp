@@ -4,8 +4,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::side_profile_test {
 
 SideProfile stepAt(double place) {
   SideProfile profile;
@@ -56,5 +55,4 @@ TEST(SideProfile, EndsWithThePicture) {
   for (const SideProfile& side : sides) EXPECT_TRUE(side.means.empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::side_profile_test

@@ -4,8 +4,7 @@
 
 #include "detection/tracking/track_confirmation.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::appearance_gate_test {
 
 AppearanceGate known(double distance) {
   AppearanceGate likeness;
@@ -54,5 +53,4 @@ TEST(AppearanceGate, IgnoresWhatIsNoNumber) {
   EXPECT_FALSE(likeness.allows(std::nan(""), 4.0));
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::appearance_gate_test

@@ -4,8 +4,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::appearance_monitor_test {
 
 constexpr int kEvery = 4;
 
@@ -79,5 +78,4 @@ TEST(AppearanceMonitor, AWindowThatIsNotWholeIsNotComparedNorLearned) {
   EXPECT_FALSE(seen.window.has_appearance);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::appearance_monitor_test

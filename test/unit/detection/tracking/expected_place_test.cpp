@@ -4,8 +4,7 @@
 #include "flat_facade.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::expected_place_test {
 
 using test::FlatFacade;
 
@@ -107,5 +106,4 @@ TEST(AllWindows, OfThePictureAreToldAboutOnceASecondWhileOneIsFollowed) {
   EXPECT_LE(told, 4) << "each of them is a search";
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::expected_place_test

@@ -14,8 +14,7 @@
 #include "detection/tracking/track_confirmation.hpp"
 #include "drawn_window.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::following_parts_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -221,5 +220,4 @@ TEST(TrackIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
   EXPECT_EQ(identity.id(), 2u);
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::following_parts_test

@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::image_sequence_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -138,5 +137,4 @@ TEST(ImageSequence, NoTurnWithoutTwoAttitudesInARow) {
   EXPECT_FALSE(sequence.turn().has_value()) << "back in time";
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::image_sequence_test

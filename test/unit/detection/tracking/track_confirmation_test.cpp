@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::track_confirmation_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -73,5 +72,4 @@ TEST(TrackConfirmation, NoAnswerAndBadNumbersAreNoOpinion) {
   EXPECT_FALSE(confirmation.isConfirmed());
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::track_confirmation_test

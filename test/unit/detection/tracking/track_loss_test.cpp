@@ -5,8 +5,7 @@
 #include "drawn_window.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::track_loss_test {
 
 const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.2);
 
@@ -39,5 +38,4 @@ TEST(TrackLoss, ALoopOfMixedBordersThatLiesNearerToAWrongPredictionIsNotTaken) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::track_loss_test

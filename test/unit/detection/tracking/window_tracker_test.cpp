@@ -10,8 +10,7 @@
 #include "drawn_window.hpp"
 #include "flat_facade.hpp"
 
-namespace window_ingress::detection {
-namespace {
+namespace window_ingress::detection::window_tracker_test {
 
 using geometry::Quadrilateral;
 using test::FlatFacade;
@@ -355,5 +354,4 @@ TEST(WindowTracker, TheSamePicturesGiveTheSameAnswers) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::detection
+}  // namespace window_ingress::detection::window_tracker_test

@@ -6,8 +6,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::attitude_check_test {
 
 Eigen::Matrix3d turned(double rad, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(rad, axis).toRotationMatrix();
@@ -44,5 +43,4 @@ TEST(AttitudeCheck, WhatIsNotFiniteDoesNotAgree) {
   EXPECT_FALSE(check.see(nan, Eigen::Matrix3d::Identity()));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::attitude_check_test

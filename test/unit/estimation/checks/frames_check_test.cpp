@@ -7,8 +7,7 @@
 
 #include "evaluation/poses/filter_survey.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::frames_check_test {
 
 FramesVerdict fly(unsigned seed, const evaluation::FrameFaults& faults, double* way_m = nullptr) {
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
@@ -80,5 +79,4 @@ TEST(FramesCheck, ParametersOutOfRangeAreNamed) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::frames_check_test

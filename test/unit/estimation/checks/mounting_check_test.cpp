@@ -8,8 +8,7 @@
 #include "evaluation/poses/filter_survey.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::mounting_check_test {
 
 constexpr double kTurn = 10.0 * M_PI / 180.0;
 
@@ -126,5 +125,4 @@ TEST(MountingCheck, BadInputIsIgnored) {
   EXPECT_FALSE(check.measuredSize());
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::mounting_check_test

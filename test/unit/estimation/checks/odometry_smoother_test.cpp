@@ -5,8 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::odometry_smoother_test {
 
 const Eigen::Vector3d kVelocity(0.5, -0.2, 0.1);
 
@@ -54,5 +53,4 @@ TEST(OdometrySmoother, StartsAnewWhenTimeGoesBackAndIgnoresWhatIsNotFinite) {
   EXPECT_FALSE(path.motion());
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::odometry_smoother_test

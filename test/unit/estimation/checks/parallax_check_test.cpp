@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::parallax_check_test {
 
 using Verdict = ParallaxCheck::Verdict;
 
@@ -96,5 +95,4 @@ TEST(ParallaxCheck, ForgetsAndIgnoresWhatIsNoNumber) {
   EXPECT_EQ(seen.check.verdict(), Verdict::kOpen);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::parallax_check_test

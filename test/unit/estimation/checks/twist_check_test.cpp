@@ -9,8 +9,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::twist_check_test {
 
 using Meaning =
     std::function<Eigen::Vector3d(const Eigen::Matrix3d& R, const Eigen::Vector3d& velocity_odom)>;
@@ -142,5 +141,4 @@ TEST(TwistCheck, AGapOrAJumpBackIsNoWay) {
   EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::twist_check_test

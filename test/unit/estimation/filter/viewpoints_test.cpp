@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::viewpoints_test {
 
 TEST(Viewpoints, CountsImagesByPlaceAlsoOnReturn) {
   Viewpoints viewpoints(0.5);
@@ -27,5 +26,4 @@ TEST(Viewpoints, ForgetsTheOldestOfVeryMany) {
   EXPECT_EQ(viewpoints.looksWith({999, 0, 0}), 2.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::viewpoints_test

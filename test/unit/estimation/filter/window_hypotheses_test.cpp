@@ -4,8 +4,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::window_hypotheses_test {
 
 using namespace fixtures;
 
@@ -92,5 +91,4 @@ TEST(WindowHypotheses, AStartThatDoesNotExplainTheImageChangesNothing) {
   EXPECT_TRUE(beliefs.empty());
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::window_hypotheses_test

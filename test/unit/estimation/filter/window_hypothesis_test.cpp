@@ -4,8 +4,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::window_hypothesis_test {
 
 using namespace fixtures;
 
@@ -79,5 +78,4 @@ TEST(WindowHypothesis, BehindTheCameraThereIsNoUpdate) {
   EXPECT_EQ(window.state().values, state);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::window_hypothesis_test

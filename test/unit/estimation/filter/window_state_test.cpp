@@ -6,8 +6,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::window_state_test {
 
 using namespace fixtures;
 
@@ -113,5 +112,4 @@ TEST(WindowState, NoImageOfAnOpeningWithoutSizeOrBehindTheCamera) {
   EXPECT_FALSE(linearise(image, lens, from, state));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::window_state_test

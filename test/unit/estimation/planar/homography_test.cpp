@@ -6,8 +6,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::homography_test {
 
 using namespace fixtures;
 
@@ -70,5 +69,4 @@ TEST(Homography, RefusesDegenerateCorners) {
   EXPECT_FALSE(poseFromHomography(Eigen::Matrix3d::Constant(nan)));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::homography_test

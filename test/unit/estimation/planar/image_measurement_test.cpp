@@ -6,8 +6,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::image_measurement_test {
 
 using namespace fixtures;
 
@@ -67,5 +66,4 @@ TEST(ImageMeasurement, RefusesNumbersThatAreNotFinite) {
   EXPECT_FALSE(ImageMeasurement::make(flat, camera(), {}));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::image_measurement_test

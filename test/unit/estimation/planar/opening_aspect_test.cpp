@@ -8,8 +8,7 @@
 #include "estimation/planar/homography.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::opening_aspect_test {
 
 using namespace fixtures;
 
@@ -135,5 +134,4 @@ TEST(SizeEstimate, RootsAndLimits) {
   EXPECT_FALSE(isUsable({size, -Eigen::Matrix2d::Identity()}));
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::opening_aspect_test

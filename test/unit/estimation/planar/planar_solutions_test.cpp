@@ -4,8 +4,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::planar_solutions_test {
 
 using namespace fixtures;
 
@@ -96,5 +95,4 @@ TEST(PlanarSolutions, NothingForWhatIsNoQuadrilateral) {
   EXPECT_FALSE(solve(window).solutions);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::planar_solutions_test

@@ -4,8 +4,7 @@
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation {
-namespace {
+namespace window_ingress::estimation::stray_border_test {
 
 using namespace fixtures;
 
@@ -74,5 +73,4 @@ TEST(StrayBorder, IsNotLookedForWhereTheSizeIsNotKnown) {
   EXPECT_LT(result.estimate->opening.height_m / result.estimate->opening.width_m, 1.0 / 1.2);
 }
 
-}  // namespace
-}  // namespace window_ingress::estimation
+}  // namespace window_ingress::estimation::stray_border_test

@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::campaign_test {
 
 using Seeds = std::vector<std::uint32_t>;
 
@@ -72,5 +71,4 @@ TEST(Campaign, PassesTheFirstFailureOnAndStops) {
   flyAll({}, 4, fly, [](const FlightResult&, int, int) { FAIL(); });
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::campaign_test

@@ -10,8 +10,7 @@
 #include "evaluation/flights/flight_log.hpp"
 #include "evaluation/flights/flight_table.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::closed_loop_flight_test {
 
 using navigation::State;
 using simulation::Outcome;
@@ -150,5 +149,4 @@ TEST(ClosedLoopFlight, RefusesBadParameters) {
   EXPECT_THROW(flyOnce(shortFlight(), 1, params), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::closed_loop_flight_test

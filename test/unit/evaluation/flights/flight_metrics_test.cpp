@@ -5,8 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::flight_metrics_test {
 
 using simulation::Outcome;
 
@@ -63,5 +62,4 @@ TEST(FlightSummary, SurvivesNumbersThatAreNone) {
   EXPECT_NO_THROW(toJson(summarise({flight}), {}));
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::flight_metrics_test

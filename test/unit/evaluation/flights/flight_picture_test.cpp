@@ -4,8 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::flight_picture_test {
 
 using simulation::Outcome;
 
@@ -62,5 +61,4 @@ TEST(FlightStrip, ShowsTheFirstPictureOfEachStateAndTheLastOne) {
       << "three states and the last picture: two rows";
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::flight_picture_test

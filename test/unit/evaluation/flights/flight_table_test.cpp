@@ -7,8 +7,7 @@
 
 #include "evaluation/flights/flight_draws.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::flight_table_test {
 
 namespace fs = std::filesystem;
 using simulation::Outcome;
@@ -132,5 +131,4 @@ TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
   EXPECT_NE(errorOf("seed,wind/x_mps\n3\n").find(":2: "), std::string::npos);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::flight_table_test

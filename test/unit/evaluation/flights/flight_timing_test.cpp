@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::flight_timing_test {
 
 TEST(FlightTiming, GivesEachLapToItsStageAndSumsUp) {
   FlightTiming timing;
@@ -34,5 +33,4 @@ TEST(FlightTiming, TableNamesEveryStageAlsoWithoutAFlight) {
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::flight_timing_test

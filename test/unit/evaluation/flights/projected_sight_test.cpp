@@ -9,8 +9,7 @@
 #include "evaluation/flights/closed_loop_flight.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::projected_sight_test {
 
 const auto kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 const geometry::OpeningSize kOpening{1.2, 1.0};
@@ -95,5 +94,4 @@ TEST(ProjectedSight, AFlightWithoutPicturesPassesAndRepeats) {
   EXPECT_NE(flyOnce(scenario, 7, params).outcome, simulation::Outcome::kPassed);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::projected_sight_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::corner_statistics_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -82,5 +81,4 @@ TEST(CornerStatistics, DistancesBetweenTwo) {
   EXPECT_NEAR(meanCornerDistance(other, kTruth), 1.25, 1e-12);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::corner_statistics_test

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::detection_survey_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -156,5 +155,4 @@ TEST(SurveyTable, RowsOfTheTablesHaveTheirHeadersColumns) {
   EXPECT_EQ(count(exact, '|'), 3 * count(exact.substr(0, exact.find('\n')), '|'));
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::detection_survey_test

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <string>
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::detection_table_test {
 
 TEST(DetectionTable, RowsHaveAsManyFieldsAsTheHeader) {
   const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
@@ -51,5 +50,4 @@ TEST(DetectionTable, FieldsWithCommasAreQuoted) {
   EXPECT_EQ(csvField("a,\"b\""), "\"a,\"\"b\"\"\"");
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::detection_table_test

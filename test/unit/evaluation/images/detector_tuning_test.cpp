@@ -8,8 +8,7 @@
 #include "drawn_window.hpp"
 #include "window_ingress/parameters/field_list.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::detector_tuning_test {
 
 /// Small images of a window, and of walls.
 std::vector<LabelledPicture> pictures(int count, unsigned seed) {
@@ -87,5 +86,4 @@ TEST(TuneDetector, UsualFieldsAreFieldsOfTheDetector) {
   for (const std::string& name : usualFields()) EXPECT_NE(parameters::find(fields, name), nullptr) << name;
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::detector_tuning_test

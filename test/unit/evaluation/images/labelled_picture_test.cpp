@@ -12,8 +12,7 @@
 #include "evaluation/flights/flight_table.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::labelled_picture_test {
 
 namespace fs = std::filesystem;
 
@@ -158,5 +157,4 @@ TEST(Split, KeepsGroupsTogetherAndIsDrawnByTheSeed) {
   EXPECT_THROW(split({wall(), wall()}, 0.5, 1), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::labelled_picture_test

@@ -6,8 +6,7 @@
 
 #include "drawn_window.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::stage_sheet_test {
 
 constexpr int kWidth = 200;
 
@@ -50,5 +49,4 @@ TEST(StageSheet, BadInputIsRefused) {
   EXPECT_THROW(stageSheet(cv::Mat(240, 320, CV_8UC3), {}, nullptr, 3), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::stage_sheet_test

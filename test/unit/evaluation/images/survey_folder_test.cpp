@@ -7,8 +7,7 @@
 
 #include "evaluation/flights/flight_table.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::survey_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -114,5 +113,4 @@ TEST(SurveyPicture, ClosedWallHasThePlaceButNoTarget) {
   EXPECT_FALSE(picture.reference.empty()) << "the reference shows what is looked for";
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::survey_folder_test

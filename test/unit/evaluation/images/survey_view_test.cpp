@@ -7,8 +7,7 @@
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::survey_view_test {
 
 using Eigen::Vector3d;
 
@@ -101,5 +100,4 @@ TEST(SurveyView, ShutterSeesEachCornerInItsRowsTime) {
   EXPECT_NEAR(0.5 * (by_rows[geometry::kBottomLeft].x() + by_rows[0].x()), at_once[0].x(), 0.05);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::survey_view_test

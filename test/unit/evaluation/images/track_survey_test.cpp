@@ -6,8 +6,7 @@
 
 #include "evaluation/images/survey_flight.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::track_survey_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -163,5 +162,4 @@ TEST(SurveyFlight, MotionIsTheDerivativeOfThePose) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::track_survey_test

@@ -4,8 +4,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::truth_comparison_test {
 
 const geometry::OpeningSize kOpening{1.2, 1.0};
 const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
@@ -69,5 +68,4 @@ TEST(TruthComparison, SummaryCountsFoundMissedAndOthers) {
 
 TEST(TruthComparison, EmptySummaryHasAText) { EXPECT_FALSE(TruthSummary().text().empty()); }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::truth_comparison_test

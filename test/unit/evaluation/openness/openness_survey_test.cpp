@@ -7,8 +7,7 @@
 
 #include "simulation/scenario/scenario.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::openness_survey_test {
 
 using openness::Openness;
 
@@ -66,5 +65,4 @@ TEST(OpennessSurvey, ARowHasAsManyFieldsAsTheHeader) {
   EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::openness_survey_test

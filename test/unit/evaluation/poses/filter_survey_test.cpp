@@ -9,8 +9,7 @@
 
 #include "window_ingress/estimation/opening_fit.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::filter_survey_test {
 
 TEST(FilterSurvey, BandOfChiSquaredAgreesWithTables) {
   const Band one = chiSquaredBand(4, 1), many = chiSquaredBand(4, 200);
@@ -168,5 +167,4 @@ TEST(FilterSurvey, RunsWithoutATrustedSampleHaveNoMean) {
   EXPECT_FALSE(meanNees({FilterSample()}));
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::filter_survey_test

@@ -9,8 +9,7 @@
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::pose_chain_test {
 
 constexpr geometry::OpeningSize kOpening{1.2, 1.0};
 
@@ -87,5 +86,4 @@ TEST(PoseChain, ErrorsAreThoseOfThePose) {
   EXPECT_NE(table.find("| 3 | left | 1 |"), std::string::npos) << table;
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::pose_chain_test

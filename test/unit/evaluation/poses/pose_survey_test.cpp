@@ -8,8 +8,7 @@
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation {
-namespace {
+namespace window_ingress::evaluation::pose_survey_test {
 
 constexpr double kDegree = M_PI / 180.0;
 
@@ -119,5 +118,4 @@ TEST(PoseSurvey, ACellThatDoesNotFitIntoTheImageHasNoDraws) {
   EXPECT_EQ(surveyCell(usualSetup(), {0.5, 0.3, 0.2}, 5, 1).draws, 0);
 }
 
-}  // namespace
-}  // namespace window_ingress::evaluation
+}  // namespace window_ingress::evaluation::pose_survey_test

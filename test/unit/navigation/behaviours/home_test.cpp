@@ -7,8 +7,7 @@
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::home_test {
 
 TEST(Home, IsWhereTheMissionBeganAndStaysThereWhenTheOdometryJumps) {
   Home home;
@@ -51,5 +50,4 @@ TEST(MissionClock, CountsTimeButNoJumps) {
   EXPECT_EQ(clock.nowSec(), 50.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::home_test

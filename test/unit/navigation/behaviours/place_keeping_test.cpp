@@ -4,8 +4,7 @@
 
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::place_keeping_test {
 
 Situation standingAt(const Eigen::Vector3d& position_m, double speed_mps = 0.0) {
   Situation situation;
@@ -85,5 +84,4 @@ TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
   EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params).norm(), 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::place_keeping_test

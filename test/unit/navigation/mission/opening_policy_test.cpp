@@ -9,8 +9,7 @@
 #include "kinematic_plant.hpp"
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::opening_policy_test {
 
 using openness::Openness;
 
@@ -323,5 +322,4 @@ TEST(OpeningPolicy, TurnsBackFromOneThatTurnsOutToBeClosedOnTheWayIn) {
   EXPECT_FALSE(flight.mission.hit);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::opening_policy_test

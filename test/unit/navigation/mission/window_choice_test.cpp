@@ -5,8 +5,7 @@
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::window_choice_test {
 
 NavigatorInput inputFor(std::uint32_t window_id, double now_sec, double aside_m = 0.0) {
   NavigatorInput input = test::inputAt({-4.0, 0.0, 1.5}, now_sec);
@@ -98,5 +97,4 @@ TEST(WindowChoice, OnlyATryInVainIsTurnedIntoTheNextWindow) {
   EXPECT_EQ(decision.event, Event::kReacquired);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::window_choice_test

@@ -7,8 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::continuous_odometry_test {
 
 constexpr double kStep = 1.0 / 30.0;
 
@@ -291,5 +290,4 @@ TEST(ContinuousOdometry, AWayFlownWhileItWasGoneIsNotKnown) {
   EXPECT_TRUE(continuous.T_smooth_odom(curve.time).matrix().isIdentity(0.0));
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::continuous_odometry_test

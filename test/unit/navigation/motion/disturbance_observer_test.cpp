@@ -7,8 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::disturbance_observer_test {
 
 DisturbanceObserver observer() { return {VehicleParams(), ApproachParams()}; }
 
@@ -151,5 +150,4 @@ TEST(DisturbanceObserver, FeelsGustsWhileItIsToldToSteerAgainstThem) {
   EXPECT_GT(lateralGustOf(2.0 * kGustMps), 1.5 * lateralGustOf(kGustMps));
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::disturbance_observer_test

@@ -6,8 +6,7 @@
 
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::input_monitor_test {
 
 using test::inputAt;
 using test::targetAtOrigin;
@@ -190,5 +189,4 @@ TEST(InputFaults, ACovarianceWithHalvesThatDifferIsNone) {
   EXPECT_NE(faultOf(target, 0.26), "");
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::input_monitor_test

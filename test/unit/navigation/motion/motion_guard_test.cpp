@@ -6,8 +6,7 @@
 
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::motion_guard_test {
 
 const Eigen::Vector3d kWish(0.5, 0.4, 0.2);
 const Eigen::Vector3d kNothing = Eigen::Vector3d::Zero();
@@ -215,5 +214,4 @@ TEST_F(MotionGuard, NeverAddsSpeed) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::motion_guard_test

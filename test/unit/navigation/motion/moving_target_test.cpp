@@ -11,8 +11,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/navigation/commit_criterion.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::moving_target_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -134,5 +133,4 @@ TEST(MovingTarget, IsHandedOnWhereItIsNow) {
   EXPECT_EQ(situation.target->T_odom_window.matrix(), ahead(swinging(), 10.2).T_odom_window.matrix());
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::moving_target_test

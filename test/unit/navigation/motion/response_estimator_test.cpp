@@ -8,8 +8,7 @@
 
 #include "window_ingress/navigation/commit_criterion.hpp"
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::response_estimator_test {
 
 constexpr double kStep = 1.0 / 30.0, kAssumedSec = 0.3;
 
@@ -105,5 +104,4 @@ TEST(ResponseEstimator, ARestartForgetsTheMotionAndAResetTheVehicle) {
   EXPECT_EQ(estimator.responseSec(), kAssumedSec);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::response_estimator_test

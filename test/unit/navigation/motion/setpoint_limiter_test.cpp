@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::setpoint_limiter_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -107,5 +106,4 @@ TEST(SetpointLimiter, BoundsHoldForRandomWishes) {
   }
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::setpoint_limiter_test

@@ -7,8 +7,7 @@
 #include <deque>
 #include <limits>
 
-namespace window_ingress::navigation {
-namespace {
+namespace window_ingress::navigation::turn_to_come_test {
 
 constexpr double kDtSec = 1.0 / 30.0, kGainHz = 3.0, kLimitRadps = 0.5;
 
@@ -104,5 +103,4 @@ TEST(TurnToCome, AHeadingThatBeginsAnewIsNoTurn) {
   EXPECT_EQ(turn.rad(), 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::navigation
+}  // namespace window_ingress::navigation::turn_to_come_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace window_ingress::openness {
-namespace {
+namespace window_ingress::openness::edge_flow_test {
 
 /// A soft edge, bright to the right, that leans.
 cv::Mat edgeAt(float x, float lean) {
@@ -56,5 +55,4 @@ TEST(EdgeFlow, refusesWhatIsNotTheEdge) {
   EXPECT_FALSE(followAcross(key, edgeAt(60.0f, 0.0f), edge, edge.place)) << "too far away";
 }
 
-}  // namespace
-}  // namespace window_ingress::openness
+}  // namespace window_ingress::openness::edge_flow_test

@@ -5,8 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace window_ingress::openness {
-namespace {
+namespace window_ingress::openness::opening_cells_test {
 
 const geometry::OpeningSize kOpening{1.2, 1.0}, kNeeded{0.6, 0.5};
 
@@ -97,5 +96,4 @@ TEST(OpeningCells, sharesStayWithinBoundsWhateverComes) {
   EXPECT_GE(cells.shareOf({nan, 1.0}, {0.0, 1.0}).open, 0.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::openness
+}  // namespace window_ingress::openness::opening_cells_test

@@ -9,8 +9,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
-namespace window_ingress::openness {
-namespace {
+namespace window_ingress::openness::plane_parallax_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
@@ -125,5 +124,4 @@ TEST(PlaneParallax, refusesWhatCannotBeUsed) {
   EXPECT_FALSE(PlaneParallax::between(kCamera, borderFrom(key), borderFrom(now), behind, now.inverse(), {}));
 }
 
-}  // namespace
-}  // namespace window_ingress::openness
+}  // namespace window_ingress::openness::plane_parallax_test

@@ -4,8 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace window_ingress::openness {
-namespace {
+namespace window_ingress::openness::smooth_regions_test {
 
 constexpr int kSide = OpeningCells::kSide;
 constexpr double kSlope = 0.7;
@@ -72,5 +71,4 @@ TEST(SmoothRegions, pointsOutsideAndTinyPicturesHarmNothing) {
   EXPECT_EQ(regions.cellsBeside({1e6f, 1e6f}), 0u);
 }
 
-}  // namespace
-}  // namespace window_ingress::openness
+}  // namespace window_ingress::openness::smooth_regions_test

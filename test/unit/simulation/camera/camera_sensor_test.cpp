@@ -14,8 +14,7 @@
 #include "simulation/world.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::camera_sensor_test {
 
 constexpr double kPeriod_sec = 1.0 / 30.0;
 
@@ -332,5 +331,4 @@ TEST(CameraParams, RefusesWhatCannotBe) {
   EXPECT_THROW(World(scenario, 1), ScenarioError);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::camera_sensor_test

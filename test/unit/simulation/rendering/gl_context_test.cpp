@@ -12,8 +12,7 @@
 #include "simulation/rendering/osmesa_context.hpp"
 #endif
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::gl_context_test {
 
 TEST(GlContext, AnotherThreadTakesOver) {
   const Scene scene = buildScene(Scenario());
@@ -54,5 +53,4 @@ TEST(GlContext, OsmesaAndEglDrawTheSameWithMultisampling) {
 TEST(GlContext, OsmesaAndEglDrawTheSame) { GTEST_SKIP() << "needs both libosmesa6-dev and libegl-dev"; }
 #endif
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::gl_context_test

@@ -14,8 +14,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::renderer_test {
 
 using geometry::PinholeCamera;
 
@@ -294,5 +293,4 @@ TEST(Renderer, RefusesCamerasThatCannotBe) {
   EXPECT_THROW(Renderer(scene, camera), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::renderer_test

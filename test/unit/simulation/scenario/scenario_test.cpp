@@ -12,8 +12,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::scenario_test {
 
 const std::string kSource = WINDOW_INGRESS_SOURCE_DIR;
 
@@ -378,5 +377,4 @@ TEST(Scenario, EveryKeyStandsInTheDocumentationWithItsDefaultAndLimits) {
   ColourParams::visit(grey, colour);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::scenario_test

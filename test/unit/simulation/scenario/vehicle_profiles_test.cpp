@@ -11,8 +11,7 @@
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::vehicle_profiles_test {
 
 constexpr double kStep_sec = 0.0025;
 constexpr double kTolerance = 0.15;  // of each figure
@@ -344,5 +343,4 @@ TEST(VehicleProfiles, AreWithinTheRangesAndUnknownOnesChangeNothing) {
   EXPECT_EQ(odometry.rate_hz, OdometryParams().rate_hz);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::vehicle_profiles_test

@@ -10,8 +10,7 @@
 #include "simulation/scene/scene.hpp"
 #include "simulation/world.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::glass_test {
 
 using Eigen::Vector3d;
 
@@ -190,5 +189,4 @@ TEST(ClearPane, IsSolidThoughTheRoomIsSeenThroughIt) {
   EXPECT_NEAR(closed, open, 0.15 * open + 20.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::glass_test

@@ -5,8 +5,7 @@
 #include "../view.hpp"
 #include "simulation/scene/scene.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::scene_light_test {
 
 using Eigen::Vector3d;
 
@@ -134,5 +133,4 @@ TEST(Fog, TakesContrastWithDistanceButNotInTheRoom) {
   EXPECT_LT(inside, 100.0) << "five metres of room would be white";
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::scene_light_test

@@ -6,8 +6,7 @@
 
 #include "simulation/camera/lens.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::scene_test {
 
 bool isFree(const Scene& scene, const Eigen::Vector3d& position, const Eigen::Vector3d& half_extents) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -125,5 +124,4 @@ TEST(Lens, BeyondOneAndAHalfRadiansAFisheyeIsBlack) {
     }
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::scene_test

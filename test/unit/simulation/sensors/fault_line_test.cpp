@@ -7,8 +7,7 @@
 
 #include "simulation/random_stream.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::fault_line_test {
 
 constexpr double kStepSec = 0.01;
 
@@ -141,5 +140,4 @@ TEST(FaultLine, WhatNobodyTakesIsForgotten) {
   EXPECT_EQ(last, 4999);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::fault_line_test

@@ -9,8 +9,7 @@
 #include "simulation/world.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::faults_test {
 
 constexpr double kAtSec = 0.4, kEndSec = 0.8, kOverSec = 1.2;
 
@@ -296,5 +295,4 @@ TEST(Faults, WhatMakesNoSenseIsRefusedByName) {
   EXPECT_THROW(world.inject(params), ScenarioError);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::faults_test

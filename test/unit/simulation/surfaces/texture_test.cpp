@@ -6,8 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::texture_test {
 
 const std::vector<Texture> kTiling{Texture::kSiding,  Texture::kStone,  Texture::kPaint, Texture::kPlaster,
                                    Texture::kBrick,   Texture::kGrass,  Texture::kHedge, Texture::kTiles,
@@ -60,5 +59,4 @@ TEST(Textures, BoardsRunLevelAndPaintIsSmooth) {
   EXPECT_GT(deviation(makeTexture(Texture::kStone, 1)), 12.0);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::texture_test

@@ -6,8 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::dryden_gusts_test {
 
 constexpr double kAirspeed_mps = 5.0;
 constexpr int kAlong = 0, kAcross = 1, kUp = 2;
@@ -132,5 +131,4 @@ TEST(DrydenGusts, StayFiniteInStillAirAndOverLongSteps) {
       EXPECT_TRUE(model.step(step_sec, drydenScale(1.0, 10.0), airspeed_mps).allFinite());
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::dryden_gusts_test

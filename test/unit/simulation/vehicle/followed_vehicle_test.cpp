@@ -10,8 +10,7 @@
 #include "simulation/world.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::followed_vehicle_test {
 
 VehicleTruth at(double x_m, double yaw_rad = 0.0) {
   VehicleTruth truth;
@@ -113,5 +112,4 @@ TEST(ExternalVehicle, ThatFliesIntoTheWallCollides) {
   EXPECT_EQ(world.referee().judge(Claim::kNone).outcome, Outcome::kCollision);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::followed_vehicle_test

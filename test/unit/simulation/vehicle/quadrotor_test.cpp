@@ -7,8 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::quadrotor_test {
 
 constexpr double kStep_sec = 0.0025;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
@@ -263,5 +262,4 @@ TEST(Quadrotor, APushMovesItUntilTheTrimHasLearntIt) {
   EXPECT_LT(vehicle.truth().velocity_odom_mps.norm(), 0.005);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::quadrotor_test

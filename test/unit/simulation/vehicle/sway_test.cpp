@@ -7,8 +7,7 @@
 #include "simulation/world.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::sway_test {
 
 SwayParams swing(double direction_rad) {
   SwayParams params;
@@ -66,5 +65,4 @@ TEST(Sway, AVehicleThatHoversIsMetByAWallThatComes) {
   EXPECT_EQ(world.referee().judge(Claim::kNone).outcome, Outcome::kCollision);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::sway_test

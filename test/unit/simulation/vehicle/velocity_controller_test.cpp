@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::velocity_controller_test {
 
 constexpr double kStep_sec = 0.0025;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
@@ -94,5 +93,4 @@ TEST(VelocityController, NoPushIsTooStrongToBeLearntAway) {
   EXPECT_LT(velocity.norm(), 0.01);
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::velocity_controller_test

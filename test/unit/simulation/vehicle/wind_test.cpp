@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace window_ingress::simulation {
-namespace {
+namespace window_ingress::simulation::wind_test {
 
 constexpr double kStep_sec = 0.0025, kHalfLength_m = 0.2;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
@@ -118,5 +117,4 @@ TEST(Wind, TheWallDrawsWhoIsNearItFromEitherSideButNotInFrontOfTheOpening) {
   EXPECT_EQ(push(-0.3, 7.0), 0.0) << "beside the house";
 }
 
-}  // namespace
-}  // namespace window_ingress::simulation
+}  // namespace window_ingress::simulation::wind_test

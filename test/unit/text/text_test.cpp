@@ -1,9 +1,8 @@
-#include "window_ingress/parameters/text.hpp"
+#include "window_ingress/text/text.hpp"
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::parameters {
-namespace {
+namespace window_ingress::parameters::text_test {
 
 TEST(WithoutNumbers, ReasonsThatDifferInNumbersOnlyAreOne) {
   EXPECT_EQ(withoutNumbers("stamp is 0.75 s old, limit 0.5 s"), "stamp is # s old, limit # s");
@@ -18,5 +17,4 @@ TEST(WithoutNumbers, KeepsAllElse) {
   EXPECT_EQ(withoutNumbers(""), "");
 }
 
-}  // namespace
-}  // namespace window_ingress::parameters
+}  // namespace window_ingress::parameters::text_test

@@ -1,13 +1,27 @@
-#include "window_ingress/parameters/text.hpp"
+#include "window_ingress/text/text.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <cstdarg>
+#include <cstdio>
 
-namespace window_ingress::parameters {
+namespace window_ingress {
 namespace {
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 }  // namespace
+
+std::string formatted(const char* pattern, ...) {
+  va_list values, again;
+  va_start(values, pattern);
+  va_copy(again, values);
+  std::string text(static_cast<std::size_t>(std::max(0, std::vsnprintf(nullptr, 0, pattern, values))), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  va_end(values);
+  return text;
+}
 
 std::string withoutNumbers(const std::string& text) {
   std::string kept;
@@ -22,4 +36,4 @@ std::string withoutNumbers(const std::string& text) {
   return kept;
 }
 
-}  // namespace window_ingress::parameters
+}  // namespace window_ingress
