@@ -11,7 +11,7 @@ set(folder ${PROJECT_SOURCE_DIR}/test/benchmark)
 add_library(benchmark_support STATIC EXCLUDE_FROM_ALL ${folder}/frame_set.cpp ${folder}/subjects.cpp ${folder}/stages.cpp
             ${folder}/marker_subjects.cpp)
 target_include_directories(benchmark_support PUBLIC ${folder} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test/support)
-target_link_libraries(benchmark_support PUBLIC ${PROJECT_NAME}_core opencv_imgcodecs nlohmann_json::nlohmann_json)
+target_link_libraries(benchmark_support PUBLIC ${PROJECT_NAME}_vision opencv_imgcodecs nlohmann_json::nlohmann_json)
 
 find_path(APRILTAG_INCLUDE_DIR apriltag/apriltag.h)
 find_library(APRILTAG_LIBRARY apriltag)

@@ -12,20 +12,23 @@ function(add_adapters name)
   #catkin_lint: ignore_once external_directory external_interface_path
   target_include_directories(${name} SYSTEM PUBLIC
                              ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} opencv_imgcodecs ${catkin_LIBRARIES})
+  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} ${catkin_LIBRARIES})
   add_dependencies(${name} ${${PROJECT_NAME}_EXPORTED_TARGETS})
   install(TARGETS ${name} ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
           LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
 add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources DEPENDS ${PROJECT_NAME}_core)
+# Apart from what steers: libraries for image files take 60 MB in each process.
+add_adapters(${PROJECT_NAME}_image_adapters FOLDERS images
+             DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_vision opencv_imgcodecs)
 # Apart from what flies: the renderer's libraries would take 46 MB in each node.
-add_adapters(${PROJECT_NAME}_world_adapters FOLDERS world DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_simulation)
+add_adapters(${PROJECT_NAME}_world_adapters FOLDERS world DEPENDS ${PROJECT_NAME}_image_adapters ${PROJECT_NAME}_simulation)
 add_adapters(${PROJECT_NAME}_bags FOLDERS bags DEPENDS ${PROJECT_NAME}_world_adapters ${PROJECT_NAME}_evaluation)
 
 # Only the registration macros: a node that links the classes must not register plugins.
 add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodes/nodelets.cpp)
-target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_adapters -Wl,-z,defs)
+target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_image_adapters -Wl,-z,defs)
 
 file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*.cpp)
 foreach(source ${node_sources})
@@ -33,10 +36,8 @@ foreach(source ${node_sources})
   set(target ${PROJECT_NAME}_${node})
   add_executable(${target} ${source})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${node} PREFIX "")
-  target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters)
-  if(node STREQUAL world)
-    target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_world_adapters)
-  endif()
+  # All in one line: what a node does not call is not loaded with it.
+  target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_adapters ${PROJECT_NAME}_image_adapters ${PROJECT_NAME}_world_adapters)
   list(APPEND node_targets ${target})
   install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endforeach()

@@ -40,7 +40,7 @@ add_dependencies(fuzz_messages ${${PROJECT_NAME}_EXPORTED_TARGETS})
 set(bags bag_check bag_topics replay replay_facts replay_tables recorded_transforms)
 list(TRANSFORM bags PREPEND ${source_root}/adapters/bags/)
 list(TRANSFORM bags APPEND .cpp)
-add_sanitized_library(fuzz_bags FILES ${bags} ${source_root}/adapters/sources/reference_source.cpp LIBRARIES fuzz_messages fuzz_evaluation)
+add_sanitized_library(fuzz_bags FILES ${bags} ${source_root}/adapters/images/reference_source.cpp LIBRARIES fuzz_messages fuzz_evaluation)
 
 # add_fuzzer(name libraries...)
 function(add_fuzzer name)

@@ -1,4 +1,4 @@
-#include "adapters/nodes/image_compressor.hpp"
+#include "adapters/images/image_compressor.hpp"
 
 int main(int argc, char** argv) {
   return window_ingress::adapters::runNode<window_ingress::adapters::ImageCompressorNode>(argc, argv,

@@ -1,4 +1,4 @@
-#include "adapters/nodes/detector_node.hpp"
+#include "adapters/images/detector_node.hpp"
 
 int main(int argc, char** argv) {
   return window_ingress::adapters::runNode<window_ingress::adapters::DetectorNode>(argc, argv,

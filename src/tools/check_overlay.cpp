@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "adapters/images/reference_source.hpp"
 #include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/sources/parameters.hpp"
-#include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "launch_arguments.hpp"
 #include "window_ingress/configuration/overlay.hpp"

@@ -16,7 +16,7 @@
 #include "adapters/bags/replay.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/bags/replay_tables.hpp"
-#include "adapters/nodes/detector_node.hpp"
+#include "adapters/images/detector_node.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "adapters/images/reference_source.hpp"
 #include "adapters/sources/parameters.hpp"
-#include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "display.hpp"
 #include "evaluation/statistics.hpp"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "adapters/bags/labelled_bag.hpp"
+#include "adapters/images/reference_source.hpp"
 #include "adapters/sources/parameters.hpp"
-#include "adapters/sources/reference_source.hpp"
 #include "command_line.hpp"
 #include "evaluation/images/detector_tuning.hpp"
 #include "params_file.hpp"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "adapters/conversions/image_from_msg.hpp"
+#include "adapters/images/image_from_msg.hpp"
 #include "pictures.hpp"
 #include "targets.hpp"
 #include "window_ingress/detection/window_tracker.hpp"

@@ -1,4 +1,4 @@
-#include "adapters/conversions/image_from_msg.hpp"
+#include "adapters/images/image_from_msg.hpp"
 #include "pictures.hpp"
 #include "targets.hpp"
 

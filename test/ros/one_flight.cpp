@@ -19,7 +19,7 @@
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay.hpp"
 #include "adapters/conversions/stamps.hpp"
-#include "adapters/sources/reference_source.hpp"
+#include "adapters/images/reference_source.hpp"
 #include "evaluation/flights/closed_loop_flight.hpp"
 #include "evaluation/flights/flight_perception.hpp"
 #include "window_ingress/configuration/overlay.hpp"

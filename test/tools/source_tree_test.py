@@ -60,3 +60,33 @@ def test_a_test_stands_where_its_subject_does(test):
     places = [file.parent.relative_to(ROOT / "src") for file in (ROOT / "src" / folder.parts[0]).rglob(f"{subject}.?pp")]
     places += [header.parent.relative_to(PUBLIC) for header in (PUBLIC / folder.parts[0]).rglob(f"{subject}.hpp")]
     assert not places or folder in places
+
+
+def hidden_names(file):
+    """What unnamed namespaces of a source define: constants, types, and functions with what they take."""
+    for block in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", file.read_text(encoding="utf-8"), re.M | re.S):
+        block = re.sub(r"//.*", "", block)
+        for statement in re.findall(r"^(?=[\w[]).*?(?=[;{]|\n\n)", block, re.M | re.S):
+            constants = re.findall(r"\b(k[A-Z]\w*)(?= =|,|$|\[)", statement) if re.match(r"(inline )?const", statement) else []
+            function = re.search(r"\b(\w+)\(([^()]*)\)", statement)
+            kind = re.match(r"(?:template <.*?>\s)?(?:struct|class|enum class) (\w+)", statement)
+            if kind:
+                yield kind.group(1)
+            elif constants:
+                yield from constants
+            elif function and not statement.startswith(("using", "static_assert")):
+                types = re.sub(r" [a-z]\w*(?= =|,|$)", "", function.group(2))
+                yield f"{function.group(1)}({types})"
+
+
+@pytest.mark.parametrize("library, but", [("adapters", ""), ("evaluation", ""), ("simulation", ""), ("*", "adapters|detection|evaluation|simulation|nodes|tools|interior|perception")])
+def test_unnamed_namespaces_share_no_name(library, but):
+    """Sources are compiled in batches: whichever of them meet, no name may stand for two things."""
+    found = collections.defaultdict(set)
+    for file in (ROOT / "src").glob(f"{library}/**/*.cpp"):
+        if not but or not re.search(f"/src/({but})/|/interior/", str(file)):
+            space = re.search(r"^namespace (window_ingress[\w:]*)", file.read_text(encoding="utf-8"), re.M)
+            for name in set(hidden_names(file)):
+                found[space and space.group(1), name].add(file.name)
+    assert found
+    assert not {f"{name}: {sorted(files)}" for (_, name), files in found.items() if len(files) > 1}

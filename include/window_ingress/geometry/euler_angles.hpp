@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace window_ingress::geometry {
+
+inline constexpr double kDegreesPerRad = 180.0 / M_PI;
 
 /// Euler angles of the paper [rad]: theta about x, phi about y, psi about z.
 ///

@@ -10,8 +10,8 @@
 #include <map>
 #include <optional>
 
-#include "adapters/conversions/image_from_msg.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/images/image_from_msg.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "adapters/bags/bag_topics.hpp"
-#include "adapters/conversions/image_from_msg.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/images/image_from_msg.hpp"
 #include "evaluation/images/detection_table.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/estimation/window_filter.hpp"

@@ -45,7 +45,7 @@ Json countsOf(const ReplaySummary& summary) {
           {"refused_because", summary.reasons}};
 }
 
-std::string quoted(const std::string& argument) {
+std::string shellQuoted(const std::string& argument) {
   constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@%";
   if (!argument.empty() && argument.find_first_not_of(kPlain) == std::string::npos) return argument;
   std::string text = "'";
@@ -79,7 +79,7 @@ void writeFacts(const std::filesystem::path& folder, const std::string& command,
 
 std::string commandLine(int argc, char** argv) {
   std::string text = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
-  for (int i = 1; i < argc; ++i) text += " " + quoted(argv[i]);
+  for (int i = 1; i < argc; ++i) text += " " + shellQuoted(argv[i]);
   return text;
 }
 

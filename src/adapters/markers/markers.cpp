@@ -7,6 +7,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -119,12 +120,12 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
 
 std::string windowLabel(const window_ingress::WindowPose& message) {
   static const char* const kFits[] = {"fit?", "GO", "NO GO"};
-  constexpr double kDegrees = 180.0 / M_PI;
   const window_ingress::RelativeYaw& yaw = message.image.relative_yaw;
   const window_ingress::SystemChecks& checks = message.checks;
   char sight[80], text[240];
   if (message.image.reject == window_ingress::ImagePose::OK)
-    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", yaw.angle * kDegrees, yaw.sigma * kDegrees);
+    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", yaw.angle * geometry::kDegreesPerRad,
+                  yaw.sigma * geometry::kDegreesPerRad);
   else
     std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered.age);
   std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.size.width, message.size.height,

@@ -8,7 +8,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kPeriodSec = 0.5;
+constexpr double kFacadePeriodSec = 0.5;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void FacadeLink::receiveState(const window_ingress::IngressState& message) {
 void FacadeLink::publish(const ros::Time& stamp, ros::Publisher& markers) {
   const double now_sec = steadyNowSec();
   const std::uint32_t target = tracker_.facade().targetId();
-  if (now_sec - published_sec_ < kPeriodSec && target == published_target_) return;
+  if (now_sec - published_sec_ < kFacadePeriodSec && target == published_target_) return;
   const window_ingress::Facade message = tell(stamp);
   if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
 }

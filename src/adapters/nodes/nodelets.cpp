@@ -9,7 +9,7 @@
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "adapters/nodes/detector_node.hpp"
+#include "adapters/images/detector_node.hpp"
 #include "adapters/nodes/navigator_node.hpp"
 #include "adapters/nodes/pose_node.hpp"
 #include "adapters/sources/console_pump.hpp"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPeriodSec = 1.0;  // of messages while nothing changes
 constexpr double kLookSec = 0.2;
-constexpr double kFrozenClockSec = 1.0;
+constexpr double kUnhealthyClockSec = 1.0;
 constexpr double kGraceSec =
     3.0;  // after the start, in which neighbours come up: nothing is said to be wrong
 constexpr double kQuietSec = 5.0;   // between two warnings about one topic
@@ -146,7 +146,7 @@ Health Diagnostics::clockHealth() {
     return {Health::kError,
             "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the "
             "world, or set use_sim_time to false"};
-  if (steady_sec - clock_moved_sec_ > kFrozenClockSec)
+  if (steady_sec - clock_moved_sec_ > kUnhealthyClockSec)
     return {Health::kWarn,
             "/clock stands still since " + withTwoDecimals(steady_sec - clock_moved_sec_) + " s"};
   return {};

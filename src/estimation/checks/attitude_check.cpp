@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "window_ingress/geometry/euler_angles.hpp"
+
 namespace window_ingress::estimation {
 namespace {
 
@@ -21,7 +23,7 @@ bool AttitudeCheck::see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Mat
   if (in_a_row_ > -kEnough) return agree;
   char text[160];
   std::snprintf(text, sizeof text, "attitude of the imu is %.0f deg off that of the odometry: other axes?",
-                apart_rad * 180.0 / M_PI);
+                apart_rad * geometry::kDegreesPerRad);
   verdict_ = {FramesVerdict::kWrong, text};
   return false;
 }

@@ -45,8 +45,6 @@ BodyTurn bodyTurn(const CameraTurn& camera, double sigmas) {
   return {turn, (turn.cwiseAbs() - sigmas * sigma).maxCoeff(), (turn.cwiseAbs() + sigmas * sigma).maxCoeff()};
 }
 
-double degrees(double radians) { return radians * 180.0 / M_PI; }
-
 std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
   static const char* const kAxes[] = {"roll", "pitch", "yaw"};
   std::string text;
@@ -55,7 +53,7 @@ std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
     if (std::abs(roll_pitch_yaw_rad(axis)) < 0.5 * largest) continue;
     char part[60];
     std::snprintf(part, sizeof part, "%s%.0f deg in %s", text.empty() ? "" : " and ",
-                  degrees(roll_pitch_yaw_rad(axis)), kAxes[axis]);
+                  geometry::kDegreesPerRad * roll_pitch_yaw_rad(axis), kAxes[axis]);
     text += part;
   }
   return "camera mounting turned by about " + text;

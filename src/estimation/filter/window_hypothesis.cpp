@@ -15,7 +15,7 @@ using Matrix = WindowState::Matrix;
 using Index = WindowState::Index;
 using Weight = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 
-constexpr int kMaxIterations = 20;
+constexpr int kMaxDescents = 20;
 constexpr double kConverged = 1e-5;  // of a step's squared Mahalanobis length
 constexpr double kPriorPositionSigmaM = 3.0;
 constexpr double kStandingSigma = 1e-6;  // heights per second: beyond all doubt, yet invertible
@@ -76,7 +76,7 @@ class HypothesisFit {
 
   FitState descend(FitState best) const {
     double damping = 1e-6;
-    for (int iteration = 0; iteration < kMaxIterations && damping < 1e8; ++iteration) {
+    for (int iteration = 0; iteration < kMaxDescents && damping < 1e8; ++iteration) {
       Matrix damped = best.information;
       damped.diagonal() *= 1.0 + damping;
       const Vector step = -damped.llt().solve(best.gradient);

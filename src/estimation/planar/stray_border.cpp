@@ -8,13 +8,13 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kStraySigma = 0.03;  // of a side's length
-constexpr double kMinEvidence = 7.5;  // for a stray border [nats]
+constexpr double kStraySigma = 0.03;       // of a side's length
+constexpr double kMinStrayEvidence = 7.5;  // for a stray border [nats]
 
 // Where keystone alone knows the yaw far worse, the more evidence is needed: what looks like a stray border
 // is then more likely keystone's own noise.
 double neededEvidence(const WindowPoseEstimate& all) {
-  return kMinEvidence + 2.0 * std::log(std::max(1.0, all.sigma_u_rad / all.yaw_sigma_rad));
+  return kMinStrayEvidence + 2.0 * std::log(std::max(1.0, all.sigma_u_rad / all.yaw_sigma_rad));
 }
 
 }  // namespace

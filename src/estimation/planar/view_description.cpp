@@ -14,7 +14,7 @@ namespace {
 constexpr double kCertain = 1e9;
 constexpr int kPoseParameters = 6;
 // 99 % of sums of 0, 1, .. 8 squares are smaller.
-constexpr std::array<double, 9> kExpectedSquares{6.63, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81, 18.48, 20.09};
+constexpr std::array<double, 9> kChiSquared99{6.63, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81, 18.48, 20.09};
 
 Eigen::Vector3d rayOf(const geometry::PinholeCamera& camera, const Eigen::Vector2d& ideal_px) {
   return {(ideal_px.x() - camera.cx) / camera.fx, (ideal_px.y() - camera.cy) / camera.fy, 1.0};
@@ -63,7 +63,7 @@ void widen(double factor, PlanarSolution& solution) {
 
 double misfitOf(const RefinementProblem& problem, const PlanarSolution& best) {
   const int spare = problem.image.size() + (problem.prior ? kPoseParameters : 0) - kPoseParameters;
-  const double beyond = 2.0 * best.cost - kExpectedSquares[std::clamp(spare, 0, 8)];
+  const double beyond = 2.0 * best.cost - kChiSquared99[std::clamp(spare, 0, 8)];
   return 1.0 + std::max(0.0, beyond) / std::max(1, spare);
 }
 

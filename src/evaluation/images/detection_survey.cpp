@@ -6,6 +6,7 @@
 
 #include "evaluation/images/detection_table.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
@@ -14,7 +15,6 @@ namespace {
 using geometry::Quadrilateral;
 
 constexpr double kOnTargetIou = 0.5, kOnBorderIou = 0.8;
-constexpr double kDegreesPerRad = 57.29577951308232;
 
 std::string corners(const Quadrilateral& quad) {
   std::string text;
@@ -89,9 +89,10 @@ std::string surveyColumns() {
 
 std::string surveyRow(const SurveyResult& result) {
   const auto& window = result.window;
-  std::string text =
-      result.scenario + "," + std::to_string(result.seed) + "," + formatted("%.3f", result.distance_m) + "," +
-      formatted("%.2f", result.off_axis_rad * kDegreesPerRad) + "," + toString(result.verdict) + ",";
+  std::string text = result.scenario + "," + std::to_string(result.seed) + "," +
+                     formatted("%.3f", result.distance_m) + "," +
+                     formatted("%.2f", result.off_axis_rad * geometry::kDegreesPerRad) + "," +
+                     toString(result.verdict) + ",";
   if (window) text += formatted("%.4f", window->score);
   text += ",";
   if (window && window->has_appearance) text += formatted("%.4f", window->bhattacharyya);

@@ -17,7 +17,7 @@ namespace {
 using detection::DetectorParams;
 using geometry::Quadrilateral;
 
-constexpr int kColumns = 3, kGap_px = 6, kSmallest_px = 64;
+constexpr int kSheetColumns = 3, kGap_px = 6, kSmallest_px = 64;
 constexpr double kBackground = 0.35;  ///< brightness of the image behind what was found in it
 const cv::Scalar kGreen(60, 230, 60), kOrange(60, 170, 255), kBlue(255, 190, 90), kWhite(255, 255, 255);
 
@@ -49,11 +49,12 @@ class Sheet {
 
   cv::Mat draw() const {
     const cv::Size size = cells_.front().size();
-    const int rows = (static_cast<int>(cells_.size()) + kColumns - 1) / kColumns;
-    cv::Mat sheet(rows * size.height + kGap_px, kColumns * size.width + kGap_px, CV_8UC3,
+    const int rows = (static_cast<int>(cells_.size()) + kSheetColumns - 1) / kSheetColumns;
+    cv::Mat sheet(rows * size.height + kGap_px, kSheetColumns * size.width + kGap_px, CV_8UC3,
                   cv::Scalar::all(24));
     for (int i = 0; i < static_cast<int>(cells_.size()); ++i)
-      cells_[i].copyTo(sheet(cv::Rect({i % kColumns * size.width, i / kColumns * size.height}, size)));
+      cells_[i].copyTo(
+          sheet(cv::Rect({i % kSheetColumns * size.width, i / kSheetColumns * size.height}, size)));
     return sheet;
   }
 

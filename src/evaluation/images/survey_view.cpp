@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using simulation::RandomStream;
 
-constexpr int kTries = 20000;
+constexpr int kViewTries = 20000;
 constexpr double kViewHeight_m = 0.4, kTilt_rad = 0.15, kSpeed_mps = 0.25, kTurn_radps = 0.08;
 constexpr double kMinHeight_m = 0.3;  // above the ground
 constexpr double kInFront_m = 0.004;  // of the border: what the line of sight must reach
@@ -117,7 +117,7 @@ SurveyView drawView(const simulation::Scenario& scenario, const simulation::Scen
                     const geometry::PinholeCamera& camera, const ViewRange& range, std::uint32_t seed) {
   RandomStream random(seed, "survey view");
   const double half_fov_rad = std::atan(0.5 * camera.width / camera.fx);
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < kViewTries; ++i) {
     const SurveyView view = draw(random, range, scene.ground_z_m, half_fov_rad);
     const auto quad =
         projectMoving(camera, view.motion, scenario.camera.readout_sec, scenario.opening(), 0.0);

@@ -5,13 +5,12 @@
 #include <cstdio>
 
 #include "evaluation/images/track_survey.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/median.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
-
-constexpr double kDegreesPerRad = 57.29577951308232;
 
 bool showsWhole(const geometry::Quadrilateral& quad, const geometry::PinholeCamera& camera) {
   const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
@@ -71,8 +70,9 @@ std::string TruthSummary::text() const {
       "median error of the yaw %.3f deg, of the distance %.4f m (%zu poses)\n",
       images, whole, found, whole > 0 ? 100.0 * found / whole : 0.0, exchanged, partly, imagined,
       corners.rms().x(), corners.rms().y(), corners.mean().x(), corners.mean().y(), corners.outward(),
-      corners.median(), corners.worst(), corners.frames(), medianOrZero(yaw_errors_rad) * kDegreesPerRad,
-      medianOrZero(distance_errors_m), yaw_errors_rad.size());
+      corners.median(), corners.worst(), corners.frames(),
+      medianOrZero(yaw_errors_rad) * geometry::kDegreesPerRad, medianOrZero(distance_errors_m),
+      yaw_errors_rad.size());
   return line;
 }
 

@@ -3,12 +3,12 @@
 
 #include "evaluation/poses/pose_chain.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 const char* const kSides[] = {"top", "right", "bottom", "left"};
 
 using Group = std::vector<const PoseChainResult*>;
@@ -44,7 +44,7 @@ std::string poseRow(int distance_m, const Group& group) {
   for (const PoseChainResult* r : group) {
     detected += r->detected;
     if (!r->estimate) continue;
-    yaw.push_back(r->yaw_error_rad / kDegree);
+    yaw.push_back(r->yaw_error_rad * geometry::kDegreesPerRad);
     lateral.push_back(100.0 * r->lateral_error_m);
     distance.push_back(100.0 * r->distance_error_m / r->distance_m);
     normalised.push_back(r->yaw_error_rad / r->estimate->yaw_sigma_rad);

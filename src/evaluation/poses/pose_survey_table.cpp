@@ -2,12 +2,11 @@
 
 #include "evaluation/poses/pose_survey.hpp"
 #include "evaluation/statistics.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 double ratio(const PoseCellResult& result, int method) {
   return result.methods[method].yawRms() / result.yaw_bound_rad;
@@ -34,16 +33,19 @@ std::string poseSurveyColumns() {
 }
 
 std::string poseSurveyRow(const PoseCellResult& r) {
-  std::string text = formatted("%g", r.cell.distance_m) + formatted(",%g", r.cell.yaw_rad / kDegree) +
-                     formatted(",%g", r.cell.sample_sigma_px) + "," + std::to_string(r.draws) +
-                     formatted(",%.6f", r.yaw_bound_rad / kDegree) + formatted(",%.6f", r.lateral_bound_m) +
-                     formatted(",%.6f", r.sigma_u_rad / kDegree) + (r.signIsDecidable() ? ",1," : ",0,") +
-                     std::to_string(r.trusted) + "," + std::to_string(r.trusted_wrong) +
-                     formatted(",%.6f", std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted)) / kDegree) +
-                     formatted(",%.4f", r.yaw_consistency);
+  std::string text =
+      formatted("%g", r.cell.distance_m) + formatted(",%g", r.cell.yaw_rad * geometry::kDegreesPerRad) +
+      formatted(",%g", r.cell.sample_sigma_px) + "," + std::to_string(r.draws) +
+      formatted(",%.6f", r.yaw_bound_rad * geometry::kDegreesPerRad) + formatted(",%.6f", r.lateral_bound_m) +
+      formatted(",%.6f", r.sigma_u_rad * geometry::kDegreesPerRad) + (r.signIsDecidable() ? ",1," : ",0,") +
+      std::to_string(r.trusted) + "," + std::to_string(r.trusted_wrong) +
+      formatted(",%.6f",
+                std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted)) * geometry::kDegreesPerRad) +
+      formatted(",%.4f", r.yaw_consistency);
   for (const MethodErrors& errors : r.methods)
-    text += formatted(",%.6f", errors.yawRms() / kDegree) + formatted(",%.6f", errors.lateralRms()) + "," +
-            std::to_string(errors.wrong_signs) + "," + std::to_string(errors.failed);
+    text += formatted(",%.6f", errors.yawRms() * geometry::kDegreesPerRad) +
+            formatted(",%.6f", errors.lateralRms()) + "," + std::to_string(errors.wrong_signs) + "," +
+            std::to_string(errors.failed);
   return text;
 }
 
@@ -54,9 +56,11 @@ std::string poseSurveyTable(const std::vector<PoseCellResult>& results) {
     text += " " + nameOfMethod(method) + " |", rule += "---|";
   text += "\n" + rule + "\n";
   for (const PoseCellResult& r : results) {
-    text += "| " + formatted("%g", r.cell.distance_m) + formatted(" | %g", r.cell.yaw_rad / kDegree) +
-            formatted(" | %g", r.cell.sample_sigma_px) + formatted(" | %.3f", r.yaw_bound_rad / kDegree) +
-            formatted(" | %.3f", r.sigma_u_rad / kDegree) +
+    text += "| " + formatted("%g", r.cell.distance_m) +
+            formatted(" | %g", r.cell.yaw_rad * geometry::kDegreesPerRad) +
+            formatted(" | %g", r.cell.sample_sigma_px) +
+            formatted(" | %.3f", r.yaw_bound_rad * geometry::kDegreesPerRad) +
+            formatted(" | %.3f", r.sigma_u_rad * geometry::kDegreesPerRad) +
             formatted(" | %.0f |", 100.0 * r.trusted / std::max(1, r.draws));
     for (int method = 0; method < kPoseMethods; ++method) text += formatted(" %.2f |", ratio(r, method));
     text += "\n";
@@ -83,7 +87,7 @@ std::string poseSurveySummary(const std::vector<PoseCellResult>& results) {
   if (at != nullptr)
     text += formatted("largest yaw RMSE / bound %.3f", worst) + " of " + std::to_string(decidable) +
             " cells with sigma_u < yaw / 3, at " + formatted("%g m, ", at->cell.distance_m) +
-            formatted("%g deg, ", at->cell.yaw_rad / kDegree) +
+            formatted("%g deg, ", at->cell.yaw_rad * geometry::kDegreesPerRad) +
             formatted("%g px\n", at->cell.sample_sigma_px);
   return text;
 }

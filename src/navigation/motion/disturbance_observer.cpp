@@ -14,10 +14,6 @@ constexpr double kMinShareGone = 0.6;
 constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
 
 /// Share of a first-order step that is made in this time.
-double share(double dt_sec, double time_constant_sec) {
-  return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
-}
-
 Eigen::Vector3d verticalOf(const Eigen::Vector3d& velocity_mps) { return {0.0, 0.0, velocity_mps.z()}; }
 
 Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {

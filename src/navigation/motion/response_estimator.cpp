@@ -12,14 +12,16 @@ namespace {
 constexpr std::array<double, 7> kResponsesSec{0.12, 0.17, 0.24, 0.33, 0.46, 0.64, 0.9};
 constexpr std::array<double, 5> kAccelerationsMps2{std::numeric_limits<double>::infinity(), 1.4, 1.0, 0.7,
                                                    0.5};
-constexpr double kDeadTimeSec = 0.1, kMinLagSec = 0.02;
+constexpr double kMinDeadTimeSec = 0.1, kMinLagSec = 0.02;
 constexpr double kOffsetSec = 3.0, kErrorSec = 12.0, kChangeSec = 0.5;
 constexpr double kExplains = 0.7;       // of the mean square that a vehicle which stands would leave
 constexpr double kClearlyBetter = 0.9;  // of the mean square of the one chosen so far
 
-double share(double dt_sec, double time_constant_sec) { return 1.0 - std::exp(-dt_sec / time_constant_sec); }
-
 }  // namespace
+
+double share(double dt_sec, double time_constant_sec) {
+  return time_constant_sec > 0.0 ? 1.0 - std::exp(-dt_sec / time_constant_sec) : 1.0;
+}
 
 ResponseEstimator::ResponseEstimator(double assumed_sec) : assumed_sec_(assumed_sec) { reset(); }
 
@@ -49,7 +51,7 @@ void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen:
   usual_command_mps_ += share(dt_sec, kChangeSec) * new_mps;
   excitation_ += dt_sec * new_mps.squaredNorm();
   for (Model& model : models_) {
-    const double lag_sec = std::max(kMinLagSec, model.response_sec - kDeadTimeSec);
+    const double lag_sec = std::max(kMinLagSec, model.response_sec - kMinDeadTimeSec);
     Eigen::Vector3d change_mps = share(dt_sec, lag_sec) * (asked_mps - model.velocity_mps);
     const double most_mps = model.acceleration_mps2 * dt_sec;
     const double size_mps = change_mps.norm();
@@ -66,7 +68,7 @@ void ResponseEstimator::update(const Eigen::Vector3d& measured_mps, const Eigen:
 Eigen::Vector3d ResponseEstimator::delayed(const Eigen::Vector3d& commanded_mps, double dt_sec) {
   now_sec_ += dt_sec;
   commands_.push_back({now_sec_, commanded_mps});
-  while (commands_.size() > 1 && commands_[1].sec <= now_sec_ - kDeadTimeSec) commands_.pop_front();
+  while (commands_.size() > 1 && commands_[1].sec <= now_sec_ - kMinDeadTimeSec) commands_.pop_front();
   return commands_.front().velocity_mps;
 }
 

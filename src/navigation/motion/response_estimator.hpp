@@ -6,6 +6,9 @@
 
 namespace window_ingress::navigation {
 
+/// Of a step that a first order lag has followed after `dt_sec`.
+double share(double dt_sec, double time_constant_sec);
+
 /// How the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
 /// different time constants and limits of acceleration, all fed with the setpoints that were sent, the one
 /// whose velocity is most like the measured one. A steady difference (wind, a biased velocity) counts for

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/sources/reference_source.hpp"
+#include "adapters/images/reference_source.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "adapters/nodes/detector_node.hpp"
+#include "adapters/images/detector_node.hpp"
 #include "adapters/nodes/navigator_node.hpp"
 #include "adapters/nodes/pose_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"

@@ -1,4 +1,4 @@
-#include "adapters/sources/reference_source.hpp"
+#include "adapters/images/reference_source.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -20,7 +20,7 @@ bool writePicture(const std::string& file, const cv::Mat& picture) {
 }
 
 // A text in YAML's single quotes.
-std::string quoted(const std::string& text) {
+std::string yamlQuoted(const std::string& text) {
   std::string result = "'";
   for (char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
   return result + "'";
@@ -65,7 +65,8 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
                          "' as a picture, or what is beside it");
   const fs::path text = fs::path(path).replace_extension(".yaml");
   std::ofstream output(text);
-  output << "window_detector:\n  reference:\n    picture: " << quoted(path.string()) << "\n    corners: [";
+  output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(path.string())
+         << "\n    corners: [";
   for (int i = 0; i < 4; ++i) output << (i ? ", " : "") << opening[i].x() << ", " << opening[i].y();
   output << "]\n";
   output.close();

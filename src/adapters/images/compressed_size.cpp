@@ -1,4 +1,4 @@
-#include "adapters/conversions/compressed_size.hpp"
+#include "adapters/images/compressed_size.hpp"
 
 #include <algorithm>
 #include <array>

@@ -14,15 +14,15 @@
 #include <vector>
 
 #include "adapters/conversions/stamps.hpp"
-#include "adapters/nodes/picture_times.hpp"
+#include "adapters/images/image_source.hpp"
+#include "adapters/images/picture_times.hpp"
+#include "adapters/images/reference_source.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/attitude_source.hpp"
 #include "adapters/sources/camera_source.hpp"
 #include "adapters/sources/diagnostics.hpp"
-#include "adapters/sources/image_source.hpp"
 #include "adapters/sources/lockstep.hpp"
 #include "adapters/sources/reconfigure.hpp"
-#include "adapters/sources/reference_source.hpp"
 #include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/perception/window_perception.hpp"

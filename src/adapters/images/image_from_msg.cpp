@@ -1,4 +1,4 @@
-#include "adapters/conversions/image_from_msg.hpp"
+#include "adapters/images/image_from_msg.hpp"
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "adapters/conversions/compressed_size.hpp"
+#include "adapters/images/compressed_size.hpp"
 
 namespace window_ingress::adapters {
 namespace {

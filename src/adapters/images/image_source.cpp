@@ -1,4 +1,4 @@
-#include "adapters/sources/image_source.hpp"
+#include "adapters/images/image_source.hpp"
 
 #include <image_transport/exception.h>
 #include <sensor_msgs/CompressedImage.h>

@@ -1,4 +1,4 @@
-#include "adapters/conversions/image_from_msg.hpp"
+#include "adapters/images/image_from_msg.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "adapters/conversions/compressed_size.hpp"
+#include "adapters/images/compressed_size.hpp"
 
 namespace window_ingress::adapters::image_from_msg_test {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "adapters/conversions/image_from_msg.hpp"
 #include "adapters/conversions/stamps.hpp"
+#include "adapters/images/image_from_msg.hpp"
 #include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {

@@ -1,4 +1,4 @@
-#include "adapters/sources/reference_source.hpp"
+#include "adapters/images/reference_source.hpp"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>

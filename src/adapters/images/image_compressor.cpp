@@ -1,4 +1,4 @@
-#include "adapters/nodes/image_compressor.hpp"
+#include "adapters/images/image_compressor.hpp"
 
 #include <ros/master.h>
 

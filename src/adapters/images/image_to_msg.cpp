@@ -1,4 +1,4 @@
-#include "adapters/conversions/image_to_msg.hpp"
+#include "adapters/images/image_to_msg.hpp"
 
 #include <boost/make_shared.hpp>
 #include <cstring>

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "openness/evidence/edge_flow.hpp"
+#include "openness/interior/edge_flow.hpp"
 #include "window_ingress/openness/opening_cells.hpp"
 
 namespace window_ingress::openness {

@@ -1,4 +1,4 @@
-#include "openness/evidence/edge_flow.hpp"
+#include "openness/interior/edge_flow.hpp"
 
 #include <gtest/gtest.h>
 

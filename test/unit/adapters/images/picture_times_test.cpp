@@ -1,4 +1,4 @@
-#include "adapters/nodes/picture_times.hpp"
+#include "adapters/images/picture_times.hpp"
 
 #include <gtest/gtest.h>
 

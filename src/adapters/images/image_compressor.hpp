@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/conversions/image_from_msg.hpp"
+#include "adapters/images/image_from_msg.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/diagnostics.hpp"
 

@@ -1,4 +1,4 @@
-#include "adapters/nodes/picture_times.hpp"
+#include "adapters/images/picture_times.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +7,7 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kSmoothing = 0.1;
+constexpr double kTimeSmoothing = 0.1;
 constexpr double kLongestPeriodMs = 2000.0;  // beyond that the camera has paused
 
 }  // namespace
@@ -26,13 +26,13 @@ void PictureTimes::notePeriod(const std_msgs::Header& header) {
     const double numbers = header.seq > before_->seq ? header.seq - before_->seq : 1.0;
     const double period_ms = since_ms / numbers;
     if (period_ms > 0.0 && period_ms < kLongestPeriodMs)
-      period_ms_ += (period_ms_ > 0.0 ? kSmoothing : 1.0) * (period_ms - period_ms_);
+      period_ms_ += (period_ms_ > 0.0 ? kTimeSmoothing : 1.0) * (period_ms - period_ms_);
   }
   before_ = header;
 }
 
 void PictureTimes::end() {
-  const double part = pictures_++ == 0 ? 1.0 : kSmoothing, whole_ms = decode_ms_ + sinceBegin();
+  const double part = pictures_++ == 0 ? 1.0 : kTimeSmoothing, whole_ms = decode_ms_ + sinceBegin();
   whole_ms_ += part * (whole_ms - whole_ms_);
   decoding_ms_ += part * (decode_ms_ - decoding_ms_);
   slowest_ms_ = std::max(slowest_ms_, whole_ms);

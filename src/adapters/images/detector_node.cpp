@@ -1,11 +1,11 @@
-#include "adapters/nodes/detector_node.hpp"
+#include "adapters/images/detector_node.hpp"
 
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/conversions/image_to_msg.hpp"
+#include "adapters/images/image_to_msg.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"

@@ -1,4 +1,4 @@
-#include "openness/evidence/smooth_regions.hpp"
+#include "openness/interior/smooth_regions.hpp"
 
 #include <gtest/gtest.h>
 
