@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "detection/alignment/ring_match.hpp"
+#include "detection/alignment/ring_view.hpp"
+
+namespace window_ingress::detection {
+
+/// How far what a view shows is what the reference shows, also where something stands before the ring:
+/// samples that differ far more than most count less. Keeps its memory.
+class RingJudgement {
+ public:
+  /// \param view of the place, with all its samples; their weights are changed \param seen what its look
+  /// returned
+  RingMatch of(RingView& view, double seen);
+
+ private:
+  /// What a segment adds to the likeness of its weight, and with which contrast, beside the reference's.
+  struct Share {
+    double alike, weight, gain, variance;  ///< variance: of the logarithm of the gain
+    double faithful;                       ///< of `alike`
+  };
+  void shareOut(const RingView& view);
+  double weighContrasts();
+  void coverOutliers(RingView& view);
+  double uncovered(double Share::*part);
+
+  std::vector<Share> shares_;
+  RingCorrelation correlation_;
+  std::vector<float> residuals_, gains_;
+};
+
+/// Weight of a sample by its squared residual: a scale of the robust weights of Cauchy, in standard
+/// deviations.
+inline float robustFactor(float spread) {
+  constexpr float kOutlier = 2.0F;
+  return 1.0F / (kOutlier * spread * kOutlier * spread);
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "detection/alignment/ring_model.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// Weighted moments of ring (x) and image (y) over one segment and one channel.
+struct RingMoments {
+  float n = 0.0F, x = 0.0F, y = 0.0F, xx = 0.0F, yy = 0.0F, xy = 0.0F;
+
+  float meanX() const { return n > 0.0F ? x / n : 0.0F; }
+  float meanY() const { return n > 0.0F ? y / n : 0.0F; }
+  float varX() const { return std::max(0.0F, xx - x * meanX()); }
+  float varY() const { return std::max(0.0F, yy - y * meanY()); }
+  float cov() const { return xy - x * meanY(); }
+};
+
+/// What the image shows of a stretch of the ring in which the light is even.
+struct RingSegment {
+  int begin = 0, end = 0;
+  std::array<RingMoments, 3> moments;  ///< of the channels
+  float xx = 0.0F, gain = 0.0F;  ///< variance of the ring times its samples, noise added; of all channels
+  float noise = 0.0F;            ///< part of `xx`
+  double alike = 0.0;            ///< correlation times `weight`
+  double weight = 0.0;  ///< what it can tell: that grows with its samples, and slowly with their contrast, so
+                        ///< that one strong edge does not stand for all
+};
+
+/// Weighted mean of the segments' correlations.
+struct RingCorrelation {
+  double alike = 0.0, most = 0.0;
+  void add(const RingSegment& segment) { alike += segment.alike, most += segment.weight; }
+  double value() const { return most > 0.0 ? alike / most : -1.0; }
+};
+
+/// The image under the samples of the ring, at one place and resolution. Keeps its memory.
+class RingView {
+ public:
+  static constexpr double kMinSeen = 0.3;  ///< part of the ring that must lie in the image
+  static constexpr float kNoise = 0.01F;   ///< of a logarithm of a colour
+
+  /// \param model, image outlive the view \param camera null: the image is taken as free of distortion
+  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
+  const geometry::PinholeCamera* lens() const { return lens_; }  ///< null: no distortion
+
+  /// One resolution of model and image.
+  struct Scale {
+    const RingLevel* ring;
+    const cv::Mat* picture;
+    int level;
+  };
+  Scale scaleFor(double quad_side_px, double wanted_px);
+
+  /// Looks at this place, which stays until the next look. \param map from the opening, its sides of length 1
+  /// and its centre at 0, to ideal pixels \return part of the ring that lies in the image
+  double look(const Scale& scale, const Eigen::Matrix3d& map);
+  /// The same. \param quad pixels of the image as it came \param side_px resolution, at most [px a mean side]
+  double look(const geometry::Quadrilateral& quad, double side_px);
+
+  const RingLevel& ring() const { return *ring_; }
+  int channels() const { return channels_; }
+  float value(std::size_t at) const { return values_[at]; }  ///< as those of the ring
+
+  /// How much a sample counts; 0 where it lies beside the image.
+  float weight(std::size_t i) const { return weights_[i]; }
+  void setWeight(std::size_t i, float weight) { weights_[i] = weight; }
+
+  /// What one segment shows of the reference, channel by channel and in all.
+  RingSegment segment(int s) const;
+
+  /// Standard deviation of what is left over, from its median; `before` where nothing is seen.
+  /// \param residuals as the values of the ring
+  float spreadOf(const std::vector<float>& residuals, float before);
+
+ private:
+  void place(const Eigen::Matrix3d& map, int level);
+  template <int kChannels>
+  int readPixels(const cv::Mat& picture);
+
+  const RingModel* model_ = nullptr;
+  const geometry::PinholeCamera* lens_ = nullptr;
+  ImagePyramid pyramid_;
+  const RingLevel* ring_ = nullptr;
+  int channels_ = 0;
+  std::vector<float> at_x_, at_y_;  ///< the ring's samples on the image's level
+  std::vector<float> values_, weights_, scratch_;
+};
+
+/// From the opening, its sides of length 1 and its centre at 0, to a quadrilateral.
+Eigen::Matrix3d mapFromCentre(const geometry::Quadrilateral& quad);
+
+}  // namespace window_ingress::detection
