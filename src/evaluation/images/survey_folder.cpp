@@ -75,10 +75,14 @@ std::string calibrationOf(const geometry::PinholeCamera& camera) {
     return "[" + text + "]";
   };
   const std::array<double, 9> k{camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
+  const bool fisheye = camera.model == geometry::LensModel::kEquidistant;
+  std::vector<double> distortion(camera.distortion.begin(), camera.distortion.end());
+  if (fisheye) distortion.pop_back();
   return "image_width: " + std::to_string(camera.width) + "\nimage_height: " + std::to_string(camera.height) +
          "\ncamera_matrix: {rows: 3, cols: 3, data: " + list(k) +
-         "}\ndistortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: " +
-         list(camera.distortion) + "}\n";
+         "}\ndistortion_model: " + (fisheye ? "equidistant" : "plumb_bob") +
+         "\ndistortion_coefficients: {rows: 1, cols: " + std::to_string(distortion.size()) +
+         ", data: " + list(distortion) + "}\n";
 }
 
 std::vector<double> numbersOf(std::istringstream& row) {

@@ -21,11 +21,12 @@ class SurveyFolderTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  static SurveyPicture draw(bool with_reference, double k1 = 0.0) {
+  static SurveyPicture draw(bool with_reference, double k1 = 0.0, const std::string& lens = "plumb_bob") {
     simulation::Scenario scenario;
     scenario.camera.width_px = 160;
     scenario.camera.height_px = 120;
     scenario.camera.k1 = k1;
+    scenario.camera.lens = lens;
     SurveyPicture picture = takePicture(scenario, 3, ViewRange(), with_reference);
     picture.scenario = "calm";
     return picture;
@@ -66,6 +67,19 @@ TEST_F(SurveyFolderTest, LoadsWhatWasSaved) {
   ASSERT_EQ(both.size(), 2);
   EXPECT_TRUE(both.load(1).reference.empty());
   EXPECT_EQ(both.load(1).camera.distortion, bent.camera.distortion);
+}
+
+TEST_F(SurveyFolderTest, ALensStaysWhatItIs) {
+  const SurveyPicture fisheye = draw(false, -0.02, "equidistant");
+  ASSERT_EQ(fisheye.camera.model, geometry::LensModel::kEquidistant);
+  SurveyFolder saved(folder_.string());
+  saved.add(fisheye);
+  saved.writeTable();
+  SurveyFolder folder(folder_.string());
+  folder.readTable();
+  const geometry::PinholeCamera loaded = folder.load(0).camera;
+  EXPECT_EQ(loaded.model, fisheye.camera.model);
+  EXPECT_EQ(loaded.distortion, fisheye.camera.distortion);
 }
 
 TEST_F(SurveyFolderTest, FoldersThatAreNoneAreErrorsWithTheirName) {
