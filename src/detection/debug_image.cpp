@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "detection/reference/ring_histogram.hpp"
 #include "detection/reference/ring_samples.hpp"
 #include "window_ingress/detection/text_overlay.hpp"
 
@@ -156,13 +157,13 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 
 }  // namespace
 
-cv::Mat drawReference(const ReferenceAppearance& reference, const AppearanceParams& params) {
+cv::Mat drawReference(const ReferenceAppearance& reference) {
   cv::Mat picture = reference.picture();
   if (picture.channels() == 1) cv::cvtColor(reference.picture(), picture, cv::COLOR_GRAY2BGR);
   const geometry::Quadrilateral& opening = reference.opening();
   const cv::Mat inner = within(picture.size(), opening);
-  const cv::Mat near = within(picture.size(), ringLine(opening, params.near_width));
-  const cv::Mat far = within(picture.size(), ringLine(opening, params.far_width));
+  const cv::Mat near = within(picture.size(), ringLine(opening, RingWidths().near));
+  const cv::Mat far = within(picture.size(), ringLine(opening, RingWidths().far));
   cv::Mat canvas;
   picture.convertTo(canvas, -1, kFaded);
   tint(picture, far & ~near, kBlue, canvas);

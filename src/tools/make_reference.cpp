@@ -271,7 +271,7 @@ int run(const Job& job) {
     std::cout << fit.said << "\n";
     corners = fit.corners;
   }
-  adapters::saveReference(job.output, adapters::makeReference(picture, corners, params), params);
+  adapters::saveReference(job.output, adapters::makeReference(picture, corners, params));
   const fs::path written = fs::absolute(job.output);
   std::cout << "written: " << written.string() << "\nlook at: "
             << (written.parent_path() / (written.stem().string() + "_understood.png")).string()

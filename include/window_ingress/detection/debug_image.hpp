@@ -14,7 +14,7 @@ namespace window_ingress::detection {
 /// The reference as it is understood, for people: the inner border in green, corner 1 marked; the two bands
 /// whose colours are compared, the frame's tinted orange and the surround's blue, everything else faded;
 /// below, a line of text. \return CV_8UC3, higher than the image by that line
-cv::Mat drawReference(const ReferenceAppearance& reference, const AppearanceParams& params);
+cv::Mat drawReference(const ReferenceAppearance& reference);
 
 /// Draws what happened to each candidate of an image (P10): rejected ones thin, in the colour of their gate
 /// with a legend, the best of them with gate and margin in words; the target as a green quadrilateral with a

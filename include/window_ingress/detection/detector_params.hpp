@@ -32,16 +32,12 @@ struct EdgeMapParams {
 };
 
 struct HoughSegmentsParams {
-  double min_length = 0.03;    ///< of a segment, in longer sides of the level
-  double max_gap = 0.02;       ///< within a segment, in longer sides of the level
-  double vote_fraction = 0.7;  ///< votes that start a segment, in pixels of the minimum length
-  double min_density = 0.55;   ///< edge pixels on a segment over its length
+  double min_length = 0.03;   ///< of a segment, in longer sides of the level
+  double min_density = 0.55;  ///< edge pixels on a segment over its length
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("min_length", self.min_length, 0.005, 0.5);
-    field("max_gap", self.max_gap, 0.0, 0.5);
-    field("vote_fraction", self.vote_fraction, 0.1, 1.0);
     field("min_density", self.min_density, 0.0, 1.0);
   }
 };
@@ -56,13 +52,11 @@ struct ClosingParams {
 };
 
 struct ContourPolygonsParams {
-  double epsilon = 0.025;       ///< tolerance of the polygon, in perimeters of its outline
-  double min_perimeter = 0.08;  ///< shorter outlines are not looked at, in longer sides of the level
+  double epsilon = 0.025;  ///< tolerance of the polygon, in perimeters of its outline
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("epsilon", self.epsilon, 0.001, 0.2);
-    field("min_perimeter", self.min_perimeter, 0.0, 4.0);
   }
 };
 
@@ -82,7 +76,6 @@ struct CandidateGatesParams {
   double max_area = 0.90;          ///< of the quadrilateral, in areas of the image (the nearest window)
   double min_aspect = 0.2;         ///< width over height, as seen
   double max_aspect = 3.5;         ///< width over height, as seen
-  double min_solidity = 0.8;       ///< area of the outline over area of its hull
   double max_angle_rad = 0.85;     ///< of a corner away from 90 degrees (the largest yaw) [rad]
   double min_side_support = 0.45;  ///< of the weakest side: part that runs along straight edges
   double min_contrast = 2.0;       ///< gradient of the weakest side [grey levels a pixel]
@@ -93,47 +86,26 @@ struct CandidateGatesParams {
     field("max_area", self.max_area, 0.0, 1.0);
     field("min_aspect", self.min_aspect, 0.01, 1.0);
     field("max_aspect", self.max_aspect, 1.0, 100.0);
-    field("min_solidity", self.min_solidity, 0.0, 1.0);
     field("max_angle_rad", self.max_angle_rad, 0.0, 1.5);
     field("min_side_support", self.min_side_support, 0.0, 1.0);
     field("min_contrast", self.min_contrast, 0.0, 255.0);
   }
 };
 
-struct ReferenceShapeParams {
-  double sigmas = 3.0;        ///< standard deviations that a shape may differ from the reference's
-  double frame_slack = 0.15;  ///< width of the frame may differ from the reference's by this part
-
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field("sigmas", self.sigmas, 0.0, 100.0);
-    field("frame_slack", self.frame_slack, 0.0, 10.0);
-  }
-};
-
 struct AppearanceParams {
-  double near_width =
-      0.05;  ///< first band of the ring round the border: the frame, in mean sides of the opening
-  double far_width = 0.14;  ///< second band, its outer edge: frame and surround, in mean sides of the opening
   double max_distance =
       0.5;  ///< Bhattacharyya distance beyond which a candidate is not the target, at most; 0 to 1
   double min_distance =
       0.25;  ///< that limit is never below this, however alike the rest of the reference image looks; 0 to 1
-  double max_drift = 0.3;  ///< slow adaptation: furthest Bhattacharyya distance from the operator's reference
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("near_width", self.near_width, 0.005, 0.5);
-    field("far_width", self.far_width, 0.01, 1.0);
     field("max_distance", self.max_distance, 0.0, 1.0);
     field("min_distance", self.min_distance, 0.0, 1.0);
-    field("max_drift", self.max_drift, 0.0, 1.0);
   }
 };
 
 struct TrackParams {
-  double reach = 0.0094;  ///< furthest a border may lie from where it is predicted [longer image sides]
-  double turn = 0.12;     ///< unforeseen motion of the window's place without attitude [longer image sides/s]
   double max_gap_sec = 0.5;      ///< images further apart start anew [s]
   double reacquire_sec = 0.6;    ///< a lost window found again in its place within this time is the same [s]
   double reacquire_gate = 0.35;  ///< furthest from its place to be the same [window sides]
@@ -144,8 +116,6 @@ struct TrackParams {
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("reach", self.reach, 0.002, 0.1);
-    field("turn", self.turn, 0.001, 10.0);
     field("max_gap_sec", self.max_gap_sec, 0.01, 60.0);
     field("reacquire_sec", self.reacquire_sec, 0.0, 60.0);
     field("reacquire_gate", self.reacquire_gate, 0.01, 0.5);
@@ -164,7 +134,6 @@ struct DetectorParams {
   ContourPolygonsParams contours;
   SegmentQuadsParams segment_quads;
   CandidateGatesParams gates;
-  ReferenceShapeParams shape;
   AppearanceParams appearance;
   TrackParams track;
   int max_candidates = 40;  ///< best candidates that are compared with each other and with the reference
@@ -182,7 +151,6 @@ struct DetectorParams {
     field.group("contours", self.contours);
     field.group("segment_quads", self.segment_quads);
     field.group("gates", self.gates);
-    field.group("shape", self.shape);
     field.group("appearance", self.appearance);
     field.group("track", self.track);
     field("max_candidates", self.max_candidates, 1, 1000);

@@ -59,8 +59,10 @@ class ReferenceAppearance {
   std::optional<double> distance(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                  const AppearanceParams& params) const;
 
+  static constexpr double kMaxDrift = 0.3;  ///< of `adapt`, Bhattacharyya distance
+
   /// Moves what the target is taken to look like towards this view of it, while a track is certain. Never
-  /// further than `max_drift` from the operator's reference, which stays valid beside it.
+  /// further than `kMaxDrift` from the operator's reference, which stays valid beside it.
   /// \param rate 0 to 1, part of the difference that is taken over
   /// \return false, and nothing changed, if the view cannot be compared or is not like the target
   bool adapt(const cv::Mat& image, const geometry::Quadrilateral& opening, double rate,
@@ -73,16 +75,11 @@ class ReferenceAppearance {
   const geometry::Quadrilateral& opening() const { return opening_; }
 
  private:
-  void prepare(const AppearanceParams& params) const;
-
   cv::Mat picture_;
   geometry::Quadrilateral opening_;
   bool opening_is_known_ = true;
-  // Made when they are first asked for, with the parameters given then.
-  mutable std::shared_ptr<const RingColours> colours_;
-  mutable double elsewhere_ = 1.0;  ///< distance that most other places of the image exceed
-  mutable std::optional<AppearanceParams> prepared_;
-  std::shared_ptr<const RingColours> adapted_;
+  std::shared_ptr<const RingColours> colours_, adapted_;
+  double elsewhere_ = 1.0;  ///< distance that most other places of the image exceed
 };
 
 }  // namespace window_ingress::detection

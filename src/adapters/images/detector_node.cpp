@@ -187,7 +187,7 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
   response.message = "the window in the last image is the reference now";
   if (params_.reference.capture_file.empty()) return true;
   try {
-    saveReference(params_.reference.capture_file, reference, params_.detector);
+    saveReference(params_.reference.capture_file, reference);
     response.message += "; written to " + params_.reference.capture_file;
   } catch (const ParameterError& error) {
     response.success = false;

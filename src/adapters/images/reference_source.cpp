@@ -51,8 +51,7 @@ detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
   return makeReference(picture, reference.corners, params);
 }
 
-void saveReference(const std::string& file, const detection::ReferenceAppearance& reference,
-                   const detection::DetectorParams& params) {
+void saveReference(const std::string& file, const detection::ReferenceAppearance& reference) {
   namespace fs = std::filesystem;
   const fs::path path = fs::absolute(file);
   const geometry::Quadrilateral& opening = reference.opening();
@@ -60,7 +59,7 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
   fs::create_directories(path.parent_path(), ignored);
   const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
   if (!writePicture(path.string(), reference.picture()) ||
-      !writePicture(understood.string(), detection::drawReference(reference, params.appearance)))
+      !writePicture(understood.string(), detection::drawReference(reference)))
     throw ParameterError("reference: cannot write '" + path.string() +
                          "' as a picture, or what is beside it");
   const fs::path text = fs::path(path).replace_extension(".yaml");

@@ -26,7 +26,6 @@ detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
 /// it, below the node's name, so that it can be laid over the defaults as `config:=`; and in one that ends in
 /// _understood.png what is made of it (`detection::drawReference`). \throws ParameterError that says which
 /// file could not be written
-void saveReference(const std::string& file, const detection::ReferenceAppearance& reference,
-                   const detection::DetectorParams& params);
+void saveReference(const std::string& file, const detection::ReferenceAppearance& reference);
 
 }  // namespace window_ingress::adapters

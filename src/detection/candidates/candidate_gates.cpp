@@ -18,6 +18,7 @@ constexpr double kWorthWeight = 0.7;  ///< exponent of the worth of its borders,
 constexpr double kBorderPart =
     0.003;  ///< a corner this close to the image's border is cut, in longer sides of the image
 constexpr double kMeanSideSupport = 0.7;  ///< least support of the four sides together
+constexpr double kMinSolidity = 0.8;      ///< area of an outline over that of its hull
 constexpr double kRightAngle = 1.5707963267948966;
 
 double worstAngle(const geometry::Quadrilateral& quad) {
@@ -44,8 +45,8 @@ std::optional<Rejection> CandidateGates::shape(const Candidate& candidate, const
   const double aspect = geometry::aspectRatio(candidate.quad);
   if (aspect < params_.min_aspect) return Rejection{RejectReason::kAspect, aspect, params_.min_aspect};
   if (aspect > params_.max_aspect) return Rejection{RejectReason::kAspect, aspect, params_.max_aspect};
-  if (candidate.solidity < params_.min_solidity)
-    return Rejection{RejectReason::kSolidity, candidate.solidity, params_.min_solidity};
+  if (candidate.solidity < kMinSolidity)
+    return Rejection{RejectReason::kSolidity, candidate.solidity, kMinSolidity};
   const double angle = worstAngle(candidate.quad);
   if (angle > params_.max_angle_rad) return Rejection{RejectReason::kAngle, angle, params_.max_angle_rad};
   const double margin = distanceToBorder(candidate.seen, image);

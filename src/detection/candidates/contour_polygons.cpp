@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kHullExcess = 0.12;  ///< the four lines round a hull may add this part of its area
+constexpr double kMinPerimeter = 0.08;  ///< of an outline, in longer sides of the level
+constexpr double kHullExcess = 0.12;    ///< the four lines round a hull may add this part of its area
 constexpr double kClosure = 0.7;    ///< of an outline: closed, but its corners are no better than the outline
 constexpr int kMaxContours = 3000;  ///< looked at in one image
 
@@ -124,7 +125,7 @@ const ContourPolygons::Result& ContourPolygons::run(const cv::Mat& closed, doubl
   result_.contours = static_cast<int>(outlines_.size());
   result_.budget_exceeded = result_.contours > kMaxContours;
   const int count = std::min(result_.contours, kMaxContours);
-  const double min_perimeter_px = params_.min_perimeter * std::max(closed.cols, closed.rows);
+  const double min_perimeter_px = kMinPerimeter * std::max(closed.cols, closed.rows);
   for (int i = 0; i < count; ++i) {
     const bool is_hole = tree_[i][3] >= 0;
     look(outlines_[i], min_perimeter_px, is_hole ? dilation_px : -dilation_px);

@@ -19,6 +19,8 @@ constexpr double kDirectionPx = 1.5;  ///< the ends of a run tell its direction 
 constexpr double kMinSeed = 0.6;      ///< part of the shortest segment that one run of it must cover
 constexpr std::size_t kMaxJoined = 180;  ///< of the first segments, that are tried with each other
 constexpr double kSpread = 0.05;         ///< the direction of a short seed is this uncertain
+constexpr double kMaxGap = 0.02;         ///< within a segment, in longer sides of the level
+constexpr double kVotes = 0.7;           ///< that start a segment, in pixels of the least length
 constexpr double kSameDirection = 0.99;  ///< cosine between pieces of one line
 
 Vector2d right(const Vector2d& along) { return {-along.y(), along.x()}; }
@@ -55,7 +57,7 @@ void joinCollinear(std::vector<Segment>& segments, double max_gap, double off_li
 void HoughSegments::prepare(const cv::Size& level) {
   const double side = std::max(level.width, level.height);
   min_length_px_ = std::max(5.0, params_.min_length * side);
-  max_gap_px_ = params_.max_gap * side;
+  max_gap_px_ = kMaxGap * side;
   off_line_px_ = std::max(0.9, kOffLine * side);
   centre_ = 0.5 * Vector2d(level.width, level.height);
   rhos_ = static_cast<int>(2.6 * centre_.norm() / kRhoStepPx) + 2;
@@ -181,7 +183,7 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
   order_.clear();
   for (std::size_t i = 0; i < runs.size(); ++i) order_.emplace_back(-runs[i].moments.n, static_cast<int>(i));
   std::sort(order_.begin(), order_.end());
-  const double enough = params_.vote_fraction * min_length_px_;
+  const double enough = kVotes * min_length_px_;
   for (const auto& [pixels, seed] : order_) {
     if (runs[seed].moments.n < kMinSeed * min_length_px_) break;
     if (used_[seed]) continue;

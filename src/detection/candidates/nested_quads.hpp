@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "detection/candidates/candidate.hpp"
-#include "window_ingress/detection/detector_params.hpp"
 
 namespace window_ingress::detection {
 

@@ -5,7 +5,6 @@
 #include "detection/candidates/candidate.hpp"
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/level_camera.hpp"
-#include "window_ingress/detection/detector_params.hpp"
 
 namespace window_ingress::detection {
 

@@ -23,13 +23,8 @@ constexpr double kOwnRing = 0.25;         ///< places on the frame are left out:
 constexpr double kEvenDistance = 0.8;     ///< in limits: where target and others are equally likely
 constexpr double kHalvingDistance = 0.2;  ///< in limits: further off by this, half the odds
 
-bool same(const AppearanceParams& a, const AppearanceParams& b) {
-  return a.near_width == b.near_width && a.far_width == b.far_width;
-}
-
-std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening,
-                                     const AppearanceParams& params) {
-  return ringColours(image, opening, {params.near_width, params.far_width}, kMinPixels);
+std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening) {
+  return ringColours(image, opening, RingWidths(), kMinPixels);
 }
 
 Quadrilateral inset(const cv::Size& size, double width) {
@@ -52,7 +47,7 @@ bool touchesFrame(const Vector2d& centre) {
 
 // Distances of rings at other places of the image, whether there is something or not.
 std::vector<double> distancesElsewhere(const cv::Mat& picture, const Quadrilateral& opening,
-                                       const RingColours& colours, const AppearanceParams& params) {
+                                       const RingColours& colours) {
   std::vector<double> distances;
   const geometry::UnitSquare square(opening);
   for (int i = 0; i < kElsewhereSteps; ++i)
@@ -60,7 +55,7 @@ std::vector<double> distancesElsewhere(const cv::Mat& picture, const Quadrilater
       const Vector2d at((i + 0.5) / kElsewhereSteps * picture.cols,
                         (k + 0.5) / kElsewhereSteps * picture.rows);
       if (touchesFrame(square.fromImage(at))) continue;
-      if (const auto other = coloursOf(picture, placedAt(opening, kElsewhereScale, at), params))
+      if (const auto other = coloursOf(picture, placedAt(opening, kElsewhereScale, at)))
         distances.push_back(bhattacharyya(colours.seen, other->seen));
     }
   return distances;
@@ -82,7 +77,13 @@ double oddsOf(double distance, double limit, double elsewhere) {
 }  // namespace
 
 ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, const Quadrilateral& opening)
-    : picture_(picture.clone()), opening_(opening) {}
+    : picture_(picture.clone()), opening_(opening) {
+  if (isGrey(picture_)) return;
+  const auto colours = coloursOf(picture_, opening_);
+  if (!colours) return;
+  colours_ = std::make_shared<RingColours>(*colours);
+  elsewhere_ = lowQuantile(distancesElsewhere(picture_, opening_, *colours));
+}
 
 ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, double frame_width)
     : ReferenceAppearance(guessed(picture, inset(picture.size(), frame_width))) {}
@@ -113,22 +114,11 @@ std::string ReferenceAppearance::faultOf(const cv::Mat& picture, const Quadrilat
   return {};
 }
 
-void ReferenceAppearance::prepare(const AppearanceParams& params) const {
-  if (prepared_ && same(*prepared_, params)) return;
-  prepared_ = params;
-  colours_.reset();
-  if (isGrey(picture_)) return;
-  if (const auto colours = coloursOf(picture_, opening_, params))
-    colours_ = std::make_shared<RingColours>(*colours);
-  if (colours_) elsewhere_ = lowQuantile(distancesElsewhere(picture_, opening_, *colours_, params));
-}
-
 std::optional<AppearanceMatch> ReferenceAppearance::compare(const cv::Mat& image,
                                                             const Quadrilateral& opening,
                                                             const AppearanceParams& params) const {
-  prepare(params);
   if (!colours_) return std::nullopt;
-  const auto candidate = coloursOf(image, opening, params);
+  const auto candidate = coloursOf(image, opening);
   if (!candidate) return std::nullopt;
   AppearanceMatch match;
   match.distance = bhattacharyya(*colours_, *candidate);
@@ -150,10 +140,10 @@ bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& openi
   const auto match = compare(image, opening, params);
   if (!match || !match->isLike() || !(rate > 0.0)) return false;
   const RingColours before = adapted_ ? *adapted_ : *colours_;
-  const RingColours view = *coloursOf(image, opening, params);
+  const RingColours view = *coloursOf(image, opening);
   double part = std::min(rate, 1.0);
   RingColours after = blended(before, view, part);
-  for (int halvings = 0; bhattacharyya(*colours_, after) > params.max_drift; ++halvings) {
+  for (int halvings = 0; bhattacharyya(*colours_, after) > kMaxDrift; ++halvings) {
     if (halvings == 8) return false;
     after = blended(before, view, part *= 0.5);
   }

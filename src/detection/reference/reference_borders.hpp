@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "detection/reference/side_profile.hpp"
-#include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 

@@ -46,7 +46,7 @@ void choosePlaces(const std::vector<ScoredCandidate>& rivals, std::vector<std::s
 }  // namespace
 
 ReferenceJudge::ReferenceJudge(const DetectorParams& params)
-    : appearance_(params.appearance), min_correlation_(params.min_correlation), shape_(params.shape) {}
+    : appearance_(params.appearance), min_correlation_(params.min_correlation) {}
 
 // A grey image as one of three equal channels.
 const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
@@ -70,8 +70,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
               shape_.aspect());
   if (!frameless())
-    frame_colours_ = ringColours(reference_->picture(), reference_->opening(),
-                                 {appearance_.near_width, appearance_.far_width}, 1);
+    frame_colours_ = ringColours(reference_->picture(), reference_->opening(), RingWidths(), 1);
 }
 
 // The rival with its borders where the reference's are, if they are found near it.
@@ -181,7 +180,7 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) con
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const {
   if (!frame_colours_) return false;
-  const auto seen = ringColours(image, corners, {appearance_.near_width, appearance_.far_width}, 1);
+  const auto seen = ringColours(image, corners, RingWidths(), 1);
   return seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze;
 }
 

@@ -20,6 +20,8 @@ using Eigen::Vector3f;
 using geometry::PinholeCamera;
 using geometry::Quadrilateral;
 
+constexpr double kMaxSigmas = 3.0;      ///< by which a shape may differ from the reference's
+constexpr double kFrameSlack = 0.15;    ///< and the width of a frame by this part besides
 constexpr double kCornerSigmaPx = 0.3;  ///< least standard deviation of a corner, each way [px]
 constexpr double kAspectSigma =
     0.03;  ///< of the logarithm of the aspect: how well the reference shows it, at best
@@ -223,8 +225,8 @@ std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
   misfit.least_px = kCornerSigmaPx;
   const auto seen =
       misfit.of(undistorted(corners, camera->hasDistortion() ? camera : nullptr), covariance, *camera);
-  if (!seen || *seen <= params_.sigmas) return std::nullopt;
-  return Difference{*seen, params_.sigmas};
+  if (!seen || *seen <= kMaxSigmas) return std::nullopt;
+  return Difference{*seen, kMaxSigmas};
 }
 
 std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Quadrilateral& corners,
@@ -251,7 +253,7 @@ std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat&
                                                                   const PinholeCamera* camera) {
   const auto seen = frameRatio(image, corners, camera);
   if (!seen) return std::nullopt;
-  const double spread = params_.frame_slack + params_.sigmas * seen->sigma;
+  const double spread = kFrameSlack + kMaxSigmas * seen->sigma;
   if (std::abs(seen->value - 1.0) <= spread) return std::nullopt;
   return Difference{seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};
 }

@@ -8,7 +8,6 @@
 
 #include "detection/alignment/rectangle_prior.hpp"
 #include "detection/reference/side_profile.hpp"
-#include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -40,8 +39,6 @@ struct Measured {
 /// relative to the opening's sides. Both stay the same from anywhere; size does not show in one image.
 class ReferenceShape {
  public:
-  explicit ReferenceShape(const ReferenceShapeParams& params) : params_(params) {}
-
   /// \param picture by an unknown camera: its focal length is taken to be half to twice the longer side
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
   void forget() { aspect_.reset(), frame_.fill(0.0); }
@@ -69,7 +66,6 @@ class ReferenceShape {
                                      const geometry::PinholeCamera* camera);
 
  private:
-  ReferenceShapeParams params_;
   std::optional<Measured> aspect_;  ///< sigma: half the range over all focal lengths
   double seen_aspect_ = 1.0;
   std::array<double, 4> frame_{};  ///< of each side [mean sides of the opening]; 0: no frame

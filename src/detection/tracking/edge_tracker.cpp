@@ -165,7 +165,7 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
   border.in_view = stretch->length() >= wanted;
   border.sought = border.in_view && memory_.known();
   if (!border.sought) return border;
-  const double most = std::max(kMinReachPx, track_.reach * longerSide(image));
+  const double most = std::max(kMinReachPx, kReach * longerSide(image));
   const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kMinReachPx, most)));
   const int count = std::clamp(static_cast<int>(stretch->length()), kMinProfiles, kProfiles);
   coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
@@ -213,8 +213,7 @@ void EdgeTracker::keep(const cv::Mat& image, const geometry::PinholeCamera* lens
 
 void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
                         double size_px) {
-  half_px_ =
-      std::clamp(static_cast<int>(std::lround(track_.reach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
+  half_px_ = std::clamp(static_cast<int>(std::lround(kReach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
   coarse_.sample(image, lens, {border.from, border.to, kProfiles, kSkip, half_px_ + 3, true});
   edge_ = TwoStepEdge();
   frames_ = -1;

@@ -69,7 +69,7 @@ struct FollowedBorder {
 /// moved over a few profiles. Fine: the steepest change in many short ones.
 class EdgeTracker {
  public:
-  explicit EdgeTracker(const TrackParams& track) : track_(track) {}
+  static constexpr double kReach = 0.0094;  ///< of a border from where it is predicted [longer image sides]
 
   /// \param predicted the whole side, undistorted \param size_px of the window: mean side
   /// \param sigma_px of the prediction across the side
@@ -88,7 +88,6 @@ class EdgeTracker {
   bool fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
            FollowedBorder& border);
 
-  TrackParams track_;
   EdgeTemplate memory_;
   FrontBorder front_;
   EdgeProfiles coarse_, fine_;

@@ -61,9 +61,6 @@ std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::Pinho
 
 }  // namespace
 
-QuadTracker::QuadTracker(const TrackParams& track)
-    : edges_{EdgeTracker(track), EdgeTracker(track), EdgeTracker(track), EdgeTracker(track)} {}
-
 void QuadTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
                         const Quadrilateral& quad) {
   for (int i = 0; i < 4; ++i) edges_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));

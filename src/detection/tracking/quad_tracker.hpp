@@ -13,8 +13,6 @@ namespace window_ingress::detection {
 /// The four borders of the tracked window, followed together.
 class QuadTracker {
  public:
-  explicit QuadTracker(const TrackParams& track);
-
   /// Takes the borders of a window that was just found as what is to be followed.
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
 

@@ -16,6 +16,7 @@ using geometry::Quadrilateral;
 constexpr double kReshape = 0.25;        ///< unforeseen change of its size and roll [window sides/s]
 constexpr double kWarp = 0.08;           ///< unforeseen change of aspect, skew and keystone [window sides/s]
 constexpr double kAdaptCertainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
+constexpr double kTurn = 0.12;           ///< unforeseen motion of its place [longer image sides/s]
 constexpr double kKnownTurn =
     0.5;  ///< part of the unforeseen motion that is left where the attitude is known
 constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
@@ -54,16 +55,14 @@ void WindowTracker::Impl::heedExpected(const TrackInput& input) {
 
 // An attitude that jitters by more than what is unforeseen without it is worse than none.
 bool WindowTracker::Impl::knowsTurn() const {
-  return images.turn() &&
-         images.turnSigmaPx() < params.track.turn * images.longerSide() * images.elapsedSec();
+  return images.turn() && images.turnSigmaPx() < kTurn * images.longerSide() * images.elapsedSec();
 }
 
 QuadSpread WindowTracker::Impl::spread() const {
   const double side = sizeOf(motion.quad()), elapsed_sec = images.elapsedSec();
   const double unforeseen_px = images.longerSide() * elapsed_sec;
-  const double place_px =
-      knowsTurn() ? std::hypot(kKnownTurn * params.track.turn * unforeseen_px, images.turnSigmaPx())
-                  : params.track.turn * unforeseen_px;
+  const double place_px = knowsTurn() ? std::hypot(kKnownTurn * kTurn * unforeseen_px, images.turnSigmaPx())
+                                      : kTurn * unforeseen_px;
   return {place_px, kReshape * side * elapsed_sec, kWarp * side * elapsed_sec};
 }
 
@@ -156,7 +155,7 @@ void WindowTracker::setParams(const DetectorParams& params) {
   impl_->detector.setParams(params);
   impl_->params = params;
   impl_->refinement = BorderRefinement();
-  impl_->quad_tracker = QuadTracker(params.track);
+  impl_->quad_tracker = QuadTracker();
   const TrackIdentity before = impl_->identity;
   impl_->identity = TrackIdentity(params.track, before.id());
   impl_->confirmation = TrackConfirmation(params.track);

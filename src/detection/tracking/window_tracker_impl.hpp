@@ -26,7 +26,6 @@ struct WindowTracker::Impl {
         images(p.track.max_gap_sec),
         reference(p),
         motion(),
-        quad_tracker(p.track),
         identity(p.track),
         confirmation(p.track) {}
 

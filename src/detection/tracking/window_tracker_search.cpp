@@ -96,7 +96,7 @@ std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput&
   auto found = lookForWindow(input);
   if (!found) return std::nullopt;
   const Quadrilateral seen = undistorted(found->corners, images.lens()), expected = motion.quad();
-  const double limit_px = 2.0 * params.track.reach * images.longerSide();
+  const double limit_px = 2.0 * EdgeTracker::kReach * images.longerSide();
   if (!geometry::isFinite(expected) || !(furthestCorner(seen, expected) < limit_px)) return std::nullopt;
   has_own_trace = false;
   take(input, *found, true);

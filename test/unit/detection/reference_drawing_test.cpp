@@ -33,7 +33,7 @@ TEST(RingLine, HoldsTheOpeningWhateverItsShape) {
 // Tints where the colours are compared, the rest faded, and the border in green.
 TEST(DrawReference, ShowsBorderAndBands) {
   const ReferenceAppearance reference(picture(CV_8UC3), kOpening);
-  const cv::Mat drawn = drawReference(reference, AppearanceParams());  // bands: 10 px and 28 px wide
+  const cv::Mat drawn = drawReference(reference);  // bands: 10 px and 28 px wide
   ASSERT_EQ(drawn.type(), CV_8UC3);
   EXPECT_EQ(drawn.cols, 640);
   EXPECT_GT(drawn.rows, 480);
@@ -46,9 +46,9 @@ TEST(DrawReference, ShowsBorderAndBands) {
 }
 
 TEST(DrawReference, GreyPicturesAndGuessesAreDrawn) {
-  EXPECT_EQ(drawReference(ReferenceAppearance(picture(CV_8UC1), kOpening), {}).type(), CV_8UC3);
-  const cv::Mat known = drawReference(ReferenceAppearance(picture(CV_8UC3), kOpening), {});
-  const cv::Mat guessed = drawReference(ReferenceAppearance::guessed(picture(CV_8UC3), kOpening), {});
+  EXPECT_EQ(drawReference(ReferenceAppearance(picture(CV_8UC1), kOpening)).type(), CV_8UC3);
+  const cv::Mat known = drawReference(ReferenceAppearance(picture(CV_8UC3), kOpening));
+  const cv::Mat guessed = drawReference(ReferenceAppearance::guessed(picture(CV_8UC3), kOpening));
   EXPECT_GT(cv::norm(known, guessed), 0.0) << "the text says so";
 }
 

@@ -33,7 +33,7 @@ class ReferenceSource : public ::testing::Test {
 TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
   const fs::path file = folder_ / "below" / "window's.png";
   const cv::Mat image = picture().draw();
-  saveReference(file.string(), {image, picture().opening}, {});
+  saveReference(file.string(), {image, picture().opening});
   const YAML::Node saved =
       YAML::LoadFile((folder_ / "below" / "window's.yaml").string())["window_detector"]["reference"];
   EXPECT_FALSE(cv::imread((folder_ / "below" / "window's_understood.png").string()).empty());
@@ -47,9 +47,9 @@ TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
 
 TEST_F(ReferenceSource, WhatCannotBeWrittenIsSaid) {
   const cv::Mat image = picture().draw();
-  EXPECT_THROW(saveReference((folder_ / "a.nosuchformat").string(), {image, picture().opening}, {}),
+  EXPECT_THROW(saveReference((folder_ / "a.nosuchformat").string(), {image, picture().opening}),
                ParameterError);
-  EXPECT_THROW(saveReference("/proc/nowhere/a.png", {image, picture().opening}, {}), ParameterError);
+  EXPECT_THROW(saveReference("/proc/nowhere/a.png", {image, picture().opening}), ParameterError);
 }
 
 TEST_F(ReferenceSource, BadReferencesAreRefused) {

@@ -60,7 +60,7 @@ View randomView(std::mt19937& random) {
 ReferenceShape learned() {
   View view;
   view.distance_m = 2.2;
-  ReferenceShape shape{ReferenceShapeParams()};
+  ReferenceShape shape;
   shape.learn(view.draw(), view.opening());
   return shape;
 }
@@ -142,13 +142,13 @@ TEST(ReferenceShape, AnotherAspectIsAnotherWindow) {
 TEST(ReferenceShape, AFramelessReferenceAsksForNoFrame) {
   View view;
   view.frame_m = 0.0;
-  ReferenceShape shape{ReferenceShapeParams()};
+  ReferenceShape shape;
   shape.learn(view.draw(), view.opening());
   EXPECT_FALSE(shape.frameRatio(View().draw(), View().opening(), nullptr));
 }
 
 TEST(ReferenceShape, NothingToldWithoutAReferenceOrSense) {
-  ReferenceShape shape{ReferenceShapeParams()};
+  ReferenceShape shape;
   const auto camera_used = camera();
   const View view;
   EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), &camera_used));

@@ -290,7 +290,7 @@ TEST(WindowTracker, ItsReferenceFollowsTheLightSlowlyAndNotFar) {
     EXPECT_EQ(window->target_id, 1u);
     EXPECT_LT(std::abs(tracker.referenceDrift() - drift), 0.1) << i << ": slowly";
     drift = tracker.referenceDrift();
-    EXPECT_LE(drift, params.appearance.max_drift + 1e-6);
+    EXPECT_LE(drift, ReferenceAppearance::kMaxDrift + 1e-6);
   }
   EXPECT_EQ(found, 240) << "its looks alone never end a track";
   EXPECT_GT(drift, 0.02);
