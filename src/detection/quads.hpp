@@ -9,6 +9,11 @@ inline constexpr double kSkip = 0.06;  ///< left out at both ends of a side: cor
 /// Of fitted borders from where the surroundings were aligned.
 inline constexpr double kAlignedStrayPx = 2.0;
 
+/// Of vectors of the plane.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// Root of a quadrilateral's area [px].
 double sizeOf(const geometry::Quadrilateral& quad);
 /// Mean length of its four sides [px].

@@ -7,7 +7,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr std::size_t kMaxWindows = 12;
-constexpr double kSameWindow = 0.15;  // overlap of two loops, of their union
+constexpr double kSameSeen = 0.15;  // overlap of two loops, of their union
 
 bool looksOtherwise(RejectReason reason) {
   return reason == RejectReason::kAppearance || reason == RejectReason::kOtherAspect ||
@@ -40,7 +40,7 @@ SeenWindow seenFrom(const WindowObservation& target) {
 }
 
 bool overlaps(const SeenWindow& a, const SeenWindow& b) {
-  return geometry::intersectionOverUnion(a.corners, b.corners) > kSameWindow ||
+  return geometry::intersectionOverUnion(a.corners, b.corners) > kSameSeen ||
          geometry::contains(a.corners, geometry::centroid(b.corners)) ||
          geometry::contains(b.corners, geometry::centroid(a.corners));
 }

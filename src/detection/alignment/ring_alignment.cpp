@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
 constexpr double kCoarsestPx = 15.0;  ///< resolution at which an alignment starts [px a mean side]
-constexpr int kCoarseSteps = 10, kSteps = 6;
+constexpr int kCoarseSteps = 10, kFineSteps = 6;
 constexpr double kStill_px = 0.03;    ///< a shorter step is the last one [px of the level]
 constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
 constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
@@ -158,7 +158,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
   for (double wanted = std::min(kCoarsestPx, finest);; wanted *= 2.0) {
     const RingView::Scale scale = view_.scaleFor(side_px, std::min(wanted, finest));
     if (scale.level != last_level)
-      found.match = refine(scale, ideal, map, last_level < 0 ? kCoarseSteps : kSteps);
+      found.match = refine(scale, ideal, map, last_level < 0 ? kCoarseSteps : kFineSteps);
     if (found.match.correlation < kMinCorrelation) return std::nullopt;
     last_level = scale.level;
     if (wanted >= finest) break;

@@ -12,7 +12,7 @@ constexpr std::size_t kPlaces = 10;                                         ///<
 constexpr std::size_t kFinePlaces = 2;                                      ///< and of these, to the last
 constexpr int kVariants = 2;                   ///< rough loops of one place from which it is aligned
 constexpr double kSure = 0.85, kBehind = 0.3;  ///< a place found, and what promises so much less is left out
-constexpr double kGeometryWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
+constexpr double kProposalWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
 
 void sortByScore(std::vector<ScoredCandidate>& rivals) {
   std::stable_sort(rivals.begin(), rivals.end(),
@@ -28,7 +28,7 @@ void RingJudge::compareAll(std::vector<ScoredCandidate>& rivals) {
     const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
     rivals[i].correlation = std::max(0.0, match.correlation);
     if (match.correlation > -1.0)
-      order_.emplace_back(match.correlation + kGeometryWeight * rivals[i].score, i);
+      order_.emplace_back(match.correlation + kProposalWeight * rivals[i].score, i);
   }
   std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
     return a.first > b.first || (a.first == b.first && a.second < b.second);

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr int kShortestSidePx = 16;
+constexpr int kSmallestLevelPx = 16;
 
 constexpr double kCoarsest = 14.0, kFinest = 400.0;  ///< levels [samples a mean side]
 constexpr double kBlur = 0.5;                        ///< of a level [samples]
@@ -169,7 +169,7 @@ RingLevel sampled(const RingReader& reader, const Shape& shape, int channels, do
 
 void ImagePyramid::set(const cv::Mat& image) {
   deepest_ = 0;
-  while (std::min(image.cols, image.rows) >> (deepest_ + 1) >= kShortestSidePx) ++deepest_;
+  while (std::min(image.cols, image.rows) >> (deepest_ + 1) >= kSmallestLevelPx) ++deepest_;
   if (static_cast<int>(levels_.size()) <= deepest_) levels_.resize(deepest_ + 1);
   levels_[0] = image;
   made_ = 0;

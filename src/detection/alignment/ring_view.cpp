@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr float kMaxGain = 2.0F;
-constexpr float kHorizon = 1e-3F, kBeyond = -1e6F;  ///< least depth, relative to the centre's
+constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth, relative to the centre's
 
 // Of the samples that are seen.
 RingMoments momentsOf(const float* ring, const float* picture, const float* weights, int begin, int end) {
@@ -56,7 +56,7 @@ void RingView::place(const Matrix3d& map, int level) {
   const Eigen::Matrix3f m = (reduced * map / map(2, 2)).cast<float>();
   for (int i = 0; i < count; ++i) {
     const float x = ring_->x[i], y = ring_->y[i], depth = m(2, 0) * x + m(2, 1) * y + 1.0F;
-    const float inverse = depth > kHorizon ? 1.0F / depth : kBeyond;
+    const float inverse = depth > kHorizon ? 1.0F / depth : kNowhere;
     at_x_[i] = (m(0, 0) * x + m(0, 1) * y + m(0, 2)) * inverse;
     at_y_[i] = (m(1, 0) * x + m(1, 1) * y + m(1, 2)) * inverse;
   }

@@ -23,7 +23,7 @@ constexpr double kFaintestChange =
     3.0;                             ///< of the mean colour over two pixels that may be an edge [grey levels]
 constexpr double kWidePx = 1e3;      ///< no prior
 constexpr double kShortestPx = 4.0;  ///< a side that can be fitted [px]
-constexpr double kBesidePx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
+constexpr double kFrontWithinPx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
 constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
 constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
 constexpr double kMaxInliers = 0.7;
@@ -109,7 +109,7 @@ class Side {
   void toFront() {
     const double from = border_.line.at(border_.middle());
     const bool located = start_.fallback_sigma_px > 0.0;
-    const double near = kBesidePx, wide = kLocatedWithinPx;
+    const double near = kFrontWithinPx, wide = kLocatedWithinPx;
     memory_.fit.toFront({located ? -wide - from : -near, located ? wide - from : near, nullptr, nullptr},
                         border_);
   }

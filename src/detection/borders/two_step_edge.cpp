@@ -25,12 +25,12 @@ constexpr double kWellKnownPx = 0.3;  // standard deviation of a front that is b
 constexpr double kBesidePx = 1.2;     // a front further out must have the right colour outside
 constexpr float kAlike = 0.35f;       // of the change across an edge: colours nearer than this are the same
 constexpr float kCollinear = 0.97f, kMaxOvershoot = 0.3f;
-constexpr int kIterations = 8;
+constexpr int kFitIterations = 8;
 constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
-constexpr int kMaxSamples = 2 * kMaxHalfOfEdge + 1, kMaxRests = 3 * kMaxSamples + 4;
+constexpr int kMaxEdgeSamples = 2 * kMaxHalfOfEdge + 1, kMaxRests = 3 * kMaxEdgeSamples + 4;
 
 using Params = Eigen::Vector3d;  // front, apart, blur
-using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxSamples, 3>;
+using Samples = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxEdgeSamples, 3>;
 using Rests = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRests, 1>;
 using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxRests, 3>;
 
@@ -140,7 +140,7 @@ Fit fit(const Model& model, const Params& start) {
   double cost = rests.squaredNorm(), damping = 1e-2;
   Slopes slopes;
   Eigen::Matrix3d normal;
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kFitIterations; ++i) {
     slopesOf(model, best.params, rests, slopes);
     normal = slopes.transpose() * slopes;
     const Eigen::Vector3d descent = slopes.transpose() * rests;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr double kMinPerimeter = 0.08;  ///< of an outline, in longer sides of t
 constexpr double kHullExcess = 0.12;    ///< the four lines round a hull may add this part of its area
 constexpr double kClosure = 0.7;    ///< of an outline: closed, but its corners are no better than the outline
 constexpr int kMaxContours = 3000;  ///< looked at in one image
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Where the side before `a` and the side after `b` meet if side a-b is taken away, and the area that adds.
 bool meetBeyond(const Vector2d& before, const Vector2d& a, const Vector2d& b, const Vector2d& after,

@@ -15,7 +15,7 @@ constexpr double kStraightPx =
     0.9;                       ///< a run leaves its chord by less than this, at a level side of 320 [px]
 constexpr double kBow = 0.02;  ///< a run leaves its chord by this part of it besides: lenses bend
 constexpr int kMinPixels = 4;  ///< of a run; shorter ones are dropped
-constexpr double kNominalSide = 320.0;
+constexpr double kChainSide = 320.0;
 constexpr short kSteps[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
 // Of the eight steps the one that comes nearest to a direction.
@@ -129,7 +129,7 @@ const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const LevelCam
   runs_.clear();
   pixels_.clear();
   map.edges.copyTo(free_);
-  straight_px_ = kStraightPx * std::max(1.0, std::max(free_.cols, free_.rows) / kNominalSide);
+  straight_px_ = kStraightPx * std::max(1.0, std::max(free_.cols, free_.rows) / kChainSide);
   for (int y = 1; y + 1 < free_.rows; ++y) {
     uchar* row = free_.ptr(y);
     for (int x = 1; x + 1 < free_.cols; ++x) {

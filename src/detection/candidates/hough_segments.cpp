@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 
 constexpr double kOffLine =
     0.004;  ///< ends of the runs of one line lie this close to it, in longer sides of the level
-constexpr double kBow = 0.02;  ///< runs lie further off a line by this part of its pixels: lenses bend
+constexpr double kLineBow = 0.02;  ///< runs lie further off a line by this part of its pixels: lenses bend
 constexpr double kJoinGap =
     0.35;  ///< two pieces of one line are joined over a gap this long, in lengths of the pieces
 constexpr int kMaxSegments = 300;  ///< the strongest are kept
@@ -121,7 +121,7 @@ void HoughSegments::collect(const std::vector<EdgeChain>& runs, int seed) {
         asked_[i] = seed;
         const Vector2d apart = middles_[i] - mean;
         const double ahead = along.dot(apart), off = std::abs(across.dot(apart));
-        if (i == seed || off > 2.0 * off_line_px_ + (kSpread + kBow) * std::abs(ahead)) continue;
+        if (i == seed || off > 2.0 * off_line_px_ + (kSpread + kLineBow) * std::abs(ahead)) continue;
         const double half = 0.5 * runs[i].moments.n;
         members_.push_back({ahead - half, ahead + half, i});
       }
@@ -141,7 +141,7 @@ void HoughSegments::extend(const std::vector<EdgeChain>& runs, int way, LineMome
     if (way * (far - end) <= 0.0) continue;
     if (way * (near - end) > max_gap_px_) break;
     const EdgeChain& other = runs[m.run];
-    const double off_px = off_line_px_ + kBow * moments.n;
+    const double off_px = off_line_px_ + kLineBow * moments.n;
     if (std::abs(normal.dot(other.a - mean)) > off_px || std::abs(normal.dot(other.b - mean)) > off_px)
       continue;
     moments.add(other.moments);
@@ -199,7 +199,7 @@ const std::vector<Segment>& HoughSegments::run(const std::vector<EdgeChain>& run
   };
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
-  joinCollinear(segments_, kJoinGap, off_line_px_, kBow);
+  joinCollinear(segments_, kJoinGap, off_line_px_, kLineBow);
   std::stable_sort(segments_.begin(), segments_.end(), stronger);
   if (static_cast<int>(segments_.size()) > kMaxSegments) segments_.resize(kMaxSegments);
   return segments_;

@@ -16,11 +16,11 @@ constexpr double kMinAngle_rad = 0.6;   ///< between neighbouring sides [rad]
 constexpr double kOddSide =
     0.95;  ///< factor for each side that is brighter inside where most are darker, or so
 constexpr double kSlackPx = 3.0;
-constexpr double kRoundedPx = 1.5;    ///< edges end this far before a corner
-constexpr std::size_t kVariants = 4;  ///< of each loop that is kept so many are compared
-constexpr double kOnPart = 0.3;       ///< a segment goes on beyond a junction with this part of its length
-constexpr double kLongest = 2.0;      ///< mean side of the largest quadrilateral on a side, in its lengths
-constexpr double kLargest = 2.0;      ///< the same at a corner, in the mean lengths of its segments
+constexpr double kRoundedPx = 1.5;        ///< edges end this far before a corner
+constexpr std::size_t kVariantsKept = 4;  ///< of each loop that is kept so many are compared
+constexpr double kOnPart = 0.3;   ///< a segment goes on beyond a junction with this part of its length
+constexpr double kLongest = 2.0;  ///< mean side of the largest quadrilateral on a side, in its lengths
+constexpr double kLargest = 2.0;  ///< the same at a corner, in the mean lengths of its segments
 constexpr float kNoWay = 1e9F;
 constexpr double kSmallestCosine = 0.25;  ///< of the angle between opposite sides
 
@@ -29,8 +29,6 @@ constexpr double kOpenSide = 0.3;      ///< the shorter of the two over the long
 constexpr double kOpenLongest = 3.0;  ///< the longer one over the side between them, or that over the shorter
 constexpr double kOpenCosine = 0.8;   ///< of the angle between the two
 constexpr std::size_t kMostOpen = 200;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Part of the stretch from t1 to t2 that the segment, 0 to 1, covers.
 double coverage(double t1, double t2) {
@@ -176,7 +174,8 @@ void SegmentQuads::keepBest() {
   const auto better = [&](int a, int b) {
     return found_[a].value > found_[b].value || (found_[a].value == found_[b].value && a < b);
   };
-  const std::size_t looked_at = std::min(order_.size(), kVariants * static_cast<std::size_t>(effort_.quads));
+  const std::size_t looked_at =
+      std::min(order_.size(), kVariantsKept * static_cast<std::size_t>(effort_.quads));
   result_.budget_exceeded = result_.budget_exceeded || looked_at < order_.size();
   std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(looked_at), order_.end(),
                     better);

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
-constexpr int kMinPixels = 40;            ///< fewer pixels in a band are not compared
+constexpr int kMinBandPixels = 40;        ///< fewer pixels in a band are not compared
 constexpr double kShortestSidePx = 24.0;  ///< of an opening whose frame can be seen
 constexpr double kElsewherePart = 0.1;    ///< of the other places that are nearer than `elsewhere_`
 constexpr double kLimitPart = 0.6;  ///< of that distance: the limit, somewhat nearer to it than to the target
@@ -24,7 +24,7 @@ constexpr double kEvenDistance = 0.8;     ///< in limits: where target and other
 constexpr double kHalvingDistance = 0.2;  ///< in limits: further off by this, half the odds
 
 std::optional<RingColours> coloursOf(const cv::Mat& image, const Quadrilateral& opening) {
-  return ringColours(image, opening, RingWidths(), kMinPixels);
+  return ringColours(image, opening, RingWidths(), kMinBandPixels);
 }
 
 Quadrilateral inset(const cv::Size& size, double width) {

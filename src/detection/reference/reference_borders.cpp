@@ -17,7 +17,7 @@ using geometry::Quadrilateral;
 constexpr double kBorderInward =
     0.14;  ///< borders are looked for so far inside a rough loop, in mean sides of it
 constexpr double kBorderOutward = 0.40;  ///< borders are looked for so far outside a rough loop
-constexpr double kAlike =
+constexpr double kUnlikeScale =
     0.10;  ///< difference of colours from the reference's that takes e-fold off a border's worth
 constexpr double kContrastFull =
     10.0;  ///< change of the mean colour over two pixels that counts fully [grey levels]
@@ -155,7 +155,7 @@ double ReferenceBorders::choose(int side, double& border) const {
     // Where the end of the frame tells the place, a faint border will do.
     const double visible = framed ? ends * (peak ? 1.0 : kForetold) : std::min(1.0, goes_on / kStepFull);
     const double away = at / kBorderInward / kFarAway;
-    const double worth = std::exp(-off / kAlike - 0.5 * away * away) * visible;
+    const double worth = std::exp(-off / kUnlikeScale - 0.5 * away * away) * visible;
     if (worth > best) best = worth, border = at;
   }
   return best;

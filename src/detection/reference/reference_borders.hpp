@@ -21,6 +21,8 @@ class ReferenceBorders {
   static constexpr int kBands = 7;            ///< outwards from the border
   static constexpr double kBandWidth = 0.02;  ///< [mean sides of the opening]
 
+  static constexpr double kSureWorth = 0.3;  ///< of borders that are surely the reference's
+
   /// \param opening inner border in the image, canonical order. Without colour nothing is learned.
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
   void forget() { known_ = false; }

@@ -22,8 +22,7 @@ constexpr double kMaxThroughHaze =
     0.45;                            ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
 constexpr double kUncovered = 0.88;  ///< where there is no frame
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
-constexpr double kMinStep = 0.12;   ///< of the mean colours there, relative to them; right ones have 0.2 to 1
-constexpr double kSureWorth = 0.3;  ///< of located borders; then loops about the same place are forgotten
+constexpr double kMinStep = 0.12;  ///< of the mean colours there, relative to them; right ones have 0.2 to 1
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
 
@@ -119,7 +118,7 @@ bool ReferenceJudge::weigh(const cv::Mat& image, std::vector<ScoredCandidate>& r
 void ReferenceJudge::weighOthers(const cv::Mat& image, std::vector<ScoredCandidate>& rivals) const {
   for (ScoredCandidate& rival : rivals) {
     const bool sure = std::any_of(located_.begin(), located_.end(), [&](const ScoredCandidate& place) {
-      return place.worth > kSureWorth && Sameness(place.quad).samePlace(rival.quad);
+      return place.worth > ReferenceBorders::kSureWorth && Sameness(place.quad).samePlace(rival.quad);
     });
     rival.appearance = sure ? std::nullopt : reference_->compare(image, rival.quad, appearance_);
     if (sure)

@@ -12,10 +12,10 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSteps = 16;         ///< places between two bins
+constexpr int kBinSteps = 16;      ///< places between two bins
 constexpr int kMinColourSum = 45;  ///< sum of the channels below which chroma is noise
 constexpr double kTop = 0.80;      ///< chromaticity at the last bin; the first is at 0
-constexpr double kWeight[RingHistogram::kBands] = {2.0, 1.0};
+constexpr double kBandWeight[RingHistogram::kBands] = {2.0, 1.0};
 /// Sharing a pixel between bins smooths the sample: its variance is this part of one without.
 constexpr double kSharing = 4.0 / 9.0;
 
@@ -30,23 +30,23 @@ using Counts = std::array<std::uint32_t, RingHistogram::kCells>;
 std::array<std::uint32_t, 766> reciprocals() {
   std::array<std::uint32_t, 766> table{};
   for (int sum = 1; sum < 766; ++sum)
-    table[sum] = static_cast<std::uint32_t>(65536.0 * (RingHistogram::kBins - 1) * kSteps / kTop / sum);
+    table[sum] = static_cast<std::uint32_t>(65536.0 * (RingHistogram::kBins - 1) * kBinSteps / kTop / sum);
   return table;
 }
 
 // Adds one pixel to the four bins round its chromaticity; false if it is too dark.
 bool addPixel(const cv::Vec3b& pixel, Counts& counts) {
   static const auto kPerSum = reciprocals();
-  constexpr std::uint32_t kLast = (RingHistogram::kBins - 1) * kSteps - 1;
+  constexpr std::uint32_t kLast = (RingHistogram::kBins - 1) * kBinSteps - 1;
   const int blue = pixel[0], green = pixel[1], red = pixel[2], sum = blue + green + red;
   if (sum < kMinColourSum) return false;
   const std::uint32_t r = std::min(red * kPerSum[sum] >> 16, kLast),
                       g = std::min(green * kPerSum[sum] >> 16, kLast);
-  const std::uint32_t u = r % kSteps, v = g % kSteps;
-  std::uint32_t* cell = &counts[r / kSteps * RingHistogram::kBins + g / kSteps];
-  cell[0] += (kSteps - u) * (kSteps - v);
-  cell[1] += (kSteps - u) * v;
-  cell[RingHistogram::kBins] += u * (kSteps - v);
+  const std::uint32_t u = r % kBinSteps, v = g % kBinSteps;
+  std::uint32_t* cell = &counts[r / kBinSteps * RingHistogram::kBins + g / kBinSteps];
+  cell[0] += (kBinSteps - u) * (kBinSteps - v);
+  cell[1] += (kBinSteps - u) * v;
+  cell[RingHistogram::kBins] += u * (kBinSteps - v);
   cell[RingHistogram::kBins + 1] += u * v;
   return true;
 }
@@ -60,7 +60,7 @@ RingHistogram::Band bandOf(const RingSamples::Band& samples, int min_pixels) {
   const double seen = std::min<double>(counted, samples.area_px * counted / samples.asked);
   if (seen < min_pixels || 2 * counted < samples.count) return band;
   band.pixels = seen;
-  const float scale = 1.0F / (static_cast<float>(counted) * kSteps * kSteps);
+  const float scale = 1.0F / (static_cast<float>(counted) * kBinSteps * kBinSteps);
   for (int i = 0; i < RingHistogram::kCells; ++i) band.share[i] = scale * static_cast<float>(counts[i]);
   return band;
 }
@@ -159,8 +159,8 @@ double bhattacharyya(const RingHistogram& a, const RingHistogram& b) {
   double sum = 0.0, weights = 0.0;
   for (int i = 0; i < RingHistogram::kBands; ++i) {
     if (a.bands[i].pixels == 0.0 || b.bands[i].pixels == 0.0) continue;
-    sum += kWeight[i] * divergence(a.bands[i], b.bands[i]);
-    weights += kWeight[i];
+    sum += kBandWeight[i] * divergence(a.bands[i], b.bands[i]);
+    weights += kBandWeight[i];
   }
   return weights > 0.0 ? std::sqrt(std::clamp(sum / weights, 0.0, 1.0)) : 1.0;
 }

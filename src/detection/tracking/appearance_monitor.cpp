@@ -9,10 +9,9 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr double kAdaptation = 0.1;   ///< part of a difference in appearance that a comparison takes over
-constexpr double kSureWorth = 0.3;    // of the reference's borders, to say where they are
-constexpr double kAlignedPx = 100.0;  // resolution of a ring [px a mean side]
-constexpr int kAlignEvery = 3;        // frames
+constexpr double kAdaptation = 0.1;  ///< part of a difference in appearance that a comparison takes over
+constexpr double kRingPx = 100.0;    // resolution of a ring [px a mean side]
+constexpr int kAlignEvery = 3;       // frames
 constexpr double kMinStrayPx = 3.0, kStray = 0.03;  // of a corner from there; in the window's sizes
 
 }  // namespace
@@ -47,11 +46,11 @@ std::optional<geometry::Quadrilateral> AppearanceMonitor::align(const TrackInput
     return std::nullopt;
   frames_to_alignment_ = kAlignEvery;
   alignment_.set(ring_, input.image, input.camera);
-  const auto found = alignment_.align(followed, kAlignedPx);
+  const auto found = alignment_.align(followed, kRingPx);
   if (!found || found->match.correlation < params_.min_correlation) return std::nullopt;
   if (borders_->frameless()) return found->quad;
   const auto located = borders_->locate(input.image, found->quad, input.camera, ReferenceBorders::kFine);
-  if (!located || located->worth < kSureWorth) return std::nullopt;
+  if (!located || located->worth < ReferenceBorders::kSureWorth) return std::nullopt;
   if (furthestCorner(located->quad, followed) <= std::max(kMinStrayPx, kStray * sizeOf(followed)))
     return std::nullopt;
   return located->quad;
@@ -60,7 +59,7 @@ std::optional<geometry::Quadrilateral> AppearanceMonitor::align(const TrackInput
 bool AppearanceMonitor::strays(const TrackInput& input, const geometry::Quadrilateral& followed) {
   if (borders_->frameless()) return false;
   const auto found = borders_->locate(input.image, followed, input.camera, ReferenceBorders::kFine);
-  if (!found || found->worth < kSureWorth) return false;
+  if (!found || found->worth < ReferenceBorders::kSureWorth) return false;
   return furthestCorner(found->quad, followed) > std::max(kMinStrayPx, kStray * sizeOf(followed));
 }
 

@@ -20,9 +20,9 @@ constexpr double kMinSimilarity = 0.5;  ///< correlation of a side's profile wit
 constexpr double kMinInliers = 0.4;     ///< part of a side's profiles that must lie on its line
 constexpr double kMinStretch =
     0.06;  ///< shortest part of a side in the image that is a border [longer image sides]
-constexpr int kSteps = 64;
+constexpr int kViewSteps = 64;
 
-bool isInside(const Vector2d& p, const cv::Size& image, double margin) {
+bool isInView(const Vector2d& p, const cv::Size& image, double margin) {
   return p.x() >= margin && p.y() >= margin && p.x() <= image.width - 1 - margin &&
          p.y() <= image.height - 1 - margin;
 }
@@ -48,12 +48,12 @@ double largestRadius(const cv::Size& image, const geometry::PinholeCamera& lens)
 std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, double margin,
                                    const geometry::PinholeCamera& lens) {
   const double radius = largestRadius(image, lens);
-  const Vector2d step = (whole.to - whole.from) / kSteps;
+  const Vector2d step = (whole.to - whole.from) / kViewSteps;
   int best = 0, best_end = -1, run = 0;
-  for (int i = 0; i <= kSteps; ++i) {
+  for (int i = 0; i <= kViewSteps; ++i) {
     const Vector2d p = whole.from + i * step;
     const bool seen =
-        (p - Vector2d(lens.cx, lens.cy)).norm() <= radius && isInside(lens.distort(p), image, margin);
+        (p - Vector2d(lens.cx, lens.cy)).norm() <= radius && isInView(lens.distort(p), image, margin);
     run = seen ? run + 1 : 0;
     if (run > best) best = run, best_end = i;
   }
@@ -61,34 +61,34 @@ std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, 
   return Stretch{whole.from + (best_end - best + 1) * step, whole.from + best_end * step};
 }
 
-constexpr int kNextTo = 2;           // offset of the colour next to a border, clear of its blur [px]
-constexpr float kMinChange = 6.0f;   // of colour that is an edge, over all channels [grey levels]
-constexpr float kAlike = 0.4f;       // of the change across an edge: colours nearer than this are the same
-constexpr float kAdaption = 0.05f;   // of the colour outside, an image
-constexpr float kRisesAgain = 1.4f;  // an edge is so much steeper than what lies before it
+constexpr int kNextTo = 2;              // offset of the colour next to a border, clear of its blur [px]
+constexpr float kMinEdgeChange = 6.0f;  // of colour that is an edge, over all channels [grey levels]
+constexpr float kAlikePart = 0.4f;      // of the change across an edge: colours nearer than this are the same
+constexpr float kAdaption = 0.05f;      // of the colour outside, an image
+constexpr float kRisesAgain = 1.4f;     // an edge is so much steeper than what lies before it
 constexpr int kTimes = 3;
 
-Vector3f colourAt(const float* mean, int channels, int half, int offset) {
+Vector3f profileColour(const float* mean, int channels, int half, int offset) {
   Vector3f colour = Vector3f::Zero();
   for (int c = 0; c < channels; ++c) colour[c] = mean[c * (2 * half + 1) + half + offset];
   return colour;
 }
 
-constexpr double kNominalSide = 640.0;  // longer side of an image at which pixel parameters hold
-constexpr double kViewMarginPx = 3.0;   // of a side from the border of the image
-constexpr double kMaxOfASide = 0.8;     // of a short side must be in the image
-constexpr double kSigmas = 3.0;
+constexpr double kNominalSidePx = 640.0;  // longer side of an image at which pixel parameters hold
+constexpr double kViewMarginPx = 3.0;     // of a side from the border of the image
+constexpr double kMaxOfASide = 0.8;       // of a short side must be in the image
+constexpr double kReachSigmas = 3.0;
 constexpr double kMinReachPx = 2.5;
 constexpr double kLearningRate = 0.15;  // an image
 constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
 constexpr double kFrontReachPx = 3.2;   // of the front edge of a reveal from what was fitted
 constexpr int kLookEvery = 6;           // images, for a reveal beside the border
-constexpr int kMinProfiles = 6;
+constexpr int kMinFollowed = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
 
-double scaleOf(const cv::Mat& image) { return std::max(1.0, longerSide(image) / kNominalSide); }
+double scaleOf(const cv::Mat& image) { return std::max(1.0, longerSide(image) / kNominalSidePx); }
 
 }  // namespace
 
@@ -106,11 +106,11 @@ std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image
 
 // Outwards from the border: other colours, then an edge, then the remembered one.
 std::optional<int> FrontBorder::partedAt(const float* mean, int channels, int half) const {
-  const auto strangeness = [&](int o) { return (colourAt(mean, channels, half, o) - outside_).norm(); };
+  const auto strangeness = [&](int o) { return (profileColour(mean, channels, half, o) - outside_).norm(); };
   const float change = strangeness(1);
-  if (change < kMinChange || strangeness(kNextTo) < kAlike * change) return std::nullopt;
+  if (change < kMinEdgeChange || strangeness(kNextTo) < kAlikePart * change) return std::nullopt;
   int reached = kNextTo + 1;
-  while (reached <= half && strangeness(reached) >= kAlike * change) ++reached;
+  while (reached <= half && strangeness(reached) >= kAlikePart * change) ++reached;
   if (reached >= half) return std::nullopt;
   // A wide blur ends gently, an edge of its own rises again.
   float least = std::numeric_limits<float>::infinity(), steepest = 0.0f;
@@ -130,7 +130,7 @@ Vector3f FrontBorder::likest(const float* mean, int channels, int half) const {
   Vector3f likest = outside_;
   float least = std::numeric_limits<float>::infinity();
   for (int o = kNextTo; o <= half; ++o) {
-    const Vector3f colour = colourAt(mean, channels, half, o);
+    const Vector3f colour = profileColour(mean, channels, half, o);
     const float distance = (colour - outside_).norm();
     if (distance < least) least = distance, likest = colour;
   }
@@ -141,7 +141,7 @@ std::optional<double> FrontBorder::look(const EdgeProfiles& profiles, const Offs
   const int half = std::min(half_px, kHalf), channels = profiles.channels();
   std::array<float, 3 * (2 * kHalf + 1)> mean;
   if (half <= kNextTo || profiles.meanAlong(border, half, mean.data()) == 0) return std::nullopt;
-  const Vector3f next = colourAt(mean.data(), channels, half, kNextTo);
+  const Vector3f next = profileColour(mean.data(), channels, half, kNextTo);
   if (!known_) {
     outside_ = next;
     known_ = true;
@@ -166,8 +166,9 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
   border.sought = border.in_view && memory_.known();
   if (!border.sought) return border;
   const double most = std::max(kMinReachPx, kReach * longerSide(image));
-  const int reach = static_cast<int>(std::lround(std::clamp(kSigmas * sigma_px + 1.0, kMinReachPx, most)));
-  const int count = std::clamp(static_cast<int>(stretch->length()), kMinProfiles, kProfiles);
+  const int reach =
+      static_cast<int>(std::lround(std::clamp(kReachSigmas * sigma_px + 1.0, kMinReachPx, most)));
+  const int count = std::clamp(static_cast<int>(stretch->length()), kMinFollowed, kProfiles);
   coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px);
   border.similarity = match ? match->similarity : 0.0;
@@ -180,7 +181,7 @@ bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens,
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
                radius_px = scale * BorderFitLimits().radius_px;
   const int count =
-      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kMinProfiles, kFineProfiles);
+      std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kMinFollowed, kFineProfiles);
   fine_.sample(image, lens,
                {coarse_.point(-half, coarse.at(-half)), coarse_.point(half, coarse.at(half)), count, kSkip,
                 static_cast<int>(std::ceil(radius_px)) + 5});

@@ -18,7 +18,7 @@ constexpr double kWeight = 0.3;  // of the last one
 
 constexpr double kAgreePx = 2.5, kAgreePart = 0.02;  // corners of one window, the larger; in its sizes
 constexpr double kSameRival = 0.08;                  // corners of one rival in two images, in sizes
-constexpr double kSamePlace = 0.12;                  // corners of other borders of the same window, in sizes
+constexpr double kSameSpot = 0.12;                   // corners of other borders of the same window, in sizes
 constexpr int kMaxQuestions = 4;                     // times the confirmations; then it rests
 constexpr int kPauseFrames = 60;
 
@@ -106,7 +106,7 @@ bool TrackConfirmation::prefers(const std::optional<Quadrilateral>& searched, co
     if (++for_ >= params_.confirmations) confirmed_ = true, doubtful_ = false, for_ = asked_ = 0;
     return false;
   }
-  if (confirmed_ && off > kSamePlace * size) return false;
+  if (confirmed_ && off > kSameSpot * size) return false;
   const Quadrilateral rival = relativeTo(followed, *searched);
   against_ = against_ > 0 && furthestCorner(rival, rival_) < kSameRival ? against_ + 1 : 1;
   rival_ = rival;
