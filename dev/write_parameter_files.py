@@ -18,7 +18,7 @@ FIELD = re.compile(r'field\("(\w+)",\s*self\.(\w+)(?:,\s*([^,()]+),\s*([^,()]+))
 GROUP = re.compile(r'field\.group\("(\w+)",\s*self\.(\w+)\)')
 CHOICE = re.compile(r'field\.choice\("(\w+)",\s*self\.(\w+),\s*\{([^}]*)\}\)')
 LIST = re.compile(r'field\.list\("(\w+)",\s*self\.(\w+)\)')
-INLINE = re.compile(r"(\w+)::visit\(self\.(\w+),\s*field\)")
+INLINE = re.compile(r"((?:\w+::)?\w+)::visit\(self\.(\w+),\s*field\)")
 
 
 class Struct:
@@ -192,7 +192,7 @@ def doc_row(struct, visit):
     else:
         allowed = {"bool": "true, false", "std::string": "text"}.get(kind, "")
     default = f"{float(default):g}" if kind in ("double", "int") else (default_of(kind, default) or "").strip('"')
-    return f"| `{visit[1]}` | {unit[1] if unit else ''} | {default} | {allowed} | {meaning[:1].upper() + meaning[1:]} |"
+    return f"| `{visit[1]}` | {unit[1] if unit else '-' if kind in ('double', 'int') else ''} | {default} | {allowed} | {meaning[:1].upper() + meaning[1:]} |"
 
 
 def doc_tables(structs, kind):

@@ -32,7 +32,7 @@ Consistency ConsistencyMonitor::consistency() const {
   out.images = static_cast<int>(samples_.size()) - out.refused;
   if (degrees_of_freedom > 0.0) out.mean_nis = squares / degrees_of_freedom;
   const bool few = 2 * samples_.size() < images_;
-  out.consistent = few || out.mean_nis <= limit_;
+  out.consistent = few || out.mean_nis <= kMaxMeanNis;
   out.contradicted = !few && out.refused > kMaxRefused * static_cast<double>(samples_.size());
   return out;
 }

@@ -7,6 +7,8 @@
 namespace window_ingress::estimation {
 namespace {
 
+constexpr double kFitSigmas = 2.0;
+
 struct Side {
   const char* name;
   double size_m, sigma_m, needed_m;
@@ -32,18 +34,16 @@ const char* toString(Fit fit) {
   return "UNKNOWN";
 }
 
-FitVerdict fitVerdict(const SizeEstimate& opening, const FitParams& params) {
+FitVerdict fitVerdict(const SizeEstimate& opening, const geometry::OpeningSize& needed) {
   if (!isUsable(opening)) return {Fit::kUnknown, "the size of the opening is not known"};
   const auto& [size, covariance] = opening;
-  const Side width{"width", size.width_m, size.width_m * std::sqrt(covariance(0, 0)),
-                   params.vehicle_width_m + 2.0 * params.margin_m};
-  const Side height{"height", size.height_m, size.height_m * std::sqrt(covariance(1, 1)),
-                    params.vehicle_height_m + 2.0 * params.margin_m};
+  const Side width{"width", size.width_m, size.width_m * std::sqrt(covariance(0, 0)), needed.width_m};
+  const Side height{"height", size.height_m, size.height_m * std::sqrt(covariance(1, 1)), needed.height_m};
   const Side& tighter = width.excess() < height.excess() ? width : height;
   for (const Side& side : {tighter, width, height})
-    if (side.excess() < -params.sigmas * side.sigma_m) return {Fit::kNoGo, text(side, "is less than the")};
+    if (side.excess() < -kFitSigmas * side.sigma_m) return {Fit::kNoGo, text(side, "is less than the")};
   for (const Side& side : {tighter, width, height})
-    if (!(side.excess() > params.sigmas * side.sigma_m))
+    if (!(side.excess() > kFitSigmas * side.sigma_m))
       return {Fit::kUnknown, text(side, "is not certain to be more or less than the")};
   return {Fit::kGo, text(tighter, "is more than the")};
 }

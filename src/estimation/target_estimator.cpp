@@ -18,10 +18,6 @@ TargetEstimatorParams checked(const TargetEstimatorParams& params) {
   return params;
 }
 
-geometry::OpeningSize neededBy(const FitParams& fit) {
-  return {fit.vehicle_width_m + 2.0 * fit.margin_m, fit.vehicle_height_m + 2.0 * fit.margin_m};
-}
-
 SizeEstimate sizeSaid(const PoseParams& pose) {
   return sizeEstimate({pose.opening_width_m, pose.opening_height_m}, pose.scale_sigma, pose.aspect_sigma);
 }
@@ -46,11 +42,11 @@ TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& fil
     : params_(checked(params)),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
-      checks_(
-          new Checks{{pose, filter, params.frames, sizeSaid(pose)}, ParallaxCheck(filter.target_speed_mps)}),
-      judge_(params.openness, neededBy(params.fit)),
+      checks_(new Checks{{pose, filter, sizeSaid(pose)}, ParallaxCheck(filter.target_speed_mps)}),
+      judge_(params.openness, params.needed),
       facade_(params.facade),
-      size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)) {}
+      size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)),
+      attitude_sigma_rad_(filter.attitude_bias_sigma_rad) {}
 
 TargetEstimator::~TargetEstimator() = default;
 TargetEstimator::TargetEstimator(TargetEstimator&&) noexcept = default;
@@ -96,11 +92,11 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
 }
 
 bool TargetEstimator::isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const {
-  constexpr double kFastestMps = 3.0, kFastestRadps = 3.0;
+  constexpr double kMaxJumpM = 0.5, kMaxTurnJumpRad = 0.35, kFastestMps = 3.0, kFastestRadps = 3.0;
   const double moved_m = (T_odom_base.translation() - last_T_odom_base_.translation()).norm();
   const Eigen::Quaterniond before(last_T_odom_base_.linear()), now(T_odom_base.linear());
-  return moved_m > params_.max_jump_m + kFastestMps * dt_sec ||
-         before.angularDistance(now) > params_.max_turn_jump_rad + kFastestRadps * dt_sec;
+  return moved_m > kMaxJumpM + kFastestMps * dt_sec ||
+         before.angularDistance(now) > kMaxTurnJumpRad + kFastestRadps * dt_sec;
 }
 
 void TargetEstimator::addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base) {
@@ -125,7 +121,7 @@ void TargetEstimator::flush() {
 
 std::optional<Eigen::Isometry3d> TargetEstimator::cameraAt(
     double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera) const {
-  const auto T_odom_base = odometry_.at(stamp_sec, params_.max_pose_gap_sec);
+  const auto T_odom_base = odometry_.at(stamp_sec, kMaxPoseGapSec);
   if (!T_odom_base || !T_base_camera) return std::nullopt;
   return *T_odom_base * *T_base_camera;
 }
@@ -243,8 +239,8 @@ std::string TargetEstimator::updateFilter(const ObservedImage& picture) {
 
 // That of the IMU, unless it has none or is in other axes.
 std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
-  const auto imu = attitude_.at(stamp_sec, params_.max_pose_gap_sec);
-  const auto odometry = odometry_.at(stamp_sec, params_.max_pose_gap_sec);
+  const auto imu = attitude_.at(stamp_sec, kMaxPoseGapSec);
+  const auto odometry = odometry_.at(stamp_sec, kMaxPoseGapSec);
   const bool agree = !imu || !odometry || checks_->frames.attitude().see(imu->linear(), odometry->linear());
   if (imu && agree) return imu->linear();
   if (odometry) return odometry->linear();
@@ -256,7 +252,7 @@ std::optional<GravityPrior> TargetEstimator::gravity(const ObservedImage& pictur
   const auto R_odom_base = attitudeAt(picture.stamp_sec);
   if (!R_odom_base) return std::nullopt;
   const Eigen::Matrix3d R_odom_camera = *R_odom_base * picture.T_base_camera->linear();
-  return GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), params_.gravity_sigma_rad};
+  return GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), attitude_sigma_rad_};
 }
 
 std::optional<TargetEstimate> TargetEstimator::target(double now_sec) const {

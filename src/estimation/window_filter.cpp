@@ -16,10 +16,14 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kExpectedSquares = 8.0;
-constexpr double kMeanOver = 30.0;        // images
-constexpr double kMaxHeldSigma = 0.1;     // a size that is worse than this is not worth being held
-constexpr double kSureOfHeight = 0.2;     // relative
-constexpr double kHeldSigmaGrowth = 1.5;  // the restart may have had a reason
+constexpr double kMeanOver = 30.0;            // images
+constexpr double kRestartMeanSquares = 20.0;  // over those; beyond it the filter starts anew
+constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
+constexpr double kSystematicRenewalSec = 20.0;  // at one place
+constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
+constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
+constexpr double kSureOfHeight = 0.2;           // relative
+constexpr double kHeldSigmaGrowth = 1.5;        // the restart may have had a reason
 
 Eigen::Vector3d upInCamera(const Eigen::Isometry3d& T_odom_camera) {
   return T_odom_camera.linear().transpose().col(2);
@@ -34,11 +38,7 @@ CameraTurn cameraTurn(const WindowHypothesis& window) {
 
 struct WindowFilter::Impl {
   Impl(const FilterParams& p, const std::optional<SizeEstimate>& size)
-      : params(p),
-        nominal_size(size),
-        viewpoints(p.systematic_renewal_m),
-        beliefs(p),
-        consistency(p.consistency_images, p.max_consistency) {}
+      : params(p), nominal_size(size), viewpoints(FilterParams::kSystematicRenewalM), beliefs(p) {}
 
   FilterParams params;
   std::optional<SizeEstimate> nominal_size, held_size;
@@ -80,7 +80,7 @@ struct WindowFilter::Impl {
   void holdSize() {
     if (beliefs.empty() || sizeIsKnown()) return;
     held_size.reset();
-    if (!beliefs.areUnambiguous() || mean_squares > params.max_mean_squares) return;
+    if (!beliefs.areUnambiguous() || mean_squares > kRestartMeanSquares) return;
     SizeEstimate found = believed().size();
     if (found.log_covariance.trace() > kMaxHeldSigma * kMaxHeldSigma) return;
     found.log_covariance *= kHeldSigmaGrowth * kHeldSigmaGrowth;
@@ -108,12 +108,12 @@ struct WindowFilter::Impl {
     return held_size ? held_size : nominal_size;
   }
 
-  ImageNoise noise() const { return {params.systematic_sigma_px, params.unknown_corner_sigma_px, 1.0, 1.0}; }
+  ImageNoise noise() const { return {params.systematic_sigma_px, 1.0, 1.0}; }
 
   ImageNoise noiseAt(const Eigen::Vector3d& position) const {
     ImageNoise shared = noise();
     shared.looks = viewpoints.looksWith(position);
-    shared.max_looks_variance = std::max(1.0, params.systematic_renewal_sec / interval_sec);
+    shared.max_looks_variance = std::max(1.0, kSystematicRenewalSec / interval_sec);
     return shared;
   }
 
@@ -141,7 +141,7 @@ struct WindowFilter::Impl {
     if (!std::isfinite(stamp)) return false;
     if (beliefs.empty()) return true;
     const double elapsed = stamp - stamp_sec;
-    if (elapsed < -params.time_jump_sec) reset();
+    if (elapsed < -kTimeJumpSec) reset();
     if (elapsed > params.max_age_sec) forgetPlaces();
     if (beliefs.empty()) return true;
     if (elapsed > 0.0) interval_sec = std::clamp(elapsed, 0.005, 1.0);
@@ -167,7 +167,7 @@ struct WindowFilter::Impl {
     startAnewForAnotherTarget(window.target_id);
     path.add(window.stamp_sec, T_odom_camera.translation());
     const auto motion = path.motion();
-    const bool moves = motion && motion->velocity_mps.norm() >= params.scale_speed_mps;
+    const bool moves = motion && motion->velocity_mps.norm() >= kMinScaleMps;
     const Eigen::Vector3d jitter =
         motion ? Eigen::Vector3d(T_odom_camera.translation() - motion->position_m) : Eigen::Vector3d::Zero();
     return apply(estimate, window.stamp_sec, {*shared, *first, camera, T_odom_camera, jitter, moves});
@@ -184,7 +184,7 @@ struct WindowFilter::Impl {
 
   bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
     if (beliefs.empty()) return start(estimate, stamp, view);
-    if (mean_squares > params.max_mean_squares && start(estimate, stamp, view)) return true;
+    if (mean_squares > kRestartMeanSquares && start(estimate, stamp, view)) return true;
     const auto outcome = beliefs.apply(view, stamp - stamp_sec, wayTo(view, stamp));
     if (!outcome) {
       consistency.refuse();
@@ -280,7 +280,7 @@ std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
   const Impl& self = *impl_;
   if (self.beliefs.empty() || !std::isfinite(now_sec)) return std::nullopt;
   const double age_sec = now_sec - self.stamp_sec;
-  if (age_sec > self.params.max_age_sec || age_sec < -self.params.time_jump_sec) return std::nullopt;
+  if (age_sec > self.params.max_age_sec || age_sec < -kTimeJumpSec) return std::nullopt;
   return self.stateAt(age_sec);
 }
 

@@ -15,6 +15,8 @@
 namespace window_ingress::estimation {
 namespace {
 
+constexpr double kSystematicTurn = 0.4;  // part of the systematic error that turns a border
+
 PoseResult rejected(PoseReject reason, std::string detail) {
   return {std::nullopt, reason, std::move(detail)};
 }
@@ -61,8 +63,7 @@ bool isInFront(const detection::WindowObservation& window, const WindowPoseEstim
 ImageNoise noiseOf(const PoseParams& params) {
   ImageNoise noise;
   noise.systematic_sigma_px = params.systematic_sigma_px;
-  noise.unknown_corner_sigma_px = params.unknown_corner_sigma_px;
-  noise.systematic_turn = params.systematic_turn;
+  noise.systematic_turn = kSystematicTurn;
   return noise;
 }
 
@@ -99,8 +100,7 @@ const char* toString(PoseReject reject) {
 }
 
 WindowPoseEstimator::WindowPoseEstimator(const PoseParams& params) : params_(params) {
-  auto faults = parameters::outOfRange(params);
-  if (params.min_range_m >= params.max_range_m) faults.push_back("min_range_m is not below max_range_m");
+  const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("pose parameters: " + parameters::joined(faults));
 }
 
@@ -119,7 +119,7 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   if (!camera_faults.empty()) return rejected(PoseReject::kBadCamera, parameters::joined(camera_faults));
   if (!std::isfinite(window.stamp_sec)) return rejected(PoseReject::kNotFinite, "the stamp is not finite");
   const PoseHints hints = usable(given);
-  const std::string fault = faultOfCorners(window, camera, params_, hints.prior ? 2 : 4);
+  const std::string fault = faultOfCorners(window, camera, hints.prior ? 2 : 4);
   if (!fault.empty()) return rejected(PoseReject::kBadCorners, fault);
 
   const Eigen::Vector3d up =
@@ -136,9 +136,9 @@ PoseResult WindowPoseEstimator::estimate(const detection::WindowObservation& win
   const auto solutions = planarSolutions(problem);
   if (!solutions)
     return rejected(PoseReject::kNotInFront, "no pose in front of the camera explains the corners");
-  WindowPoseEstimate estimate = describe(problem, *solutions, up, params_);
+  WindowPoseEstimate estimate = describe(problem, *solutions, up);
   const auto stray = withoutStrayBorder(problem, estimate);
-  if (stray) estimate = describe(stray->problem, stray->solutions, up, params_);
+  if (stray) estimate = describe(stray->problem, stray->solutions, up);
   estimate.stamp_sec = window.stamp_sec;
   estimate.border_astray = stray.has_value();
   if (stray) estimate.opening = size.size, estimate.opening_log_covariance.setZero();

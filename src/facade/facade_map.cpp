@@ -11,7 +11,10 @@ namespace {
 constexpr std::size_t kMaxWindows = 64;
 constexpr double kSameSpot = 0.4;  // of the smaller width: closer than two windows can be
 
-constexpr double kSizeRatio = 1.35;  // beyond which two loops are not one window
+constexpr double kMaxSquares = 3.5 * 3.5;  // Mahalanobis, of a place from the window that it belongs to
+constexpr double kForgetSec = 2.0;         // a window that has no number yet
+constexpr double kSightsOverFilter = 2.0;  // odometry's drift between two sights over what the filter is told
+constexpr double kSizeRatio = 1.35;        // beyond which two loops are not one window
 
 bool areAlike(const geometry::OpeningSize& a, const geometry::OpeningSize& b) {
   const double wider = a.width_m / b.width_m, higher = a.height_m / b.height_m;
@@ -46,16 +49,16 @@ void FacadeMap::reset() { *this = FacadeMap(params_); }
 
 double FacadeMap::squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const {
   const double since_sec = std::abs(stamp_sec - window.last_seen_sec);
-  return squaresBetween(window.place, place, std::pow(params_.drift_m_per_sqrt_sec, 2) * since_sec);
+  return squaresBetween(window.place, place,
+                        std::pow(kSightsOverFilter * params_.odom_drift_m_per_sqrt_sec, 2) * since_sec);
 }
 
 void FacadeMap::associate(double stamp_sec, std::vector<Sight>& sights) const {
   std::vector<std::tuple<double, std::uint32_t, Sight*>> pairs;
-  const double limit = params_.max_deviation * params_.max_deviation;
   for (const KnownWindow& window : windows_)
     for (Sight& sight : sights)
       if (const double squares = this->squares(window, sight.place, stamp_sec);
-          squares < limit && sizesAgree(window.place, sight.place))
+          squares < kMaxSquares && sizesAgree(window.place, sight.place))
         pairs.emplace_back(squares, window.id, &sight);
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [squares, id, sight] : pairs) {
@@ -96,13 +99,12 @@ void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {
 
 // The older one stays.
 void FacadeMap::merge(double stamp_sec) {
-  const double limit = params_.max_deviation * params_.max_deviation;
   for (std::size_t i = 0; i < windows_.size(); ++i)
     for (std::size_t k = windows_.size(); --k > i;) {
       KnownWindow &older = windows_[i], &younger = windows_[k];
       const double width_m = std::min(older.place.size.width_m, younger.place.size.width_m);
       if (apart_.count({older.id, younger.id}) != 0 || apartM(older, younger) > kSameSpot * width_m ||
-          squares(older, younger.place, stamp_sec) > limit || !sizesAgree(older.place, younger.place))
+          squares(older, younger.place, stamp_sec) > kMaxSquares || !sizesAgree(older.place, younger.place))
         continue;
       if (followed_id_ == younger.id) followed_id_ = older.id;
       absorb(older, younger);
@@ -112,7 +114,7 @@ void FacadeMap::merge(double stamp_sec) {
 
 void FacadeMap::prune(double stamp_sec) {
   const auto is_stale = [&](const KnownWindow& window) {
-    return !isConfirmed(window) && stamp_sec - window.last_seen_sec > params_.forget_sec;
+    return !isConfirmed(window) && stamp_sec - window.last_seen_sec > kForgetSec;
   };
   windows_.erase(std::remove_if(windows_.begin(), windows_.end(), is_stale), windows_.end());
 }
@@ -121,7 +123,7 @@ void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
                     const geometry::OpeningSize& looked_for) {
   std::vector<Sight> sights;
   for (const detection::SeenWindow& seen : view.windows)
-    if (const auto place = placeOf(seen.corners, view.from, wall, looked_for, params_))
+    if (const auto place = placeOf(seen.corners, view.from, wall, looked_for))
       sights.push_back({&seen, *place});
   followed_id_.reset();
   associate(view.stamp_sec, sights);
@@ -137,7 +139,7 @@ void FacadeMap::correct(std::uint32_t id, const WindowPlace& place) {
 
 const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) const {
   const KnownWindow* nearest = nullptr;
-  double least = params_.max_deviation * params_.max_deviation;
+  double least = kMaxSquares;
   for (const KnownWindow& window : windows_)
     if (const double squares = this->squares(window, place, stamp_sec);
         squares < least && sizesAgree(window.place, place))

@@ -13,6 +13,9 @@ namespace window_ingress::facade {
 namespace {
 
 constexpr double kLongestGapSec = 0.5;   // between images; longer ones show nothing
+constexpr int kSettledUpdates = 15;      // of the filter, after which the window followed is the target
+constexpr double kNextReleaseSec = 1.5;  // as `release_sec`, for the next best after another
+constexpr double kMaxClickM = 1.0;       // beside a window
 constexpr double kNearestSigmaM = 0.03;  // of a place in odom, however well the filter knows it
 
 FacadeParams checked(const FacadeParams& params) {
@@ -92,7 +95,7 @@ void FacadeMemory::adopt(const estimation::FilteredWindow& filtered, std::uint32
   if (!followed) return;
   if (choice_is_lost_ && track_id != 0 && track_id == target_track_id_) setTarget(*followed, true);
   if (filtered.sign_trusted) map_.correct(*followed, placeFrom(filtered));
-  const bool has_settled = filtered.updates >= params_.settled_updates;
+  const bool has_settled = filtered.updates >= kSettledUpdates;
   const bool is_free = target_id_ == 0 && !choice_is_lost_ && !choice_is_given_up_;
   if (is_free && has_settled && map_.find(*followed)->failures == 0) setTarget(*followed, false);
   if (*followed == target_id_) target_track_id_ = track_id;
@@ -102,7 +105,7 @@ void FacadeMemory::adopt(const estimation::FilteredWindow& filtered, std::uint32
 void FacadeMemory::yieldToBetterLook() {
   const KnownWindow* now = target();
   if (now == nullptr || is_chosen_ || !now->bhattacharyya) return;
-  const double needed = *now->bhattacharyya - params_.likeness_margin;
+  const double needed = *now->bhattacharyya - params_.distance_margin;
   const auto is_better = [&](const KnownWindow& other) {
     return other.may_be_target && other.failures == 0 && map_.isConfirmed(other) &&
            other.bhattacharyya.value_or(1.0) < needed;
@@ -119,7 +122,7 @@ void FacadeMemory::releaseIfGone(const FacadeView& view) {
     missing_sec_ = 0.0;
   else if (expected(view.from))
     missing_sec_ += elapsed_sec;
-  if (missing_sec_ <= (is_next_ ? params_.next_release_sec : params_.release_sec)) return;
+  if (missing_sec_ <= (is_next_ ? kNextReleaseSec : params_.release_sec)) return;
   if (!is_next_) return setTarget(0, false);
   ++map_.find(target_id_)->failures;
   setNextBest();
@@ -135,9 +138,9 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
     return "the window that was chosen was given up: choose another one (~select_window), or allow "
            "search/next_window";
   if (target == nullptr) return "";
-  const Wall wall{target->place.position_m, target->place.heading_rad, params_.wall_sigma_m, 0.0};
-  const auto place = placeOf(window.corners, from, target->place.on_wall ? std::optional(wall) : std::nullopt,
-                             looked_for, params_);
+  const Wall wall{target->place.position_m, target->place.heading_rad, kWallSigmaM, 0.0};
+  const auto place =
+      placeOf(window.corners, from, target->place.on_wall ? std::optional(wall) : std::nullopt, looked_for);
   if (!place) return "";
   const KnownWindow* seen = map_.at(*place, window.stamp_sec);
   if (seen != nullptr && seen->id == target->id) return "";
@@ -173,12 +176,12 @@ Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
   };
   const KnownWindow* nearest = nullptr;
   for (const KnownWindow& window : windows()) {
-    if (!map_.isConfirmed(window) || std::get<0>(rank(window)) > params_.click_m) continue;
+    if (!map_.isConfirmed(window) || std::get<0>(rank(window)) > kMaxClickM) continue;
     if (nearest == nullptr || rank(window) < rank(*nearest)) nearest = &window;
   }
   if (nearest != nullptr) return select(nearest->id);
   char text[120];
-  std::snprintf(text, sizeof text, "no window is known within %.1f m of (%.1f, %.1f, %.1f)", params_.click_m,
+  std::snprintf(text, sizeof text, "no window is known within %.1f m of (%.1f, %.1f, %.1f)", kMaxClickM,
                 point_odom_m.x(), point_odom_m.y(), point_odom_m.z());
   return {false, text};
 }

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kMaxOblique = 0.2;  // cosine between sight and way through
 constexpr double kFurthestM = 40.0;
+constexpr double kCornerSigmaPx = 3.0;     // as a search finds it
+constexpr double kRangeSigma = 0.3;        // of a distance that rests on the size looked for, part of it
 constexpr double kBearingSigmaRad = 0.01;  // of the camera in odom
 
 Eigen::Vector3d wayThrough(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
@@ -20,12 +22,12 @@ Eigen::Matrix3d spread(const Eigen::Vector3d& along, double sigma_along, double 
          sigma_across * sigma_across * (Eigen::Matrix3d::Identity() - outer);
 }
 
-double acrossSigma(const Viewpoint& view, double range_m, const FacadeParams& params) {
-  return range_m * std::hypot(params.corner_sigma_px / view.camera.fx, kBearingSigmaRad);
+double acrossSigma(const Viewpoint& view, double range_m) {
+  return range_m * std::hypot(kCornerSigmaPx / view.camera.fx, kBearingSigmaRad);
 }
 
 std::optional<WindowPlace> onWall(const geometry::Quadrilateral& corners, const Viewpoint& view,
-                                  const Wall& wall, const FacadeParams& params) {
+                                  const Wall& wall) {
   const Eigen::Vector3d through = wayThrough(wall.heading_rad), eye = view.T_odom_camera.translation();
   const double ahead_m = through.dot(wall.position_m - eye);
   std::array<Eigen::Vector3d, 4> points;
@@ -41,10 +43,10 @@ std::optional<WindowPlace> onWall(const geometry::Quadrilateral& corners, const 
   const double range_m = (place.position_m - eye).norm();
   if (range_m > kFurthestM) return std::nullopt;
   const double aside_m = (place.position_m - wall.position_m).norm();
-  const double off_wall_m = std::sqrt(std::pow(wall.sigma_m, 2) + std::pow(params.wall_sigma_m, 2) +
+  const double off_wall_m = std::sqrt(std::pow(wall.sigma_m, 2) + std::pow(kWallSigmaM, 2) +
                                       std::pow(aside_m * wall.heading_sigma_rad, 2));
   const Eigen::Vector3d sight = (place.position_m - eye) / range_m;
-  place.covariance = spread(sight, off_wall_m / least_cosine, acrossSigma(view, range_m, params));
+  place.covariance = spread(sight, off_wall_m / least_cosine, acrossSigma(view, range_m));
   place.heading_rad = wall.heading_rad;
   place.size.width_m = 0.5 * ((points[1] - points[0]).norm() + (points[2] - points[3]).norm());
   place.size.height_m = 0.5 * ((points[3] - points[0]).norm() + (points[2] - points[1]).norm());
@@ -53,7 +55,7 @@ std::optional<WindowPlace> onWall(const geometry::Quadrilateral& corners, const 
 }
 
 std::optional<WindowPlace> bySize(const geometry::Quadrilateral& corners, const Viewpoint& view,
-                                  const geometry::OpeningSize& looked_for, const FacadeParams& params) {
+                                  const geometry::OpeningSize& looked_for) {
   geometry::Quadrilateral ideal;
   for (int i = 0; i < 4; ++i) ideal[i] = view.camera.undistort(corners[i]);
   const double height_px = 0.5 * ((ideal[3] - ideal[0]).norm() + (ideal[2] - ideal[1]).norm());
@@ -63,7 +65,7 @@ std::optional<WindowPlace> bySize(const geometry::Quadrilateral& corners, const 
   const Eigen::Vector3d sight = view.T_odom_camera.linear() * view.camera.ray(geometry::centroid(corners));
   WindowPlace place;
   place.position_m = view.T_odom_camera.translation() + range_m * sight;
-  place.covariance = spread(sight, params.range_sigma * range_m, acrossSigma(view, range_m, params));
+  place.covariance = spread(sight, kRangeSigma * range_m, acrossSigma(view, range_m));
   place.heading_rad = std::atan2(sight.y(), sight.x());
   place.size = looked_for;
   return place;
@@ -72,12 +74,11 @@ std::optional<WindowPlace> bySize(const geometry::Quadrilateral& corners, const 
 }  // namespace
 
 std::optional<WindowPlace> placeOf(const geometry::Quadrilateral& corners, const Viewpoint& view,
-                                   const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for,
-                                   const FacadeParams& params) {
+                                   const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for) {
   if (!geometry::isFinite(corners)) return std::nullopt;
   if (wall)
-    if (auto place = onWall(corners, view, *wall, params)) return place;
-  return bySize(corners, view, looked_for, params);
+    if (auto place = onWall(corners, view, *wall)) return place;
+  return bySize(corners, view, looked_for);
 }
 
 Eigen::Isometry3d poseOf(const WindowPlace& place) {

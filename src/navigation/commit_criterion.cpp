@@ -24,6 +24,8 @@ namespace {
 constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
 // From the measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
+constexpr double kMaxHeadingErrorRad = 0.2;  // against the window's normal
+constexpr double kMaxAcrossMps = 0.3;        // across the window's normal, at the commit line
 constexpr double kUsualOdometryMps =
     0.06;  // between position and velocity over two seconds, where all is well
 
@@ -81,14 +83,14 @@ double missByOdometry(double odometry_mps, const NavigatorParams& params) {
 
 /// How far gusts carry the vehicle past the axis. What is measured in calm air, too, carries nobody off, and
 /// hides as much of what does.
-double carriedM(double gust_mps, const NavigatorParams& params) {
+double carriedM(double gust_mps) {
   const double beyond_calm_mps = std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps));
-  return params.approach.gust_carry_sec * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
+  return kGustCarrySec * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
 }
 
 /// What chance may add: `sigma_factor` standard deviations.
 double spreadOf(double sigma_m, double gust_mps, double drift_m, const NavigatorParams& params) {
-  const double gust_m = carriedM(gust_mps, params);
+  const double gust_m = carriedM(gust_mps);
   return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
 }
 
@@ -118,12 +120,11 @@ std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInpu
   if (!(criterion.miss_vertical_m < criterion.clearance_vertical_m))
     return predictedMiss("vertical", criterion.miss_vertical_m, criterion.clearance_vertical_m,
                          input.gust_vertical_mps);
-  if (std::abs(relative.heading_error_rad) > params.commit.max_heading_error_rad) {
+  if (std::abs(relative.heading_error_rad) > kMaxHeadingErrorRad) {
     return formatted("heading %.2f rad off the normal", relative.heading_error_rad);
   }
   const double across_mps = relative.velocity_window_mps.tail<2>().norm();
-  if (across_mps > params.commit.max_lateral_speed_mps)
-    return formatted("%.2f m/s across the normal", across_mps);
+  if (across_mps > kMaxAcrossMps) return formatted("%.2f m/s across the normal", across_mps);
   return "";
 }
 
@@ -132,7 +133,7 @@ std::string whyUnmet(const CommitCriterion& criterion, const CommitCriterionInpu
 CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const NavigatorParams& params) {
   CommitCriterion criterion;
   const RelativeState& relative = input.relative;
-  const double margin_m = params.approach.margin_m;
+  const double margin_m = params.vehicle.margin_m;
   criterion.clearance_lateral_m = input.opening.width_m / 2.0 - params.vehicle.half_width_m - margin_m;
   criterion.clearance_vertical_m = input.opening.height_m / 2.0 - params.vehicle.half_height_m - margin_m;
   criterion.commit_distance_m = commitDistance(relative, input.opening, input.pitch_rad, params);
@@ -140,7 +141,7 @@ CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const
   const double way_sec = blind_sec - input.unseen_sec;
   const auto atPlane = [&](double sigma_m) { return sigmaAhead(sigma_m, input.motion, way_sec); };
   const double drift_m =
-      std::max(params.commit.drift_m_per_sqrt_sec, input.drift_m_per_sqrt_sec) * std::sqrt(blind_sec);
+      std::max(params.vehicle.odom_drift_m_per_sqrt_sec, input.drift_m_per_sqrt_sec) * std::sqrt(blind_sec);
   const double lateral_m =
       spreadOf(atPlane(relative.sigma_lateral_m), input.gust_lateral_mps, drift_m, params);
   const double vertical_m =

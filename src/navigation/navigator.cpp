@@ -139,8 +139,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
 // COMMIT judges for itself what it sees.
 void Navigator::Impl::keepToWindow(Situation& situation) const {
   if (state == State::kCommit || situation.vehicle_jumped || !situation.target || !situation.vehicle) return;
-  const std::string why_not =
-      whyNotFlownAt(*situation.target, *situation.vehicle, state, memory, params.input);
+  const std::string why_not = whyNotFlownAt(*situation.target, *situation.vehicle, state, memory);
   if (why_not.empty()) return;
   situation.target.reset();
   situation.target_is_new = false;

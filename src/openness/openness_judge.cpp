@@ -19,6 +19,10 @@ constexpr double kSays = 1.0;        // log odds below which a stretch has said 
 constexpr double kMisfit_px = 1.5;   // of corners against the filtered window, beside the part of its size
 constexpr double kMaxClosed = 0.15;  // of the middle that is needed
 constexpr double kMinQuarter = 0.5, kMinSide = 0.3;  // seen to be open
+constexpr double kMaxMisfit = 0.05;      // of corners against the filtered window, part of its size
+constexpr double kBorderSigma_px = 0.4;  // of a border beyond its own covariance, in each image
+constexpr double kPositionSigma_m = 0.02, kMinBaseline_m = 0.12;  // of odometry; between two images compared
+constexpr double kMinOpen = 0.5;                                  // of the middle that is needed
 constexpr double kMaxTotal = 12.0;
 constexpr int kOutvoted = 3;  // stretches that outweigh one that says the opposite
 
@@ -28,7 +32,7 @@ Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera& cam
 }
 
 // The corners lie as the filtered window's would, but for what a turn of the camera moves.
-bool agrees(const Quadrilateral& seen, const OpennessView& view, double max_misfit) {
+bool agrees(const Quadrilateral& seen, const OpennessView& view) {
   const auto expected = geometry::projectOpening(
       view.camera.withoutDistortion(), view.T_odom_camera.inverse() * view.T_odom_window, view.opening);
   if (!expected || !geometry::isFinite(seen)) return false;
@@ -36,7 +40,7 @@ bool agrees(const Quadrilateral& seen, const OpennessView& view, double max_misf
   double worst_px = 0.0;
   for (int i = 0; i < 4; ++i) worst_px = std::max(worst_px, (seen[i] - (*expected)[i] - shift).norm());
   const double size_px = std::sqrt(std::max(0.0, geometry::signedArea(*expected)));
-  return worst_px < max_misfit * size_px + kMisfit_px;
+  return worst_px < kMaxMisfit * size_px + kMisfit_px;
 }
 
 // The sight through this place of the border's plane also passes the opening at the end of its inner faces.
@@ -110,7 +114,7 @@ void OpennessJudge::see(const OpennessView& view) {
       !geometry::isValidPose(view.T_odom_window) ||
       !(view.opening.width_m > 0.0 && view.opening.height_m > 0.0))
     return;
-  if (!agrees(undistorted(window.corners, view.camera), view, params_.max_border_misfit)) return;
+  if (!agrees(undistorted(window.corners, view.camera), view)) return;
   remember(view);
   if (window.interior.empty()) return;
   const double key_sec = window.interior.key_stamp_sec;
@@ -127,10 +131,10 @@ void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T
   opening_ = opening;
   const SeenBorder key{undistorted(window.interior.key_corners, camera), window.interior.key_covariance};
   const SeenBorder now{undistorted(window.corners, camera), window.corner_covariance};
-  const auto pair = PlaneParallax::between(
-      camera, key, now, T_odom_camera_key.inverse() * T_odom_window, T_odom_camera.inverse() * T_odom_window,
-      {params_.border_sigma_px, params_.position_sigma_m, window.interior.sigma_px});
-  if (!pair || pair->baselineM() < params_.min_baseline_m) return;
+  const auto pair = PlaneParallax::between(camera, key, now, T_odom_camera_key.inverse() * T_odom_window,
+                                           T_odom_camera.inverse() * T_odom_window,
+                                           {kBorderSigma_px, kPositionSigma_m, window.interior.sigma_px});
+  if (!pair || pair->baselineM() < kMinBaseline_m) return;
   const Eigen::Vector3d eye = T_odom_window.inverse() * T_odom_camera.translation();
   for (const detection::InteriorPoint& point : window.interior.points) {
     const auto look = pair->of(camera.undistort(point.key_px), camera.undistort(point.now_px), point.normal);
@@ -139,7 +143,7 @@ void OpennessJudge::compare(const OpennessView& view, const Eigen::Isometry3d& T
     stretch_.see(point.id, *look, through, point.beside);
   }
   const DepthParts parts = DepthParts::at(pair->distanceM(), params_);
-  stretch_.mark(parts, params_, cells_);
+  stretch_.mark(parts, cells_);
   says_ = stretch_.says(parts, pair->distanceM(), params_);
 }
 
@@ -181,7 +185,7 @@ void OpennessJudge::conclude() {
   } else if (share.closed > kMaxClosed) {
     verdict.reason =
         formatted("partly closed: %.0f %% of the middle, %.0f %% open", 100 * share.closed, 100 * share.open);
-  } else if (share.open < params_.min_open_share || share.least_quarter_open < kMinQuarter ||
+  } else if (share.open < kMinOpen || share.least_quarter_open < kMinQuarter ||
              share.least_side_open < kMinSide) {
     verdict.reason =
         formatted("open as far as seen, but only %.0f %% of the middle was seen", 100 * share.open);

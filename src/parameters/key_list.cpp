@@ -3,19 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "parameters/former_keys.hpp"
+
 namespace window_ingress::parameters {
 namespace {
-
-// Ends of paths that had another name in earlier versions.
-const std::pair<const char*, const char*> kMoved[] = {
-    {"navigator/vehicle", "'vehicle: {..}', beside the nodes: said once for all of them"},
-    {"tracker/fit/vehicle_width_m", "'vehicle: {half_width_m: ..}', half as much, beside the nodes"},
-    {"tracker/fit/vehicle_height_m", "'vehicle: {half_height_m: ..}', half as much, beside the nodes"},
-};
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 std::string groupOf(const std::string& path) {
   const auto slash = path.rfind('/');
@@ -60,8 +51,7 @@ std::pair<std::size_t, std::size_t> unlikeness(const std::string& path, const st
 }  // namespace
 
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known) {
-  for (const auto& [end, now] : kMoved)
-    if (endsWith(path, end)) return std::string("; it is now ") + now;
+  if (const std::string now = whatBecameOf(path); !now.empty()) return now;
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return unlikeness(path, a) < unlikeness(path, b);
   });

@@ -86,7 +86,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   adapters::ReferenceParams reference = o.reference;
   tools::takeReference(o.params, overlay.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) params.reference = adapters::loadReference(reference, params.detector);
-  params.frames = overlay.homography_pose.frames;
+  params.frames = overlay.vehicle.frames;
   params.with_pose = !o.size.empty() || overlay.said.count("homography_pose/pose/opening_width_m") > 0;
   if (o.size.empty()) return params;
   const std::vector<double> size = numbers("--window-size", o.size, 2);

@@ -105,6 +105,8 @@ class RefusedStartTest(unittest.TestCase):
     def test_what_has_moved_is_named_with_its_new_place(self):
         self.assert_refused("ingress_navigator", "navigator/vehicle", {"half_width_m": 0.45}, "it is now 'vehicle: {..}'")
         self.assert_refused("homography_pose", "tracker/fit/vehicle_width_m", 0.9, "half_width_m")
+        self.assert_refused("homography_pose", "filter/gate_squares", 30.0, "it is now 'nis_gate'")
+        self.assert_refused("world", "clock_rate_hz", 50.0, "it is a constant now")
         self.assert_refused("setpoint_guard", "max_sped_mps", 0.9, "did you mean 'max_speed_mps'?")
 
     def assert_stops(self, node, number, frame="odom"):
@@ -122,11 +124,11 @@ class RefusedStartTest(unittest.TestCase):
         setpoints.stop()
 
     def test_mavros_frame_names_are_accepted_and_said_in_the_setpoints(self):
-        rospy.set_param("/ingress_navigator/odom_frame", "map")
+        rospy.set_param("/vehicle/odom_frame", "map")
         try:
             self.assert_stops("ingress_navigator", signal.SIGINT, frame="map")
         finally:
-            rospy.delete_param("/ingress_navigator/odom_frame")
+            rospy.delete_param("/vehicle/odom_frame")
 
     def test_signals_leave_zero_velocity_behind(self):
         for node in ("ingress_navigator", "setpoint_guard"):

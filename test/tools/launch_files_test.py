@@ -76,7 +76,7 @@ def test_autopilots_are_wired_by_standard_topics_and_map_frame(name, mode):
         assert remaps(launch, node)["odom"] == "/mavros/local_position/odom"
     assert remaps(launch, "homography_pose")["imu"] == "/mavros/imu/data"
     params = launch["params"]
-    assert {params[f"/{key}"] for key in ("homography_pose/odom_frame", "ingress_navigator/odom_frame", "setpoint_guard/frame")} == {"map"}
+    assert {params[f"/{key}"] for key in ("vehicle/odom_frame", "setpoint_guard/frame")} == {"map"}
     assert params["/ingress_navigator/engagement/required"] is True
     assert params["/engaged_from_mavros/modes"] == [mode]
     relay = remaps(launch, "engaged_from_mavros")
@@ -294,7 +294,7 @@ def test_a_replay_plays_what_is_taken_and_commands_nobody():
     assert played("image_transport:=raw") == ["/camera/image_raw", *own]
     assert played("odom:=/uav1/mavros/local_position/odom")[2] == "/uav1/mavros/local_position/odom"
     launch = dump("replay", "rviz:=true", "loop:=true", "rate:=0.5", "start:=3", "odom_frame:=map")
-    assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel" and launch["params"]["/homography_pose/odom_frame"] == "map"
+    assert remaps(launch, "setpoint_guard")["cmd_vel"] == "/replay/cmd_vel" and launch["params"]["/vehicle/odom_frame"] == "map"
     assert {"/rviz", "/ingress_navigator"} <= set(launch["nodes"])
     assert "/ingress_navigator" not in dump("replay")["nodes"]
 

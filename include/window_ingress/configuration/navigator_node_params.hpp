@@ -2,15 +2,14 @@
 
 #include <string>
 
-#include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 
 namespace window_ingress::configuration {
 
+/// The autopilot's word on `engaged` that it follows setpoints.
 struct EngagementParams {
-  bool required =
-      false;  ///< a mission may only start once somebody has said that the vehicle follows setpoints
-  double max_silence_sec = 3.0;  ///< who has said so once must go on saying it [s]
+  bool required = false;  ///< no mission starts before somebody has said that the vehicle follows setpoints
+  double max_silence_sec = 3.0;  ///< once said, it must be repeated within this time, or the mission ends [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("required", self.required);
@@ -18,9 +17,10 @@ struct EngagementParams {
   }
 };
 
+/// The guard's word on `passed_on` that setpoints reach the autopilot.
 struct SetpointWatchParams {
-  bool required = false;          ///< a mission may only start once the guard has passed something on
-  double max_silence_sec = 0.25;  ///< once it has, it must go on [s]
+  bool required = false;          ///< no mission starts before the guard has passed something on
+  double max_silence_sec = 0.25;  ///< a guard that is silent for longer than this passes nothing on [s]
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("required", self.required);
@@ -29,17 +29,15 @@ struct SetpointWatchParams {
 };
 
 struct NavigatorNodeParams {
-  double rate_hz = 30.0;  ///< of the setpoints [Hz]
-  double max_silence_sec =
-      0.25;  ///< odometry that has not arrived for this long, on the steady clock, is gone [s]
-  double max_pose_silence_sec = 1.5;  ///< likewise the messages on window_pose [s]
-  std::string setpoint_frame =
-      "odom";             ///< axes of the setpoints: odom or base_link, whatever these frames are called
-  bool lockstep = false;  ///< with the simulated world, step by step; only with use_sim_time
-  bool start_at_once =
-      false;  ///< in lockstep: the mission starts with the first step at which it may, not when asked
-  FrameNames frames;
-  StampLimits stamps;
+  double rate_hz = 30.0;          ///< rate of the setpoints [Hz]
+  double max_silence_sec = 0.25;  ///< odometry that has not arrived for this long, on the steady clock, is
+                                  ///< gone [s]
+  double max_pose_silence_sec = 1.5;  ///< messages on window_pose that have not arrived for this long, on the
+                                      ///< steady clock, are gone [s]
+  std::string setpoint_frame = "odom";  ///< axes of the setpoints: odom or base_link, whatever these frames
+                                        ///< are called
+  bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
+  bool start_at_once = false;  ///< start the mission with the first step at which it may; only in lockstep
   EngagementParams engagement;
   SetpointWatchParams guard;
   navigation::NavigatorParams navigator;
@@ -51,8 +49,6 @@ struct NavigatorNodeParams {
     field("setpoint_frame", self.setpoint_frame);
     field("lockstep", self.lockstep);
     field("start_at_once", self.start_at_once);
-    FrameNames::visit(self.frames, field);
-    field.group("stamps", self.stamps);
     field.group("engagement", self.engagement);
     field.group("guard", self.guard);
     field.group("navigator", self.navigator);

@@ -25,7 +25,9 @@ struct Consistency {
 /// the 99.9 % point of chi squared with eight of them.
 class ConsistencyMonitor {
  public:
-  ConsistencyMonitor(int images, double limit) : images_(static_cast<std::size_t>(images)), limit_(limit) {}
+  static constexpr int kImages = 50;          ///< of the window
+  static constexpr double kMaxMeanNis = 3.3;  ///< a degree of freedom
+  explicit ConsistencyMonitor(int images = kImages) : images_(static_cast<std::size_t>(images)) {}
 
   void add(double squares, int degrees_of_freedom);
   void refuse();  ///< an image that the filter did not use
@@ -39,7 +41,6 @@ class ConsistencyMonitor {
   };
   void note(const Sample& sample);
   std::size_t images_;
-  double limit_;
   std::deque<Sample> samples_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
-#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/frames_verdict.hpp"
 #include "window_ingress/estimation/opening_fit.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/target_estimate.hpp"
@@ -21,23 +21,12 @@
 namespace window_ingress::estimation {
 
 struct TargetEstimatorParams {
-  double max_pose_gap_sec = 0.05;   ///< odometry may end this much before the exposure [s]
-  double gravity_sigma_rad = 0.02;  ///< of the attitude, mounting included [rad]
-  double max_jump_m = 0.5;          ///< odometry moving more than this beyond 3 m/s is a jump [m]
-  double max_turn_jump_rad = 0.35;  ///< odometry turning more than this beyond 3 rad/s is a jump [rad]
-  FitParams fit;
-  FramesParams frames;
   openness::OpennessParams openness;
   facade::FacadeParams facade;
+  geometry::OpeningSize needed{0.6, 0.34};  // by the vehicle with its margins; not in `visit`
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("max_pose_gap_sec", self.max_pose_gap_sec, 0.0, 0.5);
-    field("gravity_sigma_rad", self.gravity_sigma_rad, 0.001, 0.5);
-    field("max_jump_m", self.max_jump_m, 0.05, 10.0);
-    field("max_turn_jump_rad", self.max_turn_jump_rad, 0.05, 3.2);
-    field.group("fit", self.fit);
-    field.group("frames", self.frames);
     field.group("openness", self.openness);
     field.group("facade", self.facade);
   }
@@ -71,6 +60,8 @@ struct TargetUpdate {
 /// What is said of the camera's mounting, of the velocity's frame and of a known size is verified on the way.
 class TargetEstimator {
  public:
+  static constexpr double kMaxPoseGapSec = 0.05;  ///< odometry may end this much before the exposure
+
   /// \throws std::invalid_argument that lists every parameter out of range
   TargetEstimator(const PoseParams& pose, const FilterParams& filter, const TargetEstimatorParams& params);
   ~TargetEstimator();
@@ -106,7 +97,7 @@ class TargetEstimator {
   const TargetUpdate& lastUpdate() const { return last_; }
 
   /// Whether the vehicle fits through the opening, as far as its size is known.
-  FitVerdict fit(const FilteredWindow& window) const { return fitVerdict(window.size, params_.fit); }
+  FitVerdict fit(const FilteredWindow& window) const { return fitVerdict(window.size, params_.needed); }
   /// Whether it is open, as far as the texture within its border has shown.
   const openness::OpennessVerdict& openness() const { return judge_.verdict(); }
   FramesVerdict frames() const;
@@ -148,6 +139,7 @@ class TargetEstimator {
   facade::FacadeMemory facade_;
   std::size_t heeded_ = 0;  ///< how many of those given up are known
   bool size_is_known_;
+  double attitude_sigma_rad_;
   std::uint32_t target_id_ = 0;
   PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;

@@ -39,7 +39,7 @@ struct FilteredWindow {
   std::optional<Alternative> alternative;
 
   /// The opening's size that goes with the pose. What is called known is as good as
-  /// `FilterParams::known_size_sigma` says; what is not is estimated.
+  /// `FilterParams::kKnownSizeSigma` says; what is not is estimated.
   SizeEstimate size;
 
   CameraTurn camera_turn;

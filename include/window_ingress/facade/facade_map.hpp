@@ -60,10 +60,11 @@ class FacadeMap {
   std::optional<std::uint32_t> followed() const { return followed_id_; }
   KnownWindow* find(std::uint32_t id);
   const KnownWindow* find(std::uint32_t id) const;
-  bool isConfirmed(const KnownWindow& window) const { return window.sights >= params_.confirmations; }
+  bool isConfirmed(const KnownWindow& window) const { return window.sights >= kMinSights; }
   const std::vector<KnownWindow>& windows() const { return windows_; }  ///< in the order of their numbers
 
  private:
+  static constexpr int kMinSights = 3;  ///< images that must show a window before it has a number
   struct Sight {
     const detection::SeenWindow* seen = nullptr;
     WindowPlace place;

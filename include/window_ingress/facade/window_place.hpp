@@ -27,6 +27,8 @@ struct Wall {
   double heading_sigma_rad = 0.0;
 };
 
+constexpr double kWallSigmaM = 0.15;  ///< how far windows lie before or behind the plane of the target
+
 /// From where an image was taken.
 struct Viewpoint {
   geometry::PinholeCamera camera;
@@ -37,8 +39,7 @@ struct Viewpoint {
 /// too obliquely, as far away as a window of the size looked for would be, which is little known. \param
 /// corners in pixels of the image as it came \return nothing if it is behind, or too far
 std::optional<WindowPlace> placeOf(const geometry::Quadrilateral& corners, const Viewpoint& view,
-                                   const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for,
-                                   const FacadeParams& params);
+                                   const std::optional<Wall>& wall, const geometry::OpeningSize& looked_for);
 
 /// T_odom_window of an upright window.
 Eigen::Isometry3d poseOf(const WindowPlace& place);

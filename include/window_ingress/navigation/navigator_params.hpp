@@ -7,55 +7,45 @@
 
 namespace window_ingress::navigation {
 
-/// When an input is believed. Ages count from the stamp of the measurement, i.e. for the window from the
-/// exposure.
+/// When an input is believed. Ages count from the stamp of the measurement, for the window from the exposure.
 struct InputParams {
-  double max_vehicle_age_sec = 0.25;  ///< odometry older than this: stop [s]
-  double max_target_age_sec = 0.3;    ///< window not seen for longer than this: stop [s]
-  double max_image_age_sec = 1.0;     ///< no image processed for longer than this: stop searching [s]
-  double max_future_sec = 0.2;      ///< stamps this far ahead of now are believed (clock synchronisation) [s]
-  double max_turned_rad = 0.7;      ///< the vehicle going so far beside what it is told: give up [rad]
-  double max_target_jump_m = 0.4;   ///< window moving this far in odom between two estimates is a jump [m]
-  double max_window_shift_m = 0.8;  ///< a window this far from the one flown at is another one [m]
-  double target_jump_persist_sec = 0.5;  ///< a window that stays at its new place this long is believed [s]
-  double max_target_tilt_rad = 0.26;     ///< a window leaning more than this is no window [rad]
+  double max_vehicle_age_sec = 0.25;  ///< older odometry stops the vehicle [s]
+  double max_target_age_sec = 0.3;    ///< an older estimate of the window stops the vehicle [s]
+  double max_image_age_sec = 1.0;  ///< without an image processed for longer than this the search stops [s]
+  double max_turned_rad = 0.7;     ///< a vehicle that flies this far beside the direction it is told ends the
+                                   ///< mission: setpoints and odometry differ in axes [rad]
+  double max_target_jump_m = 0.4;  ///< a window that moves further in odom between two estimates is believed
+                                   ///< only after half a second at its new place [m]
+  double max_future_sec = 0.2;     // not in `visit`: `VehicleParams::stamps` says it
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("max_vehicle_age_sec", self.max_vehicle_age_sec, 0.02, 1.0);
     field("max_target_age_sec", self.max_target_age_sec, 0.05, 1.0);
     field("max_image_age_sec", self.max_image_age_sec, 0.1, 5.0);
-    field("max_future_sec", self.max_future_sec, 0.0, 0.5);
     field("max_turned_rad", self.max_turned_rad, 0.1, 3.2);
     field("max_target_jump_m", self.max_target_jump_m, 0.05, 5.0);
-    field("max_window_shift_m", self.max_window_shift_m, 0.1, 10.0);
-    field("target_jump_persist_sec", self.target_jump_persist_sec, 0.0, 5.0);
-    field("max_target_tilt_rad", self.max_target_tilt_rad, 0.01, 1.0);
   }
 };
 
 /// SEARCH: turning on the spot, climbing to a height from which to look.
 struct SearchParams {
-  double yaw_rate_radps = 0.5;       ///< at most; slower where blur or few images ask for it [rad/s]
-  double max_blur_px = 2.0;          ///< that turning may bring into an image [px]
-  double max_turn_per_image = 0.25;  ///< of the field of view, from image to image
-  double height_m = 1.0;             ///< climb to this height of odom first; never down [m]
-  double height_step_m = 0.6;        ///< climb by this much after each turn without success [m]
-  double climb_speed_mps = 0.3;      ///< [m/s]
-  int turns = 3;                     ///< full turns before giving up
-  int found_frames = 3;              ///< different images that must show the window
-  bool next_window = false;  ///< after one that is closed or was tried in vain, the next best is flown at
+  double yaw_rate_radps = 0.5;  ///< fastest turn; slower where blur or few images ask for it [rad/s]
+  double max_blur_px = 2.0;     ///< blur that turning may bring into an image [px]
+  double height_m = 1.0;       ///< height of odom to climb to first; a vehicle that is higher stays there [m]
+  double height_step_m = 0.6;  ///< climb after each turn without success [m]
+  double climb_speed_mps = 0.3;  ///< fastest climb [m/s]
+  int turns = 3;                 ///< full turns without success before the mission is given up
+  bool next_window = false;  ///< fly at the next best window after one that is closed or was tried in vain
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("yaw_rate_radps", self.yaw_rate_radps, 0.05, 3.0);
     field("max_blur_px", self.max_blur_px, 0.1, 50.0);
-    field("max_turn_per_image", self.max_turn_per_image, 0.01, 1.0);
     field("height_m", self.height_m, -1000.0, 1000.0);
     field("height_step_m", self.height_step_m, 0.0, 5.0);
     field("climb_speed_mps", self.climb_speed_mps, 0.05, 2.0);
     field("turns", self.turns, 1, 100);
-    field("found_frames", self.found_frames, 1, 100);
     field("next_window", self.next_window);
   }
 };
@@ -63,18 +53,16 @@ struct SearchParams {
 /// ALIGN: onto the window's normal, the camera kept on the window; and the gains that APPROACH and COMMIT
 /// share.
 struct AlignParams {
-  double lateral_gain_hz = 1.75;    ///< sideways and upward velocity per offset [1/s]
-  double lateral_speed_mps = 0.75;  ///< most sideways [m/s]
-  double vertical_speed_mps = 0.5;  ///< most upward and downward [m/s]
-  double yaw_gain_hz = 3.0;         ///< yaw rate per bearing; keep above the lateral gain [1/s]
-  double min_distance_m = 2.0;      ///< to the window's plane while aligning; closer, it moves away [m]
-  double dwell_sec = 0.2;           ///< within the funnel this long before going on [s]
-  double settle_sec = 1.2;          ///< ambiguous for this long: probe [s]
-  double probe_amplitude_m = 0.5;   ///< height of the probe, first up, then down, each back to the start [m]
-  double probe_speed_mps = 0.4;     ///< [m/s]
-  int max_probes = 4;               ///< then give up
-  double step_m = 0.25;             ///< length of a step where the scheme is stepped [m]
-  double step_pause_sec = 0.5;      ///< look after such a step [s]
+  double lateral_gain_hz = 1.75;    ///< sideways and upward velocity per metre of offset [1/s]
+  double lateral_speed_mps = 0.75;  ///< fastest sideways [m/s]
+  double vertical_speed_mps = 0.5;  ///< fastest upward and downward [m/s]
+  double yaw_gain_hz = 3.0;         ///< yaw rate per radian of bearing; keep it above the lateral gain [1/s]
+  double min_distance_m = 2.0;      ///< distance to the window's plane below which it moves away first [m]
+  double probe_amplitude_m = 0.5;   ///< height of a probe that tells the sign of the window's yaw: up, back,
+                                    ///< down, back [m]
+  int max_probes = 4;               ///< height probes before the mission is given up
+  double step_m = 0.25;             ///< length of a step of the stepped scheme [m]
+  double step_pause_sec = 0.5;      ///< pause after a step of the stepped scheme [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -83,10 +71,7 @@ struct AlignParams {
     field("vertical_speed_mps", self.vertical_speed_mps, 0.05, 5.0);
     field("yaw_gain_hz", self.yaw_gain_hz, 0.1, 10.0);
     field("min_distance_m", self.min_distance_m, 0.5, 20.0);
-    field("dwell_sec", self.dwell_sec, 0.0, 5.0);
-    field("settle_sec", self.settle_sec, 0.0, 20.0);
     field("probe_amplitude_m", self.probe_amplitude_m, 0.05, 2.0);
-    field("probe_speed_mps", self.probe_speed_mps, 0.05, 2.0);
     field("max_probes", self.max_probes, 0, 20);
     field("step_m", self.step_m, 0.05, 2.0);
     field("step_pause_sec", self.step_pause_sec, 0.0, 10.0);
@@ -95,65 +80,44 @@ struct AlignParams {
 
 /// APPROACH: forward as far as the funnel allows.
 struct ApproachParams {
-  double speed_mps = 1.0;     ///< forward [m/s]
-  double funnel_slope = 1.2;  ///< the funnel widens by this much a metre from the commit line on [m/m]
+  double speed_mps = 1.0;     ///< fastest forward [m/s]
+  double max_wind_mps = 0.6;  ///< fastest wind that is taken off the setpoints; 0: none is [m/s]
+  double funnel_slope = 1.2;  ///< widening of the funnel for each metre before the commit line [m/m]
   double sigma_factor = 3.0;  ///< standard deviations that must lie within the funnel and the clearance
-  double margin_m = 0.05;     ///< kept between body and border beyond all errors [m]
-  double leave_factor = 1.3;  ///< out of the funnel by this factor: align again
-  double leave_sec = 0.5;     ///< for this long [s]
-  double patience_sec = 2.0;  ///< at the commit line with the commit criterion unmet: back off [s]
-
-  double wind_sec = 0.6;          ///< smoothing of the velocity that wind adds [s]
-  double max_wind_mps = 0.6;      ///< most that is taken off the command for it; 0: nothing [m/s]
-  double gust_memory_sec = 15.0;  ///< over which the strength of gusts is measured [s]
-  double gust_carry_sec = 0.75;   ///< a gust carries the vehicle off by its velocity times this [s]
+  double patience_sec = 2.0;  ///< wait at the commit line for the commit criterion before backing off [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("wind_sec", self.wind_sec, 0.1, 20.0);
-    field("max_wind_mps", self.max_wind_mps, 0.0, 2.0);
-    field("gust_memory_sec", self.gust_memory_sec, 0.1, 60.0);
-    field("gust_carry_sec", self.gust_carry_sec, 0.0, 10.0);
     field("speed_mps", self.speed_mps, 0.05, 5.0);
+    field("max_wind_mps", self.max_wind_mps, 0.0, 2.0);
     field("funnel_slope", self.funnel_slope, 0.05, 2.0);
     field("sigma_factor", self.sigma_factor, 1.0, 10.0);
-    field("margin_m", self.margin_m, 0.0, 1.0);
-    field("leave_factor", self.leave_factor, 1.0, 10.0);
-    field("leave_sec", self.leave_sec, 0.0, 10.0);
     field("patience_sec", self.patience_sec, 0.1, 30.0);
   }
 };
 
 /// COMMIT: through the opening on the last good estimate.
 struct CommitParams {
-  double speed_mps = 0.95;             ///< through the opening [m/s]
-  double exit_distance_m = 1.0;        ///< behind the plane, where it stops [m]
-  double standing_mps = 0.15;          ///< slower than this is standing still [m/s]
-  double view_margin_m = 0.2;          ///< commit this much before the window leaves the view [m]
-  double drift_m_per_sqrt_sec = 0.01;  ///< of the odometry, while nothing is seen [m/sqrt(s)]
-  double max_heading_error_rad = 0.2;  ///< against the window's normal [rad]
-  double max_lateral_speed_mps = 0.3;  ///< across the window's normal at the commit line [m/s]
-  double max_blind_sec = 6.0;          ///< in front of the plane without seeing the window: turn back [s]
-  double max_update_jump_m = 0.15;     ///< updates on the way that differ more are ignored [m]
-  std::string glass = "possible";      ///< excluded: somebody has made sure that there is none in the window;
-                                       ///< possible: ~confirm_opening is asked for before each COMMIT
-  std::string unverified_opening = "ask";  ///< flying into what is not seen to be open; what is seen to be
-                                           ///< closed is never flown at
-  double ask_sec = 30.0;                   ///< at the commit line, for the operator's answer [s]
-  double look_sec = 8.0;                   ///< at the commit line, for what is to be seen of the opening [s]
-  double look_aside_m = 0.25;              ///< meanwhile, so far to either side; within the clearance [m]
+  double speed_mps = 0.95;       ///< fastest through the opening [m/s]
+  double exit_distance_m = 1.0;  ///< distance behind the window's plane at which it stops [m]
+  double view_margin_m = 0.2;    ///< distance of the commit line before the window leaves the view [m]
+  double max_blind_sec = 6.0;  ///< without an image of the window for longer than this in front of its plane,
+                               ///< it turns back [s]
+  std::string glass = "possible";  ///< excluded: somebody has made sure that there is none in the window;
+                                   ///< possible: ~confirm_opening is asked for before each COMMIT
+  std::string unverified_opening = "ask";  ///< policy for an opening that was not seen to be open; one that
+                                           ///< was seen to be closed is never flown at
+  double ask_sec = 30.0;                   ///< wait at the commit line for the operator's answer [s]
+  double look_sec = 8.0;                   ///< wait at the commit line for the opening to be verified [s]
+  double look_aside_m = 0.25;  ///< sideways motion for parallax while the opening is verified; at most the
+                               ///< clearance [m]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("speed_mps", self.speed_mps, 0.05, 5.0);
     field("exit_distance_m", self.exit_distance_m, 0.1, 10.0);
-    field("standing_mps", self.standing_mps, 0.01, 1.0);
     field("view_margin_m", self.view_margin_m, 0.0, 2.0);
-    field("drift_m_per_sqrt_sec", self.drift_m_per_sqrt_sec, 0.0, 1.0);
-    field("max_heading_error_rad", self.max_heading_error_rad, 0.01, 1.0);
-    field("max_lateral_speed_mps", self.max_lateral_speed_mps, 0.01, 2.0);
     field("max_blind_sec", self.max_blind_sec, 0.5, 30.0);
-    field("max_update_jump_m", self.max_update_jump_m, 0.0, 1.0);
     field.choice("glass", self.glass, {"excluded", "possible"});
     field.choice("unverified_opening", self.unverified_opening, {"allow", "ask", "deny"});
     field("ask_sec", self.ask_sec, 0.1, 600.0);
@@ -164,9 +128,9 @@ struct CommitParams {
 
 /// BACK_OFF: away along the last trusted normal.
 struct BackOffParams {
-  double speed_mps = 0.5;   ///< [m/s]
-  double distance_m = 2.5;  ///< to the window's plane, from where it can be seen again [m]
-  int max_retries = 5;      ///< back-offs before giving up
+  double speed_mps = 0.5;   ///< fastest away from the window [m/s]
+  double distance_m = 2.5;  ///< distance to the window's plane from which it can be seen again [m]
+  int max_retries = 5;      ///< times of backing off before the mission is given up
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -176,24 +140,18 @@ struct BackOffParams {
   }
 };
 
-/// HOLD: zero velocity, then keeping the place, until the inputs are back. Wherever else the vehicle is to
-/// stay it keeps its place likewise.
+/// HOLD, and wherever else the vehicle is to stay: zero velocity, then keeping the place.
 struct HoldParams {
-  double speed_mps = 0.6;     ///< back to its place, at most; 0: never [m/s]
-  double standing_mps = 0.2;  ///< its place is where it first is slower than this [m/s]
-  double settle_sec = 0.8;    ///< or where it is after this time [s]
-  double leash_m = 2.0;       ///< further from its place than this, somebody has moved it: another place [m]
-  double dwell_sec = 0.2;     ///< inputs good for this long before moving on [s]
-  double patience_sec = 1.0;  ///< wait this long for the window before backing off [s]
-  double timeout_sec = 8.0;   ///< then give up [s]
+  double speed_mps = 0.6;     ///< fastest back to the place that is kept; 0: it does not go back [m/s]
+  double leash_m = 2.0;       ///< further from its place than this, somebody has moved the vehicle: it keeps
+                              ///< another place [m]
+  double patience_sec = 1.0;  ///< wait for the window in HOLD before backing off [s]
+  double timeout_sec = 8.0;   ///< longest HOLD before the mission is given up [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("speed_mps", self.speed_mps, 0.0, 1.0);
-    field("standing_mps", self.standing_mps, 0.01, 1.0);
-    field("settle_sec", self.settle_sec, 0.0, 10.0);
     field("leash_m", self.leash_m, 0.1, 100.0);
-    field("dwell_sec", self.dwell_sec, 0.0, 5.0);
     field("patience_sec", self.patience_sec, 0.0, 30.0);
     field("timeout_sec", self.timeout_sec, 0.2, 60.0);
   }
@@ -201,14 +159,14 @@ struct HoldParams {
 
 /// How long each state may last before the mission is given up.
 struct TimeoutParams {
-  double search_sec = 90.0;    ///< [s]
-  double align_sec = 40.0;     ///< [s]
-  double approach_sec = 40.0;  ///< [s]
-  double commit_sec = 15.0;    ///< [s]
-  double back_off_sec = 20.0;  ///< [s]
-  double total_sec = 180.0;    ///< of the mission [s]
-  double stream_sec =
-      3.0;  ///< zero setpoints after an abort, then none: the autopilot's own failsafe acts [s]
+  double search_sec = 90.0;    ///< longest SEARCH [s]
+  double align_sec = 40.0;     ///< longest ALIGN [s]
+  double approach_sec = 40.0;  ///< longest APPROACH [s]
+  double commit_sec = 15.0;    ///< longest COMMIT [s]
+  double back_off_sec = 20.0;  ///< longest BACK_OFF [s]
+  double total_sec = 180.0;    ///< longest mission [s]
+  double stream_sec = 3.0;  ///< zero setpoints for this long after an abort, then none: the autopilot's own
+                            ///< failsafe acts [s]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -223,7 +181,7 @@ struct TimeoutParams {
 };
 
 struct NavigatorParams {
-  std::string scheme = "continuous";  ///< continuous, or stepped: the paper's small steps, as a yardstick
+  std::string scheme = "continuous";  ///< stepped: the paper's small steps with pauses, as a yardstick
   InputParams input;
   VehicleParams vehicle;  // not in `visit`: it has a file of its own, config/vehicle.yaml
   LimitParams limits;

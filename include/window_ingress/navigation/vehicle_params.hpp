@@ -4,22 +4,56 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 
 namespace window_ingress::navigation {
 
-/// The vehicle's body, camera and manners. Said once, for all who need it.
+/// Names of frames that a message must carry.
+struct FrameNames {
+  std::string odom = "odom";       ///< frame_id of the odometry
+  std::string base = "base_link";  ///< frame of the vehicle's body: child_frame_id of the odometry
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("odom_frame", self.odom);
+    field("base_frame", self.base);
+  }
+};
+
+/// How old and how far ahead of the clock a message may be.
+struct StampLimits {
+  double max_age_sec = 0.5;     ///< older messages are refused [s]
+  double max_future_sec = 0.2;  ///< messages further ahead of the clock are refused [s]
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("max_age_sec", self.max_age_sec, 0.01, 60.0);
+    field("max_future_sec", self.max_future_sec, 0.0, 0.5);
+  }
+};
+
+/// The vehicle's body, camera, odometry and manners. Said once, for all who need it.
 struct VehicleParams {
-  double half_length_m = 0.25;       ///< of the body's box, propellers included, forward [m]
-  double half_width_m = 0.25;        ///< likewise, sideways [m]
-  double half_height_m = 0.12;       ///< likewise, upward [m]
-  double camera_forward_m = 0.1;     ///< camera ahead of the body's centre; where tf says it, tf counts [m]
-  double horizontal_fov_rad = 1.39;  ///< of the camera; where camera_info says it, that counts [rad]
-  double vertical_fov_rad = 1.12;    ///< of the camera; where camera_info says it, that counts [rad]
-  double pixel_rad = 0.0018;  ///< angle that a pixel in the image's middle covers, 1 / focal length; where
-                              ///< camera_info says it, that counts [rad]
-  double exposure_sec = 0.004;  ///< of an image, at the darkest [s]
-  double response_sec = 0.3;    ///< from a setpoint to the velocity following it, latency included [s]
-  double braking_mps2 = 1.2;    ///< deceleration that can be relied upon [m/s^2]
+  double half_length_m = 0.25;  ///< half the body's length, forward, propellers included [m]
+  double half_width_m = 0.25;   ///< half the body's width, sideways, propellers included [m]
+  double half_height_m = 0.12;  ///< half the body's height, propellers and legs included [m]
+  double margin_m = 0.05;       ///< room kept on each side between body and opening, beyond all errors [m]
+  double camera_forward_m =
+      0.1;  ///< distance of the camera ahead of the body's centre; where tf says it, tf counts [m]
+  double horizontal_fov_rad = 1.39;  ///< camera's horizontal field of view; where camera_info says it, that
+                                     ///< counts [rad]
+  double vertical_fov_rad = 1.12;    ///< camera's vertical field of view; where camera_info says it, that
+                                     ///< counts [rad]
+  double pixel_rad = 0.0018;    ///< angle that a pixel in the image's middle covers, 1 / focal length; where
+                                ///< camera_info says it, that counts [rad]
+  double exposure_sec = 0.004;  ///< longest exposure of an image; the search turns so slowly that it does
+                                ///< not blur [s]
+  bool image_is_rectified = false;  ///< images are rectified: P of camera_info counts, not K and D
+  double response_sec = 0.3;  ///< time from a setpoint to the velocity following it, latency included [s]
+  double braking_mps2 = 1.2;  ///< deceleration that can be relied upon [m/s^2]
+  double odom_drift_m_per_sqrt_sec = 0.01;  ///< odometry's random walk of position over time [m/sqrt(s)]
+  FrameNames frames;
+  StampLimits stamps;
   std::optional<double> climb_response_sec;  ///< up and down; no parameter, measured in flight
 
   /// The time to answer of each axis: forward, sideways, up.
@@ -32,27 +66,33 @@ struct VehicleParams {
     field("half_length_m", self.half_length_m, 0.02, 2.0);
     field("half_width_m", self.half_width_m, 0.02, 2.0);
     field("half_height_m", self.half_height_m, 0.02, 2.0);
+    field("margin_m", self.margin_m, 0.0, 1.0);
     field("camera_forward_m", self.camera_forward_m, -1.0, 1.0);
     field("horizontal_fov_rad", self.horizontal_fov_rad, 0.3, 2.8);
     field("vertical_fov_rad", self.vertical_fov_rad, 0.3, 2.8);
     field("pixel_rad", self.pixel_rad, 1e-4, 0.1);
     field("exposure_sec", self.exposure_sec, 0.0, 0.5);
+    field("image_is_rectified", self.image_is_rectified);
     field("response_sec", self.response_sec, 0.0, 2.0);
     field("braking_mps2", self.braking_mps2, 0.2, 10.0);
+    field("odom_drift_m_per_sqrt_sec", self.odom_drift_m_per_sqrt_sec, 0.0, 1.0);
+    FrameNames::visit(self.frames, field);
+    field.group("stamps", self.stamps);
   }
 };
 
-/// What a setpoint may be, whatever was wished.
+/// What a setpoint may be, whatever a behaviour asks for.
 struct LimitParams {
-  double speed_mps = 1.0;                ///< magnitude of the velocity [m/s]
-  double acceleration_mps2 = 2.0;        ///< magnitude of its change [m/s^2]
-  double jerk_mps3 = 30.0;               ///< magnitude of the acceleration's change [m/s^3]
-  double yaw_rate_radps = 0.5;           ///< [rad/s]
-  double yaw_acceleration_radps2 = 2.0;  ///< [rad/s^2]
-  double min_height_m = 0.3;             ///< of odom: no way down below this [m]
-  double max_height_m = 10.0;            ///< of odom: no way up above this [m]
-  double fence_radius_m = 25.0;          ///< around the place of the start: no way out of this [m]
-  double wall_distance_m = 0.9;          ///< outside the funnel, nearer to the window's plane: only away [m]
+  double speed_mps = 1.0;                ///< largest velocity of a setpoint [m/s]
+  double acceleration_mps2 = 2.0;        ///< fastest change of velocity from setpoint to setpoint [m/s^2]
+  double jerk_mps3 = 30.0;               ///< fastest change of acceleration from setpoint to setpoint [m/s^3]
+  double yaw_rate_radps = 0.5;           ///< largest yaw rate of a setpoint [rad/s]
+  double yaw_acceleration_radps2 = 2.0;  ///< fastest change of yaw rate from setpoint to setpoint [rad/s^2]
+  double min_height_m = 0.3;             ///< below this height in odom no setpoint leads down [m]
+  double max_height_m = 10.0;            ///< above this height in odom no setpoint leads up [m]
+  double fence_radius_m = 25.0;  ///< no setpoint leads further than this from the place of the start [m]
+  double wall_distance_m = 0.9;  ///< nearer to the window's plane than this, outside the funnel, setpoints
+                                 ///< lead away from it only [m]
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

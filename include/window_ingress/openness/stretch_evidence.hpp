@@ -9,12 +9,14 @@
 
 namespace window_ingress::openness {
 
+constexpr double kMaxLogOdds = 4.0;  ///< that one stretch may bring
+
 /// What one stretch of the flight, from a key image to the next, says.
 struct StretchSays {
-  double log_odds = 0.0;  ///< open over closed, within `OpennessParams::max_log_odds`; 0: nothing
-  int points = 0;         ///< that stand still and were seen from places enough
-  int unsteady = 0;       ///< that do not stand still
-  int too_deep = 0;       ///< that lie behind any room
+  double log_odds = 0.0;                      ///< open over closed, within `kMaxLogOdds`; 0: nothing
+  int points = 0;                             ///< that stand still and were seen from places enough
+  int unsteady = 0;                           ///< that do not stand still
+  int too_deep = 0;                           ///< that lie behind any room
   double depth_m = 0.0, depth_sigma_m = 0.0;  ///< median of the points; both 0 without any
   bool is_too_deep = false;  ///< so much of it lies behind any room that it does not speak for an open way
   bool is_moving = false;    ///< so much does not stand still that nothing is said
@@ -31,7 +33,7 @@ class StretchEvidence {
   /// \param beside cells beside it, as in `InteriorPoint::beside`
   void see(int id, const PointParallax& look, bool through, std::uint64_t beside);
   /// Takes what a point showed into the cells, if it stands still.
-  void mark(const DepthParts& parts, const OpennessParams& params, OpeningCells& cells);
+  void mark(const DepthParts& parts, OpeningCells& cells);
   StretchSays says(const DepthParts& parts, double distance_m, const OpennessParams& params) const;
 
  private:

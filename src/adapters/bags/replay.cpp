@@ -221,7 +221,8 @@ void Replay::processFirst() {
   const auto camera = cameraOf(picture.image);
   if (!camera) refuse("camera_info", camera.reason);
   frame.camera = camera.value;
-  frame.has_odometry = odometry_.at(frame.stamp.toSec(), params_.tracker.max_pose_gap_sec).has_value();
+  frame.has_odometry =
+      odometry_.at(frame.stamp.toSec(), estimation::TargetEstimator::kMaxPoseGapSec).has_value();
   frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
   const double begun_ms = nowMs();
   frame.row.window = perception_.update(inputOf(picture.image, waiting.header, camera));

@@ -23,7 +23,7 @@
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/frames_verdict.hpp"
 #include "window_ingress/estimation/opening_fit.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"

@@ -18,17 +18,18 @@ constexpr double kLateSec = 0.5;  // a pose so much older than an image says not
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<DetectorNodeParams>(pnh, {"tuning"})),
+      vehicle_(readVehicle(nh)),
       diagnostics_(nh, pnh),
       perception_(params_.detector, params_.interior),
-      camera_(nh, diagnostics_, params_.image_is_rectified),
+      camera_(nh, diagnostics_, vehicle_.image_is_rectified),
       images_(nh, diagnostics_, params_.image_transport, params_.image,
-              limitsFor(params_.lockstep, params_.stamps),
+              limitsFor(params_.lockstep, vehicle_.stamps),
               [this](const auto& header, const auto& picture) { receive(header, picture); }),
       tuning_(pnh, params_.detector, [this](const auto& params) { perception_.setParams(params); }),
       times_(params_.budget_ms, steadyNowSec) {
   perception_.setWatch(&times_.watch());
   if (params_.use_imu)
-    attitude_.emplace(nh, diagnostics_, params_.base_frame, queueFor(params_.lockstep, 100));
+    attitude_.emplace(nh, diagnostics_, vehicle_.frames.base, queueFor(params_.lockstep, 100));
   if (!params_.reference.picture.empty())
     use(loadReference(params_.reference, params_.detector), "photograph " + params_.reference.picture);
   window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);

@@ -59,6 +59,7 @@ class DetectorNode : public Node {
   Health referenceHealth() const;
 
   DetectorNodeParams params_;
+  navigation::VehicleParams vehicle_;
   Diagnostics diagnostics_;
   ClockWatch clock_;
   perception::WindowPerception perception_;

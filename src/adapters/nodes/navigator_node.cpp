@@ -44,8 +44,8 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       diagnostics_(nh, pnh),
       odom_health_(diagnostics_, "odom", kSilenceSec),
       pose_health_(diagnostics_, "window_pose", kSilenceSec),
-      odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
-      pose_gate_(limitsFor(params_.lockstep, params_.stamps)),
+      odom_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
+      pose_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
       engagement_(params_.engagement),
       guard_(nh, diagnostics_, params_.guard),
       navigator_(params_.navigator),
@@ -118,7 +118,7 @@ void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.arrived();
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return odom_health_.refused(*late);
-  auto vehicle = fromMsg(*message, params_.frames);
+  auto vehicle = fromMsg(*message, frames());
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
   odom_health_.stamped(vehicle.value->stamp_sec);
@@ -133,11 +133,11 @@ void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) 
   if (late) return pose_health_.refused(*late);
   input_.image_stamp_sec = stampSec(message->header.stamp);
   pose_health_.stamped(*input_.image_stamp_sec);
-  input_.remembered_odom_m = rememberedFrom(*message, params_.frames.odom);
+  input_.remembered_odom_m = rememberedFrom(*message, frames().odom);
   takeCamera(message->camera);
   if (action_) action_->hear(message->size);
   if (!message->filtered.valid) return pose_health_.accepted();  // an image without a window is news, too
-  const auto target = targetFromMsg(*message, params_.frames.odom);
+  const auto target = targetFromMsg(*message, frames().odom);
   if (!target) return pose_health_.refused(target.reason);
   pose_health_.accepted();
   input_.target = target.value;
@@ -167,7 +167,7 @@ void NavigatorNode::step() {
   }
   if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany) navigator_.abort();
   publish(last_, now);
-  if (last_.enabled) guard_.brakeIfNobodyDoes(now, params_.frames.odom);
+  if (last_.enabled) guard_.brakeIfNobodyDoes(now, frames().odom);
 }
 
 navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
@@ -196,7 +196,7 @@ void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
   input_ = {};
   odom_clock_.clear();
   trail_.clear();
-  marker_publisher_.publish(allGone(toStamp(now_sec), params_.frames.odom));
+  marker_publisher_.publish(allGone(toStamp(now_sec), frames().odom));
   if (last_.enabled) navigator_.abort();
 }
 
@@ -224,8 +224,7 @@ void NavigatorNode::publishMarkers(const navigation::NavigatorOutput& output, co
   if (marker_publisher_.getNumSubscribers() == 0 || (since_sec >= 0.0 && since_sec < kMarkerPeriodSec))
     return;
   drawn_sec_ = now.toSec();
-  marker_publisher_.publish(
-      flightMarkers(output, input_, trail_, params_.navigator, now, params_.frames.odom));
+  marker_publisher_.publish(flightMarkers(output, input_, trail_, params_.navigator, now, frames().odom));
 }
 
 void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {
@@ -237,7 +236,7 @@ void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const 
                         : Eigen::Matrix3d::Identity();
   const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
   geometry_msgs::TwistStamped message =
-      toTwistMsg(directionless ? navigation::Setpoint() : setpoint, params_.frames, R_odom_base);
+      toTwistMsg(directionless ? navigation::Setpoint() : setpoint, frames(), R_odom_base);
   message.header.stamp = now;
   const GatedTwist passed = gated(message.twist, last_gate_);
   message.twist = passed.twist;
@@ -258,7 +257,7 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
     if (navigation::isEnd(output.state)) ROS_INFO("the vehicle %s", vehicleHealth().text.c_str());
   }
   message.header.stamp = now;
-  message.header.frame_id = params_.frames.odom;
+  message.header.frame_id = frames().odom;
   state_publisher_.publish(message);
   if (action_) action_->feedBack(message);
   said_ = message;

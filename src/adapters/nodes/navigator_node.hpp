@@ -16,12 +16,12 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/markers/flight_markers.hpp"
-#include "adapters/sources/engagement.hpp"
 #include "adapters/nodes/mission_action.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"
 #include "adapters/nodes/setpoint_watch.hpp"
 #include "adapters/sources/diagnostics.hpp"
+#include "adapters/sources/engagement.hpp"
 #include "adapters/sources/lockstep.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
@@ -76,6 +76,7 @@ class NavigatorNode : public Node {
   Health vehicleHealth() const;
   Health cameraHealth() const;
   Health lastGateHealth() const;
+  const FrameNames& frames() const { return params_.navigator.vehicle.frames; }
 
   NavigatorNodeParams params_;
   Diagnostics diagnostics_;

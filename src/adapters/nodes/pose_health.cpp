@@ -38,11 +38,12 @@ Health opennessHealth(const openness::OpennessVerdict& verdict) {
                                 : "")};
 }
 
-Health consistencyHealth(const estimation::Consistency& consistency, const estimation::FilterParams& params) {
+Health consistencyHealth(const estimation::Consistency& consistency) {
   char text[160];
   std::snprintf(text, sizeof text,
                 "normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
-                consistency.mean_nis, consistency.images, params.consistency_images, params.max_consistency);
+                consistency.mean_nis, consistency.images, estimation::ConsistencyMonitor::kImages,
+                estimation::ConsistencyMonitor::kMaxMeanNis);
   const bool is_good = consistency.consistent && !consistency.contradicted;
   return {
       is_good ? Health::kOk : Health::kWarn,

@@ -7,7 +7,7 @@
 #include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/estimation/consistency_monitor.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
-#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/frames_verdict.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
 
@@ -18,6 +18,6 @@ Health framesHealth(const estimation::FramesVerdict& frames);
 Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                     const estimation::SenderClock& odometry);
 Health opennessHealth(const openness::OpennessVerdict& verdict);
-Health consistencyHealth(const estimation::Consistency& consistency, const estimation::FilterParams& params);
+Health consistencyHealth(const estimation::Consistency& consistency);
 
 }  // namespace window_ingress::adapters

@@ -27,17 +27,18 @@ PoseNodeParams checked(PoseNodeParams params) {
 }  // namespace
 
 PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(checked(readParameters<PoseNodeParams>(pnh))),
+    : vehicle_(readVehicle(nh)),
+      params_(checked(configuration::forVehicle(readParameters<PoseNodeParams>(pnh), vehicle_))),
       diagnostics_(nh, pnh),
       window_health_(diagnostics_, "window", kSilenceSec),
       odom_health_(diagnostics_, "odom", kSilenceSec),
-      window_gate_(limitsFor(params_.lockstep, params_.stamps)),
-      odom_gate_(limitsFor(params_.lockstep, params_.stamps)),
-      camera_(nh, diagnostics_, params_.image_is_rectified),
-      tracker_(params_.pose, params_.filter, configuration::forVehicle(params_.tracker, readVehicle(nh))),
+      window_gate_(limitsFor(params_.lockstep, vehicle_.stamps)),
+      odom_gate_(limitsFor(params_.lockstep, vehicle_.stamps)),
+      camera_(nh, diagnostics_, vehicle_.image_is_rectified),
+      tracker_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_),
-      facade_(nh, pnh, diagnostics_, tracker_, tf_, params_.frames.odom) {
+      facade_(nh, pnh, diagnostics_, tracker_, tf_, vehicle_.frames.odom) {
   pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1, params_.lockstep);
   covariance_publisher_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
   polygon_publisher_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
@@ -57,7 +58,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     imu_health_->watch(imu_subscriber_);
   }
   if (params_.gravity_source == "tf") {
-    tf_attitude_.emplace(tf_, params_.frames.odom, params_.frames.base);
+    tf_attitude_.emplace(tf_, vehicle_.frames.odom, vehicle_.frames.base);
     diagnostics_.add("attitude", [this] { return tf_attitude_->health(); });
   }
   if (!params_.publish_tf)
@@ -66,7 +67,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
   diagnostics_.add("frames check", [this] { return framesHealth(tracker_.frames()); });
   diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset(), odom_clock_); });
-  diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_, params_.filter); });
+  diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_); });
   diagnostics_.add("openness", [this] { return opennessHealth(tracker_.openness()); });
   if (params_.lockstep) {
     lockstep_.emplace(
@@ -122,7 +123,7 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
   if (late) return odom_health_.refused(*late);
   if (isFromBeforeReset(message->header)) return;
-  auto vehicle = fromMsg(*message, params_.frames);
+  auto vehicle = fromMsg(*message, vehicle_.frames);
   if (!vehicle) return odom_health_.refused(vehicle.reason);
   odom_health_.accepted();
   odom_health_.stamped(vehicle.value->stamp_sec);
@@ -143,9 +144,9 @@ void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
   imu_health_->arrived();
   const auto stamp_sec = stampSec(message->header.stamp);
   if (!stamp_sec) return imu_health_->refused("header.stamp is zero or not normalised");
-  if (message->header.frame_id != params_.frames.base)
+  if (message->header.frame_id != vehicle_.frames.base)
     return imu_health_->refused("header.frame_id is '" + message->header.frame_id + "', expected '" +
-                                params_.frames.base + "'");
+                                vehicle_.frames.base + "'");
   const auto rotation = attitudeFromMsg(*message);
   if (!rotation) return imu_health_->refused(rotation.reason);
   imu_health_->accepted();
@@ -183,7 +184,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   } else if (unused.reason.empty()) {
     unused = {window_ingress::FilteredPose::REFUSED, "no image has contributed lately"};
   }
-  out.filtered.header.frame_id = params_.frames.odom;
+  out.filtered.header.frame_id = vehicle_.frames.odom;
   out.filtered.reject = unused.reject;
   out.filtered.reason = unused.reason;
   out.checks = toMsg(verified);
@@ -235,7 +236,7 @@ PoseNode::Refusal PoseNode::estimate(const window_ingress::WindowDetection& mess
 }
 
 Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame) const {
-  return mountingOf(tf_, params_.frames.base, camera_frame);
+  return mountingOf(tf_, vehicle_.frames.base, camera_frame);
 }
 
 void PoseNode::publish(const window_ingress::WindowPose& message) {
@@ -257,11 +258,11 @@ void PoseNode::publishFiltered(const window_ingress::WindowPose& message,
                                const estimation::FilteredWindow& window) {
   if (marker_publisher_.getNumSubscribers() > 0)
     marker_publisher_.publish(
-        windowMarkers(window, windowLabel(message), message.header.stamp, params_.frames.odom));
+        windowMarkers(window, windowLabel(message), message.header.stamp, vehicle_.frames.odom));
   if (!params_.publish_tf) return;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = message.header.stamp;
-  transform.header.frame_id = params_.frames.odom;
+  transform.header.frame_id = vehicle_.frames.odom;
   transform.child_frame_id = params_.window_frame;
   transform.transform = toTransformMsg(window.T_odom_window);
   tf_broadcaster_.sendTransform(transform);
@@ -281,7 +282,7 @@ void PoseNode::forget() {
   pending_.reset();
   tracker_.reset();
   consistency_ = estimation::Consistency();
-  marker_publisher_.publish(allGone(ros::Time::now(), params_.frames.odom));
+  marker_publisher_.publish(allGone(ros::Time::now(), vehicle_.frames.odom));
   facade_.tellAnew(ros::Time::now());
 }
 

@@ -64,6 +64,7 @@ class PoseNode : public Node {
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
 
+  navigation::VehicleParams vehicle_;
   PoseNodeParams params_;
   Diagnostics diagnostics_;
   TopicHealth window_health_, odom_health_;

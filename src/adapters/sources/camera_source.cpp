@@ -67,7 +67,7 @@ std::string CameraSource::undoneTwice() const {
   const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
   if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
   return "pictures on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
-         subscriber_.getTopic() + " is undone once more; if they are, set image_is_rectified";
+         subscriber_.getTopic() + " is undone once more; if they are, set vehicle/image_is_rectified";
 }
 
 Health CameraSource::fitHealth() const {

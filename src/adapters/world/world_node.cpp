@@ -12,6 +12,8 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kTickSec = 0.005;
+constexpr double kStartSec = 100.0;  // a stamp of zero means unstamped
+constexpr double kClockRateHz = 100.0;
 constexpr double kMaxDebtSec = 0.05;  // what the machine cannot keep up with is given up, not caught up
 constexpr double kVehicleSilenceSec = 0.5;
 constexpr double kStepSec = simulation::World::kStepSec;
@@ -26,7 +28,7 @@ simulation::Scenario load(const WorldNodeParams& params) {
 WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     : params_(readParameters<WorldNodeParams>(pnh)),
       diagnostics_(nh, pnh),
-      epoch_sec_(params_.start_time_sec),
+      epoch_sec_(kStartSec),
       created_sec_(steadyNowSec()),
       ticked_sec_(created_sec_),
       camera_info_(nh, "world", checkedUrl(params_.camera_info_url)),
@@ -160,7 +162,7 @@ void WorldNode::stepOnce() {
 
 void WorldNode::tellTime() {
   if (const auto reading_sec = world_->readClock()) publishers_.clock(stampOf(*reading_sec));
-  clock_due_sec_ = world_->timeSec() + 1.0 / params_.clock_rate_hz - 0.5 * kStepSec;
+  clock_due_sec_ = world_->timeSec() + 1.0 / kClockRateHz - 0.5 * kStepSec;
 }
 
 ros::Time WorldNode::stampOf(double world_sec) const { return toStamp(epoch_sec_ + world_sec); }

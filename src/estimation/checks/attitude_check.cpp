@@ -10,13 +10,14 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr int kEnough = 10;
+constexpr double kMaxGapRad = 0.35;  // between "up" of imu and of odometry
 
 }  // namespace
 
 bool AttitudeCheck::see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Matrix3d& R_odom_base_odometry) {
   const Eigen::RowVector3d up_imu = R_odom_base_imu.row(2), up_odometry = R_odom_base_odometry.row(2);
   const double apart_rad = std::acos(std::clamp(up_imu.dot(up_odometry), -1.0, 1.0));
-  const bool agree = apart_rad <= params_.max_attitude_gap_rad;
+  const bool agree = apart_rad <= kMaxGapRad;
   in_a_row_ =
       agree ? std::min(std::max(in_a_row_, 0) + 1, kEnough) : std::max(std::min(in_a_row_, 0) - 1, -kEnough);
   if (in_a_row_ == kEnough) verdict_ = {FramesVerdict::kGood, ""};

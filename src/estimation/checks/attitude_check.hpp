@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/frames_verdict.hpp"
 
 namespace window_ingress::estimation {
 
@@ -11,16 +11,13 @@ namespace window_ingress::estimation {
 /// turn the window about.
 class AttitudeCheck {
  public:
-  explicit AttitudeCheck(const FramesParams& params) : params_(params) {}
-
   /// \return whether they agree now
   bool see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Matrix3d& R_odom_base_odometry);
-  void clear() { *this = AttitudeCheck(params_); }
+  void clear() { *this = AttitudeCheck(); }
   /// Open until enough was seen, and while they sometimes agree.
   FramesVerdict verdict() const { return verdict_; }
 
  private:
-  FramesParams params_;
   int in_a_row_ = 0;  ///< agreeing if positive
   FramesVerdict verdict_{FramesVerdict::kOpen, "attitude: only one of imu and odometry so far"};
 };

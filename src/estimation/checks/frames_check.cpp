@@ -1,24 +1,10 @@
 #include "estimation/checks/frames_check.hpp"
 
-#include <stdexcept>
 #include <vector>
 
-#include "window_ingress/parameters/fields.hpp"
-
 namespace window_ingress::estimation {
-namespace {
-
-FramesParams checked(const FramesParams& params) {
-  const auto faults = parameters::outOfRange(params);
-  if (!faults.empty()) throw std::invalid_argument("frames check: " + parameters::joined(faults));
-  return params;
-}
-
-}  // namespace
-
-FramesCheck::FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-                         const SizeEstimate& size)
-    : twist_(checked(params)), attitude_(params), mounting_(pose, filter, params, size) {}
+FramesCheck::FramesCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size)
+    : mounting_(pose, filter, size) {}
 
 FramesVerdict FramesCheck::verdict() const {
   const FramesVerdict mounting = mounting_.verdict(), twist = twist_.verdict(),

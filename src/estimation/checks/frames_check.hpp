@@ -10,9 +10,7 @@ namespace window_ingress::estimation {
 /// against what is seen and flown. A mismatch is named; with it nobody should fly towards anything.
 class FramesCheck {
  public:
-  /// \throws std::invalid_argument that lists every parameter out of range
-  FramesCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-              const SizeEstimate& size);
+  FramesCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size);
 
   TwistCheck& twist() { return twist_; }
   AttitudeCheck& attitude() { return attitude_; }

@@ -13,7 +13,11 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr char kNothingYet[] = "camera mounting: no way flown yet";
-constexpr double kLastingSec = 10000.0;  // a mounting does not change
+constexpr double kLastingSec = 10000.0;                    // a mounting does not change
+constexpr double kPriorSigmaRad = 0.35;                    // of the camera's attitude before anything is seen
+constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
+constexpr double kCertainSigmas = 2.5;
+constexpr double kImageSpacingM = 0.05;  // nearer images are not looked at
 constexpr double kSpacingSec = 0.5, kGoodSpacingFactor = 3.0;
 constexpr std::size_t kMaxImages = 16, kEnoughImages = 10;
 constexpr double kKeptSpacingM = 0.1;
@@ -24,8 +28,8 @@ constexpr double kMaxMisfit = 2.0, kOtherMountingBetter = 0.3;
 constexpr double kUnexplained = 100.0, kMaxRefusedToTry = 0.3;
 constexpr int kSetupsAnImage = 4;
 
-FilterParams openParams(FilterParams filter, const FramesParams& params) {
-  filter.attitude_bias_sigma_rad = filter.mounting_yaw_sigma_rad = params.mounting_prior_rad;
+FilterParams openParams(FilterParams filter) {
+  filter.attitude_bias_sigma_rad = filter.mounting_yaw_sigma_rad = kPriorSigmaRad;
   filter.attitude_bias_time_sec = kLastingSec;
   filter.trusted_yaw_sigma_rad = 0.5;
   filter.outliers_until_restart = 1000;
@@ -111,11 +115,9 @@ std::vector<MountingCheck::Setup> MountingCheck::setups() {
   return all;
 }
 
-MountingCheck::MountingCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-                             const SizeEstimate& size)
-    : params_(params),
-      estimator_(pose),
-      filter_params_(openParams(filter, params)),
+MountingCheck::MountingCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size)
+    : estimator_(pose),
+      filter_params_(openParams(filter)),
       said_(size),
       open_(sizeEstimate(size.size, kOpenScaleSigma, kOpenAspectSigma)),
       filter_(filter_params_, open_) {}
@@ -152,7 +154,7 @@ bool MountingCheck::isFarFromLast(const Image& image) const {
   if (images_.empty()) return true;
   const Image& last = images_.back();
   const double spacing_m =
-      params_.image_spacing_m * (verdict_.state == FramesVerdict::kGood ? kGoodSpacingFactor : 1.0);
+      kImageSpacingM * (verdict_.state == FramesVerdict::kGood ? kGoodSpacingFactor : 1.0);
   const double elapsed_sec = image.window.stamp_sec - last.window.stamp_sec;
   return elapsed_sec < 0.0 || elapsed_sec > kSpacingSec ||
          (image.T_odom_base.translation() - last.T_odom_base.translation()).norm() >= spacing_m;
@@ -203,19 +205,19 @@ void MountingCheck::judge() {
 
 // Both planar hypotheses must agree: a turned camera and a turned window look alike for a while.
 void MountingCheck::judgeTurn(const FilteredWindow& found) {
-  BodyTurn turn = bodyTurn(found.camera_turn, params_.certain_sigmas);
+  BodyTurn turn = bodyTurn(found.camera_turn, kCertainSigmas);
   if (found.alternative) {
-    const BodyTurn other = bodyTurn(found.alternative->camera_turn, params_.certain_sigmas);
+    const BodyTurn other = bodyTurn(found.alternative->camera_turn, kCertainSigmas);
     turn.least_rad = std::min(turn.least_rad, other.least_rad);
     turn.most_rad = std::max(turn.most_rad, other.most_rad);
   }
   const std::string size_fault = faultOfSize(found.size);
   const FramesVerdict before = verdict_;
-  if (turn.least_rad > params_.max_mounting_rad)
+  if (turn.least_rad > kMaxTurnRad)
     verdict_ = {FramesVerdict::kWrong, turnText(turn.roll_pitch_yaw_rad)};
   else if (!size_fault.empty())
     verdict_ = {FramesVerdict::kWrong, size_fault};
-  else if (turn.most_rad < 2.0 * params_.max_mounting_rad)
+  else if (turn.most_rad < 2.0 * kMaxTurnRad)
     verdict_ = {FramesVerdict::kGood, ""};
   if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
 }
@@ -226,8 +228,8 @@ std::string MountingCheck::faultOfSize(const SizeEstimate& found) const {
   const Eigen::Vector2d grown(std::log(found.size.width_m / said_.size.width_m),
                               std::log(found.size.height_m / said_.size.height_m));
   const Eigen::Vector2d sigma = found.log_covariance.diagonal().cwiseSqrt();
-  const double least = (grown.cwiseAbs() - params_.certain_sigmas * sigma).maxCoeff();
-  if (!(least > params_.max_size_error)) return "";
+  const double least = (grown.cwiseAbs() - kCertainSigmas * sigma).maxCoeff();
+  if (!(least > kMaxSizeError)) return "";
   return formatted("opening looks like %.2f x %.2f m, said to be %.2f x %.2f m", found.size.width_m,
                    found.size.height_m, said_.size.width_m, said_.size.height_m);
 }

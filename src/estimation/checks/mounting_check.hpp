@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/frames_verdict.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 
@@ -21,8 +21,7 @@ namespace window_ingress::estimation {
 class MountingCheck {
  public:
   /// \param size what the opening is said to be; zero covariance: known, and so to be verified
-  MountingCheck(const PoseParams& pose, const FilterParams& filter, const FramesParams& params,
-                const SizeEstimate& size);
+  MountingCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size);
 
   /// Only whole windows say something.
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
@@ -53,7 +52,6 @@ class MountingCheck {
   void tryNextSetups();
   double misfitOf(const Setup& setup) const;
 
-  FramesParams params_;
   WindowPoseEstimator estimator_;
   FilterParams filter_params_;
   SizeEstimate said_, open_;

@@ -12,6 +12,8 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kMaxPieceGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
+constexpr double kPieceM = 0.25, kMinWayM = 0.5;  // of a piece; before anything is said
+constexpr double kMaxVelocityMisfit = 0.3;        // relative, of way and velocity
 constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
@@ -65,7 +67,7 @@ void TwistCheck::add(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
     integrated_m_[k] += 0.5 * dt_sec * (last_->velocity_mps[k] + now.velocity_mps[k]);
   last_ = now;
   const Eigen::Vector3d moved = now.position_m - first_->position_m;
-  const bool is_long = std::max(moved.norm(), integrated_m_[0].norm()) >= params_.way_segment_m;
+  const bool is_long = std::max(moved.norm(), integrated_m_[0].norm()) >= kPieceM;
   if (is_long && now.stamp_sec - first_->stamp_sec >= kShortestPieceSec) closePiece(moved);
 }
 
@@ -128,9 +130,9 @@ std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
 
 void TwistCheck::judge() {
   const Sums all = sums();
-  if (all.way_m < params_.least_way_m) return;
+  if (all.way_m < kMinWayM) return;
   const bool is_biased = all.bias_mps > kMaxBiasMps;
-  if (!is_biased && all.misfit() <= params_.max_velocity_error) {
+  if (!is_biased && all.misfit() <= kMaxVelocityMisfit) {
     verdict_ = {FramesVerdict::kGood, ""};
     return;
   }

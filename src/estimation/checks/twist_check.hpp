@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "window_ingress/estimation/frames_params.hpp"
+#include "window_ingress/estimation/frames_verdict.hpp"
 
 namespace window_ingress::estimation {
 
@@ -22,11 +22,9 @@ namespace window_ingress::estimation {
 /// A heading within some 17 degrees of zero tells body from world too little to matter.
 class TwistCheck {
  public:
-  explicit TwistCheck(const FramesParams& params) : params_(params) {}
-
   /// \param velocity_odom_mps as computed from the reported velocity, its axes taken for the body's
   void add(double stamp_sec, const Eigen::Isometry3d& T_odom_base, const Eigen::Vector3d& velocity_odom_mps);
-  void clear() { *this = TwistCheck(params_); }
+  void clear() { *this = TwistCheck(); }
   void startPiece() { last_.reset(); }  ///< what follows is no continuation of what was
   FramesVerdict verdict() const { return verdict_; }
 
@@ -59,7 +57,6 @@ class TwistCheck {
   Eigen::Vector3d biasMps(int meaning) const;
   std::size_t betterMeaning(const Sums& sums) const;
 
-  FramesParams params_;
   std::optional<Sample> first_, last_;
   Way integrated_m_{};
   std::deque<Piece> pieces_;

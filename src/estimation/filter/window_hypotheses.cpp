@@ -9,8 +9,11 @@
 namespace window_ingress::estimation {
 namespace {
 
-constexpr double kMergeDistance = 0.5;  // squared Mahalanobis
-constexpr double kSplitSigmas = 1.0;    // from here on a mirror image is a mode of its own
+constexpr double kMergeDistance = 0.5;   // squared Mahalanobis
+constexpr double kSplitSigmas = 1.0;     // from here on a mirror image is a mode of its own
+constexpr double kMaxEvidence = 3.0;     // of one image for one hypothesis against the other [nats]
+constexpr double kMinWeight = 0.001;     // a lighter hypothesis is dropped
+constexpr double kHarmlessYawRad = 0.1;  // nearer to each other than this they need not be told apart
 constexpr double kImpossible = -1e300;
 
 double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)); }
@@ -50,7 +53,7 @@ void WindowHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate
   }
   if (!outcome) return;
   const double evidence = 0.5 * (squares - outcome->squares);
-  hypotheses_.push_back({other, std::clamp(evidence, -params_.max_evidence, params_.max_evidence)});
+  hypotheses_.push_back({other, std::clamp(evidence, -kMaxEvidence, kMaxEvidence)});
 }
 
 std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterView& view, double elapsed_sec,
@@ -71,7 +74,7 @@ std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterVie
   if (!closest) return std::nullopt;
   const double best = std::max(evidence[0], evidence[1]);
   for (std::size_t i = 0; i < tried.size(); ++i)
-    tried[i].log_weight += std::max(evidence[i] - best, -params_.max_evidence);
+    tried[i].log_weight += std::max(evidence[i] - best, -kMaxEvidence);
   hypotheses_ = std::move(tried);
   settle(view.T_odom_camera.translation());
   return closest;
@@ -80,7 +83,7 @@ std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterVie
 bool WindowHypotheses::areUnambiguous() const {
   if (hypotheses_.size() < 2) return true;
   const auto yaw = [](const Weighted& h) { return h.window.state().yaw(); };
-  return std::abs(geometry::wrapAngle(yaw(hypotheses_[0]) - yaw(hypotheses_[1]))) < params_.harmless_yaw_rad;
+  return std::abs(geometry::wrapAngle(yaw(hypotheses_[0]) - yaw(hypotheses_[1]))) < kHarmlessYawRad;
 }
 
 void WindowHypotheses::settle(const Eigen::Vector3d& camera_position) {
@@ -106,7 +109,7 @@ void WindowHypotheses::mergeOrDrop() {
     hypotheses_[0].window = hypotheses_[0].window.mergedWith(hypotheses_[1].window, share);
     hypotheses_.pop_back();
     may_split_ = true;
-  } else if (share < params_.dead_weight) {
+  } else if (share < kMinWeight) {
     hypotheses_.pop_back();
     may_split_ = false;
   }
@@ -117,9 +120,9 @@ void WindowHypotheses::split(const Eigen::Vector3d& camera_position) {
   if (hypotheses_.size() != 1 || !may_split_) return;
   const WindowHypothesis window = hypotheses_.front().window;
   const double angle = std::abs(window.yawFromSight(camera_position)), sigmas = angle / window.yawSigma();
-  if (2.0 * angle < params_.harmless_yaw_rad || sigmas < kSplitSigmas) return;
+  if (2.0 * angle < kHarmlessYawRad || sigmas < kSplitSigmas) return;
   const double other = upperTail(sigmas);
-  if (other < params_.dead_weight) return;
+  if (other < kMinWeight) return;
   hypotheses_ = {{window, std::log(1.0 - other)}, {window.mirrored(camera_position), std::log(other)}};
 }
 

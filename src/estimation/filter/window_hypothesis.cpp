@@ -133,7 +133,7 @@ WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isom
   Eigen::Matrix2d aspect_and_scale;
   aspect_and_scale << 1.0, -1.0, 0.0, -inverse_height;
   const Eigen::Matrix2d at_least =
-      std::pow(params.known_size_sigma, 2) * Eigen::Matrix2d::Identity() + size.log_covariance;
+      std::pow(FilterParams::kKnownSizeSigma, 2) * Eigen::Matrix2d::Identity() + size.log_covariance;
   covariance_.block<2, 2>(WindowState::kLogAspect, WindowState::kLogAspect) =
       aspect_and_scale * at_least * aspect_and_scale.transpose();
 }

@@ -8,6 +8,7 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kMinWhiteSigmaPx = 0.0005;
+constexpr double kUnknownSigmaPx = 1.0;  // of a corner where the observation brings no usable covariance
 
 bool isUsable(double sigma) { return std::isfinite(sigma) && sigma > 0.0; }
 
@@ -103,9 +104,9 @@ bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Ei
                                  const Eigen::Vector2d& to, double scale, const ImageNoise& noise) {
   const double length = (to - from).norm();
   if (!(length > 1e-3)) return false;
-  const double unknown = noise.unknown_corner_sigma_px, systematic = noise.systematic_sigma_px;
-  const double across = isUsable(edge.sigma_px) ? scale * edge.sigma_px : unknown / std::sqrt(2.0);
-  const double turn = isUsable(edge.sigma_rad) ? edge.sigma_rad : unknown * std::sqrt(2.0) / length;
+  const double systematic = noise.systematic_sigma_px;
+  const double across = isUsable(edge.sigma_px) ? scale * edge.sigma_px : kUnknownSigmaPx / std::sqrt(2.0);
+  const double turn = isUsable(edge.sigma_rad) ? edge.sigma_rad : kUnknownSigmaPx * std::sqrt(2.0) / length;
   const double white_px = std::max(across, kMinWhiteSigmaPx),
                white_slope = std::max(turn, kMinWhiteSigmaPx / length);
   Border& border = borders_[border_count_++];
@@ -123,9 +124,8 @@ bool ImageMeasurement::addBorder(const detection::Edge& edge, int side, const Ei
 }
 
 void ImageMeasurement::addCorner(const Eigen::Matrix2d& covariance, int corner, const ImageNoise& noise) {
-  const double unknown = noise.unknown_corner_sigma_px * noise.unknown_corner_sigma_px;
   Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
-  Eigen::Vector2d white = Eigen::Vector2d::Constant(unknown);
+  Eigen::Vector2d white = Eigen::Vector2d::Constant(kUnknownSigmaPx * kUnknownSigmaPx);
   if (covariance.allFinite()) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(0.5 * (covariance + covariance.transpose()));
     if (eigen.eigenvalues().minCoeff() > 0.0) {

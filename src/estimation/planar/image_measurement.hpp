@@ -13,7 +13,6 @@ namespace window_ingress::estimation {
 /// What is assumed of the errors of an observation beyond its own covariances.
 struct ImageNoise {
   double systematic_sigma_px = 0.15;  ///< of each corner coordinate; the same in every image from one place
-  double unknown_corner_sigma_px = 1.0;  ///< where the observation has no usable covariance
   /// How many images, this one included, share their systematic error. The k-th of them brings only what it
   /// adds to the k - 1 before: any number of images from one place tells no more than the systematic error
   /// lets through.

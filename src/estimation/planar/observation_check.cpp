@@ -11,6 +11,9 @@ namespace {
 using detection::WindowObservation;
 using geometry::Quadrilateral;
 
+constexpr double kMinSidePx = 4.0;
+constexpr double kMinCornerAngleRad = 0.15;  // interior angles stay this far from 0 and pi
+
 bool isNearImage(const Quadrilateral& corners, const geometry::PinholeCamera& camera) {
   const double margin = std::max(camera.width, camera.height);
   return std::all_of(corners.begin(), corners.end(),
@@ -48,7 +51,7 @@ std::string missingSides(const WindowObservation& window, int sides) {
 }
 
 std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           const PoseParams& params, int sides) {
+                           int sides) {
   if (window.visibleSides() < sides) return missingSides(window, sides);
   const double margin = std::max(camera.width, camera.height);
   for (const auto& edge : window.edges) {
@@ -57,8 +60,7 @@ std::string faultOfPartial(const WindowObservation& window, const geometry::Pinh
     if (!camera.contains(edge.a, -margin) || !camera.contains(edge.b, -margin))
       return "a border's end lies more than an image's size outside the image";
     const double length = (edge.b - edge.a).norm();
-    if (length < params.min_side_px)
-      return formatted("border of %.2f px < %.2f px", length, params.min_side_px);
+    if (length < kMinSidePx) return formatted("border of %.2f px < %.2f px", length, kMinSidePx);
   }
   return "";
 }
@@ -71,20 +73,18 @@ bool isUpright(const WindowObservation& window, const Eigen::Vector3d& up_camera
 }
 
 std::string faultOfCorners(const WindowObservation& window, const geometry::PinholeCamera& camera,
-                           const PoseParams& params, int sides) {
-  if (!window.whole()) return faultOfPartial(window, camera, params, sides);
+                           int sides) {
+  if (!window.whole()) return faultOfPartial(window, camera, sides);
   if (!geometry::isFinite(window.corners)) return "a corner is not finite";
   if (!isNearImage(window.corners, camera))
     return "a corner lies more than an image's size outside the image";
   if (!geometry::isConvex(window.corners)) return "corners coincide, cross or are not convex";
   const auto lengths = geometry::sideLengths(window.corners);
   const double shortest = *std::min_element(lengths.begin(), lengths.end());
-  if (shortest < params.min_side_px)
-    return formatted("side of %.2f px < %.2f px", shortest, params.min_side_px);
+  if (shortest < kMinSidePx) return formatted("side of %.2f px < %.2f px", shortest, kMinSidePx);
   for (const double angle : geometry::interiorAngles(window.corners))
-    if (angle < params.min_corner_angle_rad || angle > M_PI - params.min_corner_angle_rad)
-      return formatted("corner of %.3f rad is nearer than %.3f rad to flat", angle,
-                       params.min_corner_angle_rad);
+    if (angle < kMinCornerAngleRad || angle > M_PI - kMinCornerAngleRad)
+      return formatted("corner of %.3f rad is nearer than %.3f rad to flat", angle, kMinCornerAngleRad);
   const auto visible =
       std::count_if(window.edges.begin(), window.edges.end(), [](auto& e) { return e.visible; });
   if (visible > 0 && visible < 4)

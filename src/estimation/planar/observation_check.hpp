@@ -3,7 +3,6 @@
 #include <string>
 
 #include "window_ingress/detection/window_observation.hpp"
-#include "window_ingress/estimation/pose_params.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::estimation {
@@ -12,7 +11,7 @@ namespace window_ingress::estimation {
 /// observation with less than four borders has its reason, too: alone it gives no pose.
 /// \param sides least number of visible borders of a partial observation: 4, or 2 with a prior pose
 std::string faultOfCorners(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                           const PoseParams& params, int sides = 4);
+                           int sides = 4);
 
 /// A partial observation whose borders are named by the image must not be rolled by 45 degrees or more; whole
 /// ones are put upright.

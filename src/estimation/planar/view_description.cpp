@@ -12,6 +12,7 @@ namespace window_ingress::estimation {
 namespace {
 
 constexpr double kCertain = 1e9;
+constexpr double kTrustedYawSigmas = 3.0, kTrustedLogLikelihoodRatio = 6.2;  // the latter: one wrong in 500
 constexpr int kPoseParameters = 6;
 // 99 % of sums of 0, 1, .. 8 squares are smaller.
 constexpr std::array<double, 9> kChiSquared99{6.63, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81, 18.48, 20.09};
@@ -46,12 +47,12 @@ void describeSides(const RefinementProblem& problem, WindowPoseEstimate& out) {
   out.right_side_px = (top_right - bottom_right).norm();
 }
 
-void judgeSign(const PoseParams& params, double misfit, WindowPoseEstimate& out) {
+void judgeSign(double misfit, WindowPoseEstimate& out) {
   out.log_likelihood_ratio =
       out.alternative ? std::min(kCertain, (out.alternative->cost - out.best.cost) / misfit) : kCertain;
   const double smaller = std::min(std::abs(out.yaw_rad), std::abs(out.yaw_from_sight_rad));
-  out.sign_trusted = params.trusted_yaw_sigmas * out.sigma_u_rad < smaller &&
-                     out.log_likelihood_ratio >= params.trusted_log_likelihood_ratio;
+  out.sign_trusted =
+      kTrustedYawSigmas * out.sigma_u_rad < smaller && out.log_likelihood_ratio >= kTrustedLogLikelihoodRatio;
 }
 
 void widen(double factor, PlanarSolution& solution) {
@@ -68,7 +69,7 @@ double misfitOf(const RefinementProblem& problem, const PlanarSolution& best) {
 }
 
 WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSolutions& solutions,
-                            const Eigen::Vector3d& up_camera, const PoseParams& params) {
+                            const Eigen::Vector3d& up_camera) {
   WindowPoseEstimate out;
   out.best = solutions.best;
   out.alternative = solutions.alternative;
@@ -89,7 +90,7 @@ WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSoluti
   if (problem.image.hasCorners()) out.aspect = measureAspect(problem);
   out.euler = geometry::eulerFromRotation(geometry::R_optical_flu().transpose() * T.linear());
   describeSides(problem, out);
-  judgeSign(params, misfit, out);
+  judgeSign(misfit, out);
   return out;
 }
 

@@ -63,7 +63,7 @@ FlightParams readFlightParams(const std::string& file) {
 
 FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   tellVehicle(world, params.said, params.navigator.vehicle);
-  params.tracker = configuration::forVehicle(params.tracker, params.navigator.vehicle);
+  params.tracker.needed = configuration::neededBy(params.navigator.vehicle);
   tellOpening(world, params.said, params.pose);
   tellPolicy(world.scenario(), params.said, params.navigator.commit);
   if (params.without_pictures)  // nothing shows it

@@ -54,7 +54,7 @@ ApproachScript drawApproach(std::uint32_t seed, SizeTold told) {
   const double side = random.uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
   const double distance_m = random.uniform(4.0, 6.0), off_axis_rad = side * random.uniform(0.05, 0.6);
   ApproachScript script = ontoAxisAndIn(distance_m, off_axis_rad, random.uniform(-0.3, 0.3), kEndM);
-  const double sigma = estimation::FilterParams().known_size_sigma;
+  const double sigma = estimation::FilterParams::kKnownSizeSigma;
   if (told == SizeTold::kAll)
     script.opening = {1.2 * (1.0 + random.normal(sigma)), 1.0 * (1.0 + random.normal(sigma))};
   else

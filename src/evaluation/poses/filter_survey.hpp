@@ -31,7 +31,7 @@ enum class SizeTold { kAll, kNothing };
 estimation::PoseParams poseParams(SizeTold told);
 
 /// Approach number `seed` of a campaign: start, window and all errors are drawn. A size that is told is wrong
-/// by `FilterParams::known_size_sigma`.
+/// by `FilterParams::kKnownSizeSigma`.
 ApproachScript drawApproach(std::uint32_t seed, SizeTold told);
 
 /// Flies to the end; a sample an image.

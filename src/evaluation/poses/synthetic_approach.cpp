@@ -134,7 +134,7 @@ void SyntheticApproach::reportOdometry(double stamp_sec) {
 }
 
 void SyntheticApproach::look() {
-  if ((position_m_ - bias_from_m_).norm() > errors_.systematic_renewal_m) {
+  if ((position_m_ - bias_from_m_).norm() > estimation::FilterParams::kSystematicRenewalM) {
     bias_from_m_ = position_m_;
     for (int i = 0; i < 8; ++i) bias_px_(i) = random_.normal(errors_.systematic_sigma_px);
   }

@@ -6,6 +6,9 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr double kNearAxisM = 0.3;
+constexpr double kFunnelDwellSec = 0.2;  // within the funnel, before going on
+constexpr double kAmbiguousSec = 1.2;    // of the yaw's sign, before a height probe
+constexpr double kProbeMps = 0.4;
 constexpr double kWellInFunnel = 0.15;  // of its openness
 }  // namespace
 
@@ -21,7 +24,7 @@ double HeightProbe::climb(double height_m) {
     returns_ = !returns_;
   }
   const double goal_m = returns_ ? *start_m_ : turning_m;
-  return std::copysign(std::min(align.probe_speed_mps, 0.1 + std::abs(goal_m - height_m)), goal_m - height_m);
+  return std::copysign(std::min(kProbeMps, 0.1 + std::abs(goal_m - height_m)), goal_m - height_m);
 }
 
 Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_odom_mps,
@@ -72,7 +75,7 @@ Decision Align::resolveSign(const Situation& situation, const MissionState& memo
   decision.keeps_place = true;
   decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
   const double height_m = situation.vehicle->T_odom_base.translation().z();
-  if (situation.now_sec - ambiguous_since_sec_ < params_->align.settle_sec) {
+  if (situation.now_sec - ambiguous_since_sec_ < kAmbiguousSec) {
     const double limit_mps = params_->align.vertical_speed_mps;
     decision.wish.velocity_odom_mps.z() = velocityTowards(-relative.vertical(), limit_mps, *params_);
     decision.reason = "sign of the window's yaw not certain: looking";
@@ -122,8 +125,7 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
   } else if (!in_funnel_since_sec_) {
     in_funnel_since_sec_ = situation.now_sec;
   }
-  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < params_->align.dwell_sec)
-    return decision;
+  if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < kFunnelDwellSec) return decision;
   if (is_forbidden) return probeForLeave(situation, decision);
   decision.event = Event::kAligned;
   return decision;

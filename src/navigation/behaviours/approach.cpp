@@ -9,6 +9,8 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kLooksWithinM = 0.4;
+constexpr double kLeaveFactor = 1.3,
+                 kLeaveSec = 0.5;  // out of the funnel by so much, for so long: align again
 
 /// For how long a condition has held, updating when it began.
 double heldSec(bool condition, double now_sec, std::optional<double>& since_sec) {
@@ -16,9 +18,6 @@ double heldSec(bool condition, double now_sec, std::optional<double>& since_sec)
   if (condition && !since_sec) since_sec = now_sec;
   return since_sec ? now_sec - *since_sec : -1.0;
 }
-
-/// Beyond the funnel's wall by this factor.
-bool isOutside(const CommitCriterion& criterion, double factor) { return criterion.fullness > factor; }
 
 }  // namespace
 
@@ -82,14 +81,14 @@ std::optional<Event> Approach::judge(const CommitCriterion& criterion, const Rel
   const bool at_line = relative.distance() <= criterion.commit_distance_m + 0.05;
   if (at_line && criterion.holds) return Event::kCommitReached;
   const double outside_sec =
-      heldSec(isOutside(criterion, params_->approach.leave_factor), situation.now_sec, outside_since_sec_);
+      heldSec(criterion.fullness > kLeaveFactor, situation.now_sec, outside_since_sec_);
   // Aside the line is further away from the window.
   const bool waits =
       at_line || (looks_ && relative.distance() <= criterion.commit_distance_m + kLooksWithinM);
   const double waiting_sec = heldSec(waits, situation.now_sec, waiting_since_sec_);
   looks_ = waits && (looks_ || criterion.opening_unverified);
   if (waiting_sec > patienceSec(*situation.target)) return Event::kContractUnmet;
-  if (outside_sec > params_->approach.leave_sec) {
+  if (outside_sec > kLeaveSec) {
     reason = "out of the funnel: " + criterion.unmet;
     return at_line ? Event::kContractUnmet : Event::kMisaligned;
   }

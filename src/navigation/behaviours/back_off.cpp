@@ -15,7 +15,7 @@ Decision BackOff::step(const Situation& situation, const MissionState& memory) {
   const double speed_mps = std::min(params_->back_off.speed_mps, 0.1 + std::max(0.0, room_m));
   Decision decision;
   const double turning_radius_m = std::hypot(params_->vehicle.half_length_m, params_->vehicle.half_width_m);
-  const bool is_clear = relative.distance() > turning_radius_m + params_->approach.margin_m;
+  const bool is_clear = relative.distance() > turning_radius_m + params_->vehicle.margin_m;
   decision.wish.velocity_odom_mps = velocityAlongAxis(
       relative, target, againstTailwind(-speed_mps, target, memory), memory.wind_odom_mps, *params_);
   if (is_clear) decision.wish.yaw_rate_radps = yawRateFor(relative.bearing_rad, memory, *params_);
@@ -46,7 +46,7 @@ std::optional<Event> BackOff::judge(const Situation& situation, const MissionSta
   }
   if (situation.target) {
     if (situation.target_is_new) ++frames_;
-    if (frames_ < params_->search.found_frames) return std::nullopt;
+    if (frames_ < kFoundImages) return std::nullopt;
     reason = "window seen again";
     return Event::kReacquired;
   }

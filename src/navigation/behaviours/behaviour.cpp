@@ -56,7 +56,7 @@ void MissionState::forgetPlaces() {
 void noteSide(const Situation& situation, const NavigatorParams& params, MissionState& memory) {
   if (!memory.trusted || !situation.vehicle) return;
   const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
-  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.approach.margin_m;
+  memory.was_in_front = distance_m > params.vehicle.half_length_m + params.vehicle.margin_m;
 }
 
 std::optional<Decision> leaveOtherWindow(const Situation& situation, MissionState& memory) {

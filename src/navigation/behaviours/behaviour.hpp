@@ -13,6 +13,8 @@
 
 namespace window_ingress::navigation {
 
+constexpr int kFoundImages = 3;  ///< different ones that must show a window before it is flown at
+
 struct Decision {
   Setpoint wish;
   bool keeps_place = false;  ///< where the wish has no velocity, the vehicle is to stay where it is

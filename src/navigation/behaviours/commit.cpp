@@ -11,13 +11,15 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr int kDisagreementsToTurnBack = 3;
+constexpr double kMaxUpdateJumpM = 0.15;  // updates on the way that differ more are ignored
+constexpr double kStoppedMps = 0.15;
 constexpr double kReserve = 2.0;     // of the way to stop, to turn back from beyond the point of no return
 constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
 
 /// The predicted miss exceeds the clearance by half of the margin that was kept: less is no reason to turn
 /// back.
 bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
-  const double given_m = params.approach.margin_m / 2.0;
+  const double given_m = params.vehicle.margin_m / 2.0;
   return criterion.miss_lateral_m > criterion.clearance_lateral_m + given_m ||
          criterion.miss_vertical_m > criterion.clearance_vertical_m + given_m;
 }
@@ -38,12 +40,11 @@ double windAlong(const TargetEstimate& target, const MissionState& memory) {
 }
 
 /// The window is seen, and where it was committed. Odometry that was gone may have come back elsewhere.
-bool seesCommitted(const Situation& situation, const TargetEstimate& committed,
-                   const NavigatorParams& params) {
+bool seesCommitted(const Situation& situation, const TargetEstimate& committed) {
   if (!situation.target || !situation.target->sign_trusted) return false;
   const Eigen::Vector3d moved =
       situation.target->T_odom_window.translation() - committed.T_odom_window.translation();
-  return moved.norm() < params.commit.max_update_jump_m + reachM(committed.motion);
+  return moved.norm() < kMaxUpdateJumpM + reachM(committed.motion);
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
         velocityAlongAxis(relative, target, speedToExit(room_m, relative) - windAlong(target, memory),
                           memory.wind_odom_mps, *params_);
     decision.reason = formatted("%.2f m behind the window", -relative.distance());
-    const bool stands = situation.vehicle->velocity_odom_mps.norm() < params_->commit.standing_mps;
+    const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStoppedMps;
     if (stands && room_m < kLeftOfExit * params_->commit.exit_distance_m) decision.event = Event::kCrossed;
   } else if (canStop(relative, target, memory, *params_, is_bound_ ? kReserve : 1.0)) {
     is_bound_ = false;
@@ -105,7 +106,7 @@ void Commit::refine(const Situation& situation, MissionState& memory) {
   if (!situation.target || !situation.target->sign_trusted) return;
   const Eigen::Vector3d moved = situation.target->T_odom_window.translation() - *entry_odom_m_;
   disagreement_m_ = moved.norm();
-  if (disagreement_m_ < params_->commit.max_update_jump_m + reachM(situation.target->motion)) {
+  if (disagreement_m_ < kMaxUpdateJumpM + reachM(situation.target->motion)) {
     memory.committed = situation.target;
     memory.committed_sec = situation.now_sec;
     disagreements_ = 0;
@@ -143,8 +144,7 @@ bool Commit::canResume(const Situation& situation, const MissionState& memory,
   const TargetEstimate committed = ahead(*memory.committed, situation.now_sec);
   const RelativeState relative = relate(*situation.vehicle, committed);
   if (relative.distance() < -params.vehicle.half_length_m) return true;
-  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed, params))
-    return false;
+  if (canStop(relative, committed, memory, params) && !seesCommitted(situation, committed)) return false;
   return !isBroken(criterionWith(committed, *situation.vehicle, memory, params, unknown_sec), params);
 }
 

@@ -3,6 +3,9 @@
 #include "navigation/behaviours/commit.hpp"
 
 namespace window_ingress::navigation {
+namespace {
+constexpr double kGoodInputSec = 0.2;  // inputs good, before going on
+}
 
 void Hold::enter(State from) {
   *this = Hold(*params_);
@@ -22,8 +25,7 @@ Decision Hold::step(const Situation& situation, const MissionState& memory) {
                     : !is_good                          ? situation.image_fault
                                                         : situation.target_fault;
   if (decision.reason.empty()) decision.reason = "inputs are back";
-  if (is_good && good_sec_ >= params_->hold.dwell_sec)
-    decision.event = wayOn(situation, memory, decision.reason);
+  if (is_good && good_sec_ >= kGoodInputSec) decision.event = wayOn(situation, memory, decision.reason);
   if (!decision.event && situation.setpoint_fault.empty() && !situation.target &&
       mayRetreat(situation, memory))
     decision.event = Event::kWindowLost;

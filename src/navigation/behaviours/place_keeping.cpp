@@ -7,6 +7,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kThereM = 0.01;
+constexpr double kStandingMps = 0.2;  // its place is where it first is slower than this
 
 Eigen::Vector3d levelDirection(const Eigen::Vector3d& way) {
   return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
@@ -47,8 +48,8 @@ void rememberPlace(bool is_kept, const Situation& situation, const HoldParams& p
     return;
   }
   if (!memory.keeping_since_sec) memory.keeping_since_sec = situation.now_sec;
-  const bool stands = situation.vehicle->velocity_odom_mps.norm() < params.standing_mps;
-  const bool has_settled = situation.now_sec - *memory.keeping_since_sec >= params.settle_sec;
+  const bool stands = situation.vehicle->velocity_odom_mps.norm() < kStandingMps;
+  const bool has_settled = situation.now_sec - *memory.keeping_since_sec >= kSettleSec;
   if (!memory.place_odom_m && (stands || has_settled))
     memory.place_odom_m = situation.vehicle->T_odom_base.translation();
 }

@@ -5,6 +5,9 @@
 
 namespace window_ingress::navigation {
 
+constexpr double kSettleSec =
+    0.8;  ///< a vehicle that does not stand keeps the place where it is after this time
+
 /// The place is where the vehicle first stands, or where it is when it still does not after a while; it is
 /// forgotten as soon as nobody wants it kept, and with the odometry it was known in. By odometry alone: no
 /// estimate of any window takes part.

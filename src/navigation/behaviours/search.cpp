@@ -49,7 +49,7 @@ Decision Search::lookAt(const Situation& situation, const MissionState& memory) 
   decision.wish.yaw_rate_radps =
       yawRateFor(relate(*situation.vehicle, *situation.target).bearing_rad, memory, *params_);
   decision.reason = "window in view";
-  if (frames_ >= params_->search.found_frames) decision.event = Event::kWindowFound;
+  if (frames_ >= kFoundImages) decision.event = Event::kWindowFound;
   return decision;
 }
 
@@ -59,7 +59,7 @@ double Search::fastestTurn(double image_period_sec) const {
   if (vehicle.exposure_sec > 0.0)
     fastest = std::min(fastest, search.max_blur_px * vehicle.pixel_rad / vehicle.exposure_sec);
   if (image_period_sec > 0.0)
-    fastest = std::min(fastest, search.max_turn_per_image * vehicle.horizontal_fov_rad / image_period_sec);
+    fastest = std::min(fastest, kMaxTurnPerImage * vehicle.horizontal_fov_rad / image_period_sec);
   return fastest;
 }
 

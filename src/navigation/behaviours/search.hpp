@@ -9,6 +9,8 @@ namespace window_ingress::navigation {
 /// stops turning away from it until enough images have shown it.
 class Search {
  public:
+  static constexpr double kMaxTurnPerImage = 0.25;  ///< part of the field of view, from image to image
+
   explicit Search(const NavigatorParams& params) : params_(&params) {}
   explicit Search(NavigatorParams&&) = delete;  ///< they are looked at in every step
 

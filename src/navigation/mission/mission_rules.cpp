@@ -8,8 +8,11 @@
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
+namespace {
+constexpr double kMaxShiftM = 0.8;  // a window this far from the one flown at is another one
+}
 
-NavigatorParams checked(const NavigatorParams& params) {
+NavigatorParams checked(NavigatorParams params) {
   auto faults = parameters::outOfRange(params);
   for (const auto& fault : parameters::outOfRange(params.vehicle)) faults.push_back("vehicle/" + fault);
   if (!(params.limits.min_height_m < params.limits.max_height_m)) {
@@ -20,6 +23,7 @@ NavigatorParams checked(const NavigatorParams& params) {
         "limits/acceleration_mps2 must not be below vehicle/braking_mps2: setpoints could not brake so hard");
   }
   if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
+  params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;
 }
 
@@ -49,7 +53,7 @@ std::string missingInput(State state, const Situation& situation) {
 }
 
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
-                          const MissionState& memory, const InputParams& params) {
+                          const MissionState& memory) {
   if (target.sign_trusted && relate(vehicle, target).distance() <= 0.0) return "window: seen from behind";
   const bool is_left = state == State::kHold || state == State::kBackOff;
   if (is_left && wasLeftForGood(target, memory)) return "a window that was left for good";
@@ -58,7 +62,7 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
   }
   const double shift_m =
       (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
-  if (shift_m <= params.max_window_shift_m) return "";
+  if (shift_m <= kMaxShiftM) return "";
   return formatted("another window, %.1f m from the one flown at", shift_m);
 }
 

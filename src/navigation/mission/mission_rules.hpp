@@ -12,7 +12,7 @@
 namespace window_ingress::navigation {
 
 /// The parameters as given. \throws std::invalid_argument that lists every fault
-NavigatorParams checked(const NavigatorParams& params);
+NavigatorParams checked(NavigatorParams params);
 
 /// How long the mission may stay in this state [s].
 double timeoutOf(State state, const TimeoutParams& timeouts);
@@ -23,7 +23,7 @@ std::string missingInput(State state, const Situation& situation);
 /// Why a state other than COMMIT must not fly at this target: seen from behind, or another window than the
 /// one flown at before; empty if nothing speaks against it.
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
-                          const MissionState& memory, const InputParams& params);
+                          const MissionState& memory);
 
 /// For people: the vehicle goes beside what it is told.
 std::string goesAstray(double turned_rad);

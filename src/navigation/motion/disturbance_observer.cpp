@@ -70,7 +70,7 @@ double DisturbanceObserver::turnedRad() const {
 void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec) {
   const Eigen::Vector3d& model_mps = response_.velocity();
   const std::complex<double> said(model_mps.x(), model_mps.y()), done(measured_mps.x(), measured_mps.y());
-  directions_.fade(1.0 - share(dt_sec, approach_.gust_memory_sec));
+  directions_.fade(1.0 - share(dt_sec, kGustMemorySec));
   directions_.sec += dt_sec;
   directions_.said_m2ps += dt_sec * std::norm(said);
   directions_.said_m += dt_sec * said;
@@ -92,13 +92,13 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
   compareDirections(measured_mps, dt_sec);
   const Eigen::Vector3d model_mps = modelVelocity();
   const Eigen::Vector3d surprise_mps = measured_mps - model_mps - disturbance_mps_;
-  disturbance_mps_ += share(dt_sec, approach_.wind_sec) * clipped(surprise_mps, approach_.max_wind_mps);
-  disturbance_mps_ = clipped(disturbance_mps_, approach_.max_wind_mps);
+  disturbance_mps_ += share(dt_sec, kWindSec) * clipped(surprise_mps, max_wind_mps_);
+  disturbance_mps_ = clipped(disturbance_mps_, max_wind_mps_);
   const double to_come_mps = (commanded_mps - model_mps).norm();
   const Eigen::Vector3d gust_mps =
       shortened(clipped(surprise_mps, kStrongestGustMps), kModelError * to_come_mps);
   gust_mps_ += share(dt_sec, response_.responseSec()) * (gust_mps - gust_mps_);
-  const double keep = 1.0 - share(dt_sec, approach_.gust_memory_sec);
+  const double keep = 1.0 - share(dt_sec, kGustMemorySec);
   gusts_m2ps_ = keep * gusts_m2ps_ + dt_sec * gust_mps_ * gust_mps_.transpose();
   watched_sec_ = keep * watched_sec_ + dt_sec;
 }

@@ -9,14 +9,15 @@
 namespace window_ingress::navigation {
 
 /// How far the vehicle's velocity stays away from what was commanded, in wind: the measured velocity less
-/// that of a model of the vehicle under the same commands, smoothed over `wind_sec`. To be taken
+/// that of a model of the vehicle under the same commands, smoothed over `kWindSec`. To be taken
 /// off the next command (P24). The model answers as fast as the vehicle was seen to (`ResponseEstimator`):
 /// the lag of a slow vehicle taken for wind would be steered against out of phase. One wild sample moves it
 /// no more than the strongest wind would.
 class DisturbanceObserver {
  public:
+  static constexpr double kWindSec = 0.6, kGustMemorySec = 15.0;
   DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
-      : approach_(approach), response_(vehicle.response_sec), climb_(vehicle.response_sec) {}
+      : max_wind_mps_(approach.max_wind_mps), response_(vehicle.response_sec), climb_(vehicle.response_sec) {}
 
   /// What moves the vehicle now is not known to be wind.
   void restart();
@@ -26,10 +27,10 @@ class DisturbanceObserver {
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
   /// At most `max_wind_mps` long.
   const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
-  /// Mean square of what remains beyond it and beyond what the model may err by, over `gust_memory_sec`:
+  /// Mean square of what remains beyond it and beyond what the model may err by, over `kGustMemorySec`:
   /// gusts. Whatever the vehicle is told meanwhile counts, for it is told most while gusts carry it off.
   Eigen::Matrix3d gusts() const;
-  /// How far the vehicle goes beside what it is told, left positive, over `gust_memory_sec` of motion in the
+  /// How far the vehicle goes beside what it is told, left positive, over `kGustMemorySec` of motion in the
   /// plane; 0 as long as it was told, or moved, too little to tell [rad]. What is there whatever it is told
   /// (wind, a biased velocity) turns nothing.
   double turnedRad() const;
@@ -47,7 +48,7 @@ class DisturbanceObserver {
 
   void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
 
-  ApproachParams approach_;
+  double max_wind_mps_;
   Eigen::Vector3d modelVelocity() const;
 
   ResponseEstimator response_, climb_;

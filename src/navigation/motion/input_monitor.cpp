@@ -31,6 +31,8 @@ constexpr double kFasterThanAnyMps = 20.0;
 constexpr double kMoving = 0.1;       // [m/s], [rad/s]
 constexpr double kDeadTimeSec = 0.5;  // after which no vehicle that is told to move stands as before
 constexpr double kTrustedYawJumpRad = 0.35;
+constexpr double kJumpPersistSec = 0.5;  // a window that stays at its new place this long is believed
+constexpr double kMaxTiltRad = 0.26;     // a window leaning more is no window
 
 bool isPositive(const Eigen::Matrix<double, 6, 6>& covariance) {
   constexpr std::array<int, 4> kUpright{0, 1, 2, 5};  // x, y, z, yaw
@@ -69,13 +71,13 @@ std::string faultOf(const VehicleState& vehicle) {
   return "";
 }
 
-std::string faultOf(const TargetEstimate& target, double max_tilt_rad) {
+std::string faultOf(const TargetEstimate& target) {
   if (!std::isfinite(target.stamp_sec)) return "window: stamp is not finite";
   if (!geometry::isValidPose(target.T_odom_window)) return "window: pose is not finite or not a rotation";
   if (target.T_odom_window.translation().stableNorm() > kFarAwayM)
     return "window: position is out of this world";
   const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
-  if (tilt_rad > max_tilt_rad) return formatted("window: leans by %.2f rad", tilt_rad);
+  if (tilt_rad > kMaxTiltRad) return formatted("window: leans by %.2f rad", tilt_rad);
   if (!isPositive(target.covariance)) return "window: covariance unknown";
   if (!hasUsableMotion(target)) return "window: its motion is out of this world";
   const auto& opening = target.opening;
@@ -181,7 +183,7 @@ void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation
   situation.target_fault = "no window seen";
   if (input.target) {
     const auto& target = *input.target;
-    std::string fault = faultOf(target, params_.max_target_tilt_rad);
+    std::string fault = faultOf(target);
     if (fault.empty()) {
       fault = ageFault("window", target.stamp_sec, situation.now_sec, params_.max_target_age_sec,
                        params_.max_future_sec);
@@ -217,7 +219,7 @@ bool InputMonitor::acceptTarget(const TargetEstimate& target, double now_sec) {
     if (moved_m > params_.max_target_jump_m || turned) {
       if (!staysAtNewPlace(target)) moved_since_sec_ = now_sec;
       moved_target_ = target;
-      if (now_sec - moved_since_sec_ < params_.target_jump_persist_sec) return false;
+      if (now_sec - moved_since_sec_ < kJumpPersistSec) return false;
     }
   }
   moved_target_.reset();

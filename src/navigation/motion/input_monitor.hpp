@@ -70,6 +70,6 @@ class InputMonitor {
 
 /// What makes this sample unusable whatever its age; empty if nothing does.
 std::string faultOf(const VehicleState& vehicle);
-std::string faultOf(const TargetEstimate& target, double max_tilt_rad);
+std::string faultOf(const TargetEstimate& target);
 
 }  // namespace window_ingress::navigation

@@ -9,8 +9,11 @@ namespace window_ingress::openness {
 namespace {
 
 constexpr int kMaxIds = 1000;
-constexpr double kMaxTooDeep = 0.3;  // of the points
-constexpr int kMinToMove = 8;        // points, of which a part that moves tells something
+constexpr double kMaxTooDeep = 0.3;   // of the points
+constexpr double kMaxSigmas = 3.0;    // by which a point may leave the place of one that stands still
+constexpr double kMaxUnsteady = 0.3;  // of the points
+constexpr int kMinPoints = 5;         // that a verdict rests on
+constexpr int kMinToMove = 8;         // points, of which a part that moves tells something
 
 // How a depth moves with its part: D = d part / (1 - part).
 double depthOf(double part, double distance_m) { return distance_m * part / std::max(1e-3, 1.0 - part); }
@@ -35,11 +38,11 @@ void StretchEvidence::see(int id, const PointParallax& look, bool through, std::
   entry.current = true;
 }
 
-void StretchEvidence::mark(const DepthParts& parts, const OpennessParams& params, OpeningCells& cells) {
+void StretchEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
   for (Entry& entry : entries_) {
     const bool is_new = entry.current;
     entry.current = false;
-    if (!is_new || !entry.track.isTested() || !entry.track.isSteady(params.max_sigmas)) continue;
+    if (!is_new || !entry.track.isTested() || !entry.track.isSteady(kMaxSigmas)) continue;
     const double log_odds = parts.logOdds(entry.track.best().part, entry.track.best().part_sigma);
     if (log_odds < 0.0 && !entry.through) continue;
     cells.see(entry.track.last().place, log_odds);
@@ -55,7 +58,7 @@ StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
   for (const Entry& entry : entries_) {
     if (!entry.track.isTested()) continue;
     const PointParallax& best = entry.track.best();
-    if (!entry.track.isSteady(params.max_sigmas)) {
+    if (!entry.track.isSteady(kMaxSigmas)) {
       ++says.unsteady;
       continue;
     }
@@ -68,13 +71,12 @@ StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
   }
   says.points = static_cast<int>(odds.size());
   const int all = says.points + says.unsteady;
-  says.is_moving = all >= kMinToMove && says.unsteady > params.max_unsteady * all;
-  if (says.points < params.min_points) return says;
+  says.is_moving = all >= kMinToMove && says.unsteady > kMaxUnsteady * all;
+  if (says.points < kMinPoints) return says;
   says.depth_m = geometry::median(depths);
   says.depth_sigma_m = geometry::median(sigmas);
   says.is_too_deep = says.too_deep > kMaxTooDeep * says.points || says.depth_m > params.max_depth_behind_m;
-  if (!says.is_moving)
-    says.log_odds = std::clamp(geometry::median(odds), -params.max_log_odds, params.max_log_odds);
+  if (!says.is_moving) says.log_odds = std::clamp(geometry::median(odds), -kMaxLogOdds, kMaxLogOdds);
   if (says.is_too_deep) says.log_odds = std::min(says.log_odds, 0.0);
   return says;
 }

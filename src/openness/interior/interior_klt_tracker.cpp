@@ -18,6 +18,15 @@ using geometry::Quadrilateral;
 
 constexpr int kReach = 13, kLevels = 2;  // of Lucas-Kanade: side of its patch [px], further halvings
 constexpr double kMinSide_px = 24.0;
+constexpr double kMargin = 0.07;       // beside the border that is not looked at, part of the opening's sides
+constexpr double kMinContrast = 5e-5;  // of a corner: lesser eigenvalue of the gradient's moments
+constexpr double kMinEdgeSlope = 3.0;  // [grey levels a pixel]
+constexpr double kMaxReturn_px = 0.8;  // of a point that is followed there and back
+constexpr double kFlowSigma_px = 0.35;  // of a followed point
+constexpr double kMaxGrowth = 1.25;     // of the window in the image, until the next keyframe
+constexpr double kMaxKeyframeAge_sec = 4.0;
+constexpr int kMinTracked = 6;       // with fewer left the next keyframe is taken
+constexpr double kMinShared = 0.4;   // part of the keyframe's points that must be left
 constexpr double kSpacing = 0.05;    // between points, part of the straightened image's longer side
 constexpr double kMinAge_sec = 0.3;  // of a key image whose points were lost
 constexpr int kGradientBlock = 5;
@@ -25,11 +34,11 @@ constexpr double kBlur_px = 0.8;  // against the noise of dark images
 
 cv::Point2f toCv(const Eigen::Vector2d& p) { return {static_cast<float>(p.x()), static_cast<float>(p.y())}; }
 
-// The rectangle whose sides are as long as the quadrilateral's in the mean, scaled down to `most_px`.
-cv::Size straightenedSize(const Quadrilateral& corners, double most_px) {
+// The rectangle whose sides are as long as the quadrilateral's in the mean, scaled down to `max_side_px`.
+cv::Size straightenedSize(const Quadrilateral& corners, double max_side_px) {
   const auto sides = geometry::sideLengths(corners);
   const double width = 0.5 * (sides[0] + sides[2]), height = 0.5 * (sides[1] + sides[3]);
-  const double scale = std::min(1.0, most_px / std::max(width, height));
+  const double scale = std::min(1.0, max_side_px / std::max(width, height));
   return {static_cast<int>(std::lround(scale * width)), static_cast<int>(std::lround(scale * height))};
 }
 
@@ -75,7 +84,7 @@ struct InteriorKltTracker::Impl {
 
   bool isOther(const WindowObservation& window) const {
     return !has_key || window.target_id != target_id || !(window.stamp_sec > last_sec) ||
-           window.stamp_sec - tracks.key_stamp_sec > 2.0 * params.max_key_age_sec;
+           window.stamp_sec - tracks.key_stamp_sec > 2.0 * kMaxKeyframeAge_sec;
   }
   void straighten(const cv::Mat& image, const Quadrilateral& corners);
   void takeKey(const cv::Mat& image, const WindowObservation& window);
@@ -128,7 +137,7 @@ void InteriorKltTracker::Impl::straighten(const cv::Mat& image, const Quadrilate
 
 void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObservation& window) {
   has_key = false;
-  size = straightenedSize(window.corners, params.most_px);
+  size = straightenedSize(window.corners, params.max_side_px);
   if (std::min(size.width, size.height) < kMinSide_px) return;
   straighten(image, window.corners);
   if (image.channels() == 3) chooseChannel(image, window.corners);
@@ -150,7 +159,7 @@ void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadril
   for (channel = 0; channel < 3; ++channel) {
     straighten(image, corners);
     slopes.take(straight);
-    const int steep = slopes.steeperThan(params.least_slope);
+    const int steep = slopes.steeperThan(kMinEdgeSlope);
     if (steep > most) most = steep, best = channel;
   }
   channel = best;
@@ -161,14 +170,13 @@ void InteriorKltTracker::Impl::chooseChannel(const cv::Mat& image, const Quadril
 void InteriorKltTracker::Impl::findPoints() {
   points.clear();
   cv::cornerMinEigenVal(straight, contrast, kGradientBlock);
-  const int side =
-      std::max(2, static_cast<int>(std::lround(params.margin * std::max(size.width, size.height))));
+  const int side = std::max(2, static_cast<int>(std::lround(kMargin * std::max(size.width, size.height))));
   const cv::Rect inner(side, side, size.width - 2 * side, size.height - 2 * side);
   if (inner.width < kReach || inner.height < kReach) return;
   mask = cv::Mat::zeros(size, CV_8UC1);
   for (int y = inner.y; y < inner.y + inner.height; ++y)
     for (int x = inner.x; x < inner.x + inner.width; ++x)
-      mask.at<unsigned char>(y, x) = contrast.at<float>(y, x) >= params.min_contrast ? 255 : 0;
+      mask.at<unsigned char>(y, x) = contrast.at<float>(y, x) >= kMinContrast ? 255 : 0;
   cv::goodFeaturesToTrack(straight, from, params.max_points, 1e-3,
                           std::max(4.0, kSpacing * std::max(size.width, size.height)), mask, kGradientBlock);
   for (const cv::Point2f& p : from) points.push_back({static_cast<std::uint16_t>(points.size()), p, p, {}});
@@ -181,7 +189,7 @@ void InteriorKltTracker::Impl::findEdges(const cv::Rect& inner) {
   const int spacing = std::max(6, static_cast<int>(kSpacing * std::max(size.width, size.height)));
   const auto corners = static_cast<std::ptrdiff_t>(points.size());
   for (const EdgePoint& edge :
-       slopes.steepest(inner, spacing, params.least_slope, static_cast<std::size_t>(params.max_edges))) {
+       slopes.steepest(inner, spacing, kMinEdgeSlope, static_cast<std::size_t>(params.max_edges))) {
     const bool is_corner = std::any_of(points.begin(), points.begin() + corners, [&](const Track& corner) {
       return lengthOf(corner.key - edge.place) < spacing;
     });
@@ -194,13 +202,13 @@ bool InteriorKltTracker::Impl::flowAcross(Track& track) const {
   const auto now = followAcross(key_straight, straight, {track.key, track.normal}, track.now);
   if (!now || !lies(*now)) return false;
   const auto again = followAcross(straight, key_straight, {*now, track.normal}, track.key);
-  if (!again || lengthOf(*again - track.key) > params.max_return_px) return false;
+  if (!again || lengthOf(*again - track.key) > kMaxReturn_px) return false;
   track.now = *now;
   return true;
 }
 
 bool InteriorKltTracker::Impl::lies(const cv::Point2f& p) const {
-  const float side = static_cast<float>(0.5 * params.margin * std::max(size.width, size.height));
+  const float side = static_cast<float>(0.5 * kMargin * std::max(size.width, size.height));
   return p.x >= side && p.y >= side && p.x <= static_cast<float>(size.width) - 1.0f - side &&
          p.y <= static_cast<float>(size.height) - 1.0f - side;
 }
@@ -228,7 +236,7 @@ void InteriorKltTracker::Impl::flowCorners() {
                            cv::OPTFLOW_USE_INITIAL_FLOW);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    if (!there[i] || !here[i] || lengthOf(back[i] - from[i]) > params.max_return_px || !lies(to[i])) continue;
+    if (!there[i] || !here[i] || lengthOf(back[i] - from[i]) > kMaxReturn_px || !lies(to[i])) continue;
     points[kept] = points[i];
     points[kept++].now = to[i];
   }
@@ -239,9 +247,9 @@ void InteriorKltTracker::Impl::flowCorners() {
 void InteriorKltTracker::Impl::report(WindowObservation& window) {
   const cv::Matx33d to_picture = to_straight.inv();
   const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
-  tracks.sigma_px = params.flow_sigma_px * std::max(scale, 1.0);
+  tracks.sigma_px = kFlowSigma_px * std::max(scale, 1.0);
   tracks.points.clear();
-  regions.find(straight, params.most_slope);
+  regions.find(straight, params.surface_slope);
   for (const Track& track : points) {
     const Eigen::Vector2d now = mapped(to_picture, track.now);
     Eigen::Vector2d normal = Eigen::Vector2d::Zero();
@@ -259,10 +267,10 @@ void InteriorKltTracker::Impl::report(WindowObservation& window) {
 bool InteriorKltTracker::Impl::isWornOut(const WindowObservation& window) const {
   const double growth = std::sqrt(geometry::signedArea(window.corners) / size.area()) / key_scale;
   const double left = static_cast<double>(points.size());
-  return growth > params.max_growth || growth < 1.0 / params.max_growth ||
-         window.stamp_sec - tracks.key_stamp_sec > params.max_key_age_sec ||
+  return growth > kMaxGrowth || growth < 1.0 / kMaxGrowth ||
+         window.stamp_sec - tracks.key_stamp_sec > kMaxKeyframeAge_sec ||
          (window.stamp_sec - tracks.key_stamp_sec > kMinAge_sec &&
-          (left < params.min_points || left < params.min_shared * static_cast<double>(found)));
+          (left < kMinTracked || left < kMinShared * static_cast<double>(found)));
 }
 
 InteriorKltTracker::InteriorKltTracker(const InteriorKltParams& params)

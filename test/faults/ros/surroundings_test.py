@@ -44,7 +44,7 @@ class SurroundingsTest(unittest.TestCase):
 
     def test_M82_numbers_and_truths_of_another_type(self):
         said = [self.refused("setpoint_guard", "late_sec", "0.5"), self.refused("setpoint_guard", "lockstep", 1),
-                self.refused("ingress_navigator", "navigator/search/turns", 2.5), self.refused("homography_pose", "odom_frame", 7)]
+                self.refused("ingress_navigator", "navigator/search/turns", 2.5), self.refused("homography_pose", "window_frame", 7)]
         note("M82", f"each refused, e.g. '{said[0]}'")
 
     def test_M83_numbers_that_are_none_and_names_that_are_wrong(self):

@@ -35,16 +35,15 @@ class OverlayFile : public testing::Test {
 TEST_F(OverlayFile, TellsTheVehicleToPoseAndNavigation) {
   const Overlay overlay = read("vehicle: {half_width_m: 0.45, half_height_m: 0.2}\n");
   EXPECT_DOUBLE_EQ(overlay.ingress_navigator.navigator.vehicle.half_width_m, 0.45);
-  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.fit.vehicle_width_m, 0.9);
-  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.fit.vehicle_height_m, 0.4);
+  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.width_m, 1.0);
+  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.height_m, 0.5);
   EXPECT_EQ(overlay.said, (std::set<std::string>{"vehicle/half_width_m", "vehicle/half_height_m"}));
 }
 
 TEST_F(OverlayFile, WithoutAFileEverythingIsAtItsDefault) {
   const Overlay overlay = readOverlay("");
   EXPECT_TRUE(overlay.said.empty());
-  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.fit.vehicle_width_m,
-                   2.0 * navigation::VehicleParams().half_width_m);
+  EXPECT_DOUBLE_EQ(overlay.homography_pose.tracker.needed.width_m, 0.6);
 }
 
 // What earlier versions took as --params, and in silence as config:=.
@@ -74,6 +73,26 @@ TEST_F(OverlayFile, SaysWhereTheVehicleIsNow) {
                 "nodes: said once for all of them");
   EXPECT_NE(error("homography_pose: {tracker: {fit: {vehicle_width_m: 0.6}}}\n").find("half_width_m"),
             std::string::npos);
+}
+
+TEST_F(OverlayFile, SaysWhatBecameOfFormerKeys) {
+  const std::pair<const char*, const char*> formers[] = {
+      {"homography_pose: {stamps: {max_age_sec: 1.0}}", "; it is now 'vehicle: {stamps: {..}}'"},
+      {"window_detector: {image_is_rectified: true}", "; it is now 'vehicle: {image_is_rectified: ..}'"},
+      {"ingress_navigator: {odom_frame: map}", "; it is now 'vehicle: {odom_frame: ..}'"},
+      {"homography_pose: {filter: {gate_squares: 30}}", "gate_squares: unknown key; it is now 'nis_gate'"},
+      {"homography_pose: {tracker: {frames: {certain_sigmas: 3}}}",
+       "frames: unknown key; it is a constant now"},
+      {"window_detector: {interior: {least_slope: 3}}", "least_slope: unknown key; it is a constant now"},
+      {"world: {clock_rate_hz: 50}", "clock_rate_hz: unknown key; it is a constant now: leave it out"}};
+  for (const auto& [yaml, text] : formers)
+    EXPECT_NE(error(yaml + std::string("\n")).find(text), std::string::npos)
+        << error(yaml + std::string("\n"));
+  const std::vector<std::string> keys = parameters::keysOf(Overlay());
+  for (const std::string& key : keys) {
+    const bool has_its_own = key.rfind("vehicle", 0) == 0 || key.rfind("world", 0) == 0;
+    EXPECT_TRUE(has_its_own || parameters::didYouMean(key, {}).empty()) << key << " is still read";
+  }
 }
 
 TEST_F(OverlayFile, RefusesANodeThatHoldsNoMapping) {

@@ -148,7 +148,7 @@ TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
   EXPECT_EQ(track.target(1.0)->fit, estimation::Fit::kUnknown);
   EXPECT_NE(track.target(1.0)->approach_forbidden.find("UNKNOWN"), std::string::npos);
   TargetEstimatorParams broad;
-  broad.fit.vehicle_width_m = 1.15;
+  broad.needed.width_m = 1.25;
   const auto narrow = flownSideways(estimation::PoseParams(), broad, kMounting);
   EXPECT_EQ(narrow.target(3.0)->fit, estimation::Fit::kNoGo);
   EXPECT_NE(narrow.target(3.0)->approach_forbidden.find("NO_GO"), std::string::npos);
@@ -316,7 +316,7 @@ TEST(TargetEstimator, BadInputIsRefusedWithAReason) {
   EXPECT_FALSE(track.lastUpdate().why_not.empty());
   EXPECT_FALSE(track.target(0.0));
   TargetEstimatorParams params;
-  params.max_jump_m = -1.0;
+  params.openness.sure_log_odds = -1.0;
   EXPECT_THROW(TargetEstimator(estimation::PoseParams(), estimation::FilterParams(), params),
                std::invalid_argument);
 }

@@ -303,13 +303,13 @@ TEST(WindowFilter, BadInputChangesNothing) {
 
 TEST(WindowFilter, ParametersOutOfRangeAreAllNamed) {
   FilterParams params;
-  params.gate_squares = -1;
+  params.nis_gate = -1;
   params.max_age_sec = kNaN;
   try {
     WindowFilter filter{params};
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("gate_squares"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("nis_gate"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("max_age_sec"), std::string::npos);
   }
 }

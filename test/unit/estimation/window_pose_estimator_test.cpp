@@ -236,13 +236,13 @@ TEST(WindowPoseEstimator, AnyQuadrilateralGivesAPoseOrAReason) {
 TEST(WindowPoseEstimator, ParametersOutOfRangeAreAllNamed) {
   PoseParams params;
   params.opening_width_m = -1;
-  params.max_tilt_rad = kNaN;
+  params.max_range_m = kNaN;
   try {
     WindowPoseEstimator estimator{params};
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("opening_width_m"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("max_tilt_rad"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("max_range_m"), std::string::npos);
   }
 }
 

@@ -78,7 +78,7 @@ Flight fly(const simulation::OdometryParams& params, unsigned seed, double headi
            const Meaning& meaning) {
   simulation::OdometrySensor sensor(params, seed);
   Wanderer vehicle(seed, heading_rad, turns);
-  estimation::TwistCheck check{estimation::FramesParams()};
+  estimation::TwistCheck check;
   Flight flight;
   double way_m = 0.0;
   for (int i = 0; i < 60 * 200; ++i) {

@@ -239,7 +239,7 @@ TEST(FacadeMemory, SwitchedOffRefusesNothingAndRemembersNothing) {
 
 TEST(FacadeMemory, RefusesParametersOutOfRange) {
   FacadeParams params;
-  params.click_m = -1.0;
+  params.release_sec = -1.0;
   EXPECT_THROW(FacadeMemory{params}, std::invalid_argument);
 }
 

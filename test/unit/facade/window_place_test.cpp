@@ -8,8 +8,6 @@
 
 namespace window_ingress::facade::window_place_test {
 
-const FacadeParams kParams;
-
 Wall wallOfRow() { return {{0.0, 0.0, 1.5}, 0.0, 0.02, 0.01}; }
 
 TEST(WindowPlace, LiesWhereTheSightsMeetTheWallWithinWhatItsCovarianceSays) {
@@ -23,7 +21,7 @@ TEST(WindowPlace, LiesWhereTheSightsMeetTheWallWithinWhatItsCovarianceSays) {
     for (int i = 0; i < row.count; ++i) {
       const auto window = row.seen(i, view, random);
       if (!window) continue;
-      const auto place = placeOf(window->corners, view, wallOfRow(), {0.5, 0.5}, kParams);
+      const auto place = placeOf(window->corners, view, wallOfRow(), {0.5, 0.5});
       ASSERT_TRUE(place);
       ASSERT_TRUE(place->on_wall);
       const Eigen::Vector3d error = place->position_m - row.centre(i);
@@ -43,8 +41,8 @@ TEST(WindowPlace, WithoutAWallIsAsFarAwayAsTheSizeLookedForSaysAndItsDistanceIsL
   const auto view = row.from({-5.0, -1.0, 1.5});
   const auto window = row.seen(1, view, random);
   ASSERT_TRUE(window);
-  const auto right = placeOf(window->corners, view, std::nullopt, row.size, kParams);
-  const auto half = placeOf(window->corners, view, std::nullopt, {0.6, 0.5}, kParams);
+  const auto right = placeOf(window->corners, view, std::nullopt, row.size);
+  const auto half = placeOf(window->corners, view, std::nullopt, {0.6, 0.5});
   ASSERT_TRUE(right && half);
   EXPECT_FALSE(right->on_wall);
   EXPECT_LT((right->position_m - row.centre(1)).norm(), 0.3);
@@ -65,7 +63,7 @@ TEST(WindowPlace, OfAWallBehindOrSeenEdgeOnIsJudgedBySize) {
   Wall edge_on = wallOfRow();
   edge_on.heading_rad = 1.57;
   for (const Wall& wall : {behind, edge_on}) {
-    const auto place = placeOf(window->corners, view, wall, row.size, kParams);
+    const auto place = placeOf(window->corners, view, wall, row.size);
     ASSERT_TRUE(place);
     EXPECT_FALSE(place->on_wall);
   }
@@ -74,9 +72,9 @@ TEST(WindowPlace, OfAWallBehindOrSeenEdgeOnIsJudgedBySize) {
 TEST(WindowPlace, OfWhatIsNotFiniteOrHasNoHeightIsNone) {
   const auto view = test::WindowRow::from({-5.0, 0.0, 1.5});
   const Eigen::Vector2d point(300, 200);
-  EXPECT_FALSE(placeOf({point, point, point, point}, view, std::nullopt, {1, 1}, kParams));
+  EXPECT_FALSE(placeOf({point, point, point, point}, view, std::nullopt, {1, 1}));
   const Eigen::Vector2d nan(std::numeric_limits<double>::quiet_NaN(), 0.0);
-  EXPECT_FALSE(placeOf({nan, point, point, point}, view, wallOfRow(), {1, 1}, kParams));
+  EXPECT_FALSE(placeOf({nan, point, point, point}, view, wallOfRow(), {1, 1}));
 }
 
 TEST(WindowPlace, FusedIsNeverSurerThanItsBetterPartAndNeverWorse) {

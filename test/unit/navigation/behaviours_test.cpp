@@ -246,7 +246,7 @@ TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
     return search.step(situation, memory).wish.yaw_rate_radps;
   };
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.yaw_rate_radps);
-  EXPECT_DOUBLE_EQ(rateWith(1.0), params.search.max_turn_per_image * params.vehicle.horizontal_fov_rad);
+  EXPECT_DOUBLE_EQ(rateWith(1.0), Search::kMaxTurnPerImage * params.vehicle.horizontal_fov_rad);
   params.vehicle.exposure_sec = 0.02;
   EXPECT_DOUBLE_EQ(rateWith(0.033), params.search.max_blur_px * params.vehicle.pixel_rad / 0.02);
 }

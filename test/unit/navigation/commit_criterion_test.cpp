@@ -97,7 +97,7 @@ TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   input.relative = at(0.8);
   input.opening = kOpening;
   const double blind_sec = 0.8 / params.commit.speed_mps;
-  const double drift_m = params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec);
+  const double drift_m = params.vehicle.odom_drift_m_per_sqrt_sec * std::sqrt(blind_sec);
   EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
 
   input.drift_m_per_sqrt_sec = 0.05;
@@ -106,20 +106,20 @@ TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   input.drift_m_per_sqrt_sec = 0.0;
 
   input.gust_lateral_mps = 0.05;
-  const double gust_m = 0.05 * params.approach.gust_carry_sec;
+  const double gust_m = 0.05 * kGustCarrySec;
   const auto gusty = evaluateCommitCriterion(input, params);
   EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
   EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
   input.gust_lateral_mps = 0.4;
-  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m,
-            3.0 * 1.5 * 0.4 * params.approach.gust_carry_sec)
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * 1.5 * 0.4 * kGustCarrySec)
       << "calm does not hide what carries";
   EXPECT_FALSE(evaluateCommitCriterion(input, params).holds);
 
   input.gust_lateral_mps = 0.0;
   input.unseen_sec = 4.0;
   EXPECT_NEAR(evaluateCommitCriterion(input, params).miss_lateral_m,
-              3.0 * std::hypot(0.01, params.commit.drift_m_per_sqrt_sec * std::sqrt(blind_sec + 4.0)), 1e-12);
+              3.0 * std::hypot(0.01, params.vehicle.odom_drift_m_per_sqrt_sec * std::sqrt(blind_sec + 4.0)),
+              1e-12);
 }
 
 // It is coasted by until the vehicle answers, and steered against for ever.

@@ -105,7 +105,7 @@ struct FreshTargets {
     if (!input.target || !std::isfinite(now)) return;
     const auto& target = *input.target;
     const double age = now - target.stamp_sec;
-    if (!faultOf(target, params.max_target_tilt_rad).empty() || !(age <= params.max_target_age_sec)) return;
+    if (!faultOf(target).empty() || !(age <= params.max_target_age_sec)) return;
     if (age < -params.max_future_sec) return;
     if (target.sign_trusted) trusted_sec = std::max(trusted_sec, target.stamp_sec);
   }

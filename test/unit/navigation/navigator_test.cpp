@@ -213,7 +213,7 @@ TEST_F(NavigatorSteps, AClockThatJumpsAheadHoldsAndGoesOn) {
 }
 
 TEST_F(NavigatorSteps, BacksOffFromTheLineWithoutAContractAndComesBack) {
-  params_.approach.margin_m = 0.33;  // which leaves next to nothing
+  params_.vehicle.margin_m = 0.33;  // which leaves next to nothing
   Navigator navigator(params_);
   start(navigator, kFar);
   walk(navigator, kFar, kFar);

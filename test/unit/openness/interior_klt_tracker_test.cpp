@@ -125,7 +125,7 @@ TEST(InteriorKltTracker, bareWallIsAsDeepAsTheEdgesItEndsAt) {
   const auto flown = fly(plainRoomWithCupboard);
   EXPECT_EQ(flown.verdict.openness, Openness::kOpen) << flown.verdict.reason;
   InteriorKltParams params;
-  params.most_slope = 0.0;
+  params.surface_slope = 0.0;
   EXPECT_EQ(fly(plainRoomWithCupboard, params).verdict.openness, Openness::kUnknown)
       << "by the points alone most of it is unseen";
 }
@@ -181,7 +181,7 @@ TEST(InteriorKltTracker, switchedOffOrWithBadInputItHandsOutNothing) {
   auto far = windowFrom(camera, 2.0);
   for (auto& corner : far.corners) corner += Eigen::Vector2d(1e5, 1e5);
   EXPECT_NO_THROW(follower.follow(image, far)) << "outside the picture";
-  off.margin = 7.0;
+  off.max_side_px = 7.0;
   EXPECT_THROW(InteriorKltTracker{off}, std::invalid_argument);
 }
 

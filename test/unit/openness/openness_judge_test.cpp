@@ -101,7 +101,7 @@ TEST(OpennessJudge, oneStretchIsNeverEnough) {
   Approach{3.0}.fly(judge, 4.0, 3.1);
   EXPECT_EQ(judge.verdict().openness, Openness::kUnknown);
   EXPECT_GT(judge.verdict().log_odds, 0.0);
-  EXPECT_LE(judge.verdict().log_odds, OpennessParams().max_log_odds);
+  EXPECT_LE(judge.verdict().log_odds, kMaxLogOdds);
 }
 
 TEST(OpennessJudge, whatMovesIsOutvotedUnlessItIsMost) {
@@ -193,13 +193,13 @@ TEST(OpennessJudge, borderThatIsNotTheFilteredWindowsIsNotUsed) {
 TEST(OpennessJudge, parametersOutOfRangeAreNamed) {
   OpennessParams params;
   params.max_depth_closed_m = 1.5;
-  params.max_log_odds = -1.0;
+  params.sure_log_odds = -1.0;
   try {
     OpennessJudge judge(params, kNeeded);
     FAIL() << "must throw";
   } catch (const std::invalid_argument& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("max_log_odds"), std::string::npos);
+    EXPECT_NE(text.find("sure_log_odds"), std::string::npos);
     EXPECT_NE(text.find("min_depth_behind_m"), std::string::npos);
   }
 }

@@ -123,7 +123,7 @@ TEST(Funnel, IsTheOneThatTheNavigatorFliesBy) {
   std::uniform_real_distribution<double> share(0.0, 1.0), side(-1.0, 1.0);
   for (int round = 0; round < 300; ++round) {
     params.approach.funnel_slope = 0.3 + share(random);
-    params.commit.drift_m_per_sqrt_sec = 0.0;
+    params.vehicle.odom_drift_m_per_sqrt_sec = 0.0;
     navigation::TargetEstimate target = test::targetAtOrigin(10.0);
     target.covariance.setZero();
     target.opening = {0.9 + share(random), 0.8 + share(random)};

@@ -50,11 +50,11 @@ TEST(OpennessHealth, SaysOfWhatLooksOpenWhatOneCameraCannotTell) {
 }
 
 TEST(ConsistencyHealth, WarnsOfAFilterAtOddsWithItsImages) {
-  EXPECT_EQ(consistencyHealth({40, 1.2, true}, {}).level, Health::kOk);
-  EXPECT_EQ(consistencyHealth({40, 5.0, false}, {}).level, Health::kWarn);
+  EXPECT_EQ(consistencyHealth({40, 1.2, true}).level, Health::kOk);
+  EXPECT_EQ(consistencyHealth({40, 5.0, false}).level, Health::kWarn);
   estimation::Consistency contradicted{40, 1.2, true};
   contradicted.contradicted = true;
-  EXPECT_EQ(consistencyHealth(contradicted, {}).level, Health::kWarn);
+  EXPECT_EQ(consistencyHealth(contradicted).level, Health::kWarn);
 }
 
 }  // namespace window_ingress::adapters::pose_health_test

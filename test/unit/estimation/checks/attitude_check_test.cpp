@@ -13,7 +13,7 @@ Eigen::Matrix3d turned(double rad, const Eigen::Vector3d& axis) {
 }
 
 FramesVerdict seen(const Eigen::Matrix3d& imu, const Eigen::Matrix3d& odometry, int times) {
-  AttitudeCheck check{FramesParams()};
+  AttitudeCheck check;
   for (int i = 0; i < times; ++i) check.see(imu, odometry);
   return check.verdict();
 }
@@ -32,13 +32,13 @@ TEST(AttitudeCheck, AMomentDecidesNothing) {
   const Eigen::Matrix3d level = Eigen::Matrix3d::Identity(), tipped = turned(1.0, Eigen::Vector3d::UnitX());
   EXPECT_EQ(seen(level, level, 5).state, FramesVerdict::kOpen);
   EXPECT_EQ(seen(tipped, level, 5).state, FramesVerdict::kOpen);
-  AttitudeCheck check{FramesParams()};
+  AttitudeCheck check;
   for (int i = 0; i < 100; ++i) EXPECT_EQ(check.see(i % 9 == 0 ? level : tipped, level), i % 9 == 0);
   EXPECT_NE(check.verdict().state, FramesVerdict::kWrong);
 }
 
 TEST(AttitudeCheck, WhatIsNotFiniteDoesNotAgree) {
-  AttitudeCheck check{FramesParams()};
+  AttitudeCheck check;
   const Eigen::Matrix3d nan = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(check.see(nan, Eigen::Matrix3d::Identity()));
 }

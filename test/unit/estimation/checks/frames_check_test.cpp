@@ -13,7 +13,7 @@ FramesVerdict fly(unsigned seed, const evaluation::FrameFaults& faults, double* 
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
   script.image_rate_hz = 15.0;
   evaluation::SyntheticApproach approach(seed, script, FilterParams(), faults);
-  FramesCheck check({}, FilterParams(), FramesParams(), {{1.2, 1.0}});
+  FramesCheck check({}, FilterParams(), {{1.2, 1.0}});
   while (approach.advance() && check.verdict().state != FramesVerdict::kWrong) {
     for (const auto& odometry : approach.odometry())
       check.twist().add(odometry.stamp_sec, odometry.T_odom_base, odometry.velocity_odom_mps);
@@ -56,7 +56,7 @@ TEST(FramesCheck, FindsATwistInWorldAxes) {
 }
 
 TEST(FramesCheck, StartsOpenForgetsPlacesAndKeepsWhatItFound) {
-  FramesCheck check({}, FilterParams(), FramesParams(), {{1.2, 1.0}});
+  FramesCheck check({}, FilterParams(), {{1.2, 1.0}});
   EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
   EXPECT_NE(check.verdict().what.find("camera mounting"), std::string::npos);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -66,17 +66,6 @@ TEST(FramesCheck, StartsOpenForgetsPlacesAndKeepsWhatItFound) {
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
   check.clear();
   EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen);
-}
-
-TEST(FramesCheck, ParametersOutOfRangeAreNamed) {
-  FramesParams params;
-  params.max_mounting_rad = -1.0;
-  try {
-    FramesCheck check({}, FilterParams(), params, {{1.2, 1.0}});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("max_mounting_rad"), std::string::npos);
-  }
 }
 
 }  // namespace window_ingress::estimation::frames_check_test

@@ -26,7 +26,7 @@ Result fly(unsigned seed, const evaluation::FrameFaults& faults, double larger =
   script.opening.height_m *= larger;
   script.image_rate_hz = 15.0;
   evaluation::SyntheticApproach approach(seed, script, errors, faults);
-  MountingCheck check({}, errors, FramesParams(), {{1.2, 1.0}});
+  MountingCheck check({}, errors, {{1.2, 1.0}});
   while (approach.advance()) {
     if (approach.isInView())
       check.see(approach.window(), approach.camera(), approach.odometry().back().T_odom_base,
@@ -108,7 +108,7 @@ TEST(MountingCheck, FindsASizeThatIsWrongByAFifth) {
 }
 
 TEST(MountingCheck, BadInputIsIgnored) {
-  MountingCheck check({}, FilterParams(), FramesParams(), {{1.2, 1.0}});
+  MountingCheck check({}, FilterParams(), {{1.2, 1.0}});
   const auto camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
   const auto T = geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 1});
   auto bad = T;

@@ -20,7 +20,7 @@ FramesVerdict fly(double heading_rad, unsigned seed, const Meaning& twist, doubl
                   double slide_mps = 0.0) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 1.0);
-  TwistCheck check{FramesParams()};
+  TwistCheck check;
   Eigen::Vector3d position(3, -2, 1);
   const int side = static_cast<int>(50 * side_sec);
   for (int i = 0; i < 2 * side; ++i) {
@@ -86,7 +86,7 @@ TEST(TwistCheck, ABiasFixedInTheBodyIsNoFault) {
 }
 
 TEST(TwistCheck, HoveringWithABiasIsNoFault) {
-  TwistCheck check{FramesParams()};
+  TwistCheck check;
   for (int i = 0; i < 50 * 60; ++i) {
     const Eigen::Matrix3d R = geometry::yawRotation(0.01 * i);  // while it searches
     check.add(i / 50.0, geometry::makePose(R, {0, 0, 1}), R * Eigen::Vector3d(0.2, 0.15, 0.0));
@@ -102,7 +102,7 @@ TEST(TwistCheck, ASlideOfThePositionIsNoFault) {
 }
 
 TEST(TwistCheck, SaysNothingWithoutAWayAndIgnoresWhatIsNotFinite) {
-  TwistCheck check{FramesParams()};
+  TwistCheck check;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto T = geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 1});
   for (int i = 0; i < 500; ++i) check.add(i / 50.0, T, {0.01, 0, 0});
@@ -116,7 +116,7 @@ TEST(TwistCheck, SaysNothingWithoutAWayAndIgnoresWhatIsNotFinite) {
 TEST(TwistCheck, AWayOfDriftAloneIsNoFault) {
   std::mt19937 random(5);
   std::normal_distribution<double> step(0.0, 0.05 * std::sqrt(1.0 / 50.0));
-  TwistCheck check{FramesParams()};
+  TwistCheck check;
   Eigen::Vector3d position(0, 0, 1);
   for (int i = 0; i < 50 * 600; ++i) {
     position += Eigen::Vector3d(step(random), step(random), 0.4 * step(random));
@@ -126,14 +126,14 @@ TEST(TwistCheck, AWayOfDriftAloneIsNoFault) {
 }
 
 TEST(TwistCheck, APositionThatStandsStillWhileTheVehicleFliesIsAFault) {
-  TwistCheck check{FramesParams()};
+  TwistCheck check;
   for (int i = 0; i < 500; ++i)
     check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), {0, 0, 1}), {0.5, 0.1, 0.0});
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
 }
 
 TEST(TwistCheck, AGapOrAJumpBackIsNoWay) {
-  TwistCheck check{FramesParams()};
+  TwistCheck check;
   for (int i = 0; i < 20; ++i) {
     check.add(i, geometry::makePose(Eigen::Matrix3d::Identity(), {0.3 * i, 0, 1}), {0, 0, 0});
     check.add(-i, geometry::makePose(Eigen::Matrix3d::Identity(), {0.3 * i, 0, 1}), {0, 0, 0});

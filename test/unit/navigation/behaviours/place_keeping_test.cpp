@@ -34,7 +34,7 @@ TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
     rememberPlace(true, situation, params, memory);
   }
   ASSERT_TRUE(memory.place_odom_m);
-  EXPECT_NEAR(now - 10.0, params.settle_sec + 0.1, 0.11);
+  EXPECT_NEAR(now - 10.0, kSettleSec + 0.1, 0.11);
 }
 
 TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {

@@ -53,7 +53,7 @@ TEST(DisturbanceObserver, OneWildSampleIsForgottenAtOnce) {
   auto observe = observer();
   observe.update({0, 50, 0}, {0, 0, 0}, 0.033);
   const ApproachParams params;
-  EXPECT_LE(observe.disturbance().norm(), params.max_wind_mps * 0.033 / params.wind_sec);
+  EXPECT_LE(observe.disturbance().norm(), params.max_wind_mps * 0.033 / DisturbanceObserver::kWindSec);
 }
 
 TEST(DisturbanceObserver, TellsGustsFromWind) {

@@ -101,11 +101,11 @@ TEST(MovingTarget, IsCommittedToOnlyIfItCannotMoveAway) {
 }
 
 TEST(MovingTarget, WithMotionOutOfThisWorldIsRefused) {
-  EXPECT_EQ(faultOf(swinging(), 0.5), "");
+  EXPECT_EQ(faultOf(swinging()), "");
   const auto refused = [](auto&& spoil) {
     TargetEstimate target = swinging();
     spoil(target);
-    return !faultOf(target, 0.5).empty();
+    return !faultOf(target).empty();
   };
   for (const double bad : {kNaN, -1.0, std::numeric_limits<double>::infinity(), 1e9}) {
     EXPECT_TRUE(refused([&](auto& target) { target.motion.model.speed_mps = bad; })) << bad;
