@@ -79,7 +79,7 @@ def hidden_names(file):
                 yield f"{function.group(1)}({types})"
 
 
-@pytest.mark.parametrize("library, but", [("adapters", ""), ("evaluation", ""), ("simulation", ""), ("*", "adapters|detection|evaluation|simulation|nodes|tools|interior|perception")])
+@pytest.mark.parametrize("library, but", [("adapters", ""), ("detection", ""), ("evaluation", ""), ("simulation", ""), ("*", "adapters|detection|evaluation|simulation|nodes|tools|interior|perception")])
 def test_unnamed_namespaces_share_no_name(library, but):
     """Sources are compiled in batches: whichever of them meet, no name may stand for two things."""
     found = collections.defaultdict(set)
