@@ -17,8 +17,8 @@ PoseNodeParams forVehicle(PoseNodeParams params, const navigation::VehicleParams
   return params;
 }
 
-Overlay readOverlay(const std::string& file) {
-  Overlay overlay;
+Overlay readOverlay(const std::string& file, Overlay overlay) {
+  overlay.said.clear();
   if (!file.empty()) overlay.said = parameters::readYamlFile(file, overlay);
   overlay.ingress_navigator.navigator.vehicle = overlay.vehicle;
   overlay.homography_pose = forVehicle(overlay.homography_pose, overlay.vehicle);

@@ -1,6 +1,4 @@
 /// Whether a file may be laid over the defaults; see --help. Launch files ask before they start anything.
-#include <yaml-cpp/yaml.h>
-
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
@@ -23,27 +21,29 @@ using namespace window_ingress;
 using tools::UsageError;
 
 struct Options {
-  std::string file, reference, corners, window_size, camera_pose, needs_window_size, launch_folder;
+  std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
+      launch_folder;
 };
 
 po::options_description describe(Options& o) {
   po::options_description description(
       "Usage: check_overlay [FILE.yaml] [OPTION...]\n"
-      "Whether the file can be given as config:= to launch files and as --params to tools: prints its name "
-      "if each\n"
-      "key is read by somebody and each value may be; else says which is not. The options are arguments of "
-      "launch "
-      "files,\n"
-      "and are asked likewise; 'none' is as good as nothing.\n"
-      "Exit code: 0 it can, 2 it cannot.\n\nOptions");
+      "Checks a parameter file before it is given as config:= to launch files or as --params to tools: each "
+      "key\n"
+      "must exist, each value must be in its range. Prints the file's name if so, else what is wrong. The "
+      "options\n"
+      "are arguments of launch files, which call this before they start anything; 'none' means not given.\n"
+      "Exit code: 0 the file can be used, 2 it cannot.\n\nOptions");
   description.add_options()("help,h", "this text")("file", po::value(&o.file), "the same as FILE.yaml")  //
       ("reference", po::value(&o.reference), "picture of the target")                                    //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
       ("needs-window-size", po::value(&o.needs_window_size), "true: refused if nobody says it")          //
+      ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                        //
+      ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")        //
       ("launch-folder", po::value(&o.launch_folder),
-       "of the package: who starts this by roslaunch may give no argument that its file there does not "
-       "have")  //
+       "of the package: the arguments that the calling roslaunch was given are checked against its file "
+       "there")  //
       ("camera-pose", po::value(&o.camera_pose), "x,y,z,yaw,pitch,roll in base_link [m, rad]");
   return description;
 }
@@ -74,11 +74,10 @@ void checkReference(const Options& o, const configuration::DetectorNodeParams& d
 
 void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
 
-void checkWindowSize(const std::string& text, const configuration::Overlay& overlay,
-                     const std::string& file) {
+void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
   if (text.empty()) return;
   const auto size = tools::numbers("window_size", text, 2);
-  estimation::PoseParams pose = overlay.homography_pose.pose;
+  estimation::PoseParams& pose = overlay.homography_pose.pose;
   const auto contradicts = [&](const char* key, double in_file, double given) {
     return overlay.said.count(std::string("homography_pose/pose/") + key) != 0 &&
            std::abs(in_file - given) > 1e-9;
@@ -107,18 +106,28 @@ void checkSpeeds(const configuration::Overlay& overlay) {
 }
 
 // A drone does not fly by the size of somebody else's window.
-void checkSizeIsSaid(const Options& o) {
+void checkSizeIsSaid(const Options& o, const configuration::Overlay& overlay) {
   if (o.needs_window_size != "true" || !given(o.window_size).empty()) return;
-  const std::string file = given(o.file);
-  const YAML::Node all = file.empty() ? YAML::Node() : YAML::LoadFile(file);
-  const YAML::Node node = all.IsMap() ? all["homography_pose"] : YAML::Node();
-  const YAML::Node pose = node && node.IsMap() ? node["pose"] : YAML::Node();
-  const auto has = [&](const char* key) { return pose && pose.IsMap() && pose[key]; };
-  const bool is_found_out = has("scale_sigma") && pose["scale_sigma"].as<double>() > 0.0;
-  if (!is_found_out && !(has("opening_width_m") && has("opening_height_m")))
+  const auto says = [&](const char* key) {
+    return overlay.said.count(std::string("homography_pose/pose/") + key) != 0;
+  };
+  if (overlay.homography_pose.pose.scale_sigma > 0.0) return;  // it is found out in flight
+  if (!says("opening_width_m") || !says("opening_height_m"))
     throw UsageError(
         "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
+}
+
+void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
+  const double width_m = 2.0 * vehicle.half_width_m, height_m = 2.0 * vehicle.half_height_m;
+  if (opening.scale_sigma > 0.0 || (width_m < opening.opening_width_m && height_m < opening.opening_height_m))
+    return;
+  std::ostringstream text;
+  text << "the vehicle, " << width_m << " x " << height_m
+       << " m (twice vehicle/half_width_m, half_height_m), does not fit "
+       << "through the opening, " << opening.opening_width_m << " x " << opening.opening_height_m
+       << " m: measure both";
+  throw UsageError(text.str());
 }
 
 void checkCameraPose(const std::string& text) {
@@ -130,17 +139,27 @@ void checkCameraPose(const std::string& text) {
   }
 }
 
+// Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is
+// there.
+std::string existing(const std::string& file) {
+  if (!file.empty() && !std::filesystem::exists(file))
+    throw UsageError("config " + std::filesystem::absolute(file).string() + ": no such file");
+  return file;
+}
+
 int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
-                            o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty();
+                            o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
+                            o.launch_folder.empty();
   if (asks_nothing) throw UsageError("no file given; see --help");
   if (!o.launch_folder.empty()) tools::checkLaunchArguments(tools::wordsOfParent(), o.launch_folder);
-  const std::string file = given(o.file);
-  const auto overlay = configuration::readOverlay(file);
+  const std::string file = existing(given(o.file));
+  auto overlay = configuration::readOverlay(file, configuration::readOverlay(given(o.defaults)));
   checkReference(o, overlay.window_detector);
-  checkWindowSize(given(o.window_size), overlay, file);
+  takeWindowSize(given(o.window_size), file, overlay);
   checkSpeeds(overlay);
-  checkSizeIsSaid(o);
+  checkSizeIsSaid(o, overlay);
+  if (o.fly == "true") checkFits(overlay.vehicle, overlay.homography_pose.pose);
   checkCameraPose(given(o.camera_pose));
   std::cout << file;
   return 0;

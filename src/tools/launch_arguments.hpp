@@ -1,15 +1,18 @@
-/// Arguments that roslaunch was given and that its launch file does not have. roslaunch takes them without a
-/// word.
+/// Arguments that roslaunch was given and that cannot be: it takes any name and any value without a word.
 #pragma once
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line.hpp"
@@ -30,33 +33,70 @@ inline std::vector<std::string> wordsOfParent() {
   return words;
 }
 
-/// What the launch file takes: its own arguments, and those of files that it includes with pass_all_args.
-inline std::vector<std::string> argumentsOf(const std::filesystem::path& file) {
+/// What a launch file says of one of its arguments.
+struct LaunchArgument {
+  std::string name, standard, doc;
+};
+
+/// What the launch file takes: its own arguments, and those of files that it includes with pass_all_args
+/// unless it sets them itself.
+inline std::vector<LaunchArgument> argumentsOf(const std::filesystem::path& file) {
   const std::string text = std::regex_replace(contentOf(file), std::regex("<!--[\\s\\S]*?-->"), "");
   const auto each = [&](const char* pattern, const auto& found) {
     const std::regex expression(pattern);
     for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match)
-      found((*match)[1].str());
+      found(*match);
   };
-  std::vector<std::string> names;
-  each("<arg\\s+name=\"(\\w+)\"(?!\\s+value=)", [&](const auto& name) { names.push_back(name); });
+  std::vector<LaunchArgument> arguments;
+  std::map<std::string, std::string> named;  // with their defaults
+  each("<arg\\s+name=\"(\\w+)\"(?:\\s+(default|value)=\"([^\"]*)\")?(?:\\s+doc=\"([^\"]*)\")?",
+       [&](const auto& arg) {
+         std::smatch other;  // default="$(arg rviz)"
+         std::string standard = arg[3];
+         if (std::regex_match(standard, other, std::regex("\\$\\(arg (\\w+)\\)"))) standard = named[other[1]];
+         if (named.emplace(arg[1], standard).second && arg[2] != "value")
+           arguments.push_back({arg[1], standard, arg[4]});
+       });
   each("<include\\s+file=\"[^\"]*/(\\w+\\.launch)\"\\s+pass_all_args=\"true\"", [&](const auto& included) {
-    for (const auto& name : argumentsOf(file.parent_path() / included)) names.push_back(name);
+    for (const auto& argument : argumentsOf(file.parent_path() / included[1].str()))
+      if (named.emplace(argument.name, argument.standard).second) arguments.push_back(argument);
   });
-  return names;
+  return arguments;
+}
+
+inline bool isNumber(const std::string& text) {
+  char* end = nullptr;
+  return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() && *end == '\0';
+}
+
+/// Why this cannot be the argument's value; empty if nothing speaks against it. Its text lists the words
+/// there are ("one of a, b; ..") or wants a whole path; else the default tells a switch and a number.
+inline std::string whyNot(const LaunchArgument& argument, const std::string& value) {
+  std::smatch listed;
+  const bool is_switch = argument.standard == "true" || argument.standard == "false";
+  const std::string words = is_switch ? "true, false"
+                            : std::regex_search(argument.doc, listed, std::regex("\\bone of ([^;]+)"))
+                                ? listed[1].str()
+                                : "";
+  if (!words.empty())
+    return (", " + words + ",").find(", " + value + ",") == std::string::npos ? "give one of " + words : "";
+  if (isNumber(argument.standard)) return isNumber(value) ? "" : "give a number";
+  const bool is_path = !value.empty() && value != argument.standard && value[0] != '/';
+  if (!is_path || argument.doc.find("whole path") == std::string::npos) return "";
+  return "give its whole path, as " + (std::filesystem::current_path() / value).string();
 }
 
 /// \param words of the command that may be roslaunch with one of the launch files in `folder`
-/// \throws UsageError that names the first argument it does not have
+/// \throws UsageError that names the first argument that cannot be
 inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   bool is_roslaunch = false;
   std::vector<fs::path> files;
-  std::vector<std::string> given;
+  std::vector<std::pair<std::string, std::string>> given;
   for (const auto& word : words) {
     const auto assigned = word.find(":=");
     if (assigned != std::string::npos) {
-      given.push_back(word.substr(0, assigned));
+      given.emplace_back(word.substr(0, assigned), word.substr(assigned + 2));
     } else if (fs::path(word).extension() == ".launch") {
       files.emplace_back(word);
     }
@@ -69,11 +109,16 @@ inline void checkLaunchArguments(const std::vector<std::string>& words, const st
       files[0].has_parent_path() ? fs::equivalent(files[0], file, error) : fs::exists(file, error);
   if (!is_ours) return;
   const auto known = argumentsOf(file);
-  for (const auto& name : given) {
-    const bool is_argument = std::regex_match(name, std::regex("[A-Za-z]\\w*"));  // no __name, no /topic
-    if (is_argument && std::find(known.begin(), known.end(), name) == known.end())
-      throw UsageError(file.filename().string() + " has no argument '" + name + "'" +
-                       parameters::didYouMean(name, known));
+  std::vector<std::string> names;
+  for (const auto& argument : known) names.push_back(argument.name);
+  const std::string launch = file.filename().string();
+  for (const auto& [name, value] : given) {
+    if (!std::regex_match(name, std::regex("[A-Za-z]\\w*"))) continue;  // __name, /topic
+    const auto argument = std::find(names.begin(), names.end(), name);
+    if (argument == names.end())
+      throw UsageError(launch + " has no argument '" + name + "'" + parameters::didYouMean(name, names));
+    const std::string why = whyNot(known[static_cast<std::size_t>(argument - names.begin())], value);
+    if (!why.empty()) throw UsageError(launch + ": " + name + ":=" + value + ": " + why);
   }
 }
 

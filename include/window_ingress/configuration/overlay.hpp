@@ -34,12 +34,12 @@ struct Overlay {
     field.group("world", self.world);
   }
 
-  std::set<std::string> said;  ///< paths of what the file says: "vehicle/half_width_m"
+  std::set<std::string> said;  ///< paths of what the last file says: "vehicle/half_width_m"
 };
 
-/// Reads a file; no file, an empty name, leaves everything at its default. What it says of the vehicle is
+/// Reads a file over what there is; no file, an empty name, leaves everything as it is. What it says of the vehicle is
 /// told to pose node and navigator, too. \throws parameters::YamlError that names file, line and key of what
 /// nobody reads and of what cannot be
-Overlay readOverlay(const std::string& file);
+Overlay readOverlay(const std::string& file, Overlay overlay = {});
 
 }  // namespace window_ingress::configuration
