@@ -41,16 +41,16 @@ Options parse(int argc, char** argv) {
   po::options_description named(
       "Usage: replay_bag --bag FILE.bag --output DIR [options]\n"
       "Runs detector, pose and filter over a bag; writes DIR/frames.csv,\n"
-      "details.csv, latency.csv, replay.png, and all of it as one page: report.html.\n"
-      "Exit code: 0 done, 1 the job failed, 2 wrong usage or unreadable input.\n\nOptions");
-  named.add_options()("help,h", "this text")                                                              //
-      ("bag", po::value(&o.bag)->required(), "bag to read")                                               //
-      ("output,o", po::value(&o.output)->required(), "folder to write into")                              //
-      ("image", po::value(&o.topics.image), "topic; else the only one of its type")                       //
-      ("camera-info", po::value(&o.topics.camera_info), "likewise")                                       //
-      ("odom", po::value(&o.topics.odom), "likewise")                                                     //
-      ("imu", po::value(&o.topics.imu), "likewise")                                                       //
-      ("reference", po::value(&o.reference.picture), "picture of the target with its frame")              //
+      "details.csv, latency.csv, replay.png, and all of it as one page: report.html.\n\nOptions");
+  named.add_options()("help,h", "this text")                                         //
+      ("bag", po::value(&o.bag)->required(), "bag to read")                          //
+      ("output,o", po::value(&o.output)->required(), "folder to write into")         //
+      ("image", po::value(&o.topics.image), "topic; else the only one of its type")  //
+      ("camera-info", po::value(&o.topics.camera_info), "likewise")                  //
+      ("odom", po::value(&o.topics.odom), "likewise")                                //
+      ("imu", po::value(&o.topics.imu), "likewise")                                  //
+      ("reference", po::value(&o.reference.picture),
+       "picture of the target with its frame; else that of the bag")                                      //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size),
        "W,H: inner size of the opening [m]; without it, here or in --params, no poses")  //
@@ -74,6 +74,8 @@ Options parse(int argc, char** argv) {
   return o;
 }
 
+void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::endl; }
+
 adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   adapters::ReplayParams params;
   params.topics = adapters::chooseTopics(bag, o.topics);
@@ -85,7 +87,13 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   params.tracker = overlay.homography_pose.tracker;
   adapters::ReferenceParams reference = o.reference;
   tools::takeReference(o.params, overlay.window_detector.reference, reference.picture, reference.corners);
-  if (!reference.picture.empty()) params.reference = adapters::loadReference(reference, params.detector);
+  if (!reference.picture.empty()) {
+    params.reference = adapters::loadReference(reference, params.detector);
+  } else if ((params.reference = adapters::recordedReference(bag, params))) {
+    say("the reference image is the bag's own");
+  } else {
+    say("no reference image, neither in the bag nor by --reference: windows are told by geometry alone");
+  }
   params.frames = overlay.vehicle.frames;
   params.with_pose = !o.size.empty() || overlay.said.count("homography_pose/pose/opening_width_m") > 0;
   if (o.size.empty()) return params;
@@ -136,15 +144,16 @@ class Progress {
     const auto now = std::chrono::steady_clock::now();
     if (now - said_ < std::chrono::seconds(5)) return;
     said_ = now;
-    std::cerr << "replay_bag: " << done_ << " of " << images_ << " images" << std::endl;
+    const auto left = (now - began_) * (images_ - done_) / done_;
+    say(std::to_string(done_) + " of " + std::to_string(images_) + " images, " +
+        std::to_string(std::chrono::duration_cast<std::chrono::seconds>(left).count()) + " s left");
   }
 
  private:
   std::size_t images_, done_ = 0;
-  std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point said_ = began_;
 };
-
-void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::endl; }
 
 void judge(const Options& options, const adapters::ReplayParams& params,
            const adapters::ReplaySummary& summary) {

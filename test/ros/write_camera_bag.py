@@ -1,6 +1,6 @@
 """Writes a bag as a camera on a standing vehicle records it: usage write_camera_bag.py FILE.bag [WORD...]
 
-raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, twice (a looped replay, recorded), outputs (a
+raw|compressed (compressed), seconds=3, image=/camera/image_raw, no_info, no_odom, reference (another window than the one seen), twice (a looped replay, recorded), outputs (a
 window_pose and setpoints of the flight, which nobody should take for new ones).
 """
 import pathlib
@@ -11,7 +11,7 @@ import rosbag
 import rospy
 from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import CompressedImage
-from window_ingress.msg import FilteredPose, WindowPose
+from window_ingress.msg import FilteredPose, ReferenceImage, WindowPose
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import support  # noqa: E402
@@ -57,6 +57,10 @@ def main():
     with rosbag.Bag(file, "w") as bag:
         transforms = support.transforms_type()([support.mounting()])
         bag.write("/tf_static", transforms, rospy.Time.from_sec(RECORDED_S if "twice" in words else START_S))
+        if "reference" in words:
+            x, y = zip(*support.CORNERS)
+            target = support.image_message(pixels[:, :, ::-1].copy(), rospy.Time())  # its frame is blue
+            bag.write("/reference", ReferenceImage(image=target, corner_x=x, corner_y=y), rospy.Time.from_sec(START_S))
         for _ in range(2 if "twice" in words else 1):
             for i in range(count):
                 stamp = rospy.Time.from_sec(START_S + i / RATE_HZ)

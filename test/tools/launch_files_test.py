@@ -1,6 +1,7 @@
 """Launch files: they load, and their remaps lead setpoints from the navigator over the guard to the autopilot, never past it."""
 import json
 import pathlib
+import re
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
@@ -111,7 +112,7 @@ def test_only_what_has_no_default_is_listed_as_required(file):
 @pytest.mark.parametrize("name", ["ingress", "px4", "replay"])
 @pytest.mark.parametrize("argument, said", [
     ("reference:=/nowhere/window.jpg", "reference/picture: cannot read '/nowhere/window.jpg' as an image"),
-    ("reference:=window.jpg", "reference 'window.jpg': give it with its whole path"),
+    ("reference:=window.jpg", "reference:=window.jpg: give its whole path, as /"),
     ("reference_corners:=1,2,3", "reference_corners: '1,2,3' is not 8 numbers"),
     ("window_size:=1.2", "window_size: '1.2' is not 2 numbers"), ("window_size:=0,1", "window_size 0,1: opening_width_m = 0 is not within"),
     ("config:=/nowhere/drone.yaml", "/nowhere/drone.yaml")])
@@ -152,18 +153,71 @@ def test_a_mounting_is_given_with_or_without_brackets(name):
         assert dump(name, f"camera_pose:={pose}")["params"]["/camera_mounting/pose"] == [0.1, 0, 0.02, 0, 0.1, 0]
 
 
-@pytest.mark.parametrize("file", [("window_ingress", "px4.launch"), (ROOT / "launch/px4.launch",)], ids=["package", "path"])
+def refusal(*launch):
+    """What roslaunch says before it starts anything."""
+    done = run("roslaunch", "--nodes", *launch)
+    assert done.returncode == 1 and not done.stdout, done.stdout
+    return done.stderr
+
+
+@pytest.mark.parametrize("file", LAUNCH_FILES, ids=lambda file: file.stem)
 def test_an_argument_that_the_launch_file_does_not_have_ends_the_launch(file):
+    assert f"{file.name} has no argument 'sede'" in refusal(file, *GIVEN.get(file.stem, []), "sede:=3")
+
+
+@pytest.mark.parametrize("file", [("window_ingress", "px4.launch"), (ROOT / "launch/px4.launch",)], ids=["package", "path"])
+def test_the_argument_that_was_meant_is_named(file):
     for wrong, said in (("cammera_pose:=[0,0,0,0,0,0]", "'cammera_pose'; did you mean 'camera_pose'?"),
-                        ("refrence:=/w.png", "'refrence'; did you mean 'reference'?"), ("seed:=3", "'seed'")):
-        done = run("roslaunch", "--nodes", *file, *SIZE, wrong)
-        assert done.returncode == 1 and f"px4.launch has no argument {said}" in done.stderr, done.stderr
+                        ("refrence:=/w.png", "'refrence'; did you mean 'reference'?")):
+        assert f"px4.launch has no argument {said}" in refusal(*file, *SIZE, wrong)
+    assert "cannot override arg 'modes'" in refusal(*file, *SIZE, "modes:=[GUIDED]")
     done = run("roslaunch", "--nodes", *file, *SIZE, "image_transport:=compressed")  # of mavros.launch, by pass_all_args
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize("name, argument, said", [
+    ("sim", "glass:=exluded", "give one of as_set, excluded, possible"), ("sim", "unverified_opening:=alow", "give one of as_set, allow, ask, deny"),
+    ("sim", "auto_start:=yes", "give one of true, false"), ("sim", "real_time_factor:=fast", "give a number"),
+    ("sim", "scenario:=gusty.yaml", "give its whole path, as /"), ("record", "images:=jpeg", "give one of raw, compressed, none"),
+    ("record", "compression:=zip", "give one of none, lz4, bz2"), ("record", "name:=garden", "give its whole path, as /"),
+    ("mavros", "modes:=OFFBORD", "give one of [OFFBOARD], [GUIDED]"), ("external", "start_at:=here", "give one of vehicle, scenario"),
+    ("replay", "bag:=flight.bag", "give its whole path, as /"), ("replay", "rate:=half", "give a number"),
+    ("replay", "stay:=ture", "give one of true, false"), ("px4", "fly:=flase", "give one of true, false"),
+    ("rehearse", "camera:=flase", "give one of true, false"), ("view", "software:=1", "give one of true, false")])
+def test_a_value_that_cannot_be_ends_the_launch_with_those_that_can(name, argument, said):
+    given = [text for text in GIVEN.get(name, []) if text.split(":=")[0] != argument.split(":=")[0]]
+    assert f"{name}.launch: {argument}: {said}" in refusal(ROOT / f"launch/{name}.launch", *given, argument)
+
+
+@pytest.mark.parametrize("name, arguments", [("ingress", []), ("px4", SIZE), ("sim", [])])
+def test_a_vehicle_that_does_not_fit_through_the_opening_ends_the_launch(tmp_path, name, arguments):
+    config = tmp_path / "drone.yaml"
+    config.write_text("vehicle: {half_width_m: 0.7}\n")
+    launch = (ROOT / f"launch/{name}.launch", *arguments, f"config:={config}")
+    assert "the vehicle, 1.4 x " in refusal(*launch)
+    if name != "sim":
+        assert run("roslaunch", "--nodes", *launch, "fly:=false").returncode == 0
+    config.write_text("homography_pose: {pose: {opening_width_m: 0.45, opening_height_m: 0.4}}\n")
+    launch = (ROOT / f"launch/{name}.launch", f"config:={config}")
+    if name == "sim":  # its vehicle is smaller than the package's
+        assert run("roslaunch", "--nodes", *launch).returncode == 0
+    else:
+        assert "does not fit through the opening, 0.45 x 0.4 m: measure both" in refusal(*launch)
+    config.write_text("vehicle: {half_width_m: 0.7}\nhomography_pose: {pose: {scale_sigma: 0.5}}\n")  # found out in flight
+    assert run("roslaunch", "--nodes", *launch).returncode == 0
+
+
+def test_a_file_beside_the_user_is_found_and_one_that_is_not_there_is_named_whole(tmp_path):
+    (tmp_path / "drone.yaml").write_text("vehicle: {half_width_m: 0.3}\n")
+    command = [str(ROOT / "scripts/run"), "roslaunch", "--nodes", str(ROOT / "launch/ingress.launch")]
+    for name, code in (("drone.yaml", 0), ("dron.yaml", 1)):
+        done = subprocess.run([*command, f"config:={name}"], capture_output=True, text=True, timeout=60, check=False, cwd=tmp_path)
+        assert done.returncode == code, done.stderr
+    assert f"config {tmp_path}/dron.yaml: no such file" in done.stderr
+
+
 def test_each_launch_file_takes_its_arguments():
-    for name in ("ingress", "sim", "demo", "px4", "ardupilot", "mavros", "rehearse", "replay"):
+    for name in (file.stem for file in LAUNCH_FILES):
         given = {text.split(":=")[0]: text for text in GIVEN.get(name, [])}
         for arg in ElementTree.parse(ROOT / f"launch/{name}.launch").getroot().findall("arg"):
             if arg.get("default") is not None and "$(" not in arg.get("default"):
@@ -300,7 +354,7 @@ def test_a_replay_plays_what_is_taken_and_commands_nobody():
 
 
 def test_a_recorded_flight_is_looked_at_without_commanding_anybody():
-    assert set(dump("view")["nodes"]) == {"/rviz"} and not dump("view")["params"]
+    assert set(dump("view")["nodes"]) == {"/rviz"} and set(dump("view")["params"]) == {"/checked"}
     launch = dump("view", "bag:=/tmp/flight.bag")
     args = launch["nodes"]["/play"]["args"]
     assert args.endswith("--bags /tmp/flight.bag")
@@ -354,6 +408,13 @@ def test_a_recording_holds_what_replay_and_plots_need():
             "/state", "/cmd_vel", "/ingress_navigator/cmd_vel", "/diagnostics"} <= set(topics)
     assert "/clock" not in topics and "/debug_image" not in topics and "-a" not in topics
     assert "--split" in topics and "--size=1024" in topics and "--lz4" in topics
+
+
+def test_a_recorded_simulated_flight_can_be_replayed():
+    nodes = dump("demo", "bag:=/tmp/flight.bag")["nodes"]
+    left_out = nodes["/record"]["args"].split("-x '")[1].split("'")[0]
+    assert not re.fullmatch(left_out, nodes["/image_compressor"]["remaps"]["compressed"]) and re.fullmatch(left_out, "/camera/image_raw")
+    assert "/image_compressor" not in dump("sim")["nodes"]
 
 
 def test_pictures_of_a_recording_are_by_choice():

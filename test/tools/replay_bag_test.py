@@ -6,6 +6,8 @@ import pathlib
 import re
 import subprocess
 
+import cv2
+import numpy
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -92,6 +94,21 @@ def test_raw_and_compressed_and_any_names_of_topics(tmp_path):
     replay(bag_of(tmp_path, "seconds=1"), tmp_path / "out", *SIZE, "--image", "camera/image_raw", "--odom", "/odom")
     found["as relative names"] = [row["detected"] for row in rows(tmp_path / "out/frames.csv")]
     assert set(map(tuple, found.values())) == {("1",) * 20}
+
+
+def test_the_reference_is_that_of_the_bag_unless_another_is_given(tmp_path):
+    """Before an orange window: a bag whose target is a blue one; the same with a photograph of the orange one."""
+    bag = bag_of(tmp_path, "seconds=1", "reference")
+    orange = numpy.full((480, 640, 3), 190, numpy.uint8)
+    cv2.rectangle(orange, (204, 134), (436, 326), (20, 95, 225), -1)
+    cv2.rectangle(orange, (220, 150), (420, 310), (60, 50, 45), -1)
+    cv2.imwrite(str(tmp_path / "orange.png"), orange)
+    given = "--reference", tmp_path / "orange.png", "--reference-corners", "220,150,420,150,420,310,220,310"
+    for options, found, said in (((), "0", True), (given, "1", False)):
+        done = replay(bag, tmp_path / "out", *SIZE, *options)
+        assert {row["detected"] for row in rows(tmp_path / "out/frames.csv")} == {found}
+        assert json.loads((tmp_path / "out/replay.json").read_text(encoding="utf-8"))["has_reference"]
+        assert ("the reference image is the bag's own" in done.stderr) == said, done.stderr
 
 
 def test_without_a_size_there_is_a_page_without_poses(tmp_path):

@@ -25,7 +25,7 @@ std::map<std::string, std::string> typesByTopic(const rosbag::Bag& bag) {
 }
 
 bool isAside(const std::string& topic) {
-  for (const char* part : {"ground_truth", "debug", "/rosbag/"})
+  for (const char* part : {"ground_truth", "debug", "/demo/", "/rosbag/"})
     if (topic.find(part) != std::string::npos) return true;
   return false;
 }

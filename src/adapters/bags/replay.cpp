@@ -17,6 +17,7 @@
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/conversions/stamps.hpp"
+#include "adapters/sources/reference_source.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -285,6 +286,15 @@ void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
 }
 
 }  // namespace
+
+std::optional<detection::ReferenceAppearance> recordedReference(const rosbag::Bag& bag,
+                                                                const ReplayParams& params) {
+  for (const rosbag::MessageInstance& message :
+       rosbag::View(bag, rosbag::TypeQuery("window_ingress/ReferenceImage")))
+    if (const auto reference = message.instantiate<window_ingress::ReferenceImage>())
+      return makeReference(*reference, params.image, params.detector);
+  return std::nullopt;
+}
 
 ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
                      const std::function<void(const ReplayedFrame&)>& each,

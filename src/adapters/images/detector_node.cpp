@@ -152,13 +152,7 @@ std::string DetectorNode::yawAt(const ros::Time& stamp) const {
 }
 
 void DetectorNode::receiveReference(const window_ingress::ReferenceImage& message) {
-  const DecodedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.image), params_.image);
-  if (!picture.reason.empty()) throw ParameterError("reference image: " + picture.reason);
-  std::vector<double> corners;
-  for (std::size_t i = 0; i < 4; ++i)
-    corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
-  const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
-  use(makeReference(picture.image, whole ? std::vector<double>() : corners, params_.detector), "topic");
+  use(makeReference(message, params_.image, params_.detector), "topic");
   ROS_INFO("reference taken from %s", reference_subscriber_.getTopic().c_str());
   reference_stamp_ = message.image.header.stamp;
   if (lockstep_) lockstep_->check();

@@ -1,5 +1,6 @@
 #include "adapters/images/reference_source.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -41,6 +42,18 @@ detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::
   if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *canonical); !fault.empty())
     throw ParameterError("reference/corners: " + fault);
   return {picture, *canonical};
+}
+
+detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImage& message,
+                                             const ImageLimits& limits,
+                                             const detection::DetectorParams& params) {
+  const DecodedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.image), limits);
+  if (!picture.reason.empty()) throw ParameterError("reference image: " + picture.reason);
+  std::vector<double> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
+  const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
+  return makeReference(picture.image, whole ? std::vector<double>() : corners, params);
 }
 
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,

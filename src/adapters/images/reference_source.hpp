@@ -1,10 +1,13 @@
 /// Where the reference of the target comes from: a photograph, or the live image.
 #pragma once
 
+#include <window_ingress/ReferenceImage.h>
+
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
+#include "adapters/conversions/image_from_msg.hpp"
 #include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
@@ -16,6 +19,11 @@ using configuration::ReferenceParams;
 
 /// A reference from an image and eight numbers, or none for the whole image. \throws ParameterError
 detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+                                             const detection::DetectorParams& params);
+
+/// The same from a message, live or recorded. \throws ParameterError
+detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImage& message,
+                                             const ImageLimits& limits,
                                              const detection::DetectorParams& params);
 
 /// Reads the operator's image. \throws ParameterError that says what is wrong with it
