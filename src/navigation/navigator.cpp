@@ -281,13 +281,13 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
                     (forbidden.empty() ? "" : "; the approach is forbidden so far: " + forbidden)};
 }
 
-Reply Navigator::abort() {
+Reply Navigator::abort(const std::string& why) {
   auto& self = *impl_;
   const auto to = next(self.state, Event::kAbort);
   self.limiter.stop();
   self.stands_down = true;
   if (!to) return {true, std::string("already ended as ") + toString(self.state)};
-  self.change(*to, "aborted by the operator");
+  self.change(*to, why);
   return {true, self.reason};
 }
 

@@ -204,6 +204,9 @@ class HomographyPoseTest(unittest.TestCase):
         pose = self.poses.wait(lambda p: p.image.reject == ImagePose.OK and "odom" in p.filtered.reason, "a pose without odometry")
         self.assertAlmostEqual(pose.image.pose.pose.position.z, DISTANCE, delta=0.05)
         support.Diagnostics().wait("homography_pose: odom", " odom on /odom (")
+        self.stream("odom", Odometry, support.changed(support.odometry, header__frame_id="map"), 50.0)
+        self.poses.wait(lambda p: "the pose node has no odometry: " in p.camera.fault and "'map', expected 'odom'" in p.camera.fault,
+                        "what keeps a mission from starting")
 
     def test_no_window_passes_its_reason_on(self):
         def nothing(stamp):

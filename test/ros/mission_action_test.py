@@ -98,14 +98,14 @@ class MissionActionTest(unittest.TestCase):
         """Zero is sent before the result, and nothing else after it."""
         begin = time.monotonic()
         self.client.cancel_goal()
-        self.assertEqual(self.result().outcome, IngressResult.PREEMPTED)
+        self.assertEqual((self.result().outcome, self.result().reason), (IngressResult.PREEMPTED, "the goal was cancelled"))
         self.assertEqual(self.client.get_state(), GoalStatus.PREEMPTED)
         said = self.results.wait(what="the result", begin=begin).header.stamp
         self.setpoints.wait(lambda s: s.header.stamp > said, "setpoints after the result", begin=begin)
         before = [s for s in self.setpoints.since(begin - 1.0) if s.header.stamp <= said]
         self.assertTrue(plant.is_zero(before[-1]), before[-1])
         self.assertTrue(all(plant.is_zero(s) for s in self.setpoints.since(begin) if s.header.stamp > said))
-        self.wait_for_state("ABORTED")
+        self.states.wait(lambda s: s.state_name == "ABORTED" and s.reason == "the goal was cancelled", "the end, with its cause", begin=begin)
 
     def fly_to(self, state, **goal):
         self.send(**{**GLASS_FREE, **goal})

@@ -22,6 +22,7 @@ import write_camera_bag
 WRITER = pathlib.Path(__file__).resolve().parent / "write_camera_bag.py"
 UP_WITHIN_S = 60.0
 SECONDS = 3
+LONG_S = 6  # before the bag begins: longer than nodes wait for each other
 
 
 class ReplayTest(unittest.TestCase):
@@ -38,7 +39,7 @@ class ReplayTest(unittest.TestCase):
         with open(config, "w", encoding="utf-8") as file:
             file.write("homography_pose: {pose: {opening_width_m: 1.25, opening_height_m: 1.0}}\n")  # as support.picture() shows it
         cls.play = subprocess.Popen(["roslaunch", "window_ingress", "replay.launch", f"bag:={bag}", f"config:={config}", "loop:=true",
-                                     "navigator:=true"])
+                                     "navigator:=true", f"wait:={LONG_S}"])
 
     @classmethod
     def tearDownClass(cls):
@@ -48,6 +49,12 @@ class ReplayTest(unittest.TestCase):
 
     def said(self, node, words):
         return self.log.wait(lambda m: m.name == node and words in m.msg, f"{node} says '{words}'", UP_WITHIN_S, begin=0.0)
+
+    def test_0_nodes_wait_for_the_bag_without_a_complaint(self):
+        self.windows.wait(what="the first image", deadline_s=UP_WITHIN_S, begin=0.0)
+        said = [(m.name, m.msg) for m in self.log.since(0.0) if m.level >= Log.WARN]
+        self.assertEqual(said, [])
+        self.assertIn("/window_detector", {m.name for m in self.log.since(0.0) if "waiting for" in m.msg})
 
     def test_1_the_recording_is_seen_and_located(self):
         self.windows.wait(lambda m: m.detected, "a window", UP_WITHIN_S, begin=0.0)

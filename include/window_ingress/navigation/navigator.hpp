@@ -96,7 +96,8 @@ class Navigator {
 
   /// Refused with all unmet conditions listed.
   Reply start(const NavigatorInput& input, double now_sec, const MissionPolicy& policy = {});
-  Reply abort();  ///< from everywhere, any number of times; zero from the next step on
+  /// From everywhere, any number of times; zero from the next step on.
+  Reply abort(const std::string& why = "aborted by the operator");
   Reply reset();  ///< from any end state back to IDLE
   /// The operator says that the window flown at now is open; forgotten when it is given up. Refused where
   /// none is. What was seen to be closed is left all the same.

@@ -81,7 +81,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     action_.emplace(nh, diagnostics_,
                     MissionAction::Mission{[this] { return whyFlying(); },
                                            [this](const auto& policy) { return startMission(policy); },
-                                           [this] { return abortMission(); }});
+                                           [this] { return abortMission("the goal was cancelled"); }});
 }
 
 bool NavigatorNode::isComplete(const Lockstep::Step& step) const {
@@ -165,7 +165,8 @@ void NavigatorNode::step() {
     last_.setpoint = navigation::Setpoint();
     navigator_.sentZero();
   }
-  if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany) navigator_.abort();
+  if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany)
+    navigator_.abort("aborted: its steps fail, see callbacks in the diagnostics");
   publish(last_, now);
   if (last_.enabled) guard_.brakeIfNobodyDoes(now, frames().odom);
 }
@@ -197,7 +198,7 @@ void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
   odom_clock_.clear();
   trail_.clear();
   marker_publisher_.publish(allGone(toStamp(now_sec), frames().odom));
-  if (last_.enabled) navigator_.abort();
+  if (last_.enabled) navigator_.abort("aborted: the clock jumped back");
 }
 
 bool NavigatorNode::clockStandsStill(double now_sec) {
@@ -266,7 +267,7 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
 
 void NavigatorNode::stop() {
   timer_.stop();
-  navigator_.abort();
+  navigator_.abort("aborted: the navigator's node ends");
   if (action_) action_->stop();
   for (int i = 0; i < 5; ++i) {
     publishSetpoint(navigation::Setpoint(), ros::Time::now());

@@ -58,7 +58,7 @@ class NavigatorNode : public Node {
   navigation::NavigatorOutput decide(double now_sec);
   void advertiseServices(ros::NodeHandle& pnh);
   navigation::Reply startMission(const navigation::MissionPolicy& policy);
-  navigation::Reply abortMission();
+  navigation::Reply abortMission(const std::string& why);
   std::string whyFlying() const;
   bool isLeftToOthers() const;
   bool start(Trigger::Request& request, Trigger::Response& response);

@@ -33,8 +33,8 @@ navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& p
   return reply;
 }
 
-navigation::Reply NavigatorNode::abortMission() {
-  const navigation::Reply reply = navigator_.abort();
+navigation::Reply NavigatorNode::abortMission(const std::string& why) {
+  const navigation::Reply reply = navigator_.abort(why);
   if (reply.success && !lockstep_) publishSetpoint(navigation::Setpoint(), ros::Time::now());
   return reply;
 }
@@ -54,7 +54,7 @@ bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
-  return answer("abort", abortMission(), response);
+  return answer("abort", abortMission("aborted by the operator"), response);
 }
 
 // In flight it is aborted first: zeros go on as after ~abort.
@@ -63,7 +63,7 @@ bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBoo
   if (!is_disabled_)
     return answer("enable", {true, "enabled: zeros in IDLE, ~start may be called"}, response);
   const bool flies = !whyFlying().empty();
-  if (flies) abortMission();
+  if (flies) abortMission("aborted: disabled (~enable)");
   return answer("enable",
                 {true, std::string(flies ? "aborted, " : "") + "disabled: sends nothing, starts nothing"},
                 response);

@@ -16,10 +16,11 @@ namespace {
 constexpr double kPeriodSec = 1.0;  // of messages while nothing changes
 constexpr double kLookSec = 0.2;
 constexpr double kUnhealthyClockSec = 1.0;
-constexpr double kGraceSec =
-    3.0;  // after the start, in which neighbours come up: nothing is said to be wrong
-constexpr double kQuietSec = 5.0;   // between two warnings about one topic
-constexpr double kSmoothing = 0.1;  // of the period of messages
+// After the start, or the first time on /clock: neighbours come up, nothing is said to be wrong.
+constexpr double kGraceSec = 3.0;
+constexpr double kClockGraceSec = 15.0;  // for /clock itself: a bag begins when everything is up
+constexpr double kQuietSec = 5.0;        // between two warnings about one topic
+constexpr double kSmoothing = 0.1;       // of the period of messages
 
 std::string withTwoDecimals(double value) { return formatted("%.2f", value); }
 
@@ -44,7 +45,10 @@ Health outputHealth(int listeners, const std::string& topics, double running_sec
 }
 
 Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& pnh)
-    : updater_(nh, pnh, pnh.getNamespace()), started_sec_(steadyNowSec()), clock_moved_sec_(started_sec_) {
+    : updater_(nh, pnh, pnh.getNamespace()),
+      started_sec_(steadyNowSec()),
+      begun_sec_(started_sec_),
+      clock_moved_sec_(started_sec_) {
   updater_.setHardwareID("none");
   add("callbacks", [this] { return failures_.health(); });
   add("clock", [this] { return clockHealth(); });
@@ -101,7 +105,9 @@ bool Diagnostics::lookAt(const std::string& name, Item& item) {
 
 void Diagnostics::sayOnConsole(const std::string& name, Item& item) const {
   const Health& now = item.now;
-  const bool starts = runningSec() < kGraceSec && now.level != Health::kOk;
+  const bool awaits =
+      name == "clock" ? runningSec() < kClockGraceSec : steadyNowSec() - begun_sec_ < kGraceSec;
+  const bool starts = awaits && now.level != Health::kOk;
   const int level = starts ? kAwaited : now.level;
   if (item.on_console == level) return;
   item.on_console = level;
@@ -141,6 +147,7 @@ Health Diagnostics::clockHealth() {
     clock_moved_sec_ = steady_sec;
   }
   if (!ros::Time::isSimTime()) return {};
+  if (now_sec == 0.0) begun_sec_ = steady_sec;
   if (now_sec == 0.0 && steady_sec - started_sec_ < kSilenceSec) return {Health::kOk, "waiting for /clock"};
   if (now_sec == 0.0)
     return {Health::kError,

@@ -82,7 +82,7 @@ class Diagnostics {
   std::map<std::string, Item> items_;
   double published_sec_ = 0.0;
   FailureCount failures_;
-  double started_sec_ = 0.0;
+  double started_sec_ = 0.0, begun_sec_ = 0.0;  // the same but under simulated time, which begins later
   double clock_sec_ = -1.0, clock_moved_sec_ = 0.0;
 };
 
