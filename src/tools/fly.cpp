@@ -80,7 +80,7 @@ struct Stopped {};
 
 options::options_description describe() {
   options::options_description description(
-      "fly --scenario FILE.yaml --output DIR [OPTION...]\n"
+      "Usage: fly --scenario FILE.yaml --output DIR [OPTION...]\n"
       "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
       "flights "
       "under way end (--resume goes on with the others); 2: wrong usage");
@@ -354,10 +354,10 @@ int run(const Job& job) {
   Results results(job);
   for (const auto& flight : before) results.add(flight);
   const std::size_t flown = before.size() + flyJob(job, without(job.seeds, before), results);
+  results.finish();
   if (flown < job.seeds.size())
     throw std::runtime_error(std::to_string(flown) + " of " + std::to_string(job.seeds.size()) +
-                             " flown, continue with --resume");
-  results.finish();
+                             " flown and summed up, continue with --resume");
   return 0;
 }
 
