@@ -31,6 +31,7 @@ constexpr double kMaxPx = 1200.0;       // of the image on the screen
 constexpr double kFitRadiusPx = 6.0;    // on the screen
 constexpr double kMaxMovedPx = 4.0;     // of a side by the fit, on the screen: clicks are better than that
 constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side
+constexpr double kNearPx = 3.0;         // on the screen: corners further from an edge are doubtful
 constexpr double kMinOnEdge = 0.7;      // of each side, on one straight edge
 const char* const kWindow = "make_reference";
 // What the title asks for, by the number of corners there are.
@@ -47,7 +48,7 @@ struct Job {
 
 options::options_description describe(Job& job) {
   options::options_description description(
-      "make_reference PICTURE [OPTION...]\n"
+      "Usage: make_reference PICTURE [OPTION...]\n"
       "Writes the picture, a yaml file of the same name for config:=, and NAME_understood.png, which shows "
       "the inner border "
       "and the regions whose colours are compared.\nWithout --corners a window opens: click the four inner "
@@ -77,7 +78,7 @@ struct Fit {
   std::string said;             ///< by how much each side moved, or why the fit is refused
 };
 
-Fit refused(const std::string& why) { return {{}, "not fitted: " + why}; }
+Fit refused(const std::string& why) { return {{}, why}; }
 
 // How far the side that begins at this corner has moved, at its ends [px].
 double moved(const geometry::Quadrilateral& from, const geometry::Quadrilateral& to, std::size_t side) {
@@ -96,7 +97,7 @@ double shortestSide(const geometry::Quadrilateral& quad) {
 
 /// A side that finds no edge, or one that lies further away than anybody clicks, is not the one that is
 /// meant.
-Fit fitted(const cv::Mat& picture, const std::vector<double>& corners) {
+Fit fitted(const cv::Mat& picture, const std::vector<double>& corners, double radius_px = kFitRadiusPx) {
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto clicked = geometry::canonical(quad);
@@ -104,7 +105,7 @@ Fit fitted(const cv::Mat& picture, const std::vector<double>& corners) {
   const double scale = std::max(1.0, std::max(picture.cols, picture.rows) / kMaxPx);
   double on_edge = 0.0;
   const auto borders =
-      detection::BorderRefinement().run(picture, {*clicked, kFitRadiusPx * scale}, nullptr, &on_edge);
+      detection::BorderRefinement().run(picture, {*clicked, radius_px * scale}, nullptr, &on_edge);
   char text[160];
   std::snprintf(text, sizeof text, "only %.0f %% of one side lie on a straight edge near it",
                 100.0 * on_edge);
@@ -123,6 +124,12 @@ Fit fitted(const cv::Mat& picture, const std::vector<double>& corners) {
   }
   for (const auto& corner : borders->corners) fit.corners.insert(fit.corners.end(), {corner.x(), corner.y()});
   return fit;
+}
+
+/// What speaks against corners that are saved as they are; empty if they lie on edges.
+std::string doubt(const cv::Mat& picture, const std::vector<double>& corners) {
+  const Fit fit = fitted(picture, corners, kNearPx);
+  return fit.corners.empty() ? "poor corners: " + fit.said : "";
 }
 
 /// A window in which four corners are clicked.
@@ -144,7 +151,7 @@ class Clicking {
       if (key == 'u' && !points_.empty()) points_.pop_back(), said_.clear();
       if (points_.size() < 4) continue;
       if (key == 'f') fit();
-      if (key == '\r' || key == '\n') return flat(points_);
+      if ((key == '\r' || key == '\n') && !isDoubtful()) return flat(points_);
     }
   }
 
@@ -168,10 +175,19 @@ class Clicking {
     dragged_ = static_cast<int>(points_.size()) - 1;
   }
 
+  // The second Enter saves all the same.
+  bool isDoubtful() {
+    const std::string why = doubt(picture_, flat(points_));
+    const std::string asked = why + ". Enter saves all the same";
+    if (why.empty() || said_ == asked) return false;
+    said_ = asked;
+    return true;
+  }
+
   void fit() {
     const Fit fit = fitted(picture_, flat(points_));
-    std::cout << fit.said << std::endl;
-    said_ = fit.said;
+    said_ = (fit.corners.empty() ? "not fitted: " : "") + fit.said;
+    std::cout << said_ << std::endl;
     for (std::size_t i = 0; i < points_.size() && !fit.corners.empty(); ++i)
       points_[i] = {fit.corners[2 * i], fit.corners[2 * i + 1]};
   }
@@ -267,11 +283,15 @@ int run(const Job& job) {
   }
   if (job.fit) {
     const Fit fit = fitted(picture, corners);
-    if (fit.corners.empty()) throw std::runtime_error(fit.said + "; mend the corners, or leave out --fit");
+    if (fit.corners.empty())
+      throw std::runtime_error("not fitted: " + fit.said + "; mend the corners, or leave out --fit");
     std::cout << fit.said << "\n";
     corners = fit.corners;
   }
-  adapters::saveReference(job.output, adapters::makeReference(picture, corners, params));
+  const auto reference = adapters::makeReference(picture, corners, params);
+  if (const std::string why = doubt(picture, corners); !why.empty())
+    std::cerr << "make_reference: warning: " << why << "\n";
+  adapters::saveReference(job.output, reference);
   const fs::path written = fs::absolute(job.output);
   std::cout << "written: " << written.string() << "\nlook at: "
             << (written.parent_path() / (written.stem().string() + "_understood.png")).string()

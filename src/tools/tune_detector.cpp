@@ -47,7 +47,7 @@ struct Job {
 
 options::options_description describe(Job& job) {
   options::options_description description(
-      std::string("tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
+      std::string("Usage: tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
                   "SOURCE: a picture, a folder of pictures, a bag, or a topic "
                   "of pictures (begins with '/').\n") +
       kKeys + ".\n");
@@ -150,8 +150,7 @@ class Desk {
   void open(int group) {
     if (!bars_.empty()) cv::destroyWindow(kSliders);
     group_ = (group + static_cast<int>(groups_.size())) % static_cast<int>(groups_.size());
-    cv::namedWindow(kSliders, cv::WINDOW_NORMAL);
-    cv::resizeWindow(kSliders, 700, 500);
+    cv::namedWindow(kSliders, cv::WINDOW_AUTOSIZE);
     bars_.clear();
     for (const NamedField& field : bench_.fields())
       if (groupOf(field) == groups_[static_cast<std::size_t>(group_)])
@@ -192,7 +191,7 @@ class Desk {
                 cv::LINE_AA);
     std::vector<const NamedField*> shown;
     for (const Bar& bar : bars_) shown.push_back(bar.field);
-    cv::vconcat(sheet, tools::valueTable(shown, sheet.cols), sheet);
+    cv::imshow(kSliders, tools::valueTable(shown));
     cv::imshow(kStages, sheet);
     cv::setWindowTitle(kStages, source_.name());
   }

@@ -41,20 +41,18 @@ inline std::string valueText(const parameters::NamedField& field, const paramete
   return text;
 }
 
-/// \param width of the image [px]
-inline cv::Mat valueTable(const std::vector<const parameters::NamedField*>& fields, int width) {
-  constexpr int kRowPx = 20, kColumnPx = 560;
-  const int columns = std::max(1, width / kColumnPx), count = static_cast<int>(fields.size());
-  const int rows = (count + columns - 1) / columns;
-  cv::Mat table(rows * kRowPx + 10, width, CV_8UC3, cv::Scalar::all(24));
+inline cv::Mat valueTable(const std::vector<const parameters::NamedField*>& fields) {
+  constexpr int kRowPx = 20, kWidthPx = 700;
+  cv::Mat table(static_cast<int>(fields.size()) * kRowPx + 10, kWidthPx, CV_8UC3, cv::Scalar::all(24));
   detection::DetectorParams defaults;
   const auto as_default = parameters::fieldsOf(defaults);
-  for (int i = 0; i < count; ++i) {
-    const parameters::NamedField& field = *fields[static_cast<std::size_t>(i)];
-    const parameters::NamedField& other = *parameters::find(as_default, field.name);
-    const cv::Scalar colour = field.get() == other.get() ? cv::Scalar::all(220) : cv::Scalar(60, 220, 255);
-    cv::putText(table, valueText(field, other), {8 + i / rows * (width / columns), 18 + i % rows * kRowPx},
-                cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, 1, cv::LINE_AA);
+  int y = 18;
+  for (const parameters::NamedField* field : fields) {
+    const parameters::NamedField& other = *parameters::find(as_default, field->name);
+    const cv::Scalar colour = field->get() == other.get() ? cv::Scalar::all(220) : cv::Scalar(60, 220, 255);
+    cv::putText(table, valueText(*field, other), {8, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, 1,
+                cv::LINE_AA);
+    y += kRowPx;
   }
   return table;
 }

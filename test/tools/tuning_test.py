@@ -238,7 +238,7 @@ def flat(corners):
 def test_a_reference_is_made_from_four_corners(labelled, tmp_path):
     written = tmp_path / "below" / "target.png"
     code, said, errors = run("make_reference", labelled / "a.png", "--output", written, "--corners", flat(corners_at(*VIEWS[0])))
-    assert code == 0, errors
+    assert code == 0 and not errors, errors
     assert f"config:={written.with_suffix('.yaml')}" in said
     kept = yaml.safe_load(written.with_suffix(".yaml").read_text())["window_detector"]["reference"]
     assert kept["picture"] == str(written)
@@ -278,6 +278,14 @@ def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
     assert not (tmp_path / "a.png").exists()
 
 
+@pytest.mark.parametrize("off, said", [((6, 0), "poor corners: "), ((25, 9), "poor corners: "), ((1, 0), "")])
+def test_corners_that_are_saved_beside_the_edges_are_said_to_be(labelled, tmp_path, off, said):
+    corners = [(x + off[0], y + off[1]) for x, y in corners_at(*VIEWS[0])]
+    code, _, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--corners", flat(corners))
+    assert code == 0 and (tmp_path / "a.png").exists()
+    assert (f"warning: {said}" in errors) if said else not errors, errors
+
+
 def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
     image = cv2.imread(str(labelled / "a.png"))
     (left, top), _, (right, bottom), _ = [(round(x), round(y)) for x, y in corners_at(*VIEWS[0])]
@@ -287,14 +295,18 @@ def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
     assert code == 1 and "% of one side lie on a straight edge" in errors and "mend the corners" in errors, errors
 
 
-def test_corners_are_clicked(labelled, tmp_path, display):
-    true = [(round(x), round(y)) for x, y in corners_at(*VIEWS[0])]
+@pytest.mark.parametrize("off, times", [(0, 1), (15, 2)], ids=["good corners", "poor corners are saved by the second Enter only"])
+def test_corners_are_clicked(labelled, tmp_path, display, off, times):
+    true = [(round(x) + off, round(y)) for x, y in corners_at(*VIEWS[0])]
     process = subprocess.Popen([str(ROOT / "scripts/run"), "make_reference", str(labelled / "a.png"), "--output", str(tmp_path / "a.png")],
                                env={**os.environ, "DISPLAY": display}, stdout=subprocess.PIPE, text=True)
     try:
         for name, (x, y) in zip(("top left", "top right", "bottom right", "bottom left"), true):
             press(display, titled(display, f"click the {name} inner corner"), f"{x},{y}")
-        press(display, titled(display, "four corners"), "Return")
+        for _ in range(times):
+            assert process.poll() is None and not (tmp_path / "a.png").exists()
+            press(display, titled(display, "four corners"), "Return")
+            time.sleep(1.0)  # until it has been looked at
         process.communicate(timeout=120)
     finally:
         process.kill()
