@@ -51,6 +51,32 @@ def test_of_a_topic_of_mavros_it_is_mavros_that_is_started(doctor):
     assert mend.startswith("start MAVROS (roslaunch mavros px4.launch") and mend.endswith("or give imu:=ITS_TOPIC")
 
 
+@pytest.mark.parametrize("publishers, arrived, words", [
+    ([], (), "ERROR  MAVROS is not running: 0 publishers of /mavros/imu/data, /mavros/local_position/odom"),
+    (["/mavros"], (), "ERROR  MAVROS sends nothing on /mavros/imu/data, /mavros/local_position/odom: has it an autopilot?"),
+    (["/mavros"], ("/mavros/imu/data",), "ERROR  /mavros/local_position/odom: /mavros advertises it and sends nothing")])
+def test_mavros_that_is_away_is_one_finding(doctor, capsys, publishers, arrived, words):
+    kinds = {"/mavros/imu/data": "sensor_msgs/Imu", "/mavros/local_position/odom": "nav_msgs/Odometry"}
+    system = seen(doctor, said={"ingress_navigator: engaged": 2, "homography_pose: imu": 2})
+    for status in system.said.values():
+        status.message = "nothing on /engaged yet" if status is system.said["ingress_navigator: engaged"] else "no imu on /mavros/imu/data"
+    system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator", "setpoint_guard")}
+    system.inputs = {"homography_pose": kinds, "ingress_navigator": {"/engaged": "std_msgs/Bool"}}
+    system.graph.publishers = {topic: publishers for topic in kinds}
+    system.graph.subscribers, system.graph.types = {}, kinds
+    system.setpoints = "/mavros/setpoint_velocity/cmd_vel"
+    system.samples = {topic: types.SimpleNamespace(times=[0.0] * (topic in arrived), rate_hz=lambda: 50.0, age_s=lambda: 0.0)
+                      for topic in (*kinds, system.setpoints)}
+    report = doctor.Report()
+    for check in (doctor.check_inputs, doctor.check_setpoints, doctor.check_what_nodes_say):
+        check(system, report)
+    report.say()
+    said = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
+    assert said[0].startswith(words), said
+    if not arrived:
+        assert said[2:] == ["       follows: /mavros/setpoint_velocity/cmd_vel: nobody takes setpoints", "1 finding(s) to mend, 1 follow from them"]
+
+
 @pytest.mark.parametrize("required, publishers, words", [(True, [], "ERROR  /engaged: 0 publishers"), (False, [], "nothing is wrong"),
                                                          (True, ["/engaged_from_mavros"], "nothing is wrong")])
 def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypatch, capsys, required, publishers, words):
