@@ -173,7 +173,7 @@ def test_bags_with_and_without_the_truth_tell_the_same(truth, tmp_path):
     assert done.returncode == 0, done.stderr
     assert "crossed at 5.00 s, y +0.100 m, z +0.050 m" in done.stdout, done.stdout
     assert "actual miss 10.0 cm, predicted 12.0 cm, within it by 1.2 times" in done.stdout
-    assert "SEARCH 1.0 s" in done.stdout and "ended in PASSED: as the test says" in done.stdout
+    assert "APPROACH 3.0 s, COMMIT 2.0 s" in done.stdout and "ended in PASSED: as the test says" in done.stdout
     assert ("referee: PASSED: went through" in done.stdout) == (truth == "truth")
     picture = cv2.imread(str(tmp_path / "flight.png"))
     assert share_of(picture, flight_data.STATE_COLOURS["COMMIT"]) > 1e-3
