@@ -2,8 +2,6 @@
 """Draws what `survey_pose --draws N` has written: how near the estimator comes to the Cramer-Rao bound, and where
 OpenCV's methods are; prints the comparison as a Markdown table.
 
-    ingress plot pose FOLDER [--output FOLDER] [--noise PX] [--doc FILE.md]
-
 Writes pose_bound.png and pose_methods.png. --noise chooses the noise of methods and table; --doc puts the table into
 FILE.md, between its marks.
 """

@@ -29,7 +29,7 @@ struct Job {
 };
 
 options::options_description describe() {
-  options::options_description description("draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
+  options::options_description description("Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
   auto add = description.add_options();
   add("help", "print this text");
   add("output", options::value<std::string>(), "the sheet");

@@ -42,8 +42,8 @@ using Pictures = std::vector<LabelledPicture>;
 
 options::options_description describe(Job& job) {
   options::options_description description(
-      "tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
-      "tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H [OPTION...]\n"
+      "Usage: tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
+      "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H [OPTION...]\n"
       "Tries settings of the detector on a part of the pictures and writes the keys it changed, if it is "
       "better on the "
       "rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong usage or "

@@ -46,22 +46,28 @@ def test_what_report_cannot_read_is_said_with_what_can(tmp_path):
 
 
 @pytest.mark.parametrize("words", ingress.COMMANDS)
-def test_help_is_that_of_the_tool(words):
-    tool = ingress.COMMANDS[words][0]
+def test_help_has_one_shape(words):
+    """What it does, usage, options, one example whose options there are, exit codes."""
+    _, does, example = ingress.COMMANDS[words]
     done = run(INGRESS, *words.split(), "--help")
-    assert done.returncode == 0 and tool.replace(".py", "") in done.stdout, done.stdout + done.stderr
+    assert done.returncode == 0 and not done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0] == f"ingress {words}: {does}" and any(line.lower().startswith(f"usage: ingress {words} ") for line in lines), done.stdout
+    assert f"Example: ingress {words} {example}" in lines and done.stdout.lower().count("exit code") == 1, done.stdout
+    options = set(re.findall(r"(?<![\w-])--[a-z][\w-]*", done.stdout.replace(example, "")))
+    assert set(re.findall(r"--[a-z][\w-]*", example)) <= options, done.stdout
 
 
 def test_every_tool_has_a_command():
     tools = {file.stem for file in (ROOT / "src/tools").glob("*.cpp")}
-    assert len(tools) > 10 and tools <= {tool for tool, _ in ingress.COMMANDS.values()}
+    assert len(tools) > 10 and tools <= {tool for tool, _, _ in ingress.COMMANDS.values()}
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"], ["help"]])
 def test_alone_it_lists_all_commands_a_line_each(arguments):
     done = run(INGRESS, *arguments)
     assert done.returncode == 0
-    for words, (_, text) in ingress.COMMANDS.items():
+    for words, (_, text, _) in ingress.COMMANDS.items():
         if " " in words:
             group, member = words.split()
             assert re.search(rf"^  {group} .*\b{member}\b", done.stdout, flags=re.M), words
@@ -79,7 +85,7 @@ def test_an_unknown_command_is_refused_with_the_nearest(words, nearest):
 
 def test_a_group_alone_says_what_it_has():
     done = run(INGRESS, "plot")
-    assert done.returncode == 2 and "flight, flights, gusts" in done.stderr
+    assert done.returncode == 2 and "filter, flight, gusts" in done.stderr
 
 
 def test_completion_lists_everything():

@@ -1,4 +1,4 @@
-"""One flight as arrays, from a log of `fly --log` or from a bag; used by plot_flight and plot_flights.py.
+"""One flight as arrays, from a log of `fly --log` or from a bag; used by plot_flight.
 
 Positions are those of the vehicle in the window's frame: x into the opening, y left, z up, the wall at x = 0.
 """
