@@ -67,7 +67,7 @@ class NavigatorNode : public Node {
   bool confirmOpening(Trigger::Request& request, Trigger::Response& response);
   bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   template <typename Response>
-  static bool answer(const char* service, const navigation::Reply& reply, Response& response);
+  bool answer(const char* service, const navigation::Reply& reply, Response& response);
   void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
@@ -96,6 +96,7 @@ class NavigatorNode : public Node {
   bool was_enabled_ = false, is_disabled_ = false;
   GuardParams last_gate_;
   std::string gate_fault_;  // of the setpoint last sent
+  std::string refused_;     // the last refusal
   std::optional<Lockstep> lockstep_;
   ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
   double step_sec_ = 0.0;            // in lockstep: the time that the world has

@@ -81,7 +81,9 @@ bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& respons
 
 template <typename Response>
 bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Response& response) {
-  ROS_INFO("%s: %s: %s", service, reply.success ? "done" : "refused", reply.message.c_str());
+  const std::string said = std::string(service) + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
+  if (reply.success || said != refused_) ROS_INFO("%s", said.c_str());  // who asks again and again is told once
+  refused_ = reply.success ? "" : said;
   response.success = reply.success;
   response.message = reply.message;
   return true;
