@@ -17,7 +17,7 @@
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/conversions/stamps.hpp"
-#include "adapters/sources/reference_source.hpp"
+#include "adapters/images/reference_source.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/frames.hpp"
