@@ -3,6 +3,7 @@
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/highgui.hpp>
@@ -293,9 +294,11 @@ int run(const Job& job) {
     std::cerr << "make_reference: warning: " << why << "\n";
   adapters::saveReference(job.output, reference);
   const fs::path written = fs::absolute(job.output);
+  const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run, as the user called it
   std::cout << "written: " << written.string() << "\nlook at: "
             << (written.parent_path() / (written.stem().string() + "_understood.png")).string()
-            << "\nuse it:  scripts/run roslaunch window_ingress ingress.launch config:="
+            << "\nuse it:  " << (called_by ? called_by + std::string(" ") : "")
+            << "roslaunch window_ingress ingress.launch config:="
             << fs::path(written).replace_extension(".yaml").string() << "\n";
   return 0;
 }
