@@ -104,7 +104,7 @@ class RefusedStartTest(unittest.TestCase):
 
     def test_what_has_moved_is_named_with_its_new_place(self):
         self.assert_refused("ingress_navigator", "navigator/vehicle", {"half_width_m": 0.45}, "it is now 'vehicle: {..}'")
-        self.assert_refused("homography_pose", "tracker/fit/vehicle_width_m", 0.9, "half_width_m")
+        self.assert_refused("homography_pose", "tracker/fit", {"vehicle_width_m": 0.9}, "half_width_m")
         self.assert_refused("homography_pose", "filter/gate_squares", 30.0, "it is now 'nis_gate'")
         self.assert_refused("world", "clock_rate_hz", 50.0, "it is a constant now")
         self.assert_refused("setpoint_guard", "max_sped_mps", 0.9, "did you mean 'max_speed_mps'?")

@@ -6,7 +6,8 @@ namespace window_ingress::openness {
 struct OpennessParams {
   double max_depth_closed_m =
       0.35;  ///< a surface up to this far behind the front border closes the opening [m]
-  double min_depth_behind_m = 0.7;   ///< an open way shows surfaces at least this far behind the border [m]
+  double min_depth_behind_m =
+      0.7;  ///< what is seen through an open window lies at least this far behind its border [m]
   double max_depth_behind_m = 10.0;  ///< deeper than any room: what lies beyond is a mirror image or dirt on
                                      ///< the lens, and proves nothing [m]
   double reveal_depth_m = 0.4;       ///< depth of the opening's inner faces, which close nothing [m]
