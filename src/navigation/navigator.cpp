@@ -4,14 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "navigation/behaviours/align.hpp"
-#include "navigation/behaviours/approach.hpp"
-#include "navigation/behaviours/back_off.hpp"
-#include "navigation/behaviours/commit.hpp"
-#include "navigation/behaviours/hold.hpp"
+#include "navigation/behaviours/behaviours.hpp"
 #include "navigation/behaviours/home.hpp"
 #include "navigation/behaviours/place_keeping.hpp"
-#include "navigation/behaviours/search.hpp"
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
@@ -33,12 +28,7 @@ struct Navigator::Impl {
         monitor(params.input),
         limiter(params.limits),
         observer(params.vehicle, params.approach),
-        search(params),
-        align(params),
-        approach(params),
-        commit(params),
-        back_off(params),
-        hold(params),
+        behaviours(params),
         reason(waiting()) {}
 
   NavigatorParams params;
@@ -48,19 +38,13 @@ struct Navigator::Impl {
   SetpointLimiter limiter;
   DisturbanceObserver observer;
   TurnToCome turn;
-  Search search;
-  Align align;
-  Approach approach;
-  Commit commit;
-  BackOff back_off;
-  Hold hold;
+  Behaviours behaviours;
   State state = State::kIdle;
   std::string reason;
   MissionState memory;
   Setpoint last_setpoint;
   Home home;
   MissionClock clock;
-  bool was_near = false;
   bool stands_down = false;  ///< aborted when it had ended already: keeps no place any more
 
   std::string waiting() const { return "waiting for start; " + whatIsAssumed(params.commit); }
@@ -72,10 +56,11 @@ struct Navigator::Impl {
   void remember(const Situation& situation, const NavigatorInput& input);
   Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
-  Decision behave(const Situation& situation);
+  Decision behave(const Situation& situation) {
+    return behaviours.step(state, situation, memory).value_or(staying());
+  }
   Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
   void change(State to, const std::string& why);
-  void enter(State from);
   Setpoint output(const Decision& decision, const Situation& situation);
   std::vector<std::string> unmet(const NavigatorInput& input, double at_sec) const;
   MeasuredVehicle measuredVehicle() const;
@@ -179,64 +164,13 @@ std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
   return std::nullopt;
 }
 
-Decision Navigator::Impl::behave(const Situation& situation) {
-  switch (state) {
-    case State::kSearch:
-      return search.step(situation, memory);
-    case State::kAlign:
-      return align.step(situation, memory);
-    case State::kApproach:
-      return approach.step(situation, memory);
-    case State::kCommit:
-      return commit.step(situation, memory);
-    case State::kBackOff:
-      return back_off.step(situation, memory);
-    case State::kHold:
-      return hold.step(situation, memory);
-    case State::kIdle:
-    case State::kPassed:
-    case State::kAborted:
-      break;
-  }
-  return staying();
-}
-
 void Navigator::Impl::change(State to, const std::string& why) {
-  const State from = state;
-  state = to;
   clock.enterState();
   reason = why;
-  enter(from);
-}
-
-void Navigator::Impl::enter(State from) {
-  switch (state) {
-    case State::kSearch:
-      search.enter(!was_near);
-      break;
-    case State::kAlign:
-      align.enter(clock.nowSec());
-      break;
-    case State::kApproach:
-      approach.enter();
-      was_near = true;
-      break;
-    case State::kCommit:
-      commit.enter();
-      break;
-    case State::kBackOff:
-      back_off.enter();
-      ++memory.back_offs;
-      break;
-    case State::kHold:
-      hold.enter(from);
-      observer.restart();  // what moves the vehicle now is not known to be wind
-      break;
-    case State::kIdle:
-    case State::kPassed:
-    case State::kAborted:
-      break;
-  }
+  behaviours.enter(to, state, clock.nowSec());
+  if (to == State::kBackOff) ++memory.back_offs;
+  if (to == State::kHold) observer.restart();  // what moves the vehicle now is not known to be wind
+  state = to;
 }
 
 Setpoint Navigator::Impl::output(const Decision& decision, const Situation& situation) {
@@ -272,7 +206,8 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   self.observer.reset();
   self.turn.reset();
   self.home = Home();
-  self.was_near = self.stands_down = false;
+  self.behaviours.startMission();
+  self.stands_down = false;
   self.limiter.stop();
   self.clock.startMission(now_sec);
   self.change(*next(self.state, Event::kStart), "started");

@@ -47,10 +47,9 @@ class DisturbanceObserver {
   };
 
   void compareDirections(const Eigen::Vector3d& measured_mps, double dt_sec);
-
-  double max_wind_mps_;
   Eigen::Vector3d modelVelocity() const;
 
+  double max_wind_mps_;
   ResponseEstimator response_, climb_;
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
