@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "window_ingress/navigation/limit_params.hpp"
 #include "window_ingress/navigation/vehicle_params.hpp"
 
 namespace window_ingress::navigation {

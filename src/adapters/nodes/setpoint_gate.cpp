@@ -6,8 +6,6 @@
 
 namespace window_ingress::adapters {
 
-namespace {}  // namespace
-
 std::string whyUnsafe(const geometry_msgs::Twist& twist, const GuardParams& params) {
   const auto &v = twist.linear, &w = twist.angular;
   // One by one: std::hypot of three numbers swallows a NaN beside zeros.

@@ -30,8 +30,7 @@ GatedTwist gated(const geometry_msgs::Twist& twist, const GuardParams& params);
 ///   be told to follow it.
 /// - input up to `late_sec` old: the input, or zero if it is not finite or beyond the limits
 /// - older: zero, so that the vehicle brakes; an autopilot that holds the last velocity (ArduPilot: 3 s)
-/// would
-///   fly on
+///   would fly on
 /// - no sane input for `stop_streaming_after_sec` more: nothing. Velocity zero is no place to stay: it drifts
 ///   with the error of the autopilot's own velocity, some centimetres a second. The default leaves the time
 ///   to brake from 1.5 m/s (2 s, 1.2 m) and for a pilot to take over, and drifts less than half a metre.

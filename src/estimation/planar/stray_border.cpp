@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/planar/view_description.hpp"
+#include "estimation/planar/covariance_scale.hpp"
 
 namespace window_ingress::estimation {
 namespace {

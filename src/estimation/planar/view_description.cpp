@@ -1,9 +1,9 @@
 #include "estimation/planar/view_description.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "estimation/planar/covariance_scale.hpp"
 #include "estimation/planar/opening_aspect.hpp"
 #include "estimation/planar/relative_yaw.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -13,9 +13,6 @@ namespace {
 
 constexpr double kCertain = 1e9;
 constexpr double kTrustedYawSigmas = 3.0, kTrustedLogLikelihoodRatio = 6.2;  // the latter: one wrong in 500
-constexpr int kPoseParameters = 6;
-// 99 % of sums of 0, 1, .. 8 squares are smaller.
-constexpr std::array<double, 9> kChiSquared99{6.63, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81, 18.48, 20.09};
 
 Eigen::Vector3d rayOf(const geometry::PinholeCamera& camera, const Eigen::Vector2d& ideal_px) {
   return {(ideal_px.x() - camera.cx) / camera.fx, (ideal_px.y() - camera.cy) / camera.fy, 1.0};
@@ -55,18 +52,7 @@ void judgeSign(double misfit, WindowPoseEstimate& out) {
       kTrustedYawSigmas * out.sigma_u_rad < smaller && out.log_likelihood_ratio >= kTrustedLogLikelihoodRatio;
 }
 
-void widen(double factor, PlanarSolution& solution) {
-  solution.covariance *= factor;
-  solution.opening_log_covariance *= factor;
-}
-
 }  // namespace
-
-double misfitOf(const RefinementProblem& problem, const PlanarSolution& best) {
-  const int spare = problem.image.size() + (problem.prior ? kPoseParameters : 0) - kPoseParameters;
-  const double beyond = 2.0 * best.cost - kChiSquared99[std::clamp(spare, 0, 8)];
-  return 1.0 + std::max(0.0, beyond) / std::max(1, spare);
-}
 
 WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSolutions& solutions,
                             const Eigen::Vector3d& up_camera) {

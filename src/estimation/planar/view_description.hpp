@@ -8,10 +8,6 @@
 
 namespace window_ingress::estimation {
 
-/// A fit worse than the stated noise allows (99 %) shows that the noise is larger than was said: by what the
-/// variances grow, 1 within that limit, the mean squared spare residual far beyond it.
-double misfitOf(const RefinementProblem& problem, const PlanarSolution& best);
-
 /// Everything about a view that follows from its solutions: yaw and its spreads, the paper's angles (P12),
 /// apparent width and height, side lengths (P21), measured aspect, and whether the sign is to be trusted.
 WindowPoseEstimate describe(const RefinementProblem& problem, const PlanarSolutions& solutions,

@@ -69,6 +69,7 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
 std::string goesAstray(double turned_rad) {
   return formatted("goes %.2f rad beside what it is told: setpoints and odometry differ in axes", turned_rad);
 }
+
 std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
                                       const NavigatorParams& params) {
   std::vector<std::string> faults;

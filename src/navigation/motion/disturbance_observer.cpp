@@ -13,7 +13,6 @@ constexpr double kGustsM2ps = 0.9;   // three times what gusts of 0.3 m/s that l
 constexpr double kMinShareGone = 0.6;
 constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
 
-/// Share of a first-order step that is made in this time.
 Eigen::Vector3d verticalOf(const Eigen::Vector3d& velocity_mps) { return {0.0, 0.0, velocity_mps.z()}; }
 
 Eigen::Vector3d clipped(const Eigen::Vector3d& velocity_mps, double limit_mps) {
