@@ -24,6 +24,7 @@ namespace {
 constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
 // From the measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
+constexpr double kPartCarried = 0.73;  // of the way until a gust is answered and steered away
 constexpr double kMaxHeadingErrorRad = 0.2;  // against the window's normal
 constexpr double kMaxAcrossMps = 0.3;        // across the window's normal, at the commit line
 constexpr double kUsualOdometryMps =
@@ -74,23 +75,26 @@ double remaining(const RelativeState& relative, const NavigatorParams& params) {
   return std::exp(-params.align.lateral_gain_hz * std::max(0.0, steering_sec));
 }
 
-/// A velocity that is off by so much carries the vehicle past the axis: it is coasted by, and steered
-/// against.
+/// For so long a velocity that nobody expects carries the vehicle past the axis: until it is answered, and
+/// steered away.
+double carriedSec(const NavigatorParams& params) {
+  return params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz;
+}
+
 double missByOdometry(double odometry_mps, const NavigatorParams& params) {
-  const double off_mps = std::max(0.0, odometry_mps - kUsualOdometryMps);
-  return off_mps * (params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz);
+  return std::max(0.0, odometry_mps - kUsualOdometryMps) * carriedSec(params);
 }
 
 /// How far gusts carry the vehicle past the axis. What is measured in calm air, too, carries nobody off, and
 /// hides as much of what does.
-double carriedM(double gust_mps) {
+double carriedM(double gust_mps, const NavigatorParams& params) {
   const double beyond_calm_mps = std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps));
-  return kGustCarrySec * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
+  return kPartCarried * carriedSec(params) * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
 }
 
 /// What chance may add: `sigma_factor` standard deviations.
 double spreadOf(double sigma_m, double gust_mps, double drift_m, const NavigatorParams& params) {
-  const double gust_m = carriedM(gust_mps);
+  const double gust_m = carriedM(gust_mps, params);
   return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
 }
 

@@ -24,8 +24,6 @@ double stoppingDistance(double speed_mps, double braking_mps2, double response_s
 double commitDistance(const RelativeState& relative, const geometry::OpeningSize& opening, double pitch_rad,
                       const NavigatorParams& params);
 
-constexpr double kGustCarrySec = 0.75;  ///< a gust carries the vehicle off by its velocity times this
-
 /// What the criterion depends on.
 struct CommitCriterionInput {
   RelativeState relative;

@@ -62,7 +62,7 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
 
   Decision decision;
   decision.wish.velocity_odom_mps =
-      velocityAlongAxis(relative, target, forwardSpeed(criterion, relative), memory.wind_odom_mps, *params_);
+      velocityAlongAxis(relative, target, forwardSpeed(relative), memory.wind_odom_mps, *params_);
   decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, memory, *params_);
   decision.reason = formatted("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {
@@ -121,13 +121,12 @@ void Commit::heedForbidden(const TargetEstimate& target) {
   if (!why.empty()) why_forbidden_ = why;
 }
 
-double Commit::forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) {
+// Even, whatever the offset: what a vehicle needs to change its speed it does not have to steer.
+double Commit::forwardSpeed(const RelativeState& relative) {
   const double room_m = params_->commit.exit_distance_m + relative.distance();
   if (room_m < 0.1) is_through_ = true;
   const double stop_mps = stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
-  const double off_axis = std::abs(relative.lateral()) / std::max(0.01, criterion.clearance_lateral_m);
-  const double slowed = relative.distance() > 0.0 ? std::clamp(2.0 - 1.5 * off_axis, 0.2, 1.0) : 1.0;
-  return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps * slowed);
+  return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps);
 }
 
 // Also back to it, if the vehicle has overshot it or was blown out again.

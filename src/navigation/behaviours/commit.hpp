@@ -26,7 +26,7 @@ class Commit {
   void heedForbidden(const TargetEstimate& target);
   void refine(const Situation& situation, MissionState& memory);
   void turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const;
-  double forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative);
+  double forwardSpeed(const RelativeState& relative);
   double speedToExit(double room_m, const RelativeState& relative) const;
 
   const NavigatorParams* params_;

@@ -17,6 +17,7 @@ void setBoundedOdometry(double wander_m, OdometryParams& odometry) {
 void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.03;
   vehicle.yaw_rate_gain = 1.02;
+  vehicle.yaw_time_constant_sec = 0.36;
   vehicle.setpoint_acceleration_mps2 = 1.235;
   vehicle.acceleration_feed_forward = 0.19;
   vehicle.position_hold_per_sec = 0.36;

@@ -106,13 +106,19 @@ TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
   input.drift_m_per_sqrt_sec = 0.0;
 
   input.gust_lateral_mps = 0.05;
-  const double gust_m = 0.05 * kGustCarrySec;
+  const double answered_sec = params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz;
+  const double gust_m = 0.05 * 0.73 * answered_sec;
   const auto gusty = evaluateCommitCriterion(input, params);
   EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
   EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
   input.gust_lateral_mps = 0.4;
-  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * 1.5 * 0.4 * kGustCarrySec)
+  EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * 0.4 * answered_sec)
       << "calm does not hide what carries";
+  NavigatorParams late = params;
+  late.vehicle.response_sec = 0.9;
+  EXPECT_GT(evaluateCommitCriterion(input, late).miss_lateral_m,
+            1.5 * evaluateCommitCriterion(input, params).miss_lateral_m)
+      << "what answers late is carried further";
   EXPECT_FALSE(evaluateCommitCriterion(input, params).holds);
 
   input.gust_lateral_mps = 0.0;

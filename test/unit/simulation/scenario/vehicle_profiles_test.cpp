@@ -164,6 +164,16 @@ TEST(VehicleProfiles, TurnAsMeasured) {
   }
 }
 
+// ArduCopter 4.0.7 by MAVROS.
+TEST(VehicleProfiles, ArduCopterTurnsLateAsMeasured) {
+  for (const char* profile : {"arducopter_4_0", "arducopter_4_0_default"}) {
+    Flyer flyer(profile);
+    double turned_rad = 0.0;
+    for (; flyer.now() < 3.0; turned_rad += flyer.yawRate() * kStep_sec) flyer.step(0.0, 0.5);
+    EXPECT_NEAR(3.0 - turned_rad / flyer.yawRate(), 0.36, kTolerance * 0.36) << profile;
+  }
+}
+
 TEST(VehicleProfiles, HoldTheLastSetpointAsLongAsMeasured) {
   for (const auto& measured : kMeasured) {
     Flyer flyer(measured.profile);
