@@ -70,7 +70,7 @@ struct WindowDetector::Impl {
   BorderRefinement refinement;
   DetectionTrace trace;
   std::vector<ScoredCandidate> rivals;
-  StageWatch* watch = nullptr;
+  StageTimer* watch = nullptr;
 };
 
 double WindowDetector::Impl::leastScore(const ScoredCandidate& rival) const {
@@ -239,12 +239,12 @@ void WindowDetector::setParams(const DetectorParams& params) {
   check(params);
   auto next = std::make_unique<Impl>(params);
   next->reference.learn(impl_->reference.reference());
-  StageWatch* const watch = impl_->watch;
+  StageTimer* const watch = impl_->watch;
   impl_ = std::move(next);
   setWatch(watch);
 }
 
-void WindowDetector::setWatch(StageWatch* watch) {
+void WindowDetector::setWatch(StageTimer* watch) {
   impl_->watch = watch;
   impl_->search.setWatch(watch);
 }
@@ -282,7 +282,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   return window;
 }
 
-StageWatch* WindowDetector::watch() const { return impl_->watch; }
+StageTimer* WindowDetector::watch() const { return impl_->watch; }
 
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }
 

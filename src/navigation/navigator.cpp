@@ -6,16 +6,16 @@
 
 #include "navigation/behaviours/behaviours.hpp"
 #include "navigation/behaviours/home.hpp"
-#include "navigation/behaviours/place_keeping.hpp"
+#include "navigation/behaviours/position_hold.hpp"
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/mission/window_choice.hpp"
 #include "navigation/motion/disturbance_observer.hpp"
-#include "navigation/motion/motion_guard.hpp"
+#include "navigation/motion/pending_yaw.hpp"
 #include "navigation/motion/setpoint_limiter.hpp"
-#include "navigation/motion/turn_to_come.hpp"
+#include "navigation/motion/velocity_constraints.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
@@ -37,7 +37,7 @@ struct Navigator::Impl {
   InputMonitor monitor;
   SetpointLimiter limiter;
   DisturbanceObserver observer;
-  TurnToCome turn;
+  PendingYaw turn;
   Behaviours behaviours;
   State state = State::kIdle;
   std::string reason;
@@ -95,7 +95,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
   if (situation.vehicle) {
     turn.update(geometry::yawOf(situation.vehicle->T_odom_base.linear()), last_setpoint.yaw_rate_radps,
                 situation.dt_sec);
-    memory.turn_to_come_rad = turn.rad();
+    memory.pending_yaw_rad = turn.rad();
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();

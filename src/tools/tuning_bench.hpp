@@ -80,7 +80,7 @@ class Bench {
   detection::DetectorParams params_;
   std::vector<NamedField> fields_;  // refer to params_
   detection::WindowDetector detector_;
-  detection::StageWatch watch_;
+  detection::StageTimer watch_;
   bool found_ = false;
   double milliseconds_ = 0.0;
 };

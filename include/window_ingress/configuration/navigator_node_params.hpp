@@ -18,7 +18,7 @@ struct EngagementParams {
 };
 
 /// The guard's word on `passed_on` that setpoints reach the autopilot.
-struct SetpointWatchParams {
+struct GuardMonitorParams {
   bool required = false;          ///< no mission starts before the guard has passed something on
   double max_silence_sec = 0.25;  ///< a guard that is silent for longer than this passes nothing on [s]
   template <typename Self, typename Visitor>
@@ -39,7 +39,7 @@ struct NavigatorNodeParams {
   bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
   bool start_at_once = false;  ///< start the mission with the first step at which it may; only in lockstep
   EngagementParams engagement;
-  SetpointWatchParams guard;
+  GuardMonitorParams guard;
   navigation::NavigatorParams navigator;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {

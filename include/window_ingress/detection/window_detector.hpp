@@ -9,7 +9,7 @@
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
-#include "window_ingress/detection/stage_watch.hpp"
+#include "window_ingress/detection/stage_timer.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -38,8 +38,8 @@ class WindowDetector {
                                           const geometry::PinholeCamera* camera = nullptr);
 
   /// \param watch told of each stage that is done, or null; outlives this, and its `begin` is for its owner
-  void setWatch(StageWatch* watch);
-  StageWatch* watch() const;
+  void setWatch(StageTimer* watch);
+  StageTimer* watch() const;
 
   /// What happened to every candidate of the last image.
   const DetectionTrace& trace() const;

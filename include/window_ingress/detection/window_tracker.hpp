@@ -10,7 +10,7 @@
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
-#include "window_ingress/detection/stage_watch.hpp"
+#include "window_ingress/detection/stage_timer.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
@@ -70,7 +70,7 @@ class WindowTracker {
   /// \return nothing if the target is not seen; `trace()` then says why
   std::optional<WindowObservation> update(const TrackInput& input);
 
-  void setWatch(StageWatch* watch);  ///< as `WindowDetector::setWatch`; following is a stage, too
+  void setWatch(StageTimer* watch);  ///< as `WindowDetector::setWatch`; following is a stage, too
 
   /// The windows of the last frame: the target if it is whole, and, where the frame was searched, all others.
   const std::vector<SeenWindow>& windows() const;

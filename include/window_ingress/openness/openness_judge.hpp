@@ -8,10 +8,10 @@
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/openness/keyframe_evidence.hpp"
 #include "window_ingress/openness/opening_cells.hpp"
 #include "window_ingress/openness/openness_params.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"
-#include "window_ingress/openness/stretch_evidence.hpp"
 
 namespace window_ingress::openness {
 
@@ -64,7 +64,7 @@ class OpennessJudge {
   geometry::OpeningSize needed_, opening_;
   std::deque<Look> looks_;
   std::uint32_t target_id_ = 0;
-  StretchEvidence stretch_;
+  KeyframeEvidence stretch_;
   StretchSays says_;
   Count past_;
   OpeningCells cells_;

@@ -15,7 +15,7 @@
 
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/images/image_source.hpp"
-#include "adapters/images/picture_times.hpp"
+#include "adapters/images/image_times.hpp"
 #include "adapters/images/reference_source.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/attitude_source.hpp"
@@ -72,7 +72,7 @@ class DetectorNode : public Node {
   double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
   bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference
-  PictureTimes times_;
+  ImageTimes times_;
   std::optional<Lockstep> lockstep_;
   std_msgs::Header waiting_header_;  // in lockstep: of the image that waits for its step
   std::optional<DecodedImage> waiting_;

@@ -16,10 +16,10 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/markers/flight_markers.hpp"
+#include "adapters/nodes/guard_monitor.hpp"
 #include "adapters/nodes/mission_action.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"
-#include "adapters/nodes/setpoint_watch.hpp"
 #include "adapters/sources/diagnostics.hpp"
 #include "adapters/sources/engagement.hpp"
 #include "adapters/sources/lockstep.hpp"
@@ -84,7 +84,7 @@ class NavigatorNode : public Node {
   StampGate odom_gate_, pose_gate_;
   estimation::SenderClock odom_clock_;
   Engagement engagement_;
-  SetpointWatch guard_;
+  GuardMonitor guard_;
   ClockWatch clock_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;

@@ -12,7 +12,7 @@
 #include "adapters/images/detector_node.hpp"
 #include "adapters/nodes/navigator_node.hpp"
 #include "adapters/nodes/pose_node.hpp"
-#include "adapters/sources/console_pump.hpp"
+#include "adapters/sources/console_output.hpp"
 
 namespace window_ingress::adapters {
 

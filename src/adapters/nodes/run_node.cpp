@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "adapters/sources/console_pump.hpp"
+#include "adapters/sources/console_output.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "adapters/sources/console_pump.hpp"
+#include "adapters/sources/console_output.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

@@ -15,7 +15,7 @@
 #include "detection/candidates/segment_quads.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
-#include "window_ingress/detection/stage_watch.hpp"
+#include "window_ingress/detection/stage_timer.hpp"
 
 namespace window_ingress::detection {
 
@@ -54,7 +54,7 @@ class CandidateSearch {
   const std::vector<ScoredCandidate>& open();
 
   /// \param watch told of each stage that is done, or null; outlives this
-  void setWatch(StageWatch* watch) { watch_ = watch; }
+  void setWatch(StageTimer* watch) { watch_ = watch; }
 
   int factor() const { return factor_; }  ///< pixels of the last image a pixel of its search level
 
@@ -81,7 +81,7 @@ class CandidateSearch {
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
   std::vector<ScoredCandidate> admitted_, kept_, doubtful_, open_;
-  StageWatch* watch_ = nullptr;
+  StageTimer* watch_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;
 };

@@ -180,7 +180,7 @@ void WindowTracker::clearReference() {
   impl_->forget();
 }
 
-void WindowTracker::setWatch(StageWatch* watch) { impl_->detector.setWatch(watch); }
+void WindowTracker::setWatch(StageTimer* watch) { impl_->detector.setWatch(watch); }
 
 void WindowTracker::reset() {
   impl_->appearance_gate.forget();

@@ -92,7 +92,7 @@ class Flight {
   simulation::World world_;
   FlightParams params_;
   FlightPerception perception_;
-  ProjectedSight sight_;
+  ProjectedDetector sight_;
   navigation::Navigator navigator_;
   navigation::NavigatorInput input_;
   navigation::NavigatorOutput output_;

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/flights/flight_metrics.hpp"
 #include "evaluation/flights/flight_observer.hpp"
+#include "evaluation/flights/flight_summary.hpp"
 #include "evaluation/flights/flight_timing.hpp"
-#include "evaluation/flights/projected_sight.hpp"
+#include "evaluation/flights/projected_detector.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
@@ -28,7 +28,7 @@ struct FlightParams {
   estimation::TargetEstimatorParams tracker;
   navigation::NavigatorParams navigator;
   double step_rate_hz = 30.0;     ///< of the navigator [1/s]
-  bool without_pictures = false;  ///< the window is seen by `ProjectedSight`, no image is drawn
+  bool without_pictures = false;  ///< the window is seen by `ProjectedDetector`, no image is drawn
   SightParams sight;
   std::set<std::string>
       said;  ///< by the operator: "vehicle/half_width_m"; what is not is taken from the world

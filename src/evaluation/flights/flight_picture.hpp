@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/flights/flight_metrics.hpp"
 #include "evaluation/flights/flight_observer.hpp"
+#include "evaluation/flights/flight_summary.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/flights/flight_metrics.hpp"
+#include "evaluation/flights/flight_summary.hpp"
 
 namespace window_ingress::evaluation {
 

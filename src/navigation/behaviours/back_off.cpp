@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace window_ingress::navigation {
+namespace {
+
+bool hasRetriesLeft(const MissionState& memory, const NavigatorParams& params) {
+  return memory.back_offs <= params.back_off.max_retries;
+}
+
+}  // namespace
 
 void BackOff::enter() { *this = BackOff(*params_); }
 
@@ -31,15 +38,14 @@ Decision BackOff::step(const Situation& situation, const MissionState& memory) {
 Decision BackOff::withoutNormal(const MissionState& memory) const {
   Decision decision;
   decision.keeps_place = true;
-  const bool has_tries = memory.back_offs <= params_->back_off.max_retries;
-  decision.event = has_tries ? Event::kBackedOff : Event::kGiveUp;
+  decision.event = hasRetriesLeft(memory, *params_) ? Event::kBackedOff : Event::kGiveUp;
   decision.reason = "no trusted normal to go back along";
   return decision;
 }
 
 std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& memory,
                                     const RelativeState& relative, std::string& reason) {
-  if (memory.back_offs > params_->back_off.max_retries) {
+  if (!hasRetriesLeft(memory, *params_)) {
     reason = "given up after " + std::to_string(params_->back_off.max_retries) + " retries";
     if (!memory.unmet.empty()) reason += ": " + memory.unmet;
     return Event::kGiveUp;

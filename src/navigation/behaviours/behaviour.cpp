@@ -118,7 +118,7 @@ double againstTailwind(double forward_mps, const TargetEstimate& target, const M
 
 double yawRateFor(double error_rad, const MissionState& memory, const NavigatorParams& params) {
   const double limit = params.limits.yaw_rate_radps;
-  return std::clamp(params.align.yaw_gain_hz * (error_rad - memory.turn_to_come_rad), -limit, limit);
+  return std::clamp(params.align.yaw_gain_hz * (error_rad - memory.pending_yaw_rad), -limit, limit);
 }
 
 double headingErrorTowards(const RelativeState& relative, const NavigatorParams& params) {

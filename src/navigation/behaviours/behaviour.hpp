@@ -29,7 +29,7 @@ struct MissionState {
   double committed_sec = 0.0;                    ///< as known at this time; its spread has grown since
   std::optional<Eigen::Vector3d> window_odom_m;  ///< where the window was last seen, normal trusted or not
   Eigen::Vector3d told_odom_mps = Eigen::Vector3d::Zero();  ///< velocity last commanded
-  double turn_to_come_rad = 0.0;                            ///< told already, not turned yet
+  double pending_yaw_rad = 0.0;                             ///< told already, not turned yet
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late

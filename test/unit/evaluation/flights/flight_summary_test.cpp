@@ -1,11 +1,11 @@
-#include "evaluation/flights/flight_metrics.hpp"
+#include "evaluation/flights/flight_summary.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace window_ingress::evaluation::flight_metrics_test {
+namespace window_ingress::evaluation::flight_summary_test {
 
 using simulation::Outcome;
 
@@ -62,4 +62,4 @@ TEST(FlightSummary, SurvivesNumbersThatAreNone) {
   EXPECT_NO_THROW(toJson(summarise({flight}), {}));
 }
 
-}  // namespace window_ingress::evaluation::flight_metrics_test
+}  // namespace window_ingress::evaluation::flight_summary_test

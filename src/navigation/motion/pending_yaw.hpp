@@ -13,12 +13,12 @@ namespace window_ingress::navigation {
 ///
 /// What has not come after a while does not come any more: rates are not followed exactly, and wind turns,
 /// too.
-class TurnToCome {
+class PendingYaw {
  public:
   /// \param told_radps the yaw rate in force since the last step
   void update(double heading_rad, double told_radps, double dt_sec);
   /// The heading begins anew with the next one.
-  void reset() { *this = TurnToCome(); }
+  void reset() { *this = PendingYaw(); }
   /// Positive counter-clockwise [rad].
   double rad() const { return to_come_rad_; }
 

@@ -1,4 +1,4 @@
-#include "adapters/images/picture_times.hpp"
+#include "adapters/images/image_times.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -12,7 +12,7 @@ constexpr double kLongestPeriodMs = 2000.0;  // beyond that the camera has pause
 
 }  // namespace
 
-void PictureTimes::begin(const std_msgs::Header& header, double decode_ms) {
+void ImageTimes::begin(const std_msgs::Header& header, double decode_ms) {
   notePeriod(header);
   decode_ms_ = decode_ms;
   begun_sec_ = clock_();
@@ -20,7 +20,7 @@ void PictureTimes::begin(const std_msgs::Header& header, double decode_ms) {
 }
 
 // Images that are dropped for want of time are counted by their numbers.
-void PictureTimes::notePeriod(const std_msgs::Header& header) {
+void ImageTimes::notePeriod(const std_msgs::Header& header) {
   if (before_) {
     const double since_ms = 1e3 * (header.stamp.toSec() - before_->stamp.toSec());
     const double numbers = header.seq > before_->seq ? header.seq - before_->seq : 1.0;
@@ -31,7 +31,7 @@ void PictureTimes::notePeriod(const std_msgs::Header& header) {
   before_ = header;
 }
 
-void PictureTimes::end() {
+void ImageTimes::end() {
   const double part = pictures_++ == 0 ? 1.0 : kTimeSmoothing, whole_ms = decode_ms_ + sinceBegin();
   whole_ms_ += part * (whole_ms - whole_ms_);
   decoding_ms_ += part * (decode_ms_ - decoding_ms_);
@@ -40,7 +40,7 @@ void PictureTimes::end() {
     stage_ms_[i] += part * (watch_.milliseconds(static_cast<detection::Stage>(i)) - stage_ms_[i]);
 }
 
-Health PictureTimes::health() const {
+Health ImageTimes::health() const {
   if (pictures_ == 0) return {Health::kOk, "no image so far"};
   Health health;
   health.values = {{"whole_ms", whole_ms_},

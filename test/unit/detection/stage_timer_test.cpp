@@ -1,4 +1,4 @@
-#include "window_ingress/detection/stage_watch.hpp"
+#include "window_ingress/detection/stage_timer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
-namespace window_ingress::detection::stage_watch_test {
+namespace window_ingress::detection::stage_timer_test {
 
 // Each look at it takes a millisecond.
 double slow_clock_sec = 0.0;
 double slowClock() { return slow_clock_sec += 1e-3; }
 
-double sum(const StageWatch& watch) {
+double sum(const StageTimer& watch) {
   double total = 0.0;
   for (int i = 0; i < kStages; ++i) total += watch.milliseconds(static_cast<Stage>(i));
   return total;
@@ -28,14 +28,14 @@ cv::Mat picture() {
   return window.draw();
 }
 
-TEST(StageWatch, NamesAreDifferent) {
+TEST(StageTimer, NamesAreDifferent) {
   std::set<std::string> names;
   for (int i = 0; i < kStages; ++i) names.insert(toString(static_cast<Stage>(i)));
   EXPECT_EQ(static_cast<int>(names.size()), kStages);
 }
 
-TEST(StageWatch, AddsUpAndBeginsAnew) {
-  StageWatch watch(slowClock);
+TEST(StageTimer, AddsUpAndBeginsAnew) {
+  StageTimer watch(slowClock);
   watch.begin();
   watch.done(Stage::kEdges);
   watch.done(Stage::kLines);
@@ -47,9 +47,9 @@ TEST(StageWatch, AddsUpAndBeginsAnew) {
   EXPECT_EQ(sum(watch), 0.0);
 }
 
-TEST(StageWatch, AWindowIsSearchedThenFollowed) {
+TEST(StageTimer, AWindowIsSearchedThenFollowed) {
   const cv::Mat image = picture();
-  StageWatch watch(slowClock);
+  StageTimer watch(slowClock);
   WindowTracker tracker{DetectorParams{}};
   tracker.setWatch(&watch);
   TrackInput input;
@@ -66,11 +66,11 @@ TEST(StageWatch, AWindowIsSearchedThenFollowed) {
   EXPECT_GT(watch.milliseconds(Stage::kEdges), 0.0);
 }
 
-TEST(StageWatch, NobodyNeedsOne) {
+TEST(StageTimer, NobodyNeedsOne) {
   WindowDetector detector{DetectorParams{}};
   EXPECT_EQ(detector.watch(), nullptr);
   done(detector.watch(), Stage::kEdges);
   EXPECT_TRUE(detector.detect(picture(), 0.0));
 }
 
-}  // namespace window_ingress::detection::stage_watch_test
+}  // namespace window_ingress::detection::stage_timer_test

@@ -21,11 +21,11 @@ const char* toString(Stage stage);
 
 /// Adds up the time of each stage of one image. The detector has no clock of its own: who wants times gives
 /// one.
-class StageWatch {
+class StageTimer {
  public:
   using Clock = double (*)();  ///< seconds that never go back
 
-  explicit StageWatch(Clock clock) : clock_(clock) {}
+  explicit StageTimer(Clock clock) : clock_(clock) {}
 
   void begin();            ///< a new image
   void done(Stage stage);  ///< all time since the last call was spent in this stage
@@ -39,7 +39,7 @@ class StageWatch {
 };
 
 /// For those who may have been given none.
-inline void done(StageWatch* watch, Stage stage) {
+inline void done(StageTimer* watch, Stage stage) {
   if (watch) watch->done(stage);
 }
 

@@ -1,4 +1,4 @@
-#include "navigation/behaviours/place_keeping.hpp"
+#include "navigation/behaviours/position_hold.hpp"
 
 #include <algorithm>
 #include <cmath>

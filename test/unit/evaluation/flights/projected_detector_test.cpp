@@ -1,4 +1,4 @@
-#include "evaluation/flights/projected_sight.hpp"
+#include "evaluation/flights/projected_detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "evaluation/flights/closed_loop_flight.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation::projected_sight_test {
+namespace window_ingress::evaluation::projected_detector_test {
 
 const auto kCamera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
 const geometry::OpeningSize kOpening{1.2, 1.0};
@@ -23,17 +23,17 @@ Eigen::Isometry3d T_camera_window(const Eigen::Vector3d& position_m, double turn
 
 std::optional<detection::WindowObservation> seenFrom(const Eigen::Vector3d& position_m,
                                                      double turn_rad = 0.0) {
-  ProjectedSight sight(SightParams(), 1);
+  ProjectedDetector sight(SightParams(), 1);
   sight.look(kCamera, T_camera_window({-4.0, 0.0, 0.0}), kOpening, 0.9);  // whole, once
   return sight.look(kCamera, T_camera_window(position_m, turn_rad), kOpening, 1.0);
 }
 
-TEST(ProjectedSight, CornersAreTheTrueOnesWithTheSpreadTheyState) {
+TEST(ProjectedDetector, CornersAreTheTrueOnesWithTheSpreadTheyState) {
   const auto pose = T_camera_window({-4.0, 0.8, 0.2}, -0.2);
   const auto truth = *geometry::projectOpening(kCamera, pose, kOpening);
   SightParams params;
   params.lasting_sigma_px = 0.0;
-  ProjectedSight sight(params, 3);
+  ProjectedDetector sight(params, 3);
   double squares = 0.0;
   constexpr int kViews = 2000;
   for (int i = 0; i < kViews; ++i) {
@@ -45,7 +45,7 @@ TEST(ProjectedSight, CornersAreTheTrueOnesWithTheSpreadTheyState) {
   EXPECT_NEAR(squares, 1.0, 0.1);
 }
 
-TEST(ProjectedSight, NearTheWindowSidesLeaveThePicture) {
+TEST(ProjectedDetector, NearTheWindowSidesLeaveThePicture) {
   EXPECT_EQ(seenFrom({-4.0, 0.0, 0.0})->visibleSides(), 4);
   const auto near = seenFrom({-0.92, 0.0, 0.0});  // higher than the image, not yet wider
   ASSERT_TRUE(near);
@@ -56,31 +56,31 @@ TEST(ProjectedSight, NearTheWindowSidesLeaveThePicture) {
   EXPECT_FALSE(seenFrom({-0.3, 0.0, 0.0})) << "the picture lies within the window";
 }
 
-TEST(ProjectedSight, NothingFromBehindBesideOrTooFar) {
+TEST(ProjectedDetector, NothingFromBehindBesideOrTooFar) {
   EXPECT_FALSE(seenFrom({1.0, 0.0, 0.0}, M_PI));
   EXPECT_FALSE(seenFrom({-4.0, 0.0, 0.0}, M_PI));
   EXPECT_FALSE(seenFrom({-4.0, 0.0, 0.0}, 1.2));
   EXPECT_FALSE(seenFrom({-60.0, 0.0, 0.0}));
 }
 
-TEST(ProjectedSight, APartIsNoWindowBeforeTheWholeWasSeen) {
-  ProjectedSight sight(SightParams(), 1);
+TEST(ProjectedDetector, APartIsNoWindowBeforeTheWholeWasSeen) {
+  ProjectedDetector sight(SightParams(), 1);
   EXPECT_FALSE(sight.look(kCamera, T_camera_window({-0.92, 0.0, 0.0}), kOpening, 0.0));
 }
 
-TEST(ProjectedSight, MissesAsOftenAsItIsToldTo) {
+TEST(ProjectedDetector, MissesAsOftenAsItIsToldTo) {
   SightParams params;
   params.miss_rate = 0.3;
-  ProjectedSight sight(params, 5);
+  ProjectedDetector sight(params, 5);
   int missed = 0;
   for (int i = 0; i < 2000; ++i)
     missed += !sight.look(kCamera, T_camera_window({-4.0, 0.0, 0.0}), kOpening, 0.03 * i);
   EXPECT_NEAR(missed / 2000.0, 0.3, 0.04);
   params.miss_rate = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(ProjectedSight(params, 1), std::invalid_argument);
+  EXPECT_THROW(ProjectedDetector(params, 1), std::invalid_argument);
 }
 
-TEST(ProjectedSight, AFlightWithoutPicturesPassesAndRepeats) {
+TEST(ProjectedDetector, AFlightWithoutPicturesPassesAndRepeats) {
   simulation::Scenario scenario;
   scenario.start.distance_m = 3.5;
   scenario.start.off_axis_rad = 0.3;
@@ -94,4 +94,4 @@ TEST(ProjectedSight, AFlightWithoutPicturesPassesAndRepeats) {
   EXPECT_NE(flyOnce(scenario, 7, params).outcome, simulation::Outcome::kPassed);
 }
 
-}  // namespace window_ingress::evaluation::projected_sight_test
+}  // namespace window_ingress::evaluation::projected_detector_test

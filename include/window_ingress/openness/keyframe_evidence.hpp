@@ -24,7 +24,7 @@ struct StretchSays {
 
 /// The points of one stretch. Errors of the borders are common to all of them: the verdict of the stretch is
 /// that of its median point, however many there are.
-class StretchEvidence {
+class KeyframeEvidence {
  public:
   void begin(double key_stamp_sec);
   double keyStamp() const { return key_stamp_sec_; }

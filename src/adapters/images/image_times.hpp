@@ -6,19 +6,19 @@
 #include <optional>
 
 #include "adapters/sources/diagnostics.hpp"
-#include "window_ingress/detection/stage_watch.hpp"
+#include "window_ingress/detection/stage_timer.hpp"
 
 namespace window_ingress::adapters {
 
 /// What the detector's images cost, stage by stage, beside what they may cost.
-class PictureTimes {
+class ImageTimes {
  public:
   /// \param budget_ms for one image; 0: the time between two images of the camera
   /// \param clock seconds that never go back
-  PictureTimes(double budget_ms, detection::StageWatch::Clock clock)
+  ImageTimes(double budget_ms, detection::StageTimer::Clock clock)
       : watch_(clock), clock_(clock), budget_ms_(budget_ms) {}
 
-  detection::StageWatch& watch() { return watch_; }
+  detection::StageTimer& watch() { return watch_; }
 
   /// An image has come. \param decode_ms spent on it before
   void begin(const std_msgs::Header& header, double decode_ms);
@@ -33,8 +33,8 @@ class PictureTimes {
   double budgetMs() const { return budget_ms_ > 0.0 ? budget_ms_ : period_ms_; }
   void notePeriod(const std_msgs::Header& header);
 
-  detection::StageWatch watch_;
-  detection::StageWatch::Clock clock_;
+  detection::StageTimer watch_;
+  detection::StageTimer::Clock clock_;
   double budget_ms_, begun_sec_ = 0.0, decode_ms_ = 0.0;
   double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // but for the last: means of late
   double period_ms_ = 0.0;

@@ -1,4 +1,4 @@
-#include "navigation/motion/turn_to_come.hpp"
+#include "navigation/motion/pending_yaw.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <deque>
 #include <limits>
 
-namespace window_ingress::navigation::turn_to_come_test {
+namespace window_ingress::navigation::pending_yaw_test {
 
 constexpr double kDtSec = 1.0 / 30.0, kGainHz = 3.0, kLimitRadps = 0.5;
 
@@ -39,7 +39,7 @@ class Autopilot {
 
 /// Furthest off the heading asked for in the last two of eight seconds [rad].
 double swing(Autopilot autopilot, bool counts_what_comes) {
-  TurnToCome turn;
+  PendingYaw turn;
   double told_radps = 0.0, swing_rad = 0.0;
   for (double t_sec = 0.0; t_sec < 8.0; t_sec += kDtSec) {
     turn.update(autopilot.heading_rad, told_radps, kDtSec);
@@ -51,12 +51,12 @@ double swing(Autopilot autopilot, bool counts_what_comes) {
   return swing_rad;
 }
 
-TEST(TurnToCome, ALateAutopilotSwingsWithoutItAndStandsWithIt) {
+TEST(PendingYaw, ALateAutopilotSwingsWithoutItAndStandsWithIt) {
   EXPECT_GT(swing({0.2, 5.0, 1.0}, false), 0.1);
   EXPECT_LT(swing({0.2, 5.0, 1.0}, true), 0.02);
 }
 
-TEST(TurnToCome, NeedsToKnowNeitherDelayNorGain) {
+TEST(PendingYaw, NeedsToKnowNeitherDelayNorGain) {
   for (const double delay_sec : {0.0, 0.1, 0.2, 0.3, 0.4}) {
     for (const double gain : {0.8, 1.0, 1.2}) {
       EXPECT_LT(swing({delay_sec, 6.0, gain}, true), 0.04) << delay_sec << " s, " << gain;
@@ -64,43 +64,43 @@ TEST(TurnToCome, NeedsToKnowNeitherDelayNorGain) {
   }
 }
 
-TEST(TurnToCome, IsWhatWasToldLessWhatWasTurned) {
-  TurnToCome turn;
+TEST(PendingYaw, IsWhatWasToldLessWhatWasTurned) {
+  PendingYaw turn;
   for (int i = 0; i <= 10; ++i) turn.update(0.0, 0.5, 0.02);
   EXPECT_NEAR(turn.rad(), 0.1, 0.01);
   turn.update(0.1, 0.0, 0.02);
   EXPECT_NEAR(turn.rad(), 0.0, 0.01);
 }
 
-TEST(TurnToCome, IsForgottenWhenItDoesNotCome) {
-  TurnToCome turn;
+TEST(PendingYaw, IsForgottenWhenItDoesNotCome) {
+  PendingYaw turn;
   for (int i = 0; i < 500; ++i) turn.update(0.0, 0.5, 0.02);
   EXPECT_LE(turn.rad(), 0.5);
   for (int i = 0; i < 500; ++i) turn.update(0.0, 0.0, 0.02);
   EXPECT_NEAR(turn.rad(), 0.0, 0.01);
 }
 
-TEST(TurnToCome, CountsAcrossHalfATurn) {
-  TurnToCome turn;
+TEST(PendingYaw, CountsAcrossHalfATurn) {
+  PendingYaw turn;
   turn.update(3.13, 0.0, 0.02);
   turn.update(-3.13, 0.0, 0.02);
   EXPECT_NEAR(turn.rad(), -0.023, 0.001);
 }
 
-TEST(TurnToCome, IgnoresWhatIsNotFinite) {
-  TurnToCome turn;
+TEST(PendingYaw, IgnoresWhatIsNotFinite) {
+  PendingYaw turn;
   turn.update(0.0, 0.0, 0.02);
   turn.update(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.02);
   turn.update(0.0, std::numeric_limits<double>::infinity(), 0.02);
   EXPECT_EQ(turn.rad(), 0.0);
 }
 
-TEST(TurnToCome, AHeadingThatBeginsAnewIsNoTurn) {
-  TurnToCome turn;
+TEST(PendingYaw, AHeadingThatBeginsAnewIsNoTurn) {
+  PendingYaw turn;
   turn.update(0.0, 0.0, 0.02);
   turn.reset();
   turn.update(1.0, 0.0, 0.02);
   EXPECT_EQ(turn.rad(), 0.0);
 }
 
-}  // namespace window_ingress::navigation::turn_to_come_test
+}  // namespace window_ingress::navigation::pending_yaw_test

@@ -1,4 +1,4 @@
-#include "evaluation/flights/projected_sight.hpp"
+#include "evaluation/flights/projected_detector.hpp"
 
 #include <array>
 #include <cmath>
@@ -65,19 +65,19 @@ SightParams checked(const SightParams& params) {
 
 }  // namespace
 
-ProjectedSight::ProjectedSight(const SightParams& params, std::uint32_t seed)
+ProjectedDetector::ProjectedDetector(const SightParams& params, std::uint32_t seed)
     : params_(checked(params)), random_(seed, "projected sight") {}
 
-void ProjectedSight::renewLasting(const Eigen::Vector3d& position_m) {
+void ProjectedDetector::renewLasting(const Eigen::Vector3d& position_m) {
   if (lasting_from_m_ && (position_m - *lasting_from_m_).norm() < params_.lasting_m) return;
   lasting_from_m_ = position_m;
   for (int i = 0; i < 4; ++i) lasting_px_(i) = random_.normal(params_.lasting_sigma_px);
 }
 
-std::optional<detection::WindowObservation> ProjectedSight::look(const geometry::PinholeCamera& camera,
-                                                                 const Eigen::Isometry3d& T_camera_window,
-                                                                 const geometry::OpeningSize& opening,
-                                                                 double stamp_sec) {
+std::optional<detection::WindowObservation> ProjectedDetector::look(const geometry::PinholeCamera& camera,
+                                                                    const Eigen::Isometry3d& T_camera_window,
+                                                                    const geometry::OpeningSize& opening,
+                                                                    double stamp_sec) {
   const Eigen::Vector3d position_m = T_camera_window.inverse().translation();
   renewLasting(position_m);
   const bool missed = random_.uniform(0.0, 1.0) < params_.miss_rate;

@@ -1,4 +1,4 @@
-#include "window_ingress/detection/stage_watch.hpp"
+#include "window_ingress/detection/stage_timer.hpp"
 
 #include <algorithm>
 
@@ -10,18 +10,18 @@ const char* toString(Stage stage) {
   return kNames[static_cast<int>(stage)];
 }
 
-void StageWatch::begin() {
+void StageTimer::begin() {
   sec_.fill(0.0);
   last_sec_ = clock_();
 }
 
-void StageWatch::done(Stage stage) {
+void StageTimer::done(Stage stage) {
   const double now_sec = clock_();
   sec_[static_cast<int>(stage)] += now_sec - last_sec_;
   last_sec_ = now_sec;
 }
 
-Stage StageWatch::slowest() const {
+Stage StageTimer::slowest() const {
   return static_cast<Stage>(std::max_element(sec_.begin(), sec_.end()) - sec_.begin());
 }
 

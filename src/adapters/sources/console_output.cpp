@@ -1,4 +1,4 @@
-#include "adapters/sources/console_pump.hpp"
+#include "adapters/sources/console_output.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

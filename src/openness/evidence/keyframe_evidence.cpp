@@ -1,4 +1,4 @@
-#include "window_ingress/openness/stretch_evidence.hpp"
+#include "window_ingress/openness/keyframe_evidence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,12 @@ double depthSigma(double part, double sigma, double distance_m) {
 
 }  // namespace
 
-void StretchEvidence::begin(double key_stamp_sec) {
+void KeyframeEvidence::begin(double key_stamp_sec) {
   key_stamp_sec_ = key_stamp_sec;
   entries_.clear();
 }
 
-void StretchEvidence::see(int id, const PointParallax& look, bool through, std::uint64_t beside) {
+void KeyframeEvidence::see(int id, const PointParallax& look, bool through, std::uint64_t beside) {
   if (id < 0 || id >= kMaxIds) return;
   if (static_cast<std::size_t>(id) >= entries_.size()) entries_.resize(static_cast<std::size_t>(id) + 1);
   Entry& entry = entries_[static_cast<std::size_t>(id)];
@@ -38,7 +38,7 @@ void StretchEvidence::see(int id, const PointParallax& look, bool through, std::
   entry.current = true;
 }
 
-void StretchEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
+void KeyframeEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
   for (Entry& entry : entries_) {
     const bool is_new = entry.current;
     entry.current = false;
@@ -51,8 +51,8 @@ void StretchEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
   cells.endPicture();
 }
 
-StretchSays StretchEvidence::says(const DepthParts& parts, double distance_m,
-                                  const OpennessParams& params) const {
+StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,
+                                   const OpennessParams& params) const {
   StretchSays says;
   std::vector<double> odds, depths, sigmas;
   for (const Entry& entry : entries_) {

@@ -1,20 +1,20 @@
-#include "adapters/images/picture_times.hpp"
+#include "adapters/images/image_times.hpp"
 
 #include <gtest/gtest.h>
 
-namespace window_ingress::adapters::picture_times_test {
+namespace window_ingress::adapters::image_times_test {
 
 using detection::Stage;
 
 double now_sec = 0.0;
 double fakeClock() { return now_sec; }
 
-class PictureTimesTest : public testing::Test {
+class ImageTimesTest : public testing::Test {
  protected:
   void SetUp() override { now_sec = 1000.0; }
 
   // One image; number and stamp go on by one image of the camera for each that was dropped.
-  void picture(PictureTimes& times, double edges_ms, int dropped = 0) {
+  void picture(ImageTimes& times, double edges_ms, int dropped = 0) {
     header_.seq += 1 + dropped;
     header_.stamp += ros::Duration((1 + dropped) * 0.05);
     times.begin(header_, 2.0);
@@ -33,8 +33,8 @@ class PictureTimesTest : public testing::Test {
   std_msgs::Header header_;
 };
 
-TEST_F(PictureTimesTest, StagesAreToldInMilliseconds) {
-  PictureTimes times(0.0, fakeClock);
+TEST_F(ImageTimesTest, StagesAreToldInMilliseconds) {
+  ImageTimes times(0.0, fakeClock);
   EXPECT_EQ(times.health().level, Health::kOk);
   for (int i = 0; i < 5; ++i) picture(times, 7.0);
   const Health health = times.health();
@@ -46,8 +46,8 @@ TEST_F(PictureTimesTest, StagesAreToldInMilliseconds) {
   EXPECT_EQ(health.level, Health::kOk);
 }
 
-TEST_F(PictureTimesTest, MoreThanTheTimeBetweenPicturesIsAWarning) {
-  PictureTimes times(0.0, fakeClock);
+TEST_F(ImageTimesTest, MoreThanTheTimeBetweenPicturesIsAWarning) {
+  ImageTimes times(0.0, fakeClock);
   for (int i = 0; i < 5; ++i) picture(times, 120.0, 2);
   const Health health = times.health();
   EXPECT_EQ(health.level, Health::kWarn);
@@ -57,14 +57,14 @@ TEST_F(PictureTimesTest, MoreThanTheTimeBetweenPicturesIsAWarning) {
   EXPECT_EQ(times.health().level, Health::kOk);
 }
 
-TEST_F(PictureTimesTest, ABudgetThatIsGivenCounts) {
-  PictureTimes times(5.0, fakeClock);
+TEST_F(ImageTimesTest, ABudgetThatIsGivenCounts) {
+  ImageTimes times(5.0, fakeClock);
   picture(times, 7.0);
   EXPECT_EQ(times.health().level, Health::kWarn);
 }
 
-TEST_F(PictureTimesTest, PausesAndJumpsBackAreNoPeriods) {
-  PictureTimes times(0.0, fakeClock);
+TEST_F(ImageTimesTest, PausesAndJumpsBackAreNoPeriods) {
+  ImageTimes times(0.0, fakeClock);
   for (int i = 0; i < 3; ++i) picture(times, 1.0);
   header_.stamp += ros::Duration(60.0);
   picture(times, 1.0);
@@ -73,4 +73,4 @@ TEST_F(PictureTimesTest, PausesAndJumpsBackAreNoPeriods) {
   EXPECT_NEAR(value(times.health(), "budget_ms"), 50.0, 1e-3);
 }
 
-}  // namespace window_ingress::adapters::picture_times_test
+}  // namespace window_ingress::adapters::image_times_test

@@ -1,4 +1,4 @@
-#include "adapters/nodes/setpoint_watch.hpp"
+#include "adapters/nodes/guard_monitor.hpp"
 
 #include <cmath>
 
@@ -12,25 +12,25 @@ constexpr const char* kTopic = "passed_on";
 
 }  // namespace
 
-SetpointWatch::SetpointWatch(ros::NodeHandle& nh, Diagnostics& diagnostics,
-                             const configuration::SetpointWatchParams& params)
+GuardMonitor::GuardMonitor(ros::NodeHandle& nh, Diagnostics& diagnostics,
+                           const configuration::GuardMonitorParams& params)
     : nh_(nh), params_(params), started_sec_(steadyNowSec()) {
   subscriber_ = subscribeGuarded<Setpoint>(nh_, kTopic, 1, diagnostics, [this](const auto&) { hear(); });
   diagnostics.add(kTopic, [this] { return health(); });
 }
 
-void SetpointWatch::hear() {
+void GuardMonitor::hear() {
   heard_sec_ = steadyNowSec();
   if (brake_) brake_.shutdown();
   brake_ = ros::Publisher();
 }
 
-bool SetpointWatch::passesOn() const {
+bool GuardMonitor::passesOn() const {
   if (std::isinf(heard_sec_)) return !params_.required;
   return steadyNowSec() - heard_sec_ <= params_.max_silence_sec;
 }
 
-void SetpointWatch::brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
+void GuardMonitor::brakeIfNobodyDoes(const ros::Time& now, const std::string& frame) {
   if (passesOn()) return;
   if (!brake_) brake_ = nh_.advertise<Setpoint>("brake", 1);
   Setpoint zero;
@@ -39,7 +39,7 @@ void SetpointWatch::brakeIfNobodyDoes(const ros::Time& now, const std::string& f
   brake_.publish(zero);
 }
 
-Health SetpointWatch::health() const {
+Health GuardMonitor::health() const {
   const std::string topic = subscriber_.getTopic();
   if (passesOn() && std::isinf(heard_sec_))
     return {Health::kOk, "nothing on " + topic + ": taken to be passed on"};

@@ -1,5 +1,5 @@
 // A write never waits for what is behind it, and what was written before it stood still comes out whole.
-#include "adapters/sources/console_pump.hpp"
+#include "adapters/sources/console_output.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <chrono>
 #include <string>
 
-namespace window_ingress::adapters::console_pump_test {
+namespace window_ingress::adapters::console_output_test {
 
 constexpr int kMany = 20000;
 const std::string kLine(99, 'x');
@@ -18,7 +18,7 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 }
 
 /// A pipe that is read by the test, or by nobody.
-class ConsolePump : public testing::Test {
+class ConsoleOutput : public testing::Test {
  protected:
   void SetUp() override {
     int ends[2];
@@ -52,12 +52,12 @@ class ConsolePump : public testing::Test {
   int reader_ = -1, output_ = -1;
 };
 
-TEST_F(ConsolePump, PassesOnWhatIsWrittenAndEnds) {
+TEST_F(ConsoleOutput, PassesOnWhatIsWrittenAndEnds) {
   ASSERT_EQ(writeLines(2), 2);
   EXPECT_EQ(readToTheEnd(), "0" + kLine + "\n1" + kLine + "\n");
 }
 
-TEST_F(ConsolePump, NeverWaitsForOneThatDoesNotRead) {
+TEST_F(ConsoleOutput, NeverWaitsForOneThatDoesNotRead) {
   const auto begin = std::chrono::steady_clock::now();
   const int written = writeLines(kMany);
   EXPECT_LT(secondsSince(begin), 2.0);
@@ -68,10 +68,10 @@ TEST_F(ConsolePump, NeverWaitsForOneThatDoesNotRead) {
   EXPECT_EQ(text.back(), '\n') << "lines are lost whole";
 }
 
-TEST_F(ConsolePump, SurvivesThatNobodyIsThere) {
+TEST_F(ConsoleOutput, SurvivesThatNobodyIsThere) {
   close(reader_);
   reader_ = -1;
   EXPECT_GT(writeLines(100), 0);
 }
 
-}  // namespace window_ingress::adapters::console_pump_test
+}  // namespace window_ingress::adapters::console_output_test

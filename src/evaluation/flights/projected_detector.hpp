@@ -37,9 +37,9 @@ struct SightParams {
 /// What a detector that never errs would say: the true borders of the opening's front, cut by the image's
 /// border, each with the noise of a line fit. It knows no wall, no light, no decoy and no other window. Not a
 /// measure of the whole: only of what comes behind the detector.
-class ProjectedSight {
+class ProjectedDetector {
  public:
-  ProjectedSight(const SightParams& params, std::uint32_t seed);
+  ProjectedDetector(const SightParams& params, std::uint32_t seed);
 
   /// \param T_camera_window of the exposure \return nothing from behind or beside, out of the image, or
   /// missed
@@ -54,8 +54,7 @@ class ProjectedSight {
   simulation::RandomStream random_;
   std::optional<Eigen::Vector3d> lasting_from_m_;
   Eigen::Vector4d lasting_px_ = Eigen::Vector4d::Zero();
-  bool seen_whole_ =
-      false;  ///< since it was last out of the image: only then parts of it are known as such
+  bool seen_whole_ = false;  ///< since it was last out of the image: only then parts of it are known as such
 };
 
 }  // namespace window_ingress::evaluation

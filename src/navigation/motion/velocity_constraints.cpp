@@ -1,9 +1,9 @@
-#include "navigation/motion/motion_guard.hpp"
+#include "navigation/motion/velocity_constraints.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "navigation/behaviours/place_keeping.hpp"
+#include "navigation/behaviours/position_hold.hpp"
 
 namespace window_ingress::navigation {
 namespace {

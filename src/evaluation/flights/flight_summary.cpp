@@ -1,4 +1,4 @@
-#include "evaluation/flights/flight_metrics.hpp"
+#include "evaluation/flights/flight_summary.hpp"
 
 #include <algorithm>
 #include <cmath>

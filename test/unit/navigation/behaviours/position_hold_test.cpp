@@ -1,10 +1,10 @@
-#include "navigation/behaviours/place_keeping.hpp"
+#include "navigation/behaviours/position_hold.hpp"
 
 #include <gtest/gtest.h>
 
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation::place_keeping_test {
+namespace window_ingress::navigation::position_hold_test {
 
 Situation standingAt(const Eigen::Vector3d& position_m, double speed_mps = 0.0) {
   Situation situation;
@@ -13,7 +13,7 @@ Situation standingAt(const Eigen::Vector3d& position_m, double speed_mps = 0.0) 
   return situation;
 }
 
-TEST(PlaceKeeping, ThePlaceIsWhereTheVehicleFirstStands) {
+TEST(PositionHold, ThePlaceIsWhereTheVehicleFirstStands) {
   const HoldParams params;
   MissionState memory;
   rememberPlace(true, standingAt({0, 0, 1}, 0.5), params, memory);
@@ -24,7 +24,7 @@ TEST(PlaceKeeping, ThePlaceIsWhereTheVehicleFirstStands) {
   EXPECT_EQ(*memory.place_odom_m, Eigen::Vector3d(0.3, 0, 1));
 }
 
-TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
+TEST(PositionHold, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
   const HoldParams params;
   MissionState memory;
   double now = 10.0;
@@ -37,7 +37,7 @@ TEST(PlaceKeeping, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
   EXPECT_NEAR(now - 10.0, kSettleSec + 0.1, 0.11);
 }
 
-TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
+TEST(PositionHold, IsForgottenWhenNotWantedAndWithItsOdometry) {
   const HoldParams params;
   MissionState memory;
   const auto set = [&] {
@@ -60,7 +60,7 @@ TEST(PlaceKeeping, IsForgottenWhenNotWantedAndWithItsOdometry) {
   EXPECT_FALSE(memory.place_odom_m);
 }
 
-TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
+TEST(PositionHold, LeadsBackNoFasterThanAllowed) {
   const NavigatorParams params = test::withoutGlass();
   MissionState memory;
   EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params), Eigen::Vector3d(0, 0, 0));
@@ -76,7 +76,7 @@ TEST(PlaceKeeping, LeadsBackNoFasterThanAllowed) {
   EXPECT_NEAR(climbed.z(), -params.hold.speed_mps, 1e-12);
 }
 
-TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
+TEST(PositionHold, DoesNothingWhereItIsSwitchedOff) {
   NavigatorParams params = test::withoutGlass();
   params.hold.speed_mps = 0.0;
   MissionState memory;
@@ -84,4 +84,4 @@ TEST(PlaceKeeping, DoesNothingWhereItIsSwitchedOff) {
   EXPECT_EQ(velocityToPlace(test::vehicleAt({1, 2, 3}, 0.0), memory, params).norm(), 0.0);
 }
 
-}  // namespace window_ingress::navigation::place_keeping_test
+}  // namespace window_ingress::navigation::position_hold_test

@@ -1,4 +1,4 @@
-#include "navigation/motion/turn_to_come.hpp"
+#include "navigation/motion/pending_yaw.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr double kMaxRad = 0.5;  // a second at the usual limit
 
 }  // namespace
 
-void TurnToCome::update(double heading_rad, double told_radps, double dt_sec) {
+void PendingYaw::update(double heading_rad, double told_radps, double dt_sec) {
   if (!std::isfinite(heading_rad) || !std::isfinite(told_radps) || !(dt_sec >= 0.0)) return;
   if (last_heading_rad_) {
     const double turned_rad = geometry::wrapAngle(heading_rad - *last_heading_rad_);

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "adapters/sources/engagement.hpp"
 #include "adapters/sources/diagnostics.hpp"
+#include "adapters/sources/engagement.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 
 namespace window_ingress::adapters {
@@ -16,10 +16,10 @@ namespace window_ingress::adapters {
 /// heard on `passed_on`. While nobody passes anything on, the navigator itself sends the autopilot zeros, and
 /// nothing but zeros, for an autopilot that hears nothing flies its last velocity on for seconds. Times are
 /// those of the steady clock.
-class SetpointWatch {
+class GuardMonitor {
  public:
-  SetpointWatch(ros::NodeHandle& nh, Diagnostics& diagnostics,
-                const configuration::SetpointWatchParams& params);
+  GuardMonitor(ros::NodeHandle& nh, Diagnostics& diagnostics,
+               const configuration::GuardMonitorParams& params);
 
   /// Where nobody has been heard so far they are taken to be, unless that is `required`.
   bool passesOn() const;
@@ -32,7 +32,7 @@ class SetpointWatch {
   Health health() const;
 
   ros::NodeHandle nh_;
-  configuration::SetpointWatchParams params_;
+  configuration::GuardMonitorParams params_;
   double started_sec_;
   double sent_sec_ = -std::numeric_limits<double>::infinity();
   double heard_sec_ = -std::numeric_limits<double>::infinity();
