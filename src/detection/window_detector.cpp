@@ -197,18 +197,12 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choose(image, stamp_sec, camera);
 }
 
-// By the frame, where there is one; what that does not find, or only by its geometry, by all that lies round
-// the opening.
+// By the frame, where there is one; what that does not find, by all that lies round the opening.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
   std::optional<WindowObservation> window;
   if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
-  const int by_frame = window ? trace.target : -1;
-  if (!window || trace.candidates[by_frame].source != CandidateSource::kReference)
-    if (auto surrounded = judgeSurroundings(image, stamp_sec, camera)) {
-      if (by_frame >= 0) trace.candidates[by_frame].reject = RejectReason::kOutscored;
-      window = surrounded;
-    }
+  if (!window) window = judgeSurroundings(image, stamp_sec, camera);
   done(watch, Stage::kBorders);
   return window;
 }

@@ -10,8 +10,9 @@ namespace {
 constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
 constexpr std::size_t kPlaces = 10;                                         ///< that are aligned
 constexpr std::size_t kFinePlaces = 2;                                      ///< and of these, to the last
-constexpr int kVariants = 2;                   ///< rough loops of one place from which it is aligned
-constexpr double kSure = 0.85, kBehind = 0.3;  ///< a place found, and what promises so much less is left out
+constexpr int kVariants = 2;                    ///< rough loops of one place from which it is aligned
+constexpr double kSure = 0.85, kBehind = 0.3;   ///< a place found, and what promises so much less is left out
+constexpr double kPale = 0.8, kUnsharp = 1.25;  ///< contrast, and how much more half the resolution shows
 constexpr double kProposalWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
 
 void sortByScore(std::vector<ScoredCandidate>& rivals) {
@@ -53,6 +54,16 @@ std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, 
   return rival;
 }
 
+// An image that is less sharp than the reference's shows less contrast, and more at half the resolution.
+RingMatch RingJudge::judged(const geometry::Quadrilateral& quad) {
+  RingMatch match = alignment_.judge(quad, kFinestPx);
+  if (match.contrast >= kPale) return match;
+  const RingMatch coarse = alignment_.judge(quad, 0.5 * std::min(kFinestPx, meanSide(quad)));
+  if (coarse.contrast > kUnsharp * match.contrast)
+    match.faithful = coarse.faithful, match.faithful_uncovered = coarse.faithful_uncovered;
+  return match;
+}
+
 // Of all that come to lie about one place the best.
 void RingJudge::keep(const ScoredCandidate& rival) {
   const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& kept) {
@@ -69,7 +80,7 @@ std::optional<AlignedRing> RingJudge::alignedAt(const cv::Mat& image, const geom
   if (!known() || image.channels() != model_.channels()) return std::nullopt;
   alignment_.set(model_, image, camera);
   auto found = alignment_.align(quad, kFinestPx);
-  if (found) found->match = alignment_.judge(found->quad, kFinestPx);
+  if (found) found->match = judged(found->quad);
   return found;
 }
 

@@ -25,12 +25,14 @@ class RingJudge {
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
-  /// Where it fits best near this place, and how well; nothing where it does not.
+  /// Where it fits best near this place, which was found by its frame, and how well, also where the image is
+  /// less sharp than the reference's; nothing where it does not.
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                        const geometry::Quadrilateral& quad);
 
  private:
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
+  RingMatch judged(const geometry::Quadrilateral& quad);
   void keep(const ScoredCandidate& rival);
   void compareAll(std::vector<ScoredCandidate>& rivals);
 

@@ -182,7 +182,6 @@ void CandidateSearch::keepBest(DetectionTrace& trace) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kDuplicate, rival.rank(), twin->rank()));
     } else if (static_cast<int>(kept_.size()) >= params_.max_candidates) {
       trace.candidates.push_back(traceOf(rival, RejectReason::kOutscored, rival.rank(), kept_.back().rank()));
-      if (doubtful_.size() < kMaxDoubtful) doubtful_.push_back(rival);
     } else {
       kept_.push_back(rival);
     }

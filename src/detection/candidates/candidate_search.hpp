@@ -46,8 +46,7 @@ class CandidateSearch {
   const std::vector<ScoredCandidate>& kept() const { return kept_; }
 
   /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
-  /// sides to be taken for a window by its geometry, and what others were better than: for a judge that knows
-  /// better.
+  /// sides to be taken for a window by its geometry: for a judge that knows better.
   const std::vector<ScoredCandidate>& doubtful() const { return doubtful_; }
 
   /// What three sides of the last call enclose, see SegmentQuads::open: likewise. Valid until the next call.
