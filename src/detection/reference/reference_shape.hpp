@@ -13,10 +13,9 @@
 
 namespace window_ingress::detection {
 
-/// How badly four corners fit any view of a rectangle of a known aspect [standard deviations]: the square
-/// root of what is left of the squared, weighted distances of the corners when pose and aspect are fitted.
-/// Chi with two degrees of freedom, where the corners are what they are said to be: size and distance do not
-/// show, the six numbers of a pose do, eight coordinates are seen.
+/// How badly four corners fit any view of a rectangle of a known aspect [standard deviations]: chi with two
+/// degrees of freedom, where the corners are what they are said to be. Eight coordinates are seen, a pose has
+/// six numbers; what is left are the aspect and the angle between the sides, see RectanglePrior.
 struct RectangleMisfit {
   double aspect = 1.0;            ///< width over height
   double log_aspect_sigma = 0.0;  ///< of its logarithm; above 0
