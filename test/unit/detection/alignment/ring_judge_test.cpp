@@ -197,6 +197,23 @@ TEST(RingJudge, TellsHowWellAPlaceFits) {
   EXPECT_LT(wrong ? wrong->match.correlation : 0.0, 0.5);
 }
 
+TEST(RingJudge, AnUnsharpViewIsNotAPaleOne) {
+  const PatchedWall wall(3);
+  Known known(wall);
+  Quadrilateral opening;
+  const cv::Mat sharp = wall.draw(seenFrom(6.0, 0.4), &opening, cv::Scalar(20, 30, 40));
+  cv::Mat unsharp, pale;
+  cv::GaussianBlur(sharp, unsharp, cv::Size(), 2.2);
+  sharp.convertTo(pale, -1, 0.45, 60.0);
+  const auto blurred = known.judge.alignedAt(unsharp, nullptr, opening);
+  const auto faded = known.judge.alignedAt(pale, nullptr, opening);
+  ASSERT_TRUE(blurred && faded);
+  EXPECT_LT(blurred->match.contrast, 0.7);
+  EXPECT_GT(blurred->match.faithful, 0.8) << "0.56 at the image's own resolution";
+  EXPECT_LT(faded->match.contrast, 0.7);
+  EXPECT_LT(faded->match.faithful, 0.75);
+}
+
 TEST(WindowDetector, AHoleInAnotherWallIsNotTheTarget) {
   Detected detected(PatchedWall(3, 0.0, 25.0));
   Quadrilateral opening;
