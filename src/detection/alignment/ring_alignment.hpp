@@ -7,7 +7,7 @@
 
 #include "detection/alignment/homography_sums.hpp"
 #include "detection/alignment/rectangle_prior.hpp"
-#include "detection/alignment/ring_judgement.hpp"
+#include "detection/alignment/ring_score.hpp"
 #include "detection/alignment/ring_view.hpp"
 
 namespace window_ingress::detection {
@@ -45,7 +45,7 @@ class RingAlignment {
                    int most_steps);
 
   RingView view_;
-  RingJudgement judgement_;
+  RingScore judgement_;
   std::optional<RectanglePrior> prior_;
   RingCorrelation correlation_;
   std::vector<float> residuals_;

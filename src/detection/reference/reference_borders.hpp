@@ -28,7 +28,7 @@ class ReferenceBorders {
   void forget() { known_ = false; }
   bool known() const { return known_; }
 
-  /// True if the reference shows no frame: then there are no colours to go by, see `RingJudge`.
+  /// True if the reference shows no frame: then there are no colours to go by, see `RingMatcher`.
   bool frameless() const { return known_ && frameless_; }
 
   /// Samples along a side and across it.

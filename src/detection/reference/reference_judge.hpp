@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "detection/alignment/ring_judge.hpp"
+#include "detection/alignment/ring_matcher.hpp"
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/candidate_search.hpp"
 #include "detection/reference/reference_borders.hpp"
@@ -82,11 +82,11 @@ class ReferenceJudge {
   AppearanceParams appearance_;
   double min_correlation_;
   ReferenceBorders borders_;
-  RingJudge ring_;
+  RingMatcher ring_;
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
   std::optional<RingColours> frame_colours_;  ///< of the reference
-  bool is_grey_ = false;  ///< the reference; then by brightness alone
+  bool is_grey_ = false;                      ///< the reference; then by brightness alone
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;
   std::vector<std::size_t> places_;  ///< of the rivals that are looked at

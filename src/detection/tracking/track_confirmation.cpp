@@ -11,11 +11,6 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kSizeRatio = 1.35;
-
-constexpr int kEnough = 3;       // comparisons
-constexpr double kWeight = 0.3;  // of the last one
-
 constexpr double kAgreePx = 2.5, kAgreePart = 0.02;  // corners of one window, the larger; in its sizes
 constexpr double kSameRival = 0.08;                  // corners of one rival in two images, in sizes
 constexpr double kSameSpot = 0.12;                   // corners of other borders of the same window, in sizes
@@ -30,50 +25,6 @@ Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) 
 }
 
 }  // namespace
-
-void TrackIdentity::follow(double stamp_sec) {
-  known_ = true;
-  ++followed_;
-  last_sec_ = stamp_sec;
-}
-
-void TrackIdentity::found(bool is_same, double stamp_sec) {
-  if (!is_same) ++id_, followed_ = 0;
-  known_ = true;
-  last_sec_ = stamp_sec;
-}
-
-void TrackIdentity::expect(double stamp_sec) {
-  known_ = true;
-  followed_ = std::max(followed_, kSettled);
-  last_sec_ = stamp_sec;
-}
-
-bool TrackIdentity::remembers(double stamp_sec) const {
-  return known_ && stamp_sec - last_sec_ <= params_.reacquire_sec;
-}
-
-bool TrackIdentity::isSame(const geometry::Quadrilateral& seen,
-                           const geometry::Quadrilateral& expected) const {
-  const double a = sizeOf(seen), b = sizeOf(expected);
-  const double off = (geometry::centroid(seen) - geometry::centroid(expected)).norm();
-  return off < params_.reacquire_gate * std::min(a, b) && std::max(a, b) < kSizeRatio * std::min(a, b);
-}
-
-void AppearanceGate::note(double distance, double stamp_sec) {
-  if (!std::isfinite(distance) || !std::isfinite(stamp_sec)) return;
-  if (!allows(distance, stamp_sec)) return;
-  const bool is_gap = std::abs(stamp_sec - last_sec_) > kValidSec;
-  if (is_gap) forget();
-  smoothed_ += (notes_ == 0 ? 1.0 : kWeight) * (distance - smoothed_);
-  last_sec_ = stamp_sec;
-  if (++notes_ >= kEnough) best_ = std::min(best_, smoothed_);
-}
-
-bool AppearanceGate::allows(double distance, double stamp_sec) const {
-  const bool is_known = best_ < kUnknown && std::abs(stamp_sec - last_sec_) <= kValidSec;
-  return !is_known || distance <= best_ + kMargin;
-}
 
 void TrackConfirmation::start() {
   restart();

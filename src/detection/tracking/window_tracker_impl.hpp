@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "detection/tracking/appearance_gate.hpp"
 #include "detection/tracking/appearance_monitor.hpp"
 #include "detection/tracking/image_sequence.hpp"
 #include "detection/tracking/quad_tracker.hpp"
 #include "detection/tracking/track_confirmation.hpp"
+#include "detection/tracking/track_identity.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"

@@ -11,7 +11,7 @@
 #include "detection/tracking/edge_template.hpp"
 #include "detection/tracking/edge_tracker.hpp"
 #include "detection/tracking/quad_motion.hpp"
-#include "detection/tracking/track_confirmation.hpp"
+#include "detection/tracking/track_identity.hpp"
 #include "drawn_window.hpp"
 
 namespace window_ingress::detection::following_parts_test {

@@ -1,4 +1,4 @@
-#include "detection/alignment/ring_judge.hpp"
+#include "detection/alignment/ring_matcher.hpp"
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ void sortByScore(std::vector<ScoredCandidate>& rivals) {
 }  // namespace
 
 // What is promising first.
-void RingJudge::compareAll(std::vector<ScoredCandidate>& rivals) {
+void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
   order_.clear();
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
@@ -36,7 +36,7 @@ void RingJudge::compareAll(std::vector<ScoredCandidate>& rivals) {
   });
 }
 
-std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, double finest_px) {
+std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough, double finest_px) {
   const auto found = alignment_.align(rough.quad, finest_px);
   if (!found) return std::nullopt;
   const auto quad = geometry::canonical(found->quad);
@@ -55,7 +55,7 @@ std::optional<ScoredCandidate> RingJudge::aligned(const ScoredCandidate& rough, 
 }
 
 // An image that is less sharp than the reference's shows less contrast, and more at half the resolution.
-RingMatch RingJudge::judged(const geometry::Quadrilateral& quad) {
+RingMatch RingMatcher::judged(const geometry::Quadrilateral& quad) {
   RingMatch match = alignment_.judge(quad, kFinestPx);
   if (match.contrast >= kPale) return match;
   const RingMatch coarse = alignment_.judge(quad, 0.5 * std::min(kFinestPx, meanSide(quad)));
@@ -65,7 +65,7 @@ RingMatch RingJudge::judged(const geometry::Quadrilateral& quad) {
 }
 
 // Of all that come to lie about one place the best.
-void RingJudge::keep(const ScoredCandidate& rival) {
+void RingMatcher::keep(const ScoredCandidate& rival) {
   const auto same = std::find_if(aligned_.begin(), aligned_.end(), [&](const ScoredCandidate& kept) {
     return Sameness(kept.quad).samePlace(rival.quad);
   });
@@ -75,8 +75,8 @@ void RingJudge::keep(const ScoredCandidate& rival) {
     *same = rival;
 }
 
-std::optional<AlignedRing> RingJudge::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                                const geometry::Quadrilateral& quad) {
+std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                                  const geometry::Quadrilateral& quad) {
   if (!known() || image.channels() != model_.channels()) return std::nullopt;
   alignment_.set(model_, image, camera);
   auto found = alignment_.align(quad, kFinestPx);
@@ -84,9 +84,9 @@ std::optional<AlignedRing> RingJudge::alignedAt(const cv::Mat& image, const geom
   return found;
 }
 
-const std::vector<ScoredCandidate>& RingJudge::align(const cv::Mat& image,
-                                                     const geometry::PinholeCamera* camera,
-                                                     std::vector<ScoredCandidate>& rivals) {
+const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,
+                                                       const geometry::PinholeCamera* camera,
+                                                       std::vector<ScoredCandidate>& rivals) {
   aligned_.clear();
   if (!known() || image.channels() != model_.channels()) return aligned_;
   alignment_.set(model_, image, camera);

@@ -1,4 +1,4 @@
-#include "detection/alignment/ring_judgement.hpp"
+#include "detection/alignment/ring_score.hpp"
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: ano
 
 }  // namespace
 
-RingMatch RingJudgement::of(RingView& view, double seen) {
+RingMatch RingScore::of(RingView& view, double seen) {
   RingMatch match;
   match.seen = seen;
   if (seen < RingView::kMinSeen) return match;
@@ -31,7 +31,7 @@ RingMatch RingJudgement::of(RingView& view, double seen) {
 }
 
 // What each segment adds.
-void RingJudgement::shareOut(const RingView& view) {
+void RingScore::shareOut(const RingView& view) {
   correlation_ = {};
   shares_.clear();
   for (int s = 0; s < view.ring().segmentCount(); ++s) {
@@ -44,7 +44,7 @@ void RingJudgement::shareOut(const RingView& view) {
 }
 
 // Where most of the ring fits well, what does not is something before it; where nothing fits, all counts.
-void RingJudgement::coverOutliers(RingView& view) {
+void RingScore::coverOutliers(RingView& view) {
   const RingLevel& ring = view.ring();
   const std::size_t count = ring.x.size();
   residuals_.assign(count * view.channels(), 0.0F);
@@ -67,7 +67,7 @@ void RingJudgement::coverOutliers(RingView& view) {
 }
 
 // A frame in another paint correlates with the reference's; its contrast with the wall is another.
-double RingJudgement::weighContrasts() {
+double RingScore::weighContrasts() {
   gains_.clear();
   for (const Share& share : shares_)
     if (share.alike > 0.0 && share.gain > 0.0) gains_.push_back(static_cast<float>(share.gain));
@@ -84,7 +84,7 @@ double RingJudgement::weighContrasts() {
 }
 
 // Without the segments that fit worst: something may stand before them.
-double RingJudgement::uncovered(double Share::*part) {
+double RingScore::uncovered(double Share::*part) {
   std::sort(shares_.begin(), shares_.end(),
             [part](const Share& a, const Share& b) { return a.*part * b.weight < b.*part * a.weight; });
   double covered = kMaxCovered * correlation_.most, sum = 0.0;

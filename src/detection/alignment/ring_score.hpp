@@ -9,7 +9,7 @@ namespace window_ingress::detection {
 
 /// How far what a view shows is what the reference shows, also where something stands before the ring:
 /// samples that differ far more than most count less. Keeps its memory.
-class RingJudgement {
+class RingScore {
  public:
   /// \param view of the place, with all its samples; their weights are changed \param seen what its look
   /// returned

@@ -1,4 +1,4 @@
-#include "detection/alignment/ring_judge.hpp"
+#include "detection/alignment/ring_matcher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "patched_wall.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 
-namespace window_ingress::detection::ring_judge_test {
+namespace window_ingress::detection::ring_matcher_test {
 
 using geometry::Quadrilateral;
 using test::PatchedWall;
@@ -27,12 +27,12 @@ struct Known {
     judge.learn(picture, corners);
     image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
   }
-  RingJudge judge;
+  RingMatcher judge;
   cv::Mat image;
   Quadrilateral opening;
 };
 
-TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
+TEST(RingMatcher, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   Known known{PatchedWall(3)};
   std::vector<ScoredCandidate> rivals = {rough(test::rectangle(40, 60, 160, 150), 0.99),
                                          rough(test::grown(known.opening, 3.0), 0.3)};
@@ -44,15 +44,15 @@ TEST(RingJudge, TheRightPlaceComesFirstWhateverItsScoreByGeometry) {
   EXPECT_LT(found.size() > 1 ? *found[1].correlation : 0.0, 0.5);
 }
 
-TEST(RingJudge, LoopsOfOnePlaceGiveOne) {
+TEST(RingMatcher, LoopsOfOnePlaceGiveOne) {
   Known known{PatchedWall(3)};
   std::vector<ScoredCandidate> rivals;
   for (double grown : {-3.0, 0.0, 2.0, 4.0}) rivals.push_back(rough(test::grown(known.opening, grown)));
   EXPECT_EQ(known.judge.align(known.image, nullptr, rivals).size(), 1U);
 }
 
-TEST(RingJudge, NothingIsKnownBeforeAReference) {
-  RingJudge judge;
+TEST(RingMatcher, NothingIsKnownBeforeAReference) {
+  RingMatcher judge;
   std::vector<ScoredCandidate> rivals = {rough(test::rectangle(9, 9, 50, 50))};
   EXPECT_FALSE(judge.known());
   EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
@@ -188,7 +188,7 @@ TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
   }
 }
 
-TEST(RingJudge, TellsHowWellAPlaceFits) {
+TEST(RingMatcher, TellsHowWellAPlaceFits) {
   Known known{PatchedWall(3)};
   const auto right = known.judge.alignedAt(known.image, nullptr, test::grown(known.opening, 2.0));
   ASSERT_TRUE(right);
@@ -197,7 +197,7 @@ TEST(RingJudge, TellsHowWellAPlaceFits) {
   EXPECT_LT(wrong ? wrong->match.correlation : 0.0, 0.5);
 }
 
-TEST(RingJudge, AnUnsharpViewIsNotAPaleOne) {
+TEST(RingMatcher, AnUnsharpViewIsNotAPaleOne) {
   const PatchedWall wall(3);
   Known known(wall);
   Quadrilateral opening;
@@ -228,4 +228,4 @@ TEST(WindowDetector, AWallThatWasClosedIsNoWindow) {
   for (double yaw : {-0.3, 0.0, 0.3}) EXPECT_FALSE(detected.look(wall, yaw, nullptr)) << yaw;
 }
 
-}  // namespace window_ingress::detection::ring_judge_test
+}  // namespace window_ingress::detection::ring_matcher_test

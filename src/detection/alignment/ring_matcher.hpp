@@ -9,7 +9,7 @@ namespace window_ingress::detection {
 
 /// Which rivals have round them what the reference shows round the opening, and where exactly: all are
 /// compared, the best are moved to where the ring fits best.
-class RingJudge {
+class RingMatcher {
  public:
   /// See RingModel.
   void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0,
