@@ -32,6 +32,12 @@ struct Group {
 
 // What is no parameter any more: groups, and names in them. Those of a node have an empty group.
 const Group kConstants[] = {
+    {"lines", " max_gap vote_fraction "},
+    {"contours", " min_perimeter "},
+    {"gates", " min_solidity "},
+    {"shape", " sigmas frame_slack "},
+    {"appearance", " near_width far_width max_drift "},
+    {"track", " reach turn "},
     {"interior",
      " min_points least_slope margin min_contrast max_return_px most_slope flow_sigma_px max_growth "
      "max_key_age_sec min_shared "},
