@@ -19,7 +19,7 @@ function(add_adapters name)
 endfunction()
 
 add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources DEPENDS ${PROJECT_NAME}_core)
-# Apart from what steers: libraries for image files take 60 MB in each process.
+# Apart from what steers: OpenCV and libraries for image files take 50 MB in each process.
 add_adapters(${PROJECT_NAME}_image_adapters FOLDERS images
              DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_vision opencv_imgcodecs)
 # Apart from what flies: the renderer's libraries would take 46 MB in each node.
