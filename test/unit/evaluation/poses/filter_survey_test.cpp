@@ -151,7 +151,7 @@ TEST(FilterSurvey, TheFitVerdictIsRightWheneverTheTruthIsClear) {
     const double needed = 0.6, width = found->size.size.width_m;
     const double sigma = width * std::sqrt(found->size.log_covariance(0, 0));
     const bool fits = opening.width_m > needed;
-    const auto fit = estimation::fitVerdict(found->size, {}).fit;
+    const auto fit = estimation::fitVerdict(found->size, {needed, 0.34}).fit;
     wrong += fit == (fits ? estimation::Fit::kNoGo : estimation::Fit::kGo);
     if (std::abs(width - needed) < 2.0 * sigma) continue;
     ++clear;
