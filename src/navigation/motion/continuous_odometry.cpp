@@ -14,7 +14,6 @@ constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTur
 constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
-constexpr double kOffMps = 0.08;  // in both of the first pieces alike
 constexpr std::size_t kLatePieces = 4;
 constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
 constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
@@ -123,7 +122,7 @@ void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
   turn_.reset();
 }
 
-// Of an estimator's velocity that is always off by the same: one that was off in the first second, too.
+// Of an estimator's velocity that is always off by the same.
 void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
   if (!piece_) piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
@@ -134,9 +133,7 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
   if (pieces_.size() > kPieces) pieces_.pop_front();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
-  if (pieces_.size() == 2)
-    is_off_from_the_first_ = pieces_[0].base_mps.dot(pieces_[1].base_mps) > kOffMps * kOffMps;
-  if (isBiasKnown() || is_off_from_the_first_) judgePieces();
+  if (isBiasKnown()) judgePieces();
 }
 
 void ContinuousOdometry::judgePieces() {

@@ -15,11 +15,10 @@ namespace window_ingress::navigation {
 /// errors both frames are the same to the bit.
 ///
 /// A steady difference of the velocity (an estimator's bias) is no slide: the middle value of the last
-/// seconds is taken off; from the first second on, if it has been there since then. It is fixed in the body
-/// in the long run, and stays as it was in the world for the first seconds after a turn: what has been more
-/// even of late counts. A heading that turns faster than any vehicle is corrected by the turn; whether the
-/// axes of the positions have turned along (the estimator was reset) or not (its attitude alone is wrong) the
-/// next motion shows.
+/// seconds is taken off. It is fixed in the body in the long run, and stays as it was in the world for the
+/// first seconds after a turn: what has been more even of late counts. A heading that turns faster than any
+/// vehicle is corrected by the turn; whether the axes of the positions have turned along (the estimator was
+/// reset) or not (its attitude alone is wrong) the next motion shows.
 class ContinuousOdometry {
  public:
   static constexpr double kUnexplainedM = 0.05;  ///< within a second
@@ -47,9 +46,7 @@ class ContinuousOdometry {
   /// error of the position, or axes that are not those of the other.
   double disagreementMps() const { return latePiecesMps().norm(); }
   /// What of it the known bias does not explain [m/s].
-  double unexplainedMps() const {
-    return isBiasKnown() ? (latePiecesMps() - usual_.*axes_).norm() : disagreementMps();
-  }
+  double unexplainedMps() const { return (latePiecesMps() - usual_.*axes_).norm(); }
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return drift_m_per_sqrt_sec_; }
   bool isBiasKnown() const { return pieces_.size() == kPieces; }
@@ -99,7 +96,6 @@ class ContinuousOdometry {
   std::optional<Sample> piece_;                        ///< where the present piece of the way began
   std::deque<Difference> pieces_;                      ///< the latest
   Difference usual_;                                   ///< middle value of them; zero until it is known
-  bool is_off_from_the_first_ = false;                 ///< in the first second already
   Eigen::Vector3d Difference::*axes_ = &Difference::base_mps;  ///< in which they are more even
   double drift_m_per_sqrt_sec_ = 0.0;
 };

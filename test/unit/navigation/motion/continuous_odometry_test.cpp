@@ -185,12 +185,12 @@ TEST(ContinuousOdometry, AHeadingThatComesBackInFlightTurnsNoAxesWhateverTheNois
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(ContinuousOdometry, ASlideSoonAfterTheStartIsNoBias) {
+TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   Curve curve;
   ContinuousOdometry continuous;
   double worst_m = 0.0;
   for (int i = 0; i < 600; ++i) {
-    if (i >= 30 && i < 120) curve.shift.y() += 0.2 * kStep;
+    if (i < 90) curve.shift.y() += 0.2 * kStep;
     worst_m = std::max(worst_m, curve.errorM(continuous.add(curve.step())));
   }
   EXPECT_LT(worst_m, ContinuousOdometry::kUnexplainedM + 0.03);
@@ -203,27 +203,8 @@ TEST(ContinuousOdometry, WhatIsNotSteadyYetIsUnexplained) {
   for (int i = 0; i < 100; ++i) continuous.add(curve.step());
   EXPECT_FALSE(continuous.isBiasKnown());
   EXPECT_NEAR(continuous.unexplainedMps(), 0.25, 0.02);
-}
-
-// The position is believed before it is known whether the velocity is off steadily: whoever kept a place by the
-// velocity would fly off by 1.6 m.
-TEST(ContinuousOdometry, AVelocityThatIsOffFromTheFirstOnCarriesNobodyOff) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    Curve curve;
-    curve.random.seed(seed);
-    curve.bias_base = {0.15, -0.15, 0.0};
-    curve.speed = curve.aside = curve.climb = 0.0;
-    ContinuousOdometry continuous;
-    std::optional<VehicleState> smooth;
-    double worst_m = 0.0;
-    for (int i = 0; i < 300; ++i) {
-      curve.yaw += 0.4 * kStep;
-      smooth = continuous.add(curve.step());
-      worst_m = std::max(worst_m, curve.errorM(smooth));
-    }
-    EXPECT_LT(worst_m, 0.3) << seed;
-    EXPECT_LT((continuous.unbiased(*smooth) - curve.velocity()).norm(), 0.04) << seed;
-  }
+  const VehicleState last = *continuous.add(curve.step());
+  EXPECT_EQ(continuous.unbiased(last), last.velocity_odom_mps);
 }
 
 TEST(ContinuousOdometry, HowItsPositionWalksBesideItsVelocityIsMeasured) {
