@@ -30,7 +30,8 @@ void Lockstep::check() {
 }
 
 StampLimits limitsFor(bool lockstep, const StampLimits& limits) {
-  return lockstep ? StampLimits{60.0, 10.0} : limits;
+  constexpr double kAnySec = 1e9;  // before its first message a node's clock reads zero
+  return lockstep ? StampLimits{60.0, kAnySec} : limits;
 }
 
 }  // namespace window_ingress::adapters
