@@ -16,7 +16,7 @@ ROS_HEADER = re.compile(
     r"/(ros|rosbag|roscpp|rosgraph_msgs|std_msgs|sensor_msgs|geometry_msgs|nav_msgs|visualization_msgs|std_srvs|"
     r"tf2|tf2_ros|tf2_eigen|tf2_geometry_msgs|cv_bridge|image_transport|image_geometry|camera_info_manager|nodelet|"
     r"pluginlib|dynamic_reconfigure|diagnostic_updater|diagnostic_msgs|message_filters)/[^ ]+\.h(pp)?$")
-ROS_FREE = re.compile(r"CMakeFiles/window_ingress_(core|detection|simulation|evaluation)\.dir/")
+ROS_FREE = re.compile(r"/src/(?!adapters/|nodes/|tools/)\w+/.*\.cpp$")
 
 
 def sources(entry):
@@ -37,8 +37,7 @@ def ros_headers(entry, source):
 
 def main():
     with open(sys.argv[1]) as file:
-        files = [(entry, source) for entry in json.load(file) if ROS_FREE.search(entry["command"])
-                 for source in sources(entry)]
+        files = [(entry, source) for entry in json.load(file) for source in sources(entry) if ROS_FREE.search(source)]
     if not files:
         sys.exit(f"{sys.argv[1]}: no file of the ROS-free libraries in it; was it configured?")
     bad = 0
