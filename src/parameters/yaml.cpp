@@ -63,6 +63,9 @@ YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping, std::
     : impl_(new Impl{YamlMapping(file, mapping),
                      std::make_shared<Impl::File>(Impl::File{std::move(known), {}})}) {}
 
+YamlReader::YamlReader(const std::string& file, const std::string& key, const YAML::Node& value)
+    : impl_(new Impl{YamlMapping(file, key, value), std::make_shared<Impl::File>()}) {}
+
 YamlReader::YamlReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 YamlReader::~YamlReader() = default;

@@ -19,7 +19,11 @@ YamlMapping::YamlMapping(std::string file, const YAML::Node& mapping, std::strin
   }
 }
 
+YamlMapping::YamlMapping(std::string file, std::string key, const YAML::Node& value)
+    : file_(std::move(file)), mapping_(value), only_key_(std::move(key)) {}
+
 YAML::Node YamlMapping::find(const std::string& name) {
+  if (!only_key_.empty()) return name == only_key_ ? mapping_ : YAML::Node(YAML::NodeType::Undefined);
   asked_.insert(name);
   return static_cast<const YAML::Node&>(mapping_)[name];
 }

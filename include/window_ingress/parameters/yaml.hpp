@@ -28,6 +28,8 @@ class YamlReader {
  public:
   /// \param known all paths that may stand in the file, to say which may have been meant
   YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known = {});
+  /// Of a mapping of one key.
+  YamlReader(const std::string& file, const std::string& key, const YAML::Node& value);
   ~YamlReader();
   YamlReader(const YamlReader&) = delete;
   YamlReader& operator=(const YamlReader&) = delete;

@@ -15,6 +15,8 @@ class YamlMapping {
  public:
   /// \param path of the mapping in the file, with a '/' at its end; empty for the whole file
   YamlMapping(std::string file, const YAML::Node& mapping, std::string path = "");
+  /// A mapping of one key. Not made as a node: yaml-cpp would merge the value's whole file into it.
+  YamlMapping(std::string file, std::string key, const YAML::Node& value);
 
   const std::string& file() const { return file_; }
   const std::string& path() const { return path_; }
@@ -29,7 +31,7 @@ class YamlMapping {
  private:
   std::string file_;
   YAML::Node mapping_;
-  std::string path_;
+  std::string path_, only_key_;  ///< whose value `mapping_` is, in a mapping of one key
   std::set<std::string> asked_;
 };
 

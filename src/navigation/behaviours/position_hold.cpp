@@ -21,13 +21,15 @@ Eigen::Vector3d levelAndVertical(const Eigen::Vector3d& velocity, double limit_m
   return {share * velocity.x(), share * velocity.y(), std::clamp(velocity.z(), -limit_mps, limit_mps)};
 }
 
-/// Direction in which the window lies, where that is known and the vehicle in front of it.
+bool isBehindWindow(const Eigen::Vector3d& position_m, const MissionState& memory) {
+  if (!memory.trusted) return false;
+  const Eigen::Vector3d normal = uprightRotation(*memory.trusted).col(0);
+  return normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
+}
+
+/// Direction in which the window lies, where that is known.
 std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionState& memory) {
-  if (memory.trusted) {
-    const Eigen::Vector3d normal = uprightRotation(*memory.trusted).col(0);
-    const bool is_behind = normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
-    return is_behind ? std::nullopt : std::optional(normal);
-  }
+  if (memory.trusted) return uprightRotation(*memory.trusted).col(0);
   if (!memory.window_odom_m) return std::nullopt;
   return levelDirection(*memory.window_odom_m - position_m);
 }
@@ -73,6 +75,7 @@ Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const Vehi
   if (way.norm() >= kThereM)
     velocity += std::max(0.0, velocity_odom_mps.dot(way.normalized())) * way.normalized();
   velocity = levelAndVertical(velocity, params.speed_mps);
+  if (isBehindWindow(position_m, memory)) return velocity;
   if (const auto forward = towardsWindow(position_m, memory))
     velocity -= std::max(0.0, velocity.dot(*forward)) * *forward;
   for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m}) {

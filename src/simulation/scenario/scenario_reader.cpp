@@ -69,9 +69,7 @@ struct ScenarioReader::Impl {
   // One value through the reader of all parameter files, for the same checks and words.
   template <typename Value, typename... Limits>
   void readOne(const std::string& name, const YAML::Node& node, Value& value, Limits... limits) const {
-    YAML::Node single(YAML::NodeType::Map);
-    single[name] = node;
-    YamlReader reader(mapping.file(), single);
+    YamlReader reader(mapping.file(), name, node);
     reader(name, value, limits...);
   }
 
@@ -134,9 +132,7 @@ void ScenarioReader::operator()(const std::string& name, std::string& value) {
 void ScenarioReader::choice(const std::string& name, std::string& value,
                             const std::vector<std::string>& allowed) {
   impl_->readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
-    YAML::Node single(YAML::NodeType::Map);
-    single[name] = node;
-    YamlReader(impl_->mapping.file(), single).choice(name, word, allowed);
+    YamlReader(impl_->mapping.file(), name, node).choice(name, word, allowed);
   });
 }
 
