@@ -24,6 +24,7 @@ namespace {
 constexpr double kWallOfFunnel = 0.35;  // of its width: there the speed shrinks
 // From the measured strength of gusts against the miss at the plane, in flights at 4, 7 and 9.6 m/s.
 constexpr double kCalmMps = 0.041, kStrongGustFactor = 1.7;
+constexpr double kGustSec = 3.0;       // that gusts come and go in: of few, the strongest was not among them
 constexpr double kPartCarried = 0.73;  // of the way until a gust is answered and steered away
 constexpr double kMaxHeadingErrorRad = 0.2;  // against the window's normal
 constexpr double kMaxAcrossMps = 0.3;        // across the window's normal, at the commit line
@@ -87,14 +88,14 @@ double missByOdometry(double odometry_mps, const NavigatorParams& params) {
 
 /// How far gusts carry the vehicle past the axis. What is measured in calm air, too, carries nobody off, and
 /// hides as much of what does.
-double carriedM(double gust_mps, const NavigatorParams& params) {
-  const double beyond_calm_mps = std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps));
+double carriedM(double gust_mps, double watched_sec, const NavigatorParams& params) {
+  const double beyond_calm_mps =
+      std::sqrt(std::max(0.0, gust_mps * gust_mps - kCalmMps * kCalmMps) * (1.0 + kGustSec / watched_sec));
   return kPartCarried * carriedSec(params) * std::max(gust_mps, kStrongGustFactor * beyond_calm_mps);
 }
 
 /// What chance may add: `sigma_factor` standard deviations.
-double spreadOf(double sigma_m, double gust_mps, double drift_m, const NavigatorParams& params) {
-  const double gust_m = carriedM(gust_mps, params);
+double spreadOf(double sigma_m, double gust_m, double drift_m, const NavigatorParams& params) {
   return params.approach.sigma_factor * std::hypot(sigma_m, drift_m, gust_m);
 }
 
@@ -146,10 +147,11 @@ CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const
   const auto atPlane = [&](double sigma_m) { return sigmaAhead(sigma_m, input.motion, way_sec); };
   const double drift_m =
       std::max(params.vehicle.odom_drift_m_per_sqrt_sec, input.drift_m_per_sqrt_sec) * std::sqrt(blind_sec);
+  const auto carried = [&](double gust_mps) { return carriedM(gust_mps, input.gusts_watched_sec, params); };
   const double lateral_m =
-      spreadOf(atPlane(relative.sigma_lateral_m), input.gust_lateral_mps, drift_m, params);
+      spreadOf(atPlane(relative.sigma_lateral_m), carried(input.gust_lateral_mps), drift_m, params);
   const double vertical_m =
-      spreadOf(atPlane(relative.sigma_vertical_m), input.gust_vertical_mps, drift_m, params);
+      spreadOf(atPlane(relative.sigma_vertical_m), carried(input.gust_vertical_mps), drift_m, params);
   const Eigen::Vector3d offset = coastedOffset(relative, params).cwiseAbs();
   const double left = remaining(relative, params);
   const double odometry_m = missByOdometry(input.odometry_mps, params);

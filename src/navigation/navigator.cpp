@@ -99,6 +99,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     observer.update(situation.vehicle->velocity_odom_mps, last_setpoint.velocity_odom_mps, situation.dt_sec);
     if (observer.response().isMeasured()) memory.wind_odom_mps = observer.disturbance();
     memory.gusts_odom = observer.gusts();
+    memory.gusts_watched_sec = observer.watchedSec();
     params.vehicle.response_sec = observer.response().responseSec();
     params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
     params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());

@@ -33,6 +33,7 @@ struct CommitCriterionInput {
   estimation::TargetMotion motion;  ///< of the window
   double gust_lateral_mps = 0.0;    ///< root mean square of the velocity that gusts bring
   double gust_vertical_mps = 0.0;   ///< likewise
+  double gusts_watched_sec = 15.0;  ///< for so long: the shorter, the more may come than has come
   double odometry_mps = 0.0;        ///< by which the odometry's velocity may be off
   double drift_m_per_sqrt_sec =
       0.0;  ///< of the odometry, as measured; at least that of the parameters counts

@@ -100,7 +100,7 @@ struct ApproachParams {
 /// COMMIT: through the opening on the last good estimate.
 struct CommitParams {
   double speed_mps = 0.95;       ///< fastest through the opening [m/s]
-  double exit_distance_m = 1.0;  ///< distance behind the window's plane at which it stops [m]
+  double exit_distance_m = 1.2;  ///< distance behind the window's plane at which it stops [m]
   double view_margin_m = 0.2;    ///< distance of the commit line before the window leaves the view [m]
   double max_blind_sec = 6.0;  ///< without an image of the window for longer than this in front of its plane,
                                ///< it turns back [s]

@@ -14,6 +14,9 @@ namespace {
 constexpr double kMaxDisagreementMps = 0.35;
 constexpr double kMaxUnexplainedMps = 0.08;  // likewise, before a steady bias can be told from a slide
 
+// Of what a vehicle can gain in its response, so much is asked for forward while more than this across is.
+constexpr double kShareAhead = 1.25, kMuchAcrossMps = 0.3;
+
 std::string whyNoOdometryToCommitBy(const MissionState& memory) {
   char text[120] = "";
   if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
@@ -24,6 +27,13 @@ std::string whyNoOdometryToCommitBy(const MissionState& memory) {
                   "odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
                   memory.odometry_unexplained_mps);
   return text;
+}
+
+/// How far the speed forward may be asked to rise beyond what it is while the speed across is to change by so
+/// much: what accelerates slowly spends on the way forward what it needs to stay before the opening.
+double aheadMps(double across_mps, const NavigatorParams& params) {
+  const double in_its_response_mps = params.vehicle.braking_mps2 * params.vehicle.response_sec;
+  return kShareAhead * in_its_response_mps * std::max(1.0, kMuchAcrossMps / std::max(1e-3, across_mps));
 }
 
 }  // namespace
@@ -101,6 +111,7 @@ CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& 
   input.motion = target.motion;
   input.gust_lateral_mps = along(1);
   input.gust_vertical_mps = along(2);
+  input.gusts_watched_sec = memory.gusts_watched_sec;
   input.odometry_mps = memory.odometry_unexplained_mps;
   input.drift_m_per_sqrt_sec = memory.odometry_drift_m_per_sqrt_sec;
   CommitCriterion criterion = evaluateCommitCriterion(input, params);
@@ -151,7 +162,9 @@ Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEst
   if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
   const double left =
       std::sqrt(std::max(0.0, std::pow(params.limits.speed_mps, 2) - velocity_window.squaredNorm()));
-  velocity_window.x() = std::clamp(forward_mps, -left, left);
+  const double ahead_mps = std::max(0.0, relative.velocity_window_mps.x()) +
+                           aheadMps((velocity_window - relative.velocity_window_mps).tail<2>().norm(), params);
+  velocity_window.x() = std::clamp(std::min(forward_mps, ahead_mps), -left, left);
   return R_odom_window * velocity_window;
 }
 

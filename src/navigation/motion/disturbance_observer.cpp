@@ -6,7 +6,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kStrongestGustMps = 3.0;
-constexpr double kUsualGustMps = 0.06, kUsualSec = 0.3;
+constexpr double kUsualGustMps = 0.06;
 constexpr double kStoodSec = 1.0;    // as if it had stood without wind for so long before
 constexpr double kEnoughM2ps = 0.2;  // a second of acceleration to 0.8 m/s
 constexpr double kGustsM2ps = 0.9;   // three times what gusts of 0.3 m/s that last a second turn, squared
@@ -83,7 +83,7 @@ void DisturbanceObserver::compareDirections(const Eigen::Vector3d& measured_mps,
 // Until it has been watched for a while, what is usual counts beside it.
 Eigen::Matrix3d DisturbanceObserver::gusts() const {
   const Eigen::Matrix3d usual_m2ps = kUsualSec * kUsualGustMps * kUsualGustMps * Eigen::Matrix3d::Identity();
-  return (gusts_m2ps_ + usual_m2ps) / (watched_sec_ + kUsualSec);
+  return (gusts_m2ps_ + usual_m2ps) / watchedSec();
 }
 
 void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps,

@@ -16,6 +16,7 @@ namespace window_ingress::navigation {
 class DisturbanceObserver {
  public:
   static constexpr double kWindSec = 0.6, kGustMemorySec = 15.0;
+  static constexpr double kUsualSec = 0.3;  ///< what gusts usually are counts as if watched for so long
   DisturbanceObserver(const VehicleParams& vehicle, const ApproachParams& approach)
       : max_wind_mps_(approach.max_wind_mps), response_(vehicle.response_sec), climb_(vehicle.response_sec) {}
 
@@ -30,6 +31,8 @@ class DisturbanceObserver {
   /// Mean square of what remains beyond it and beyond what the model may err by, over `kGustMemorySec`:
   /// gusts. Whatever the vehicle is told meanwhile counts, for it is told most while gusts carry it off.
   Eigen::Matrix3d gusts() const;
+  /// Over how long, fading as they do, what is usual included [s].
+  double watchedSec() const { return watched_sec_ + kUsualSec; }
   /// How far the vehicle goes beside what it is told, left positive, over `kGustMemorySec` of motion in the
   /// plane; 0 as long as it was told, or moved, too little to tell [rad]. What is there whatever it is told
   /// (wind, a biased velocity) turns nothing.

@@ -105,15 +105,20 @@ TEST(CommitCriterion, SpreadsOfEstimateDriftAndGustsAddUpAsSquares) {
               3.0 * std::hypot(0.01, 0.05 * std::sqrt(blind_sec)), 1e-12);
   input.drift_m_per_sqrt_sec = 0.0;
 
-  input.gust_lateral_mps = 0.05;
+  input.gust_lateral_mps = 0.045;
   const double answered_sec = params.vehicle.response_sec + 1.0 / params.align.lateral_gain_hz;
-  const double gust_m = 0.05 * 0.73 * answered_sec;
+  const double gust_m = 0.045 * 0.73 * answered_sec;
   const auto gusty = evaluateCommitCriterion(input, params);
   EXPECT_NEAR(gusty.miss_lateral_m, 3.0 * std::hypot(0.01, drift_m, gust_m), 1e-12);
   EXPECT_NEAR(gusty.miss_vertical_m, 3.0 * std::hypot(0.01, drift_m), 1e-12);
   input.gust_lateral_mps = 0.4;
   EXPECT_GT(evaluateCommitCriterion(input, params).miss_lateral_m, 3.0 * 0.4 * answered_sec)
       << "calm does not hide what carries";
+  CommitCriterionInput early = input;
+  early.gusts_watched_sec = 3.0;
+  EXPECT_GT(evaluateCommitCriterion(early, params).miss_lateral_m,
+            1.25 * evaluateCommitCriterion(input, params).miss_lateral_m)
+      << "of few gusts the strongest was not among them";
   NavigatorParams late = params;
   late.vehicle.response_sec = 0.9;
   EXPECT_GT(evaluateCommitCriterion(input, late).miss_lateral_m,

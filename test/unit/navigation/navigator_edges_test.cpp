@@ -10,7 +10,7 @@ namespace window_ingress::navigation::navigator_edges_test {
 
 constexpr double kStep = 1.0 / 30.0;
 const Eigen::Vector3d kFar(-4.0, 0.0, 1.5), kLine(-1.1, 0.0, 1.5), kAside(-4.0, 3.8, 1.5),
-    kInside(1.0, 0.0, 1.5);
+    kInside(1.2, 0.0, 1.5);
 constexpr State kLive[] = {State::kSearch, State::kAlign,   State::kApproach,
                            State::kCommit, State::kBackOff, State::kHold};
 

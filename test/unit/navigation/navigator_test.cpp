@@ -158,8 +158,8 @@ TEST_F(NavigatorSteps, GoesThroughTheStatesAsTheInputSays) {
   EXPECT_EQ(steps(navigator, kFar, 1, true, false).state, State::kAlign);  // sign lost: misaligned
   EXPECT_EQ(steps(navigator, kFar, 10).state, State::kApproach);
   EXPECT_EQ(walk(navigator, kFar, kLine).state, State::kCommit);
-  EXPECT_EQ(walk(navigator, kLine, {1.0, 0.0, 1.5}).state, State::kPassed);
-  const auto output = steps(navigator, {1.0, 0.0, 1.5}, 1);
+  EXPECT_EQ(walk(navigator, kLine, {1.2, 0.0, 1.5}).state, State::kPassed);
+  const auto output = steps(navigator, {1.2, 0.0, 1.5}, 1);
   EXPECT_TRUE(output.enabled);
   EXPECT_LE(output.setpoint.velocity_odom_mps.norm(), params_.hold.speed_mps) << "keeps its place";
 }
@@ -304,7 +304,7 @@ TEST_F(NavigatorSteps, AbortAfterTheEndKeepsNoPlace) {
     now_ += 100.0;
     start(navigator, kFar);
     walk(navigator, kFar, kLine);
-    const Eigen::Vector3d inside(1.0, 0.0, 1.5);
+    const Eigen::Vector3d inside(1.2, 0.0, 1.5);
     ASSERT_EQ(walk(navigator, kLine, inside).state, State::kPassed);
     steps(navigator, inside, 10);
     if (aborts) navigator.abort();
@@ -317,7 +317,7 @@ TEST_F(NavigatorSteps, GoesBackToNoPlaceThatSomebodyTookItFarAwayFrom) {
   Navigator navigator(params_);
   start(navigator, kFar);
   walk(navigator, kFar, kLine);
-  const Eigen::Vector3d inside(1.0, 0.0, 1.5), elsewhere(4.0, 0.0, 1.5);
+  const Eigen::Vector3d inside(1.2, 0.0, 1.5), elsewhere(4.0, 0.0, 1.5);
   ASSERT_EQ(walk(navigator, kLine, inside).state, State::kPassed);
   for (int i = 0; i < 60; ++i) {
     auto input = inputAt(inside + (elsewhere - inside) * i / 60.0, now_ += kStep);

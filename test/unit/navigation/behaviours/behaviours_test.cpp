@@ -296,13 +296,28 @@ TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
   EXPECT_EQ(back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory).event, Event::kGiveUp);
 }
 
+// An autopilot that changes its velocity by so much a second, in whatever direction it is asked to.
+TEST(VelocityAlongAxis, WhatAcceleratesSlowlyIsAskedForLittleForwardWhileItIsToMoveAcross) {
+  NavigatorParams params = kDefaults;
+  const TargetEstimate target = test::targetAtOrigin(0.0);
+  const auto forwardAt = [&](double across_m) {
+    const RelativeState relative = relate(test::vehicleAt({-1.5, across_m, 1.5}, 0.0), target);
+    return velocityAlongAxis(relative, target, 0.9, Eigen::Vector3d::Zero(), params).x();
+  };
+  EXPECT_NEAR(forwardAt(0.0), 0.9, 1e-9);
+  params.vehicle.braking_mps2 = 0.5;
+  EXPECT_LT(forwardAt(0.3), 0.2);
+  EXPECT_LT(forwardAt(-0.3), 0.2);
+  EXPECT_NEAR(forwardAt(0.0), 0.9, 1e-9);
+}
+
 TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
   MissionState memory;
   memory.committed = test::targetAtOrigin(0.0);
   memory.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
   Commit commit{kDefaults};
   commit.enter();
-  auto at_exit = situationAt({1.0, 0.0, 1.5}, 0.0, false);
+  auto at_exit = situationAt({kDefaults.commit.exit_distance_m, 0.0, 1.5}, 0.0, false);
   const auto decision = commit.step(at_exit, memory);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.x(), 0.4, 1e-9);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.y(), -0.3, 1e-9);
@@ -332,7 +347,7 @@ TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
   memory.committed = test::targetAtOrigin(0.0);
   Commit commit{kDefaults};
   commit.enter();
-  EXPECT_EQ(commit.step(situationAt({1.0, 0.0, 1.5}, 0.0, false), memory).event, Event::kCrossed);
+  EXPECT_EQ(commit.step(situationAt({1.2, 0.0, 1.5}, 0.0, false), memory).event, Event::kCrossed);
   const auto blown_back = commit.step(situationAt({0.1, 0.0, 1.5}, 0.1, false), memory);
   EXPECT_FALSE(blown_back.event);
   EXPECT_GT(blown_back.wish.velocity_odom_mps.x(), 0.3);

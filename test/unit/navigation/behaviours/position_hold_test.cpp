@@ -76,6 +76,21 @@ TEST(PositionHold, LeadsBackNoFasterThanAllowed) {
   EXPECT_NEAR(climbed.z(), -params.hold.speed_mps, 1e-12);
 }
 
+// One that was seen in a wrong place, ahead of the vehicle by now.
+TEST(PositionHold, BehindTheWindowNoOtherWindowKeepsItFromItsPlace) {
+  const NavigatorParams params = test::withoutGlass();
+  MissionState memory;
+  memory.trusted = test::targetAtOrigin(0.0);
+  memory.others_odom_m = {Eigen::Vector3d(3.0, 0.0, 1.5)};
+  const Eigen::Vector3d ahead(0.3, 0.0, 0.0);
+  for (const double side : {-1.0, 1.0}) {
+    memory.place_odom_m = Eigen::Vector3d(side * 1.5 + 0.5, 0.0, 1.5);
+    const auto velocity =
+        onlyToPlace(ahead, test::vehicleAt({side * 1.5, 0.0, 1.5}, 0.0), memory, params.hold);
+    EXPECT_NEAR(velocity.x(), side > 0.0 ? 0.3 : 0.0, 1e-12);
+  }
+}
+
 TEST(PositionHold, DoesNothingWhereItIsSwitchedOff) {
   NavigatorParams params = test::withoutGlass();
   params.hold.speed_mps = 0.0;
