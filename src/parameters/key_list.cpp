@@ -48,6 +48,22 @@ std::pair<std::size_t, std::size_t> unlikeness(const std::string& path, const st
   return {nameDistance(nameOf(path), nameOf(known)), distance(groupOf(path), groupOf(known))};
 }
 
+// The few keys that could stand beside it; nothing where there are many.
+std::string neighboursOf(const std::string& path, const std::vector<std::string>& known) {
+  constexpr std::size_t kFew = 8;
+  const std::string group = path.substr(0, path.size() - nameOf(path).size());
+  std::vector<std::string> names;
+  std::string listed;
+  for (const auto& key : known) {
+    if (key.compare(0, group.size(), group) != 0) continue;
+    const std::string name = key.substr(group.size(), key.find('/', group.size()) - group.size());
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    listed += (names.empty() ? "; there is " : ", ") + name;
+    names.push_back(name);
+  }
+  return names.size() > kFew ? "" : listed;
+}
+
 }  // namespace
 
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known) {
@@ -55,7 +71,8 @@ std::string didYouMean(const std::string& path, const std::vector<std::string>& 
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return unlikeness(path, a) < unlikeness(path, b);
   });
-  if (nearest == known.end() || 3 * unlikeness(path, *nearest).first > nameOf(path).size()) return "";
+  if (nearest == known.end() || 3 * unlikeness(path, *nearest).first > nameOf(path).size())
+    return neighboursOf(path, known);
   const bool is_neighbour = groupOf(path) == groupOf(*nearest);
   return "; did you mean '" + (is_neighbour ? nameOf(*nearest) : inYaml(*nearest)) + "'?";
 }

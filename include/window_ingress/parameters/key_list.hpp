@@ -37,8 +37,8 @@ std::vector<std::string> keysOf(const Params& params) {
   return lister.keys;
 }
 
-/// What to say behind "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?", or nothing where
-/// nothing is like it. \param path that nobody reads \param known all that somebody reads
+/// What to say behind "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?", or where
+/// nothing is like it the few keys that could stand there, or nothing. \param path that nobody reads \param known all that somebody reads
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known);
 
 }  // namespace window_ingress::parameters

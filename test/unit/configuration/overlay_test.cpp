@@ -63,7 +63,9 @@ TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
             file_ + ":3: vehicle/half_widht_m: unknown key; did you mean 'half_width_m'?");
   EXPECT_EQ(error("ingress_navigator: {navigator: {limits: {speed: 1}}}\n"),
             file_ + ":1: ingress_navigator/navigator/limits/speed: unknown key; did you mean 'speed_mps'?");
-  EXPECT_EQ(error("unheard_of: 1\n"), file_ + ":1: unheard_of: unknown key");
+  EXPECT_EQ(error("unheard_of: 1\n"), file_ +
+                                          ":1: unheard_of: unknown key; there is vehicle, window_detector, "
+                                          "homography_pose, ingress_navigator, setpoint_guard, world");
 }
 
 TEST_F(OverlayFile, SaysWhereTheVehicleIsNow) {
