@@ -73,6 +73,18 @@ def test_names_what_the_system_does_not_have_and_installs_nothing(setup):
     assert "Debian GNU/Linux sid has no parallel rviz; nothing installed" in done.stderr
 
 
+def test_an_option_is_none_of_apt(setup):
+    for option in ("--help", "--reinstall"):
+        done, installed = setup(system("debian", "12"), option)
+        assert done.returncode == 2 and not installed and "scripts/setup [MORE PACKAGES...]" in done.stderr
+
+
+@pytest.mark.parametrize("script, arguments", [("test", ["--help"]), ("test", ["pose"]), ("run", ["--help"]), ("run", [])])
+def test_a_script_that_takes_no_such_argument_says_so_and_does_nothing(script, arguments):
+    done = subprocess.run([SETUP.parent / script, *arguments], capture_output=True, text=True, check=False, timeout=10)
+    assert done.returncode == 2 and not done.stdout and f"scripts/{script}" in done.stderr
+
+
 @pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])
 def test_check_platform_refuses_what_it_cannot_do(arguments):
     done = subprocess.run([SETUP.parents[1] / "dev/check_platform", *arguments], capture_output=True, text=True, check=False)
