@@ -1,5 +1,6 @@
 /// Flies a scenario many times in one process and sums up: flights.csv, tracks.csv, tracks.png, summary.json.
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/program_options.hpp>
@@ -67,8 +68,10 @@ constexpr bool kCanRecordBags = false;
 volatile std::sig_atomic_t told_to_stop = 0;
 
 void stopAfterTheseFlights(int signal) {
+  constexpr char kSaid[] = "fly: stopping; the flights under way end first (once more: at once)\n";
   told_to_stop = 1;
   std::signal(signal, SIG_DFL);
+  if (write(STDERR_FILENO, kSaid, sizeof kSaid - 1) < 0) return;  // nobody is there to read it
 }
 
 // Not where it is ignored: in the background of a script.
@@ -294,6 +297,8 @@ std::vector<evaluation::FlightResult> flownBefore(const Job& job) {
                        ", which is not among those asked for");
   if (flights.empty()) return flights;
   const std::uint32_t seed = flights.back().seed;
+  std::fprintf(stderr, "%zu of %zu flights are there; seed %u is flown again to compare\n", flights.size(),
+               job.seeds.size(), seed);
   const auto again = evaluation::flyOnce(job.scenario(seed), seed, job.params, {});
   if (evaluation::csvRow(again) != evaluation::csvRow(flights.back()))
     throw UsageError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +

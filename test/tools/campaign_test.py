@@ -76,7 +76,9 @@ def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # which a script's background ignores
     assert f" of {total} flights" in process.stderr.readline()
     process.send_signal(signal.SIGINT)
-    last = process.communicate(timeout=60)[1].splitlines()[-1]
+    spoken = process.communicate(timeout=60)[1]
+    assert "fly: stopping; the flights under way end first (once more: at once)\n" in spoken
+    last = spoken.splitlines()[-1]
     said = re.fullmatch(rf"fly: (\d+) of {total} flown and summed up, continue with --resume", last)
     assert process.returncode == 1 and said, last
     flown = len((out / "flights.csv").read_text().splitlines()) - 1
@@ -84,6 +86,7 @@ def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
     assert flown == int(said.group(1)) == summary["flights"] and (out / "tracks.png").exists()
     wanted = ["--seeds", f"1..{flown + 5}"]
     resumed = fly(scenario, out, *wanted, "--resume")
+    assert f"{flown} of {flown + 5} flights are there; seed " in resumed.stderr.splitlines()[0]  # before it flies
     counts = re.findall(r"^(\d+) of \d+ flights, (\d+) passed", resumed.stderr, flags=re.M)
     assert resumed.returncode == 0 and counts and all(int(passed) <= int(done) for done, passed in counts), resumed.stderr
     assert fly(scenario, tmp_path / "whole", *wanted).returncode == 0
