@@ -1,4 +1,5 @@
 /// Whether a file may be laid over the defaults; see --help. Launch files ask before they start anything.
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +13,8 @@
 #include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "launch_arguments.hpp"
+#include "navigation/mission/mission_rules.hpp"
+#include "running_nodes.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
@@ -38,9 +41,10 @@ po::options_description describe(Options& o) {
       ("reference", po::value(&o.reference), "picture of the target")                                    //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
-      ("needs-window-size", po::value(&o.needs_window_size), "true: refused if nobody says it")          //
-      ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                        //
-      ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")        //
+      ("needs-window-size", po::value(&o.needs_window_size),
+       "true: refused if nobody says it, nor the vehicle's size; a missing reference is said")     //
+      ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                  //
+      ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")  //
       ("launch-folder", po::value(&o.launch_folder),
        "of the package: the arguments that the calling roslaunch was given are checked against its file "
        "there")  //
@@ -56,23 +60,31 @@ std::string given(std::string text) {
   return text == "none" ? "" : text;
 }
 
-void checkReference(const Options& o, const configuration::DetectorNodeParams& detector) {
+void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
+
+void checkReference(const Options& o, const std::string& file,
+                    const configuration::DetectorNodeParams& detector) {
   configuration::ReferenceParams reference = detector.reference;
   const std::string picture = given(o.reference), corners = given(o.corners);
+  const std::string from = picture.empty() && corners.empty() ? file + ": window_detector/" : "";
   if (!picture.empty()) reference.picture = picture, reference.corners.clear();
   if (!corners.empty()) reference.corners = tools::numbers("reference_corners", corners, 8);
-  if (reference.picture.empty()) return;
+  if (reference.picture.empty()) {
+    if (o.needs_window_size == "true")
+      warn(
+          "no reference picture (reference:=, or window_detector/reference in the file): other windows and "
+          "decoys are taken for the target");
+    return;
+  }
   if (!std::filesystem::path(reference.picture).is_absolute())
-    throw UsageError("reference '" + reference.picture +
+    throw UsageError(from + "reference '" + reference.picture +
                      "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
   try {
     adapters::loadReference(reference, detector.detector);
   } catch (const adapters::ParameterError& error) {
-    throw UsageError(error.what());
+    throw UsageError(from + error.what());
   }
 }
-
-void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
 
 void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
   if (text.empty()) return;
@@ -105,17 +117,29 @@ void checkSpeeds(const configuration::Overlay& overlay) {
   warn(text.str());
 }
 
-// A drone does not fly by the size of somebody else's window.
-void checkSizeIsSaid(const Options& o, const configuration::Overlay& overlay) {
-  if (o.needs_window_size != "true" || !given(o.window_size).empty()) return;
-  const auto says = [&](const char* key) {
-    return overlay.said.count(std::string("homography_pose/pose/") + key) != 0;
-  };
-  if (overlay.homography_pose.pose.scale_sigma > 0.0) return;  // it is found out in flight
-  if (!says("opening_width_m") || !says("opening_height_m"))
+bool says(const configuration::Overlay& overlay, const std::string& group,
+          const std::vector<const char*>& keys) {
+  return std::all_of(keys.begin(), keys.end(),
+                     [&](const char* key) { return overlay.said.count(group + key) != 0; });
+}
+
+bool saysOpening(const configuration::Overlay& overlay) {
+  return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
+}
+
+// A drone does not fly by the size of somebody else's window, nor by that of somebody else's vehicle.
+void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) {
+  if (o.needs_window_size != "true") return;
+  const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
+  if (!is_found_out && given(o.window_size).empty() && !saysOpening(overlay))
     throw UsageError(
         "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
+  if (o.fly == "true" && !says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"}))
+    throw UsageError(
+        "the vehicle's size is not said: in the file of config:= vehicle: {half_length_m: L, half_width_m: "
+        "W, "
+        "half_height_m: H}, half of the box around it, propellers included [m]; measure it");
 }
 
 void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
@@ -139,6 +163,26 @@ void checkCameraPose(const std::string& text) {
   }
 }
 
+// Values that do not go together.
+void checkNavigator(const std::string& file, const navigation::NavigatorParams& params) {
+  try {
+    navigation::checked(params);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(file + ": ingress_navigator/" + error.what());
+  }
+}
+
+void checkLaunch(const Options& o) {
+  const auto words = tools::wordsOfParent();
+  const auto file = tools::launchFileOf(words, o.launch_folder);
+  if (file.empty()) return;
+  tools::checkLaunchArguments(words, file);
+  std::vector<const char*> nodes;  // of ingress.launch alone
+  if (!o.fly.empty()) nodes = {"/window_detector", "/homography_pose"};
+  if (o.fly == "true") nodes.insert(nodes.end(), {"/ingress_navigator", "/setpoint_guard"});
+  tools::checkNoneRuns(words, nodes);
+}
+
 // Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is
 // there.
 std::string existing(const std::string& file) {
@@ -152,14 +196,16 @@ int check(const Options& o) {
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
                             o.launch_folder.empty();
   if (asks_nothing) throw UsageError("no file given; see --help");
-  if (!o.launch_folder.empty()) tools::checkLaunchArguments(tools::wordsOfParent(), o.launch_folder);
+  if (!o.launch_folder.empty()) checkLaunch(o);
   const std::string file = existing(given(o.file));
   auto overlay = configuration::readOverlay(file, configuration::readOverlay(given(o.defaults)));
-  checkReference(o, overlay.window_detector);
+  checkReference(o, file, overlay.window_detector);
   takeWindowSize(given(o.window_size), file, overlay);
   checkSpeeds(overlay);
-  checkSizeIsSaid(o, overlay);
-  if (o.fly == "true") checkFits(overlay.vehicle, overlay.homography_pose.pose);
+  checkSizesAreSaid(o, overlay);
+  checkNavigator(file, overlay.ingress_navigator.navigator);
+  const bool is_asked_by_hand = o.fly.empty() && saysOpening(overlay);
+  if (o.fly == "true" || is_asked_by_hand) checkFits(overlay.vehicle, overlay.homography_pose.pose);
   checkCameraPose(given(o.camera_pose));
   std::cout << file;
   return 0;
@@ -170,5 +216,13 @@ int check(const Options& o) {
 int main(int argc, char** argv) {
   po::positional_options_description positional;
   positional.add("file", 1);
-  return tools::runTool("check_overlay", argc, argv, describe, check, positional);
+  const int code = tools::runTool("check_overlay", argc, argv, describe, check, positional);
+  const auto caller = tools::wordsOfParent();
+  const bool refuses_launch =
+      code != 0 && std::any_of(caller.begin(), caller.end(), [](const std::string& word) {
+        return std::filesystem::path(word).filename() == "roslaunch";
+      });
+  if (refuses_launch)
+    std::cerr << "check_overlay: nothing is started. What follows is roslaunch's own, and says no more\n";
+  return code;
 }

@@ -86,28 +86,33 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
   return "give its whole path, as " + (std::filesystem::current_path() / value).string();
 }
 
-/// \param words of the command that may be roslaunch with one of the launch files in `folder`
-/// \throws UsageError that names the first argument that cannot be
-inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& folder) {
+/// The launch file in `folder` that roslaunch is given; empty if these are not the words of roslaunch, or it
+/// is another.
+inline std::filesystem::path launchFileOf(const std::vector<std::string>& words,
+                                          const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   bool is_roslaunch = false;
   std::vector<fs::path> files;
-  std::vector<std::pair<std::string, std::string>> given;
-  for (const auto& word : words) {
-    const auto assigned = word.find(":=");
-    if (assigned != std::string::npos) {
-      given.emplace_back(word.substr(0, assigned), word.substr(assigned + 2));
-    } else if (fs::path(word).extension() == ".launch") {
-      files.emplace_back(word);
-    }
-    is_roslaunch = is_roslaunch || fs::path(word).filename() == "roslaunch";
+  for (const fs::path word : words) {
+    const bool assigns = word.string().find(":=") != std::string::npos;
+    if (!assigns && word.extension() == ".launch") files.push_back(word);
+    is_roslaunch = is_roslaunch || word.filename() == "roslaunch";
   }
   std::error_code error;
-  if (!is_roslaunch || files.size() != 1) return;
+  if (!is_roslaunch || files.size() != 1) return {};
   const fs::path file = folder / files[0].filename();
   const bool is_ours =
       files[0].has_parent_path() ? fs::equivalent(files[0], file, error) : fs::exists(file, error);
-  if (!is_ours) return;
+  return is_ours ? file : fs::path();
+}
+
+/// \param words of the command that starts this launch file
+/// \throws UsageError that names the first argument that cannot be
+inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& file) {
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const auto& word : words)
+    if (const auto assigned = word.find(":="); assigned != std::string::npos)
+      given.emplace_back(word.substr(0, assigned), word.substr(assigned + 2));
   const auto known = argumentsOf(file);
   std::vector<std::string> names;
   for (const auto& argument : known) names.push_back(argument.name);
@@ -115,8 +120,11 @@ inline void checkLaunchArguments(const std::vector<std::string>& words, const st
   for (const auto& [name, value] : given) {
     if (!std::regex_match(name, std::regex("[A-Za-z]\\w*"))) continue;  // __name, /topic
     const auto argument = std::find(names.begin(), names.end(), name);
-    if (argument == names.end())
-      throw UsageError(launch + " has no argument '" + name + "'" + parameters::didYouMean(name, names));
+    if (argument == names.end()) {
+      const std::string meant = parameters::didYouMean(name, names);
+      const std::string listed = "; roslaunch --ros-args window_ingress " + launch + " lists them";
+      throw UsageError(launch + " has no argument '" + name + "'" + (meant.empty() ? listed : meant));
+    }
     const std::string why = whyNot(known[static_cast<std::size_t>(argument - names.begin())], value);
     if (!why.empty()) throw UsageError(launch + ": " + name + ":=" + value + ": " + why);
   }

@@ -188,7 +188,8 @@ def runs_a_tool(command, folder):
 
 
 def launches(command, folder):
-    (folder / "my_drone.yaml").write_text("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}\n")
+    (folder / "my_drone.yaml").write_text("homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}\n"
+                                          "vehicle: {half_length_m: 0.3, half_width_m: 0.3, half_height_m: 0.1}\n")
     shutil.copy(ROOT / "doc/detection.png", folder / "window.jpg")
     words = command.replace("/home/me", str(folder)).split()
     done = run(*words[:2], "--nodes", *words[2:])

@@ -12,7 +12,8 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAUNCH_FILES = sorted((ROOT / "launch").glob("*.launch"))
 NEEDED = {"replay": ["bag:=/tmp/none.bag"], "record": ["name:=/tmp/none"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
-SIZE = ["window_size:=1.2,1.0"]
+VEHICLE = ROOT / "test/ros/vehicle.yaml"
+SIZE = ["window_size:=1.2,1.0", f"config:={VEHICLE}"]
 GIVEN = {**NEEDED, "px4": SIZE, "ardupilot": SIZE, "mavros": [*NEEDED["mavros"], *SIZE]}  # and without which nothing is flown
 CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"}
 
@@ -94,7 +95,7 @@ def test_another_namespace_of_mavros_moves_everything():
 
 def test_the_users_file_lies_over_the_frames_and_without_flying_nothing_commands(tmp_path):
     config = tmp_path / "drone.yaml"
-    config.write_text("setpoint_guard: {stop_streaming_after_sec: 3.0, frame: local}\n")
+    config.write_text(f"{VEHICLE.read_text()}setpoint_guard: {{stop_streaming_after_sec: 3.0, frame: local}}\n")
     params = dump("ardupilot", f"config:={config}")["params"]
     assert params["/setpoint_guard/frame"] == "local" and params["/setpoint_guard/stop_streaming_after_sec"] == 3.0
     assert {node for node in dump("px4", "fly:=false")["nodes"]} == {"/window_detector", "/homography_pose"}
@@ -141,6 +142,26 @@ def test_the_size_is_said_by_the_file_or_by_the_argument(tmp_path, text, is_said
         assert run("check_overlay", config, *arguments).returncode == 0
 
 
+@pytest.mark.parametrize("vehicle", [{}, {"half_width_m": 0.3, "half_height_m": 0.1}])
+def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, vehicle):
+    (tmp_path / "drone.yaml").write_text(json.dumps({"vehicle": vehicle}))
+    launch = (ROOT / "launch/px4.launch", "window_size:=1.2,1.0", f"config:={tmp_path}/drone.yaml")
+    assert "the vehicle's size is not said: in the file of config:=" in refusal(*launch)
+    done = run("roslaunch", "--nodes", *launch, "fly:=false")
+    assert done.returncode == 0 and "warning: no reference picture" in done.stderr
+
+
+def test_what_a_launch_file_would_refuse_is_refused_by_hand_too(tmp_path):
+    config, said = tmp_path / "drone.yaml", "homography_pose: {pose: {opening_width_m: 1.3, opening_height_m: 1.1}}\n"
+    for text, why in (("vehicle: {half_width_m: 0.7}", "does not fit through the opening, 1.3 x 1.1 m"),
+                      ("ingress_navigator: {navigator: {limits: {min_height_m: 12}}}", "min_height_m must be below limits/max_height_m"),
+                      ("window_detector: {reference: {picture: /nowhere.png}}", f"{config}: window_detector/reference/picture"),
+                      ("window_pose: {rate_hz: 3}", "window_pose: unknown key; there is vehicle, window_detector, ")):
+        config.write_text(said + text)
+        done = run("check_overlay", config)
+        assert done.returncode == 2 and not done.stdout and why in done.stderr, done.stderr
+
+
 @pytest.mark.parametrize("pose, said", [("[0.1,0,0.02,0,15,0]", "not degrees"), ("[0.1,0]", "is not 6 numbers")])
 def test_a_mounting_that_cannot_be_ends_the_launch_before_anything_starts(pose, said):
     done = run("roslaunch", "--nodes", ROOT / "launch/px4.launch", *SIZE, f"camera_pose:={pose}")
@@ -170,6 +191,8 @@ def test_the_argument_that_was_meant_is_named(file):
     for wrong, said in (("cammera_pose:=[0,0,0,0,0,0]", "'cammera_pose'; did you mean 'camera_pose'?"),
                         ("refrence:=/w.png", "'refrence'; did you mean 'reference'?")):
         assert f"px4.launch has no argument {said}" in refusal(*file, *SIZE, wrong)
+    said = refusal(*file, *SIZE, "glass:=excluded")
+    assert "'glass'; roslaunch --ros-args window_ingress px4.launch lists them\ncheck_overlay: nothing is started." in said
     assert "cannot override arg 'modes'" in refusal(*file, *SIZE, "modes:=[GUIDED]")
     done = run("roslaunch", "--nodes", *file, *SIZE, "image_transport:=compressed")  # of mavros.launch, by pass_all_args
     assert done.returncode == 0, done.stderr
@@ -192,18 +215,20 @@ def test_a_value_that_cannot_be_ends_the_launch_with_those_that_can(name, argume
 @pytest.mark.parametrize("name, arguments", [("ingress", []), ("px4", SIZE), ("sim", [])])
 def test_a_vehicle_that_does_not_fit_through_the_opening_ends_the_launch(tmp_path, name, arguments):
     config = tmp_path / "drone.yaml"
-    config.write_text("vehicle: {half_width_m: 0.7}\n")
+    config.write_text("vehicle: {half_length_m: 0.25, half_width_m: 0.7, half_height_m: 0.12}\n")
     launch = (ROOT / f"launch/{name}.launch", *arguments, f"config:={config}")
     assert "the vehicle, 1.4 x " in refusal(*launch)
     if name != "sim":
         assert run("roslaunch", "--nodes", *launch, "fly:=false").returncode == 0
-    config.write_text("homography_pose: {pose: {opening_width_m: 0.45, opening_height_m: 0.4}}\n")
+    config.write_text((VEHICLE.read_text() if name == "px4" else "") +
+                      "homography_pose: {pose: {opening_width_m: 0.45, opening_height_m: 0.4}}\n")
     launch = (ROOT / f"launch/{name}.launch", f"config:={config}")
     if name == "sim":  # its vehicle is smaller than the package's
         assert run("roslaunch", "--nodes", *launch).returncode == 0
     else:
         assert "does not fit through the opening, 0.45 x 0.4 m: measure both" in refusal(*launch)
-    config.write_text("vehicle: {half_width_m: 0.7}\nhomography_pose: {pose: {scale_sigma: 0.5}}\n")  # found out in flight
+    config.write_text("vehicle: {half_length_m: 0.25, half_width_m: 0.7, half_height_m: 0.12}\n"
+                      "homography_pose: {pose: {scale_sigma: 0.5}}\n")  # found out in flight
     assert run("roslaunch", "--nodes", *launch).returncode == 0
 
 
@@ -267,7 +292,7 @@ def test_a_file_with_keys_that_nobody_reads_ends_the_launch_before_anything_star
 @pytest.mark.parametrize("name", ["ingress", "replay", "ardupilot"])
 def test_what_is_given_as_an_argument_counts_more_than_the_file(tmp_path, name):
     config, in_file, given = tmp_path / "window.yaml", photograph(tmp_path / "file.png"), photograph(tmp_path / "given.png")
-    config.write_text("homography_pose: {pose: {opening_width_m: 2.0, opening_height_m: 1.9}}\n"
+    config.write_text(f"{VEHICLE.read_text()}homography_pose: {{pose: {{opening_width_m: 2.0, opening_height_m: 1.9}}}}\n"
                       f"window_detector: {{reference: {{picture: {in_file}, corners: [60, 50, 260, 50, 260, 190, 60, 190]}}}}\n")
     size, reference = "/homography_pose/pose/opening_{}_m", "/window_detector/reference/{}"
     params = dump(name, f"config:={config}", "window_size:=none")["params"]
@@ -294,7 +319,7 @@ def test_the_vehicle_is_said_once_for_all_nodes(tmp_path, name, half_width, brak
     said = [params[f"/vehicle/{key}"] for key in ("half_width_m", "braking_mps2", "response_sec")]
     assert said == [half_width, braking, response]
     config = tmp_path / "drone.yaml"
-    config.write_text("vehicle: {half_width_m: 0.45}\n")
+    config.write_text("vehicle: {half_length_m: 0.3, half_width_m: 0.45, half_height_m: 0.1}\n")
     params = dump(name, f"config:={config}")["params"]
     assert params["/vehicle/half_width_m"] == 0.45 and params["/vehicle/braking_mps2"] == braking
 

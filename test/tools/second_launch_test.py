@@ -1,0 +1,50 @@
+"""A launch beside one that runs: ROS would end the nodes of the first, the guard of a flying vehicle among them."""
+import contextlib
+import os
+import pathlib
+import subprocess
+import threading
+import xmlrpc.server
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+@contextlib.contextmanager
+def master(running=(), died=()):
+    """A stand-in for roscore and for the nodes that run: \\return its port."""
+    server = xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False)
+    uri = f"http://localhost:{server.server_address[1]}/"
+    known = {**{node: uri for node in running}, **{node: "http://localhost:1/" for node in died}}
+    server.register_function(lambda _, node: [1, "", known[node]] if node in known else [-1, "unknown node", ""], "lookupNode")
+    server.register_function(lambda _: [1, "", os.getpid()], "getPid")
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield server.server_address[1]
+    server.shutdown()
+    server.server_close()
+
+
+def launched(port, *arguments, by_option=False):
+    """What roslaunch says before it starts anything; the file that is not there ends it in any case."""
+    option, uri = (["-p", port], "http://localhost:1") if by_option else ([], f"http://localhost:{port}")
+    done = subprocess.run([str(word) for word in (ROOT / "scripts/run", "roslaunch", *option, *arguments, "config:=/nowhere.yaml")],
+                          capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "ROS_MASTER_URI": uri})
+    assert done.returncode == 1, done.stdout
+    return done.stderr
+
+
+@pytest.mark.parametrize("by_option", [False, True])
+@pytest.mark.parametrize("name, node", [("ingress", "/setpoint_guard"), ("sim", "/ingress_navigator"), ("replay", "/window_detector")])
+def test_it_is_refused_and_says_which_node_it_would_end(name, node, by_option):
+    bag = ["bag:=/tmp/none.bag"] if name == "replay" else []
+    with master(running=[node]) as port:
+        said = launched(port, "window_ingress", f"{name}.launch", *bag, by_option=by_option)
+    assert f"{node} runs already at http://localhost:{port}: this launch would end it" in said and "nothing is started" in said
+
+
+def test_what_died_and_what_it_does_not_start_does_not_matter():
+    with master(running=["/rviz"], died=["/setpoint_guard"]) as port:
+        assert "/nowhere.yaml: no such file" in launched(port, "window_ingress", "ingress.launch")
+    with master(running=["/setpoint_guard"]) as port:
+        assert "/nowhere.yaml: no such file" in launched(port, "window_ingress", "replay.launch", "bag:=/tmp/none.bag")
