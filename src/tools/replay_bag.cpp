@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <boost/program_options.hpp>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +19,7 @@
 #include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
+#include "progress.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace fs = std::filesystem;
@@ -134,27 +134,6 @@ void sayThatTheReaderCrashed(int) {
   _exit(written > 0 ? 2 : 1);
 }
 
-/// A line now and then, so that nobody thinks that it hangs.
-class Progress {
- public:
-  explicit Progress(std::size_t images) : images_(images) {}
-
-  void passed() {
-    ++done_;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - said_ < std::chrono::seconds(5)) return;
-    said_ = now;
-    const auto left = (now - began_) * (images_ - done_) / done_;
-    say(std::to_string(done_) + " of " + std::to_string(images_) + " images, " +
-        std::to_string(std::chrono::duration_cast<std::chrono::seconds>(left).count()) + " s left");
-  }
-
- private:
-  std::size_t images_, done_ = 0;
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point said_ = began_;
-};
-
 void judge(const Options& options, const adapters::ReplayParams& params,
            const adapters::ReplaySummary& summary) {
   if (summary.refused > 0)
@@ -177,7 +156,7 @@ int run(const Options& options, const std::string& command) {
   adapters::ReplayTables tables(folder, params);
   const std::size_t images = adapters::messagesIn(bag, params.topics.image);
   adapters::DetectionStrip strip(folder, images);
-  Progress progress(images);
+  tools::Progress progress("replay_bag", "images", images);
   const auto each = [&](const adapters::ReplayedFrame& frame) {
     tables.add(frame);
     strip.add(frame);

@@ -16,6 +16,7 @@
 #include "command_line.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/images/survey_folder.hpp"
+#include "progress.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
@@ -180,12 +181,14 @@ simulation::Scenario load(const std::string& file, std::uint32_t seed, const Opt
 }
 
 void draw(const Options& o, const std::function<void(const evaluation::SurveyPicture&)>& use) {
+  tools::Progress progress("survey_detector", "images", o.scenarios.size() * o.frames);
   for (const std::string& file : o.scenarios)
     for (int i = 0; i < o.frames; ++i) {
       const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(i);
       auto picture = evaluation::takePicture(load(file, seed, o), seed, rangeOf(o, i), !o.no_reference);
       picture.scenario = fs::path(file).stem().string();
       use(picture);
+      progress.passed();
     }
 }
 

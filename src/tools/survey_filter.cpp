@@ -11,6 +11,7 @@
 #include "command_line.hpp"
 #include "evaluation/poses/filter_survey.hpp"
 #include "evaluation/statistics.hpp"
+#include "progress.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
@@ -110,7 +111,8 @@ int survey(const Options& o) {
   double images = 0.0, nees = 0.0;
   int trusted_runs = 0;
   const auto start = std::chrono::steady_clock::now();
-  for (int run = 0; run < o.runs; ++run) {
+  tools::Progress progress("survey_filter", "approaches", o.runs);
+  for (int run = 0; run < o.runs; ++run, progress.passed()) {
     const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(run);
     const auto script = evaluation::drawApproach(seed, told);
     evaluation::SyntheticApproach approach(seed, script, estimation::FilterParams());

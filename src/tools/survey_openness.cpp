@@ -11,6 +11,7 @@
 
 #include "command_line.hpp"
 #include "evaluation/openness/openness_survey.hpp"
+#include "progress.hpp"
 #include "simulation/random_stream.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
@@ -106,6 +107,13 @@ simulation::Scenario anyWindow(std::uint32_t seed, bool is_open) {
   return scenario;
 }
 
+constexpr double kReflectivities[] = {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0};
+
+std::size_t approaches(const Options& o) {
+  const int drawn = o.open * std::max(1, static_cast<int>(o.scenarios.size())) + o.closed;
+  return drawn + o.synthetic * (evaluation::kInteriors - 1) + o.glass * std::size(kReflectivities);
+}
+
 class Survey {
  public:
   explicit Survey(const Options& o) : options_(o), csv_(fs::path(o.output) / "openness.csv") {
@@ -145,7 +153,7 @@ class Survey {
     csv_ << evaluation::opennessRow(result) << "\n";
     for (const std::string& line : lines_) trace_ << result.kind << "," << line << "\n";
     lines_.clear();
-    if (++done_ % 100 == 0) std::cerr << "survey_openness: " << done_ << " approaches\n";
+    progress_.passed();
   }
   evaluation::OpennessStep tracer(std::uint32_t seed) {
     if (options_.trace.empty()) return {};
@@ -164,7 +172,7 @@ class Survey {
   evaluation::OpennessTable table_;
   std::ofstream csv_, trace_;
   std::vector<std::string> lines_;
-  int done_ = 0;
+  tools::Progress progress_{"survey_openness", "approaches", approaches(options_)};
 };
 
 int run(const Options& o) {
@@ -187,7 +195,7 @@ int run(const Options& o) {
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.synthetic); ++i)
       survey.synthesise(interior, o.seed + i);
   }
-  for (const double reflectivity : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0})
+  for (const double reflectivity : kReflectivities)
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.glass); ++i)
       survey.lookThroughGlass(reflectivity, o.seed + i);
   return survey.finish();

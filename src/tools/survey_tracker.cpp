@@ -13,6 +13,7 @@
 #include "evaluation/images/survey_flight.hpp"
 #include "evaluation/images/survey_picture.hpp"
 #include "evaluation/images/track_survey.hpp"
+#include "progress.hpp"
 #include "simulation/camera/camera_sensor.hpp"
 #include "simulation/camera/reference_picture.hpp"
 #include "simulation/random_stream.hpp"
@@ -157,12 +158,13 @@ int run(const Options& o) {
   check(o);
   tools::makeFolder(o.output);
   std::cout << evaluation::TrackSummary::markdownHeader();
+  tools::Progress progress("survey_tracker", "flights", o.scenarios.size() * o.flights);
   for (const std::string& file : o.scenarios) {
     const std::string name = fs::path(file).stem().string();
     std::ofstream table(fs::path(o.output) / (name + ".csv"));
     table << evaluation::trackColumns() << "\n";
     evaluation::TrackSummary summary;
-    for (int i = 0; i < o.flights; ++i)
+    for (int i = 0; i < o.flights; ++i, progress.passed())
       Flight(file, o.seed + static_cast<std::uint32_t>(i), o).fly([&](const evaluation::TrackResult& result) {
         table << evaluation::trackRow(result) << "\n";
         summary.add(result);

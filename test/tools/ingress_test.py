@@ -156,3 +156,15 @@ def test_what_is_not_built_is_named(tmp_path):
     copy_of_the_modules(tmp_path)
     done = run(tmp_path / "ingress", "fly", env={"PATH": os.environ["PATH"]})
     assert done.returncode == 2 and "'fly' is not installed" in done.stderr
+
+
+@pytest.mark.parametrize("tool, arguments, what", [
+    ("survey_filter", ["--runs", "100000"], "100000 approaches"), ("survey_openness", ["--open", "100000"], "100000 approaches"),
+    ("survey_detector", ["--scenario", ROOT / "config/scenarios/brick.yaml", "--frames", "100000"], "100000 images"),
+    ("survey_tracker", ["--scenario", ROOT / "config/scenarios/nominal.yaml", "--flights", "100000"], "100000 flights")])
+def test_what_takes_long_says_how_long(tmp_path, tool, arguments, what):
+    command = [ROOT / "scripts/run", tool, *arguments, "--output", tmp_path / "out"]
+    with subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+        said = process.stderr.readline()
+        process.kill()
+    assert re.fullmatch(rf"{tool}: \d+ of {what}, \d+ s left\n", said), said
