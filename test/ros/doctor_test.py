@@ -97,7 +97,7 @@ class DoctorTest(unittest.TestCase):
 
     def test_z_a_node_that_died_and_what_hangs_on_it(self):
         subprocess.run(["rosnode", "kill", "/homography_pose"], stdout=subprocess.DEVNULL, check=True, timeout=30)
-        self.expect("homography_pose is not running", "mend: roslaunch window_ingress ingress.launch",
+        self.expect("homography_pose is not running", "mend: end the launch of the others, and start it again;",
                     "ingress_navigator: window_pose: no more window_pose on /window_pose (0 publishers)")
         subprocess.run(["rosnode", "kill", "/window_detector"], stdout=subprocess.DEVNULL, check=True, timeout=30)
         self.expect("window_detector is not running")
