@@ -1,11 +1,11 @@
 # Measurements, never part of the package or of its tests; scripts/bench installs, builds and runs them (target
 # `benchmarks`). What is not installed is left out, saying so.
-#   benchmark_draw_frames  the pictures that need no recordings
+#   benchmark_draw_frames  the images that need no recordings
 #   benchmark_detection    times, with Google Benchmark
 #   benchmark_pose         likewise, of a pose from one image
 #   benchmark_instructions the same, counted under callgrind
-#   benchmark_allocations  allocations a picture, by who asks for them
-#   benchmark_memory       memory over an hour's worth of pictures
+#   benchmark_allocations  allocations an image, by who asks for them
+#   benchmark_memory       memory over an hour's worth of images
 set(folder ${PROJECT_SOURCE_DIR}/test/benchmark)
 
 add_library(benchmark_support STATIC EXCLUDE_FROM_ALL ${folder}/frame_set.cpp ${folder}/subjects.cpp ${folder}/stages.cpp

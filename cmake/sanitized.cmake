@@ -31,7 +31,7 @@ add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
 
 # Of the adapters only what has no node behind it.
 add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp
-                      ${source_root}/adapters/nodes/setpoint_gate.cpp ${fuzz_folder}/pictures.cpp
+                      ${source_root}/adapters/nodes/setpoint_gate.cpp ${fuzz_folder}/any_image.cpp
                       LIBRARIES fuzz_core ${catkin_LIBRARIES})
 target_include_directories(fuzz_messages PUBLIC ${source_root})
 target_include_directories(fuzz_messages SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}
@@ -59,7 +59,7 @@ add_fuzzer(parameters fuzz_core)
 function(add_sanitized_test name)
   cmake_parse_arguments(ARG "" "" "FILES;LIBRARIES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ARG_FILES})
-  list(FILTER sources EXCLUDE REGEX "libfuzzer_main|test/fuzz/pictures")
+  list(FILTER sources EXCLUDE REGEX "libfuzzer_main|test/fuzz/any_image")
   add_executable(${name} EXCLUDE_FROM_ALL ${sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
   target_include_directories(${name} PRIVATE ${source_root} ${PROJECT_SOURCE_DIR}/test/support ${fuzz_folder})
   target_compile_definitions(${name} PRIVATE

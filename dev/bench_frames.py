@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Adds recorded pictures to the set of pictures that scripts/bench measures on; says what it leaves out, and why.
+"""Adds recorded images to the set of images that scripts/bench measures on; says what it leaves out, and why.
 
 Usage: bench_frames.py FOLDER DATA, DATA being the folder with kiosk.bag and photos/.
-Each sequence is some successive pictures, written lossless, and an entry of FOLDER/frames.json, see
+Each sequence is some successive images, written lossless, and an entry of FOLDER/frames.json, see
 test/benchmark/frame_set.hpp.
 """
 import csv
@@ -13,7 +13,7 @@ import sys
 import cv2
 import numpy
 
-PICTURES = 8
+IMAGES = 8
 BAG_START_SEC = 4.0  # from here on the flight looks at its target
 MARGIN = 0.25  # of a photographed reference: round the opening, in its sides
 
@@ -32,16 +32,16 @@ class FrameSet:
         with open(self._index_file) as file:
             self._index = json.load(file)
 
-    def write(self, name, picture):
+    def write(self, name, image):
         file = name + ".png"
-        if not cv2.imwrite(os.path.join(self._folder, file), picture):
+        if not cv2.imwrite(os.path.join(self._folder, file), image):
             raise OSError(f"{self._folder}/{file}: cannot be written")
         return file
 
-    def add(self, name, kind, period_sec, pictures, camera=None, reference=None):
-        """`reference`: picture and the eight numbers of its opening's corners."""
+    def add(self, name, kind, period_sec, images, camera=None, reference=None):
+        """`reference`: image and the eight numbers of its opening's corners."""
         entry = {"name": name, "kind": kind, "period_sec": period_sec, "camera": camera, "reference": None,
-                 "images": [self.write(f"{name}_{i}", picture) for i, picture in enumerate(pictures)]}
+                 "images": [self.write(f"{name}_{i}", image) for i, image in enumerate(images)]}
         if reference is not None:
             entry["reference"] = {"picture": self.write(name + "_reference", reference[0]), "corners": reference[1]}
         self._index.append(entry)
@@ -60,10 +60,10 @@ def rectangle(left, top, right, bottom):
 
 
 def photographed_reference(photos, scene):
-    picture = cv2.imread(os.path.join(photos, "refs", scene + "_m.png"))
-    height, width = picture.shape[:2]
+    image = cv2.imread(os.path.join(photos, "refs", scene + "_m.png"))
+    height, width = image.shape[:2]
     border = MARGIN / (1 + 2 * MARGIN)
-    return picture, rectangle(border * width, border * height, (1 - border) * width, (1 - border) * height)
+    return image, rectangle(border * width, border * height, (1 - border) * width, (1 - border) * height)
 
 
 def add_photographs(frames, photos):
@@ -72,13 +72,13 @@ def add_photographs(frames, photos):
         if not os.path.exists(path):
             leave_out(name, f"{path} is not there")
             continue
-        picture = cv2.imread(path)
-        frames.add(name, "photograph", 1.0 / 30.0, [picture],
+        image = cv2.imread(path)
+        frames.add(name, "photograph", 1.0 / 30.0, [image],
                    reference=photographed_reference(photos, scene) if scene else None)
 
 
 def add_video(frames, photos):
-    files = [os.path.join(photos, "sequences", "postcard", "frames", f"{i:04d}.jpg") for i in range(PICTURES)]
+    files = [os.path.join(photos, "sequences", "postcard", "frames", f"{i:04d}.jpg") for i in range(IMAGES)]
     if not all(map(os.path.exists, files)):
         return leave_out("video", f"{files[0]} is not there")
     return frames.add("video", "recording", 2.0 / 30.0, [cv2.imread(file) for file in files])
@@ -105,16 +105,16 @@ def add_flight(frames, data):
         import rosbag
     except ImportError:
         return leave_out("flight", "no rosbag for Python (ROS is not installed)")
-    pictures, stamps, camera = [], [], None
+    images, stamps, camera = [], [], None
     with rosbag.Bag(path) as bag:
         for topic, message, stamp in bag.read_messages(["/camera/image_raw/compressed", "/camera/camera_info"]):
             if topic.endswith("camera_info"):
                 camera = camera_of(message)
-            elif stamp.to_sec() - bag.get_start_time() >= BAG_START_SEC and len(pictures) < PICTURES:
-                pictures.append(cv2.imdecode(numpy.frombuffer(message.data, numpy.uint8), cv2.IMREAD_COLOR))
+            elif stamp.to_sec() - bag.get_start_time() >= BAG_START_SEC and len(images) < IMAGES:
+                images.append(cv2.imdecode(numpy.frombuffer(message.data, numpy.uint8), cv2.IMREAD_COLOR))
                 stamps.append(message.header.stamp.to_sec())
     period_sec = (stamps[-1] - stamps[0]) / (len(stamps) - 1)
-    return frames.add("flight", "recording", period_sec, pictures, camera, reference_of_flight(data))
+    return frames.add("flight", "recording", period_sec, images, camera, reference_of_flight(data))
 
 
 def main():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shows pictures to a detector node and watches its memory. Started by dev/bench_node."""
+"""Shows images to a detector node and watches its memory. Started by dev/bench_node."""
 import json
 import os
 import subprocess
@@ -17,7 +17,7 @@ from window_ingress.msg import WindowDetection
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 RUN = os.path.join(ROOT, "scripts", "run")
 SEQUENCE = "plaster"
-STEADY = 300  # pictures before the first figure: connections, buffers
+STEADY = 300  # images before the first figure: connections, buffers
 MOST_MB, MOST_GROWTH_MB = 150.0, 2.0
 DEADLINE_S = 30.0
 
@@ -75,12 +75,12 @@ def set_parameters(folder):
 
 
 class Showing:
-    """Publishes pictures one by one, each when the one before is answered."""
+    """Publishes images one by one, each when the one before is answered."""
 
     def __init__(self, folder):
         entry = read_sequence(folder)
         forth = [image_message(cv2.imread(os.path.join(folder, name))) for name in entry["images"]]
-        self._pictures = forth + forth[-2:0:-1]
+        self._images = forth + forth[-2:0:-1]
         self._camera = camera_message(entry["camera"])
         self._images = rospy.Publisher("image_raw", Image, queue_size=1)
         self._cameras = rospy.Publisher("camera_info", CameraInfo, queue_size=1)
@@ -98,7 +98,7 @@ class Showing:
             self._answered.set()
 
     def show(self, index):
-        image = self._pictures[index % len(self._pictures)]
+        image = self._images[index % len(self._images)]
         self._last = image.header.stamp = self._camera.header.stamp = rospy.Time.now()
         self._answered.clear()
         self._cameras.publish(self._camera)
@@ -106,24 +106,24 @@ class Showing:
         self._answered.wait(1.0)
 
 
-def watch(folder, pictures, node):
+def watch(folder, images, node):
     rospy.init_node("bench", anonymous=True, disable_signals=True)
     showing = Showing(folder)
     wait_for(showing.connected, "the node subscribes")
     figures = {}
-    for index in range(pictures):
-        if index in (STEADY, pictures // 10):
+    for index in range(images):
+        if index in (STEADY, images // 10):
             figures[index] = resident_mb(node.pid)
         showing.show(index)
     if node.poll() is not None:
         sys.exit(f"bench_node: the node ended with {node.returncode}")
-    first = figures.get(STEADY, figures[pictures // 10])
-    return {"pictures": pictures, "found": showing.found / pictures, "start_mb": first,
-            "tenth_mb": figures[pictures // 10], "end_mb": resident_mb(node.pid)}
+    first = figures.get(STEADY, figures[images // 10])
+    return {"pictures": images, "found": showing.found / images, "start_mb": first,
+            "tenth_mb": figures[images // 10], "end_mb": resident_mb(node.pid)}
 
 
 def main():
-    folder, pictures = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 108000
+    folder, images = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 108000
     started = []
 
     def start(*command):
@@ -134,7 +134,7 @@ def main():
         start("roscore", "-p", str(urlparse(os.environ["ROS_MASTER_URI"]).port))
         wait_for(master_answers, "a master")
         set_parameters(folder)
-        result = watch(folder, pictures, start("window_detector"))
+        result = watch(folder, images, start("window_detector"))
     finally:
         for process in reversed(started):
             process.terminate()

@@ -20,7 +20,7 @@ BOUNDS = [("track", "composition", ["plaster", "brick", "lens", "brick_wall", "f
 POSE_METHODS = {"ours": "ours: both solutions, spreads, aspect, attitude", "ours_size_unknown": "ours, size unknown",
                 "ippe": "solvePnP IPPE", "iterative": "solvePnP ITERATIVE", "homography": "findHomography, decomposed"}
 POSE_LIMIT_US = 150.0
-LEAST_FOLLOWED = 0.9  # part of the pictures: a search in every picture is no track
+LEAST_FOLLOWED = 0.9  # part of the images: a search in every image is no track
 STAGES = ["preprocess", "edges", "lines", "closing", "contours", "segment_quads", "all_to_candidates",
           "appearance_of_all", "borders_of_one"]
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
@@ -56,15 +56,15 @@ def read_instructions(folder):
         return {}
     with open(counted) as file:
         lines = [re.match(r"(\S+) pictures=(\d+) found=(\d+)", line).groups() for line in file]
-    pictures = {name: int(count) for name, count, found in lines if not is_lost(name, int(found) / int(count))}
+    images = {name: int(count) for name, count, found in lines if not is_lost(name, int(found) / int(count))}
     result = {}
     for path in glob.glob(os.path.join(folder, "callgrind", "out.*")):
         with open(path, errors="replace") as file:
             text = file.read()
         name = re.search(r"Client Request: (\S+)", text)
         total = re.search(r"^(?:totals|summary): (\d+)", text, re.M)
-        if name and total and name.group(1) in pictures:
-            result[name.group(1)] = round(int(total.group(1)) / pictures[name.group(1)])
+        if name and total and name.group(1) in images:
+            result[name.group(1)] = round(int(total.group(1)) / images[name.group(1)])
     return result
 
 
@@ -164,7 +164,7 @@ def memory_lines(memory, node):
     lines = []
     for what, of in (("search and track", memory), ("detector node", node)):
         if of:
-            lines.append(f"Memory of {what}, {of['pictures']} pictures: {of['start_mb']:.0f} MB at the start, "
+            lines.append(f"Memory of {what}, {of['pictures']} images: {of['start_mb']:.0f} MB at the start, "
                          f"{of['tenth_mb']:.0f} MB after a tenth, {of['end_mb']:.0f} MB at the end.")
     return lines + [""] if lines else []
 

@@ -14,18 +14,18 @@ def write(folder, name, data):
     (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
 
 
-def pictures(folder):
-    """A few headers as test/fuzz/pictures.cpp reads them; compressed pictures."""
+def images(folder):
+    """A few headers as test/fuzz/any_image.cpp reads them; compressed images."""
     for encoding in range(24):
         write(folder / "image", f"raw{encoding}", struct.pack("<BHBBB", 1, encoding, 64, 32, 24) + bytes(range(256)) * 8)
     try:
         import cv2
         import numpy
-        picture = numpy.arange(48 * 64 * 3, dtype=numpy.uint32).reshape(48, 64, 3).astype(numpy.uint8)
+        image = numpy.arange(48 * 64 * 3, dtype=numpy.uint32).reshape(48, 64, 3).astype(numpy.uint8)
         for extension in (".png", ".jpg"):
-            write(folder / "image", "compressed" + extension, b"\0" + cv2.imencode(extension, picture)[1].tobytes())
+            write(folder / "image", "compressed" + extension, b"\0" + cv2.imencode(extension, image)[1].tobytes())
     except ImportError:
-        print("make_fuzz_seeds: without compressed pictures (python3-opencv is not installed)", file=sys.stderr)
+        print("make_fuzz_seeds: without compressed images (python3-opencv is not installed)", file=sys.stderr)
 
 
 def random_bytes(folder, target, sizes, count):
@@ -35,7 +35,7 @@ def random_bytes(folder, target, sizes, count):
 
 
 def detection(folder):
-    """As test/fuzz/detection.cpp reads it: two rectangles, one within the other, on a grey picture."""
+    """As test/fuzz/detection.cpp reads it: two rectangles, one within the other, on a grey image."""
     for encoding in (0, 2, 8, 14):
         scene = struct.pack("<HHHB", encoding, 80, 60, 0)
         draw = b"\2" + struct.pack("<8b4B", 20, 15, 70, 50, 0, 0, 0, 0, 50, 140, 215, 1)
@@ -97,7 +97,7 @@ def bag(folder):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    pictures(folder)
+    images(folder)
     detection(folder)
     random_bytes(folder, "camera_info", (200, 300, 400), 20)
     random_bytes(folder, "corners", (100, 300, 600, 1200), 30)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Moves the simulated camera about before the chessboard of config/scenarios/chessboard.yaml, over and over: near and far, into
-all corners of the picture, tilted each way, as somebody would who holds a board before a real one. For launch/board.launch."""
+all corners of the image, tilted each way, as somebody would who holds a board before a real one. For launch/board.launch."""
 import itertools
 import math
 
@@ -9,7 +9,7 @@ from nav_msgs.msg import Odometry
 
 BOARD = (5.0, 0.0, 1.5)  # its centre in odom
 RATE_HZ, LEG_S = 50.0, 0.8
-# Seen from: bearing and elevation beside the board's normal [rad], distance [m]; then where the board is in the picture, to the
+# Seen from: bearing and elevation beside the board's normal [rad], distance [m]; then where the board is in the image, to the
 # right and down [rad], and roll [rad].
 FAR = [(0.0, 0.0, 2.4, right, down, 0.0) for down in (-0.3, 0.0, 0.3) for right in (-0.4, 0.0, 0.4)]
 TILTED = [(bearing, elevation, 1.5, 0.3 * bearing, 0.3 * elevation, roll)

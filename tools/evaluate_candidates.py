@@ -2,7 +2,7 @@
 """Where annotated quadrilaterals get lost: from a csv of `detect_images --candidates`, recall among the first 1, 10, 50 and
 all candidates as the search proposes them, and why the right one was not chosen.
 
-A candidate is right if it overlaps an annotated quadrilateral by IoU >= 0.7; a picture counts once, whichever of its
+A candidate is right if it overlaps an annotated quadrilateral by IoU >= 0.7; an image counts once, whichever of its
 quadrilaterals was found, and rates are averaged over scenes, as in evaluate_detections.py. Labels that end in _small count
 neither for nor against.
 """
@@ -30,19 +30,19 @@ def fate(right):
 
 
 def evaluate(candidates, annotations, meta, leave_out, min_iou):
-    """One record a picture with a target."""
-    quads, of_picture = collections.defaultdict(list), collections.defaultdict(list)
+    """One record an image with a target."""
+    quads, of_image = collections.defaultdict(list), collections.defaultdict(list)
     for row in annotations:
         if row["x1"] and rules.is_target(row):
             quads[row["file"]].append(rules.corners(row))
     for row in candidates:
-        of_picture[os.path.basename(row["file"])].append(row)
+        of_image[os.path.basename(row["file"])].append(row)
     records = []
-    for name in sorted(of_picture):
+    for name in sorted(of_image):
         if name not in meta or name in leave_out or not quads[name]:
             continue
         right, seen = [], set()
-        for candidate in of_picture[name]:
+        for candidate in of_image[name]:
             quad = rules.corners(candidate)
             on = [i for i, target in enumerate(quads[name]) if rules.iou(quad, target) >= min_iou]
             if on:
@@ -63,7 +63,7 @@ def percent(value):
     return "" if value != value else f"{100.0 * value:.1f} %"
 
 
-HEADER = ("| pictures | number | chosen | among first " + " | ".join(map(str, FIRST)) + " | proposed | seen at all | of all annotated | lost to |\n"
+HEADER = ("| images | number | chosen | among first " + " | ".join(map(str, FIRST)) + " | proposed | seen at all | of all annotated | lost to |\n"
           "|" + "---|" * (len(FIRST) + 7))
 
 
@@ -91,9 +91,9 @@ def main():
     parser.add_argument("candidates", help="csv of detect_images --candidates")
     parser.add_argument("--annotations", required=True)
     parser.add_argument("--meta", required=True)
-    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="picture the reference is from")
+    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image the reference is from")
     parser.add_argument("--iou", type=float, default=0.7)
-    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those pictures")
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
     parser.add_argument("--per-scene", action="store_true")
     options = parser.parse_args()
     try:
@@ -104,7 +104,7 @@ def main():
     meta = {row["file"]: row for row in meta}
     records = rules.only(evaluate(candidates, annotations, meta, set(options.leave_out), options.iou), options.half)
     if not records:
-        print(f"evaluate_candidates: {options.candidates}: no picture of {options.meta} with a target in it", file=sys.stderr)
+        print(f"evaluate_candidates: {options.candidates}: no image of {options.meta} with a target in it", file=sys.stderr)
         return 1
     print_table(records, per_scene=options.per_scene)
     return 0

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Recall and precision of a csv of detect_images against annotated quadrilaterals.
 
-A picture counts as found if its detection overlaps any annotated quadrilateral by IoU >= 0.7. Rates are averaged over
-scenes, not over pictures. Precision: detections on pictures without a target, and on pictures whose every target is
+An image counts as found if its detection overlaps any annotated quadrilateral by IoU >= 0.7. Rates are averaged over
+scenes, not over images. Precision: detections on images without a target, and on images whose every target is
 annotated. Labels that start with pose_only_, or end in _small, are no targets.
 
-The pictures fall into two halves, by a hash of scene and file name: what is tuned is tuned on the half `tune`, what is
+The images fall into two halves, by a hash of scene and file name: what is tuned is tuned on the half `tune`, what is
 reported is measured on the half `report`. Names that differ in their last digit only, neighbours in a video, go together.
 """
 import argparse
@@ -81,7 +81,7 @@ def only(records, half):
 
 
 def evaluate(detections, annotations, meta, leave_out, min_iou):
-    """One record a picture: scene, tier, whether it holds a target, detected, overlap with the best target."""
+    """One record an image: scene, tier, whether it holds a target, detected, overlap with the best target."""
     quads = collections.defaultdict(list)
     for row in annotations:
         if row["x1"] and is_target(row):
@@ -116,12 +116,12 @@ def macro(records, key):
 
 
 def report(records, title, per_scene):
-    print(f"== {title}: {len(records)} pictures")
+    print(f"== {title}: {len(records)} images")
     targets = [r for r in records if r["target"]]
     for tier in sorted({r["tier"] for r in targets}):
         some = [r for r in targets if r["tier"] == tier]
         print(f"tier {tier}: recall {macro(some, lambda r: r['hit']):6.1%} over {len({r['scene'] for r in some})} scenes"
-              f" ({rate(r['hit'] for r in some):.1%} of {len(some)} pictures), detected {rate(r['detected'] for r in some):.1%}")
+              f" ({rate(r['hit'] for r in some):.1%} of {len(some)} images), detected {rate(r['detected'] for r in some):.1%}")
     if per_scene:
         for scene in sorted({r["scene"] for r in targets}):
             some = [r for r in targets if r["scene"] == scene]
@@ -130,7 +130,7 @@ def report(records, title, per_scene):
                        ("hard negatives (for use with a reference)",
                         [r for r in records if not r["target"] and r["hard"]])):
         if some:
-            print(f"{name}: false alarms on {sum(r['detected'] for r in some)} of {len(some)} pictures")
+            print(f"{name}: false alarms on {sum(r['detected'] for r in some)} of {len(some)} images")
     detected = [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
     if detected:
         print(f"exhaustively annotated: precision {rate(r['hit'] for r in detected):.1%} of {len(detected)} detections")
@@ -155,11 +155,11 @@ def main():
     parser.add_argument("detections", help="csv of detect_images")
     parser.add_argument("--annotations", required=True)
     parser.add_argument("--meta", required=True)
-    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="picture the reference is from")
+    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image the reference is from")
     parser.add_argument("--iou", type=float, default=0.7)
-    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those pictures")
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
     parser.add_argument("--per-scene", action="store_true")
-    parser.add_argument("--misses", action="store_true", help="list the pictures whose target was not found")
+    parser.add_argument("--misses", action="store_true", help="list the images whose target was not found")
     options = parser.parse_args()
     try:
         detections, annotations, meta = map(read, (options.detections, options.annotations, options.meta))
@@ -169,7 +169,7 @@ def main():
     meta = {row["file"]: row for row in meta}
     records = evaluate(detections, annotations, meta, set(options.leave_out), options.iou)
     if not records:
-        print(f"evaluate_detections: {options.detections}: no picture of {options.meta} in it", file=sys.stderr)
+        print(f"evaluate_detections: {options.detections}: no image of {options.meta} in it", file=sys.stderr)
         return 1
     records = only(records, options.half)
     report(records, options.half, options.per_scene)

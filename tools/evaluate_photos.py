@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs detect_images on the annotated photographs and prints the tables: without a reference; and with the reference of
-each scene that has one, on that scene and on every picture without a target.
+each scene that has one, on that scene and on every image without a target.
 
 Rules, and the halves `tune` and `report`, as in evaluate_detections.py. With a reference another rectangle is no target,
 so every detection that is not on an annotated one is false.
@@ -28,7 +28,7 @@ def png_size(path):
 
 
 def corners_in_reference(path):
-    """The target's corners in a picture that has it in its middle, with a margin."""
+    """The target's corners in an image that has it in its middle, with a margin."""
     sides = []
     for size in png_size(path):
         inner = size / (1.0 + 2.0 * MARGIN)
@@ -80,7 +80,7 @@ def percent(value):
 
 
 def precision(records):
-    """(rate, count) over detections in pictures whose every target is annotated."""
+    """(rate, count) over detections in images whose every target is annotated."""
     detected = [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
     return rules.rate(r["hit"] for r in detected), len(detected)
 
@@ -95,7 +95,7 @@ def milliseconds(records):
 
 
 def print_without_reference(records, per_scene):
-    print("| tier | scenes | recall, scenes averaged | recall over pictures | precision where exhaustive | median ms |")
+    print("| tier | scenes | recall, scenes averaged | recall over images | precision where exhaustive | median ms |")
     print("|---|---|---|---|---|---|")
     targets = [r for r in records if r["target"]]
     for tier in sorted({r["tier"] for r in targets}):
@@ -107,7 +107,7 @@ def print_without_reference(records, per_scene):
     exact, count = precision(records)
     print(f"\nAll tiers where exhaustive: precision {percent(exact)} of {count} detections.")
     for name, hard in (("without a target", False), ("with other rectangles", True)):
-        print(f"Pictures {name}: false alarms on {alarms([r for r in records if not r['target'] and r['hard'] == hard])}.")
+        print(f"Images {name}: false alarms on {alarms([r for r in records if not r['target'] and r['hard'] == hard])}.")
     if per_scene:
         print("\n| scene | tier | found |\n|---|---|---|")
         for tier, scene in sorted({(r["tier"], r["scene"]) for r in targets}):
@@ -128,7 +128,7 @@ def print_with_reference(runs):
 
 
 def sheet(photographs, records, path):
-    """Every picture that went wrong, annotated quadrilaterals in white, what was found in red."""
+    """Every image that went wrong, annotated quadrilaterals in white, what was found in red."""
     import cv2  # needed here only
     import numpy
 
@@ -138,9 +138,9 @@ def sheet(photographs, records, path):
             annotated.setdefault(row["file"], []).append(rules.corners(row))
     cells = []
     for r in rules.wrong(records):
-        picture = cv2.imread(str(photographs.folder / "images" / r["file"]), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
-        scale = min(CELL[0] / picture.shape[1], CELL[1] / picture.shape[0])
-        small = cv2.resize(picture, None, fx=scale, fy=scale,
+        image = cv2.imread(str(photographs.folder / "images" / r["file"]), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
+        scale = min(CELL[0] / image.shape[1], CELL[1] / image.shape[0])
+        small = cv2.resize(image, None, fx=scale, fy=scale,
                            interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
         for quad, colour in [(q, (255, 255, 255)) for q in annotated.get(r["file"], [])] + [(r["found"], (0, 0, 255))]:
             if quad:
@@ -164,11 +164,11 @@ def parse():
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the csv files")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")
     parser.add_argument("--params", help="yaml file laid over the defaults, as config:= of launch files")
-    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those pictures")
+    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
     parser.add_argument("--iou", type=float, default=0.7)
     parser.add_argument("--per-scene", action="store_true")
     parser.add_argument("--misses", action="store_true", help="list what was not found and what was found wrongly")
-    parser.add_argument("--sheets", action="store_true", help="draw those pictures: OUTPUT/*_wrong.png")
+    parser.add_argument("--sheets", action="store_true", help="draw those images: OUTPUT/*_wrong.png")
     parser.add_argument("--candidates", action="store_true", help="recall among all candidates, and why the right one lost")
     parser.add_argument("--overlay", action="store_true", help="also pictures of what happened to each candidate")
     parser.add_argument("tool_arguments", nargs="*", help="after --: further options of detect_images")
@@ -188,7 +188,7 @@ def main():
     except subprocess.CalledProcessError as error:
         print(f"evaluate_photos: {os.path.basename(error.cmd[0])} failed", file=sys.stderr)
         return 1
-    print(f"## Without a reference, pictures: {options.half}\n")
+    print(f"## Without a reference, images: {options.half}\n")
     print_without_reference(plain, options.per_scene)
     print("\n## With a reference\n")
     print_with_reference(runs)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes report.html from what replay_bag left in a folder: usage report_replay.py FOLDER
 
-One page that opens from disk: no network, no scripts, drawings inside it, the pictures beside it in pictures/.
+One page that opens from disk: no network, no scripts, drawings inside it, the images beside it in pictures/.
 """
 import csv
 import json
@@ -82,7 +82,7 @@ def quantile(values, part):
 
 
 class Replay:
-    """The tables of one replay; times in seconds since the first picture."""
+    """The tables of one replay; times in seconds since the first image."""
 
     def __init__(self, folder):
         self.frames, self.details = rows_of(folder, "frames.csv"), rows_of(folder, "details.csv")
@@ -112,9 +112,9 @@ def cards(replay):
     trusted = sum(row["filtered_sign_trusted"] == "1" for row in replay.details)
     size = replay.facts.get("window_size_m")
     all_cards = [("window found", share(found, images), found == 0),
-                 ("pose from one picture", share(posed, images) if size else "no size given", not posed),
+                 ("pose from one image", share(posed, images) if size else "no size given", not posed),
                  ("filtered, side certain", share(trusted, images) if size else "no size given", not trusted),
-                 ("a picture takes", f"{quantile(replay.milliseconds, 0.5):.2f} ms, 95 %: {quantile(replay.milliseconds, 0.95):.2f} ms", False),
+                 ("an image takes", f"{quantile(replay.milliseconds, 0.5):.2f} ms, 95 %: {quantile(replay.milliseconds, 0.95):.2f} ms", False),
                  ("without calibration", counts["without_calibration"], counts["without_calibration"]),
                  ("without odometry", counts["without_odometry"], counts["without_odometry"]),
                  ("without attitude", counts["without_attitude"], counts["without_attitude"]),
@@ -192,14 +192,14 @@ def sides_chart(replay):
 
 def distance_chart(replay):
     chart = Chart(replay.time, "distance of the camera [m]")
-    chart.points("picture", [math.sqrt(sum(number(row[f"t{c}"]) ** 2 for c in "xyz")) for row in replay.frames], "#1f5fa8")
+    chart.points("image", [math.sqrt(sum(number(row[f"t{c}"]) ** 2 for c in "xyz")) for row in replay.frames], "#1f5fa8")
     if "truth_distance_m" in replay.frames[0]:
         chart.line("truth", column(replay.frames, "truth_distance_m"), "#000000")
     return chart.svg()
 
 
 def latency_chart(replay):
-    chart = Chart(replay.time, "milliseconds a picture")
+    chart = Chart(replay.time, "milliseconds an image")
     chart.points("detector", column(replay.latency, "detector_ms"), "#1f5fa8")
     chart.points("pose and filter", column(replay.latency, "pose_ms"), "#e0218a")
     return chart.svg()
@@ -238,15 +238,15 @@ def page(replay):
         charts += [("Angles", [yaw_chart, filtered_chart, angles_chart]), ("Widths and distance", [width_chart, sides_chart, distance_chart]),
                    ("Open or not", [openness_chart])]
     parts = [f"<h1>{name}</h1><p class=\"note\">{bag['bytes'] / 1e6:.1f} MB, {bag['seconds']:.1f} s from {bag['begin']}, "
-             f"{len(replay.frames)} pictures</p>", f'<div class="cards">{cards(replay)}</div>',
-             section("What was seen", '<p class="note">Evenly over time; red: lost here, green: found here. Click for the whole picture.</p>',
+             f"{len(replay.frames)} images</p>", f'<div class="cards">{cards(replay)}</div>',
+             section("What was seen", '<p class="note">Evenly over time; red: lost here, green: found here. Click for the whole image.</p>',
                      strip(replay))]
     parts += [section(title, *(chart(replay) for chart in some)) for title, some in charts]
-    parts.append(section("Pictures without a window or a pose, and why", 
-                         '<p class="note">The furthest that a candidate of the picture came.</p>',
+    parts.append(section("Images without a window or a pose, and why", 
+                         '<p class="note">The furthest that a candidate of the image came.</p>',
                          bars(counted([row["reject_reason"] for row in replay.frames]))))
     if with_pose:
-        parts.append(section("Pictures that did not contribute to the filtered pose, and why",
+        parts.append(section("Images that did not contribute to the filtered pose, and why",
                              bars(counted([row["why_not_filtered"] for row in replay.details]))))
     parts.append(section("Messages refused, and why", bars(replay.facts["counts"]["refused_because"])))
     parts.append(section("Latency", latency_chart(replay)))

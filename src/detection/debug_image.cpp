@@ -33,9 +33,9 @@ cv::Mat within(const cv::Size& size, const geometry::Quadrilateral& quad) {
   return mask;
 }
 
-void tint(const cv::Mat& picture, const cv::Mat& mask, const cv::Scalar& colour, cv::Mat& canvas) {
+void tint(const cv::Mat& image, const cv::Mat& mask, const cv::Scalar& colour, cv::Mat& canvas) {
   cv::Mat tinted;
-  cv::addWeighted(picture, 1.0 - kTint, cv::Mat(picture.size(), picture.type(), colour), kTint, 0.0, tinted);
+  cv::addWeighted(image, 1.0 - kTint, cv::Mat(image.size(), image.type(), colour), kTint, 0.0, tinted);
   tinted.copyTo(canvas, mask);
 }
 
@@ -158,17 +158,17 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
 }  // namespace
 
 cv::Mat drawReference(const ReferenceAppearance& reference) {
-  cv::Mat picture = reference.picture();
-  if (picture.channels() == 1) cv::cvtColor(reference.picture(), picture, cv::COLOR_GRAY2BGR);
+  cv::Mat image = reference.image();
+  if (image.channels() == 1) cv::cvtColor(reference.image(), image, cv::COLOR_GRAY2BGR);
   const geometry::Quadrilateral& opening = reference.opening();
-  const cv::Mat inner = within(picture.size(), opening);
-  const cv::Mat near = within(picture.size(), ringLine(opening, RingWidths().near));
-  const cv::Mat far = within(picture.size(), ringLine(opening, RingWidths().far));
+  const cv::Mat inner = within(image.size(), opening);
+  const cv::Mat near = within(image.size(), ringLine(opening, RingWidths().near));
+  const cv::Mat far = within(image.size(), ringLine(opening, RingWidths().far));
   cv::Mat canvas;
-  picture.convertTo(canvas, -1, kFaded);
-  tint(picture, far & ~near, kBlue, canvas);
-  tint(picture, near & ~inner, kOrange, canvas);
-  const int width = std::max(1, picture.cols / 400);
+  image.convertTo(canvas, -1, kFaded);
+  tint(image, far & ~near, kBlue, canvas);
+  tint(image, near & ~inner, kOrange, canvas);
+  const int width = std::max(1, image.cols / 400);
   cv::polylines(canvas, std::vector<std::vector<cv::Point>>{pixelsOf(opening)}, true, kGreen, width,
                 cv::LINE_AA);
   cv::circle(canvas, pixelsOf(opening)[0], 3 * width + 1, kGreen, cv::FILLED, cv::LINE_AA);
@@ -176,7 +176,7 @@ cv::Mat drawReference(const ReferenceAppearance& reference) {
         std::string(reference.openingIsKnown() ? "green: inner border of the opening"
                                                : "green: opening, GUESSED") +
             "; orange: frame, blue: surround, whose colours are compared",
-        std::max(20, picture.rows / 20));
+        std::max(20, image.rows / 20));
   return canvas;
 }
 

@@ -294,13 +294,13 @@ WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBo
   return window;
 }
 
-ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorParams& params) {
+ReferenceAppearance referenceFromImage(const cv::Mat& image, const DetectorParams& params) {
   DetectorParams wide = params;
   wide.gates.min_area = std::max(0.2, params.gates.min_area);
   wide.gates.max_area = 1.0;
   WindowDetector detector(wide);
-  const auto window = detector.detect(picture, 0.0);
-  return window ? ReferenceAppearance::guessed(picture, window->corners) : ReferenceAppearance(picture);
+  const auto window = detector.detect(image, 0.0);
+  return window ? ReferenceAppearance::guessed(image, window->corners) : ReferenceAppearance(image);
 }
 
 }  // namespace window_ingress::detection

@@ -108,9 +108,9 @@ void TargetEstimator::see(const detection::WindowObservation& window, const geom
   see({window.stamp_sec, camera, T_base_camera, window, {}});
 }
 
-void TargetEstimator::see(ObservedImage picture) {
+void TargetEstimator::see(ObservedImage image) {
   flush();
-  pending_ = std::move(picture);
+  pending_ = std::move(image);
   if (odometry_stamp_sec_ && *odometry_stamp_sec_ >= pending_->stamp_sec) flush();
 }
 
@@ -126,11 +126,11 @@ std::optional<Eigen::Isometry3d> TargetEstimator::cameraAt(
   return *T_odom_base * *T_base_camera;
 }
 
-PoseResult TargetEstimator::estimate(const ObservedImage& picture) {
+PoseResult TargetEstimator::estimate(const ObservedImage& image) {
   PoseHints hints;
-  hints.gravity = gravity(picture);
-  hints.size = filter_.sizeOf(*picture.window);
-  return estimator_.estimate(*picture.window, picture.camera, hints);
+  hints.gravity = gravity(image);
+  hints.size = filter_.sizeOf(*image.window);
+  return estimator_.estimate(*image.window, image.camera, hints);
 }
 
 // What was found out about the size belongs to the window it was found out of.
@@ -141,29 +141,29 @@ void TargetEstimator::noticeTarget(std::uint32_t target_id) {
   clocks_.forgetPlaces();
 }
 
-void TargetEstimator::process(const ObservedImage& picture) {
-  if (picture.window) use(picture);
-  rememberWindows(picture);
+void TargetEstimator::process(const ObservedImage& image) {
+  if (image.window) use(image);
+  rememberWindows(image);
 }
 
-void TargetEstimator::use(const ObservedImage& picture) {
-  noticeTarget(picture.window->target_id);
-  last_.pose = estimate(picture);
-  last_.why_not = updateFilter(picture);
+void TargetEstimator::use(const ObservedImage& image) {
+  noticeTarget(image.window->target_id);
+  last_.pose = estimate(image);
+  last_.why_not = updateFilter(image);
   last_.used = last_.why_not.empty();
-  if (last_.used) judgeOpenness(picture);
-  checkClocks(picture);
+  if (last_.used) judgeOpenness(image);
+  checkClocks(image);
 }
 
-void TargetEstimator::rememberWindows(const ObservedImage& picture) {
-  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+void TargetEstimator::rememberWindows(const ObservedImage& image) {
+  const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
   if (!T_odom_camera) return;
-  const bool is_used = picture.window && last_.used;
-  const auto filtered = is_used ? filter_.state(picture.stamp_sec) : std::nullopt;
-  facade_.see({picture.stamp_sec,
-               {picture.camera, *T_odom_camera},
-               picture.windows,
-               picture.window ? picture.window->target_id : 0},
+  const bool is_used = image.window && last_.used;
+  const auto filtered = is_used ? filter_.state(image.stamp_sec) : std::nullopt;
+  facade_.see({image.stamp_sec,
+               {image.camera, *T_odom_camera},
+               image.windows,
+               image.window ? image.window->target_id : 0},
               filtered, filtered ? filtered->size.size : lookedFor());
   if (filtered) facade_.judge(openness());
 }
@@ -214,26 +214,26 @@ void TargetEstimator::heed(std::uint32_t flown_at, const std::vector<std::uint32
   if (next_one) startAnewIfNot(before);
 }
 
-std::string TargetEstimator::updateFilter(const ObservedImage& picture) {
-  const detection::WindowObservation& window = *picture.window;
+std::string TargetEstimator::updateFilter(const ObservedImage& image) {
+  const detection::WindowObservation& window = *image.window;
   const int sides = window.visibleSides();  // none: only corners are known
   const bool is_whole = window.whole() && (sides == 4 || sides == 0);
-  const auto T_odom_camera = cameraAt(window.stamp_sec, picture.T_base_camera);
+  const auto T_odom_camera = cameraAt(window.stamp_sec, image.T_base_camera);
   if (T_odom_camera)
-    if (auto other = facade_.whyNotTarget(window, {picture.camera, *T_odom_camera}, lookedFor());
+    if (auto other = facade_.whyNotTarget(window, {image.camera, *T_odom_camera}, lookedFor());
         !other.empty())
       return other;
   // A camera that is not mounted as said may give no pose at all.
   if (is_whole && T_odom_camera)
-    checks_->frames.mounting().see(window, picture.camera, *T_odom_camera * picture.T_base_camera->inverse(),
-                                   *picture.T_base_camera);
+    checks_->frames.mounting().see(window, image.camera, *T_odom_camera * image.T_base_camera->inverse(),
+                                   *image.T_base_camera);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
-  if (!picture.T_base_camera) return "mounting of the camera unknown";
+  if (!image.T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_camera) return "no odometry near the exposure";
-  checkSize(picture, *T_odom_camera);
+  checkSize(image, *T_odom_camera);
   const bool used = last_.pose.estimate
-                        ? filter_.update(*last_.pose.estimate, window, picture.camera, *T_odom_camera)
-                        : filter_.update(window, picture.camera, *T_odom_camera);
+                        ? filter_.update(*last_.pose.estimate, window, image.camera, *T_odom_camera)
+                        : filter_.update(window, image.camera, *T_odom_camera);
   return used ? "" : "gated out by the filter";
 }
 
@@ -247,11 +247,11 @@ std::optional<Eigen::Matrix3d> TargetEstimator::attitudeAt(double stamp_sec) {
   return std::nullopt;
 }
 
-std::optional<GravityPrior> TargetEstimator::gravity(const ObservedImage& picture) {
-  if (!picture.T_base_camera) return std::nullopt;
-  const auto R_odom_base = attitudeAt(picture.stamp_sec);
+std::optional<GravityPrior> TargetEstimator::gravity(const ObservedImage& image) {
+  if (!image.T_base_camera) return std::nullopt;
+  const auto R_odom_base = attitudeAt(image.stamp_sec);
   if (!R_odom_base) return std::nullopt;
-  const Eigen::Matrix3d R_odom_camera = *R_odom_base * picture.T_base_camera->linear();
+  const Eigen::Matrix3d R_odom_camera = *R_odom_base * image.T_base_camera->linear();
   return GravityPrior{R_odom_camera.transpose() * Eigen::Vector3d::UnitZ(), attitude_sigma_rad_};
 }
 

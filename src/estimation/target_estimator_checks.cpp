@@ -12,44 +12,44 @@ std::string otherWindowText(double factor) {
 }
 
 std::string contradictedText(const Consistency& consistency) {
-  return formatted("%d of %d pictures contradict the window that was made out: of another size than told?",
+  return formatted("%d of %d images contradict the window that was made out: of another size than told?",
                    consistency.refused, consistency.refused + consistency.images);
 }
 
 }  // namespace
 
-void TargetEstimator::checkSize(const ObservedImage& picture, const Eigen::Isometry3d& T_odom_camera) {
-  if (!size_is_known_ || !last_.pose.estimate || !picture.window->whole()) return;
-  checks_->parallax.see(picture.stamp_sec, T_odom_camera.translation(),
+void TargetEstimator::checkSize(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera) {
+  if (!size_is_known_ || !last_.pose.estimate || !image.window->whole()) return;
+  checks_->parallax.see(image.stamp_sec, T_odom_camera.translation(),
                         T_odom_camera * last_.pose.estimate->best.T_camera_window.translation());
 }
 
 // Images that the filter refuses count, too: that they come at the wrong time may be why.
-void TargetEstimator::checkClocks(const ObservedImage& picture) {
+void TargetEstimator::checkClocks(const ObservedImage& image) {
   constexpr double kRateSec = 0.1;
-  const auto window = filter_.state(picture.stamp_sec);
-  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
-  const auto before = cameraAt(picture.stamp_sec - kRateSec, picture.T_base_camera);
-  if (!window || !T_odom_camera || !before || !picture.window->whole()) return;
+  const auto window = filter_.state(image.stamp_sec);
+  const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
+  const auto before = cameraAt(image.stamp_sec - kRateSec, image.T_base_camera);
+  if (!window || !T_odom_camera || !before || !image.window->whole()) return;
   if (!window->motion.model.stands()) return;
   const Eigen::Matrix3d turned = T_odom_camera->linear() * before->linear().transpose();
   const Eigen::Vector3d sight =
-      T_odom_camera->linear() * picture.camera.ray(geometry::centroid(picture.window->corners));
-  clocks_.see({picture.stamp_sec, T_odom_camera->translation().head<2>(), std::atan2(sight.y(), sight.x()),
+      T_odom_camera->linear() * image.camera.ray(geometry::centroid(image.window->corners));
+  clocks_.see({image.stamp_sec, T_odom_camera->translation().head<2>(), std::atan2(sight.y(), sight.x()),
                std::atan2(turned(1, 0), turned(0, 0)) / kRateSec},
               window->T_odom_window.translation().head<2>());
 }
 
-void TargetEstimator::judgeOpenness(const ObservedImage& picture) {
-  const auto window = filter_.state(picture.stamp_sec);
-  const auto T_odom_camera = cameraAt(picture.stamp_sec, picture.T_base_camera);
+void TargetEstimator::judgeOpenness(const ObservedImage& image) {
+  const auto window = filter_.state(image.stamp_sec);
+  const auto T_odom_camera = cameraAt(image.stamp_sec, image.T_base_camera);
   if (!window || !T_odom_camera) return;
   // What lies behind a window that moves is taken to move along: all is seen from the window.
   const Eigen::Vector3d moved =
       window->motion.model.stands() ? Eigen::Vector3d(0, 0, 0) : window->T_odom_window.translation();
   const Eigen::Translation3d back(-moved);
-  judge_.see({*picture.window, picture.camera, back * *T_odom_camera, back * window->T_odom_window,
-              window->size.size});
+  judge_.see(
+      {*image.window, image.camera, back * *T_odom_camera, back * window->T_odom_window, window->size.size});
 }
 
 FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }

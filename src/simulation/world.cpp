@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "simulation/camera/camera_sensor.hpp"
-#include "simulation/camera/reference_picture.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "simulation/scene/scene.hpp"
 #include "simulation/sensors/faults.hpp"
 #include "simulation/vehicle/followed_vehicle.hpp"
@@ -65,7 +65,7 @@ std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams&
 }  // namespace
 
 struct World::Impl {
-  Impl(const Scenario& given, std::uint32_t seed_of_all, Pictures pictures)
+  Impl(const Scenario& given, std::uint32_t seed_of_all, Images images)
       : scenario(checked(given)),
         seed(seed_of_all),
         scene(buildScene(scenario)),
@@ -73,7 +73,7 @@ struct World::Impl {
         T_base_camera(scenario.camera.T_base_camera()),
         T_odom_window(scenario.T_odom_window()),
         sway(scenario.sway, T_odom_window.linear()),
-        camera(pictures == Pictures::kDrawn ? makeCamera(scene, scenario.camera, seed) : nullptr),
+        camera(images == Images::kDrawn ? makeCamera(scene, scenario.camera, seed) : nullptr),
         wind(scenario.wind, wallOf(scenario, scene), scenario.vehicle.half_length_m, seed),
         quadrotor(scenario.vehicle, scenario.startPoseInOdom(),
                   T_odom_window.linear() * wind.steadyAt(scenario.startPoseInWindow().translation())),
@@ -186,8 +186,8 @@ struct World::Impl {
   double time_sec = 0.0;
 };
 
-World::World(const Scenario& scenario, std::uint32_t seed, Pictures pictures)
-    : impl_(std::make_unique<Impl>(scenario, seed, pictures)) {}
+World::World(const Scenario& scenario, std::uint32_t seed, Images images)
+    : impl_(std::make_unique<Impl>(scenario, seed, images)) {}
 
 World::~World() = default;
 
@@ -284,8 +284,8 @@ const Scenario& World::scenario() const { return impl_->scenario; }
 
 const Referee& World::referee() const { return impl_->referee; }
 
-cv::Mat World::referencePicture(geometry::Quadrilateral* corners) const {
-  return simulation::referencePicture(impl_->scenario, corners);
+cv::Mat World::referenceImage(geometry::Quadrilateral* corners) const {
+  return simulation::referenceImage(impl_->scenario, corners);
 }
 
 }  // namespace window_ingress::simulation

@@ -36,11 +36,11 @@ class World {
  public:
   /// Whether frames have images. Without, no renderer is needed, and nothing that becomes of an image
   /// matters: light, noise, faults that spoil it.
-  enum class Pictures { kDrawn, kNone };
+  enum class Images { kDrawn, kNone };
 
   /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software
   /// renderer.
-  World(const Scenario& scenario, std::uint32_t seed, Pictures pictures = Pictures::kDrawn);
+  World(const Scenario& scenario, std::uint32_t seed, Images images = Images::kDrawn);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -84,8 +84,8 @@ class World {
   Eigen::Vector3d vehicleHalfExtents() const;  ///< of the body's box [m]
   const Scenario& scenario() const;
   const Referee& referee() const;
-  /// As `simulation::referencePicture` of the scenario.
-  cv::Mat referencePicture(geometry::Quadrilateral* corners) const;
+  /// As `simulation::referenceImage` of the scenario.
+  cv::Mat referenceImage(geometry::Quadrilateral* corners) const;
 
  private:
   struct Impl;

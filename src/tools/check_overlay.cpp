@@ -38,7 +38,7 @@ po::options_description describe(Options& o) {
       "are arguments of launch files, which call this before they start anything; 'none' means not given.\n"
       "Exit code: 0 the file can be used, 2 it cannot.\n\nOptions");
   description.add_options()("help,h", "this text")("file", po::value(&o.file), "the same as FILE.yaml")  //
-      ("reference", po::value(&o.reference), "picture of the target")                                    //
+      ("reference", po::value(&o.reference), "image of the target")                                      //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
       ("needs-window-size", po::value(&o.needs_window_size),
@@ -65,14 +65,14 @@ void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << 
 void checkReference(const Options& o, const std::string& file,
                     const configuration::DetectorNodeParams& detector) {
   configuration::ReferenceParams reference = detector.reference;
-  const std::string picture = given(o.reference), corners = given(o.corners);
-  const std::string from = picture.empty() && corners.empty() ? file + ": window_detector/" : "";
-  if (!picture.empty()) reference.picture = picture, reference.corners.clear();
+  const std::string image = given(o.reference), corners = given(o.corners);
+  const std::string from = image.empty() && corners.empty() ? file + ": window_detector/" : "";
+  if (!image.empty()) reference.picture = image, reference.corners.clear();
   if (!corners.empty()) reference.corners = tools::numbers("reference_corners", corners, 8);
   if (reference.picture.empty()) {
     if (o.needs_window_size == "true")
       warn(
-          "no reference picture (reference:=, or window_detector/reference in the file): other windows and "
+          "no reference image (reference:=, or window_detector/reference in the file): other windows and "
           "decoys are taken for the target");
     return;
   }

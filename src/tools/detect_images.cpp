@@ -60,17 +60,17 @@ Options parse(int argc, char** argv) {
   Options o;
   po::options_description named(
       "Usage: detect_images --output OUT.csv [options] FILE_OR_DIR...\n"
-      "Finds the window in each picture and writes one csv row a picture, in the order given.\n"
-      "Exit code: 0 done, 1 some picture could not be read, 2 wrong usage or unreadable input.\n\nOptions");
+      "Finds the window in each image and writes one csv row an image, in the order given.\n"
+      "Exit code: 0 done, 1 some image could not be read, 2 wrong usage or unreadable input.\n\nOptions");
   named.add_options()("help,h", "this text")                                                              //
       ("output,o", po::value(&o.output), "csv file to write")                                             //
       ("camera", po::value(&o.camera), "calibration, yaml of camera_info_manager")                        //
-      ("reference", po::value(&o.reference), "picture of the target with its frame")                      //
+      ("reference", po::value(&o.reference), "image of the target with its frame")                        //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses")     //
       ("params", po::value(&o.params), tools::kParamsHelp)                                                //
-      ("track", po::bool_switch(&o.track), "the pictures are a sequence: follow the window through it")   //
-      ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: pictures a second")        //
+      ("track", po::bool_switch(&o.track), "the images are a sequence: follow the window through it")     //
+      ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: images a second")          //
       ("candidates", po::value(&o.candidates), "csv file of every candidate and what became of it")       //
       ("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
   po::options_description all;
@@ -89,14 +89,13 @@ Options parse(int argc, char** argv) {
     std::exit(0);
   }
   if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  if (o.inputs.empty()) throw UsageError("no picture given; see --help");
-  if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0))
-    throw UsageError("--rate: needs pictures a second, above 0");
+  if (o.inputs.empty()) throw UsageError("no image given; see --help");
+  if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0)) throw UsageError("--rate: needs images a second, above 0");
   if (!o.corners.empty() && o.reference.empty()) throw UsageError("--reference-corners needs --reference");
   return o;
 }
 
-bool looksLikePicture(const fs::path& path) {
+bool looksLikeImage(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
@@ -105,25 +104,25 @@ bool looksLikePicture(const fs::path& path) {
   return false;
 }
 
-std::vector<std::string> listPictures(const std::vector<std::string>& inputs) {
-  std::vector<std::string> pictures;
+std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
+  std::vector<std::string> images;
   for (const std::string& input : inputs) {
     if (!fs::exists(input)) throw UsageError(input + ": no such file or folder");
     if (!fs::is_directory(input)) {
-      pictures.push_back(input);
+      images.push_back(input);
       continue;
     }
     std::vector<std::string> found;
     for (const auto& entry : fs::directory_iterator(input))
-      if (entry.is_regular_file() && looksLikePicture(entry.path())) found.push_back(entry.path().string());
-    if (found.empty()) throw UsageError(input + ": no picture in this folder");
+      if (entry.is_regular_file() && looksLikeImage(entry.path())) found.push_back(entry.path().string());
+    if (found.empty()) throw UsageError(input + ": no image in this folder");
     std::sort(found.begin(), found.end());
-    pictures.insert(pictures.end(), found.begin(), found.end());
+    images.insert(images.end(), found.begin(), found.end());
   }
-  return pictures;
+  return images;
 }
 
-cv::Mat readPicture(const std::string& file) {
+cv::Mat readImage(const std::string& file) {
   try {
     return cv::imread(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
@@ -133,16 +132,15 @@ cv::Mat readPicture(const std::string& file) {
 
 detection::ReferenceAppearance readReference(const std::string& file, const std::vector<double>& v,
                                              const detection::DetectorParams& params) {
-  const cv::Mat picture = fs::exists(file) ? readPicture(file) : cv::Mat();
-  if (picture.empty())
-    throw UsageError(file + ": cannot be read as a picture; give --reference a photograph");
-  if (v.empty()) return detection::referenceFromPicture(picture, params);
+  const cv::Mat image = fs::exists(file) ? readImage(file) : cv::Mat();
+  if (image.empty()) throw UsageError(file + ": cannot be read as an image; give --reference a photograph");
+  if (v.empty()) return detection::referenceFromImage(image, params);
   const auto quad = geometry::canonical({Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]),
                                          Eigen::Vector2d(v[4], v[5]), Eigen::Vector2d(v[6], v[7])});
   if (!quad) throw UsageError("--reference-corners: no convex quadrilateral");
-  if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *quad); !fault.empty())
+  if (const std::string fault = detection::ReferenceAppearance::faultOf(image, *quad); !fault.empty())
     throw UsageError("--reference-corners: " + fault);
-  return detection::ReferenceAppearance(picture, *quad);
+  return detection::ReferenceAppearance(image, *quad);
 }
 
 Job prepare(const Options& o) {
@@ -176,11 +174,11 @@ class Finder {
     if (job.reference && detector_) detector_->setReference(*job.reference);
   }
 
-  std::optional<detection::WindowObservation> find(const cv::Mat& picture,
+  std::optional<detection::WindowObservation> find(const cv::Mat& image,
                                                    const geometry::PinholeCamera* camera) {
-    if (detector_) return detector_->detect(picture, 0.0, camera);
+    if (detector_) return detector_->detect(image, 0.0, camera);
     detection::TrackInput input;
-    input.image = picture;
+    input.image = image;
     input.stamp_sec = frame_sec_ * static_cast<double>(++frames_);
     input.camera = camera;
     return tracker_->update(input);
@@ -205,11 +203,11 @@ class Finder {
   std::optional<detection::WindowTracker> tracker_;
 };
 
-evaluation::DetectionRow process(const cv::Mat& picture, const Job& job, Finder& finder) {
+evaluation::DetectionRow process(const cv::Mat& image, const Job& job, Finder& finder) {
   evaluation::DetectionRow row;
-  const bool fits = job.camera && job.camera->width == picture.cols && job.camera->height == picture.rows;
+  const bool fits = job.camera && job.camera->width == image.cols && job.camera->height == image.rows;
   const auto start = Clock::now();
-  row.window = finder.find(picture, fits ? &*job.camera : nullptr);
+  row.window = finder.find(image, fits ? &*job.camera : nullptr);
   if (!row.window) row.reject_reason = detection::toString(finder.trace().outcome);
   if (row.window && row.window->whole() && job.estimator) {
     if (fits) {
@@ -224,10 +222,10 @@ evaluation::DetectionRow process(const cv::Mat& picture, const Job& job, Finder&
   return row;
 }
 
-void writeOverlay(const std::string& file, const cv::Mat& picture, const Finder& finder,
+void writeOverlay(const std::string& file, const cv::Mat& image, const Finder& finder,
                   const evaluation::DetectionRow& row, const std::string& folder) {
   cv::Mat canvas;
-  detection::drawDetection(picture, finder.trace(), row.window ? &*row.window : nullptr, canvas,
+  detection::drawDetection(image, finder.trace(), row.window ? &*row.window : nullptr, canvas,
                            row.milliseconds);
   if (row.pose && row.window)
     detection::drawYaw(canvas, *row.window,
@@ -252,7 +250,7 @@ void finish(std::ofstream& output, const std::string& file) {
 }
 
 int run(const Options& options) {
-  const std::vector<std::string> pictures = listPictures(options.inputs);
+  const std::vector<std::string> images = listImages(options.inputs);
   const Job job = prepare(options);
   Finder finder(job, options);
   std::ofstream output = opened(options.output, evaluation::detectionColumns() + finder.columns());
@@ -260,30 +258,30 @@ int run(const Options& options) {
   if (!options.candidates.empty()) candidates = opened(options.candidates, evaluation::candidateColumns());
   int unreadable = 0, found = 0;
   auto next_report = Clock::now() + std::chrono::seconds(5);
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const cv::Mat picture = readPicture(pictures[i]);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const cv::Mat image = readImage(images[i]);
     evaluation::DetectionRow row;
-    if (picture.empty()) {
+    if (image.empty()) {
       ++unreadable;
       finder.skip();
       row.reject_reason = "unreadable";
-      std::cerr << "detect_images: " << pictures[i] << ": cannot be read as a picture; skipped" << std::endl;
+      std::cerr << "detect_images: " << images[i] << ": cannot be read as an image; skipped" << std::endl;
     } else {
-      row = process(picture, job, finder);
+      row = process(image, job, finder);
       found += row.window.has_value();
       if (candidates.is_open())
-        candidates << evaluation::candidateRows(evaluation::csvField(pictures[i]), finder.trace());
-      if (!job.overlay.empty()) writeOverlay(pictures[i], picture, finder, row, job.overlay);
+        candidates << evaluation::candidateRows(evaluation::csvField(images[i]), finder.trace());
+      if (!job.overlay.empty()) writeOverlay(images[i], image, finder, row, job.overlay);
     }
-    output << evaluation::csvField(pictures[i]) << "," << evaluation::detectionValues(row)
-           << finder.values(row) << "\n";
+    output << evaluation::csvField(images[i]) << "," << evaluation::detectionValues(row) << finder.values(row)
+           << "\n";
     if (Clock::now() < next_report) continue;
     next_report += std::chrono::seconds(5);
-    std::cerr << "detect_images: " << i + 1 << " of " << pictures.size() << " pictures" << std::endl;
+    std::cerr << "detect_images: " << i + 1 << " of " << images.size() << " images" << std::endl;
   }
   finish(output, options.output);
   if (candidates.is_open()) finish(candidates, options.candidates);
-  std::cout << "a window in " << found << " of " << pictures.size() << " pictures; see " << options.output
+  std::cout << "a window in " << found << " of " << images.size() << " images; see " << options.output
             << (job.overlay.empty() ? "" : " and " + job.overlay) << std::endl;
   return unreadable ? 1 : 0;
 }

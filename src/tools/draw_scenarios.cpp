@@ -29,7 +29,8 @@ struct Job {
 };
 
 options::options_description describe() {
-  options::options_description description("Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
+  options::options_description description(
+      "Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
   auto add = description.add_options();
   add("help", "print this text");
   add("output", options::value<std::string>(), "the sheet");
@@ -76,19 +77,19 @@ cv::Mat photograph(simulation::Scenario scenario, std::uint32_t seed, const Job&
     scenario.start.height_offset_m = 0.0;
   }
   simulation::World world(scenario, seed);
-  cv::Mat picture;
-  while (picture.empty() || world.timeSec() < kSettling_sec) {
+  cv::Mat image;
+  while (image.empty() || world.timeSec() < kSettling_sec) {
     world.advance();
-    if (const auto frame = world.takeFrame()) picture = frame->image.clone();
+    if (const auto frame = world.takeFrame()) image = frame->image.clone();
   }
-  return picture;
+  return image;
 }
 
-cv::Mat labelled(const cv::Mat& picture, const std::string& label, int width_px) {
+cv::Mat labelled(const cv::Mat& image, const std::string& label, int width_px) {
   constexpr int kLabel_px = 26;
   cv::Mat cell;
-  const int height_px = width_px * picture.rows / picture.cols;
-  cv::resize(picture, cell, cv::Size(width_px, height_px), 0, 0, cv::INTER_AREA);
+  const int height_px = width_px * image.rows / image.cols;
+  cv::resize(image, cell, cv::Size(width_px, height_px), 0, 0, cv::INTER_AREA);
   cv::copyMakeBorder(cell, cell, kLabel_px, 4, 2, 2, cv::BORDER_CONSTANT, cv::Scalar::all(255));
   cv::putText(cell, label, cv::Point(6, kLabel_px - 8), cv::FONT_HERSHEY_SIMPLEX, 0.55, cv::Scalar::all(0), 1,
               cv::LINE_AA);

@@ -28,7 +28,7 @@ struct Job {
 };
 
 struct Subject {
-  cv::Mat picture;
+  cv::Mat image;
   std::optional<detection::ReferenceAppearance> reference;
 };
 
@@ -41,7 +41,7 @@ options::options_description describe(Job& job) {
       ("seed", options::value(&job.seed)->default_value(1), "of the scenario")                          //
       ("distance", options::value(&job.distance_m), "instead of the start's [m]")                       //
       ("off-axis", options::value(&job.off_axis_rad), "with --distance: instead of the start's [rad]")  //
-      ("image", options::value(&job.image), "a picture instead of a scenario; without a reference")     //
+      ("image", options::value(&job.image), "an image instead of a scenario; without a reference")      //
       ("params", options::value(&job.params), tools::kParamsHelp)                                       //
       ("width", options::value(&job.cell_width_px)->default_value(480), "of each picture on the sheet [px]");
   return description;
@@ -58,33 +58,33 @@ Subject photograph(const Job& job) {
   }
   simulation::World world(scenario, job.seed);
   Subject subject;
-  while (subject.picture.empty() || world.timeSec() < kSettling_sec) {
+  while (subject.image.empty() || world.timeSec() < kSettling_sec) {
     world.advance();
-    if (const auto frame = world.takeFrame()) subject.picture = frame->image.clone();
+    if (const auto frame = world.takeFrame()) subject.image = frame->image.clone();
   }
   geometry::Quadrilateral corners;
-  const cv::Mat picture = world.referencePicture(&corners);
-  subject.reference.emplace(picture, corners);
+  const cv::Mat image = world.referenceImage(&corners);
+  subject.reference.emplace(image, corners);
   return subject;
 }
 
 Subject read(const Job& job) {
   Subject subject;
-  subject.picture = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (subject.picture.empty()) throw UsageError(job.image + ": cannot be read as a picture");
+  subject.image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (subject.image.empty()) throw UsageError(job.image + ": cannot be read as an image");
   return subject;
 }
 
 int run(const Job& job) {
   if (job.output.empty()) throw UsageError("--output is missing; see --help");
   if (job.scenario.empty() == job.image.empty())
-    throw UsageError("give either a scenario or a picture; see --help");
+    throw UsageError("give either a scenario or an image; see --help");
   if (!(job.distance_m >= 0.0)) throw UsageError("--distance: needs metres, above 0");
   if (job.off_axis_rad != 0.0 && job.distance_m == 0.0) throw UsageError("--off-axis needs --distance");
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const Subject subject = job.image.empty() ? photograph(job) : read(job);
   const cv::Mat sheet = evaluation::stageSheet(
-      subject.picture, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);
+      subject.image, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);
   if (!cv::imwrite(job.output, sheet, {cv::IMWRITE_JPEG_QUALITY, kQuality}))
     throw std::runtime_error(job.output + ": cannot write");
   return 0;

@@ -166,13 +166,13 @@ Job parse(int argc, char** argv, const options::options_description& description
   if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
   if (given.count("params") != 0)
     job.params = evaluation::readFlightParams(job.params_file = given["params"].as<std::string>());
-  if (given.count("no-pictures") != 0) job.params.without_pictures = true;
+  if (given.count("no-pictures") != 0) job.params.without_images = true;
   for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(job.output_folder);
   if (given.count("log") != 0) makeFolder(job.log_folder = given["log"].as<std::string>());
   if (given.count("keep-failures") == 0) return job;
-  if (job.params.without_pictures)
-    throw UsageError("--keep-failures: there are no pictures to keep with --no-pictures");
+  if (job.params.without_images)
+    throw UsageError("--keep-failures: there are no images to keep with --no-pictures");
   if (!kCanRecordBags)
     throw UsageError(
         "--keep-failures: this fly was built without ROS and cannot write bags; run scripts/build");
@@ -207,8 +207,8 @@ void recordAgain(const Job& job, const simulation::Scenario& scenario,
   if (evaluation::csvRow(again) != evaluation::csvRow(flight))
     throw std::runtime_error("seed " + std::to_string(flight.seed) +
                              ": flown again for its bag, it ended otherwise; flights must repeat");
-  const cv::Mat picture = strip.draw(flight, outlineOf(scenario));
-  if (picture.empty() || !cv::imwrite(name + ".png", picture))
+  const cv::Mat image = strip.draw(flight, outlineOf(scenario));
+  if (image.empty() || !cv::imwrite(name + ".png", image))
     throw std::runtime_error(name + ".png: cannot write");
 }
 
@@ -261,8 +261,8 @@ class Results {
   evaluation::CampaignFacts factsOf(const std::vector<evaluation::FlightResult>& flights) const {
     std::vector<std::uint32_t> seeds;
     for (const auto& flight : flights) seeds.push_back(flight.seed);
-    return {job_.scenario_file, evaluation::seedsText(seeds),  job_.draws_file,
-            job_.params_file,   !job_.params.without_pictures, WINDOW_INGRESS_VERSION};
+    return {job_.scenario_file, evaluation::seedsText(seeds), job_.draws_file,
+            job_.params_file,   !job_.params.without_images,  WINDOW_INGRESS_VERSION};
   }
   // Of a flight whose scenario stands for all in the image; there may be none in a shard.
   std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {

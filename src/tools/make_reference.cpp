@@ -43,23 +43,23 @@ const char* const kNext[] = {
 const char* const kSides[] = {"top", "right", "bottom", "left"};
 
 struct Job {
-  std::string picture, output = "reference.png", corners, params;
+  std::string image, output = "reference.png", corners, params;
   bool fit = false;
 };
 
 options::options_description describe(Job& job) {
   options::options_description description(
       "Usage: make_reference PICTURE [OPTION...]\n"
-      "Writes the picture, a yaml file of the same name for config:=, and NAME_understood.png, which shows "
+      "Writes the image, a yaml file of the same name for config:=, and NAME_understood.png, which shows "
       "the inner border "
       "and the regions whose colours are compared.\nWithout --corners a window opens: click the four inner "
       "corners of the "
       "opening, top left first, then clockwise; drag to correct,\nf: fit them to the edges, u: undo, Enter: "
       "save, q: "
       "quit.\n");
-  description.add_options()("help", "print this text")                                               //
-      ("picture", options::value(&job.picture), "photograph of the target with some wall round it")  //
-      ("output", options::value(&job.output)->default_value(job.output), "picture to write")         //
+  description.add_options()("help", "print this text")                                             //
+      ("picture", options::value(&job.image), "photograph of the target with some wall round it")  //
+      ("output", options::value(&job.output)->default_value(job.output), "image to write")         //
       ("corners", options::value(&job.corners),
        "x1,y1,...,x4,y4 instead of clicking; pixel centres are integers")                //
       ("fit", options::bool_switch(&job.fit), "fit the corners to the edges near them")  //
@@ -98,15 +98,15 @@ double shortestSide(const geometry::Quadrilateral& quad) {
 
 /// A side that finds no edge, or one that lies further away than anybody clicks, is not the one that is
 /// meant.
-Fit fitted(const cv::Mat& picture, const std::vector<double>& corners, double radius_px = kFitRadiusPx) {
+Fit fitted(const cv::Mat& image, const std::vector<double>& corners, double radius_px = kFitRadiusPx) {
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto clicked = geometry::canonical(quad);
   if (!clicked) return refused("the corners make no convex quadrilateral");
-  const double scale = std::max(1.0, std::max(picture.cols, picture.rows) / kMaxPx);
+  const double scale = std::max(1.0, std::max(image.cols, image.rows) / kMaxPx);
   double on_edge = 0.0;
   const auto borders =
-      detection::BorderRefinement().run(picture, {*clicked, radius_px * scale}, nullptr, &on_edge);
+      detection::BorderRefinement().run(image, {*clicked, radius_px * scale}, nullptr, &on_edge);
   char text[160];
   std::snprintf(text, sizeof text, "only %.0f %% of one side lie on a straight edge near it",
                 100.0 * on_edge);
@@ -128,16 +128,16 @@ Fit fitted(const cv::Mat& picture, const std::vector<double>& corners, double ra
 }
 
 /// What speaks against corners that are saved as they are; empty if they lie on edges.
-std::string doubt(const cv::Mat& picture, const std::vector<double>& corners) {
-  const Fit fit = fitted(picture, corners, kNearPx);
+std::string doubt(const cv::Mat& image, const std::vector<double>& corners) {
+  const Fit fit = fitted(image, corners, kNearPx);
   return fit.corners.empty() ? "poor corners: " + fit.said : "";
 }
 
 /// A window in which four corners are clicked.
 class Clicking {
  public:
-  explicit Clicking(const cv::Mat& picture)
-      : picture_(picture), scale_(std::min(1.0, kMaxPx / std::max(picture.cols, picture.rows))) {
+  explicit Clicking(const cv::Mat& image)
+      : image_(image), scale_(std::min(1.0, kMaxPx / std::max(image.cols, image.rows))) {
     cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
     cv::setMouseCallback(kWindow, onMouse, this);
   }
@@ -162,12 +162,12 @@ class Clicking {
   }
 
   void mouse(int event, int x, int y) {
-    at_ = {std::min((x + 0.5) / scale_ - 0.5, picture_.cols - 1.0),
-           std::min((y + 0.5) / scale_ - 0.5, picture_.rows - 1.0)};
+    at_ = {std::min((x + 0.5) / scale_ - 0.5, image_.cols - 1.0),
+           std::min((y + 0.5) / scale_ - 0.5, image_.rows - 1.0)};
     if (event == cv::EVENT_LBUTTONDOWN) said_.clear();
     if (event == cv::EVENT_LBUTTONUP) dragged_ = -1;
     if (event == cv::EVENT_MOUSEMOVE && dragged_ >= 0) points_[static_cast<std::size_t>(dragged_)] = at_;
-    const bool beside = x >= picture_.cols * scale_ || y >= picture_.rows * scale_;
+    const bool beside = x >= image_.cols * scale_ || y >= image_.rows * scale_;
     if (event != cv::EVENT_LBUTTONDOWN || beside) return;
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (cv::norm(points_[i] - at_) * scale_ < 12.0) dragged_ = static_cast<int>(i);
@@ -178,7 +178,7 @@ class Clicking {
 
   // The second Enter saves all the same.
   bool isDoubtful() {
-    const std::string why = doubt(picture_, flat(points_));
+    const std::string why = doubt(image_, flat(points_));
     const std::string asked = why + ". Enter saves all the same";
     if (why.empty() || said_ == asked) return false;
     said_ = asked;
@@ -186,7 +186,7 @@ class Clicking {
   }
 
   void fit() {
-    const Fit fit = fitted(picture_, flat(points_));
+    const Fit fit = fitted(image_, flat(points_));
     said_ = (fit.corners.empty() ? "not fitted: " : "") + fit.said;
     std::cout << said_ << std::endl;
     for (std::size_t i = 0; i < points_.size() && !fit.corners.empty(); ++i)
@@ -199,8 +199,7 @@ class Clicking {
 
   void draw() const {
     cv::Mat shown;
-    cv::resize(picture_, shown, cv::Size(), scale_, scale_,
-               scale_ < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
+    cv::resize(image_, shown, cv::Size(), scale_, scale_, scale_ < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (i > 0 || points_.size() == 4)
         cv::line(shown, onScreen(points_[i]), onScreen(points_[(i + points_.size() - 1) % points_.size()]),
@@ -218,7 +217,7 @@ class Clicking {
   // means.
   void drawPanel(cv::Mat panel) const {
     cv::Mat part, lens;
-    cv::getRectSubPix(picture_, cv::Size(kLens, kLens),
+    cv::getRectSubPix(image_, cv::Size(kLens, kLens),
                       cv::Point2f(static_cast<float>(at_.x), static_cast<float>(at_.y)), part);
     cv::resize(part, lens, cv::Size(), kZoom, kZoom, cv::INTER_NEAREST);
     cv::drawMarker(lens, cv::Point(lens.cols / 2, lens.rows / 2), cv::Scalar(0, 0, 255), cv::MARKER_CROSS,
@@ -257,7 +256,7 @@ class Clicking {
   static constexpr std::size_t kLetters = 38;
   const cv::Scalar kBorder{60, 230, 60}, kCorner{0, 255, 255}, kText{220, 220, 220};
 
-  cv::Mat picture_;
+  cv::Mat image_;
   double scale_;
   std::vector<cv::Point2d> points_;
   cv::Point2d at_{0.0, 0.0};
@@ -266,31 +265,30 @@ class Clicking {
 };
 
 int run(const Job& job) {
-  if (job.picture.empty()) throw UsageError("no picture given; see --help");
+  if (job.image.empty()) throw UsageError("no image given; see --help");
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
-  cv::Mat picture;
-  if (fs::exists(job.picture))
-    picture = cv::imread(job.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (picture.empty()) throw UsageError(job.picture + ": cannot be read as a picture");
+  cv::Mat image;
+  if (fs::exists(job.image)) image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (image.empty()) throw UsageError(job.image + ": cannot be read as an image");
   std::vector<double> corners;
   if (!job.corners.empty()) {
     corners = tools::numbers("--corners", job.corners, 8);
   } else {
     if (!tools::hasDisplay())
       throw UsageError("there is no display to click in: give --corners x1,y1,...,x4,y4");
-    const auto clicked = Clicking(picture).run();
+    const auto clicked = Clicking(image).run();
     if (!clicked) throw std::runtime_error("given up, nothing written");
     corners = *clicked;
   }
   if (job.fit) {
-    const Fit fit = fitted(picture, corners);
+    const Fit fit = fitted(image, corners);
     if (fit.corners.empty())
       throw std::runtime_error("not fitted: " + fit.said + "; mend the corners, or leave out --fit");
     std::cout << fit.said << "\n";
     corners = fit.corners;
   }
-  const auto reference = adapters::makeReference(picture, corners, params);
-  if (const std::string why = doubt(picture, corners); !why.empty())
+  const auto reference = adapters::makeReference(image, corners, params);
+  if (const std::string why = doubt(image, corners); !why.empty())
     std::cerr << "make_reference: warning: " << why << "\n";
   adapters::saveReference(job.output, reference);
   const fs::path written = fs::absolute(job.output);

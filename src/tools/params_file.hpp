@@ -11,19 +11,19 @@ namespace window_ingress::tools {
 
 /// The reference of the file, unless one was given by its own options. \throws UsageError
 inline void takeReference(const std::string& file, const configuration::ReferenceParams& kept,
-                          std::string& picture, std::vector<double>& corners) {
+                          std::string& image, std::vector<double>& corners) {
   if (!kept.corners.empty() && kept.corners.size() != 8)
     throw UsageError(file + ": window_detector/reference/corners: eight numbers");
-  if (!picture.empty()) return;
-  picture = kept.picture;
+  if (!image.empty()) return;
+  image = kept.picture;
   corners = kept.corners;
 }
 
 /// The detector's parameters; image and corners of the reference, too. \throws UsageError, YamlError
-inline detection::DetectorParams readParams(const std::string& file, std::string& picture,
+inline detection::DetectorParams readParams(const std::string& file, std::string& image,
                                             std::vector<double>& corners) {
   const configuration::Overlay overlay = configuration::readOverlay(file);
-  takeReference(file, overlay.window_detector.reference, picture, corners);
+  takeReference(file, overlay.window_detector.reference, image, corners);
   return overlay.window_detector.detector;
 }
 

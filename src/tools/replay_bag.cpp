@@ -50,7 +50,7 @@ Options parse(int argc, char** argv) {
       ("odom", po::value(&o.topics.odom), "likewise")                                //
       ("imu", po::value(&o.topics.imu), "likewise")                                  //
       ("reference", po::value(&o.reference.picture),
-       "picture of the target with its frame; else that of the bag")                                      //
+       "image of the target with its frame; else that of the bag")                                        //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
       ("window-size", po::value(&o.size),
        "W,H: inner size of the opening [m]; without it, here or in --params, no poses")  //
@@ -139,7 +139,7 @@ void judge(const Options& options, const adapters::ReplayParams& params,
   if (summary.refused > 0)
     say(std::to_string(summary.refused) + " messages refused, the last one: " + summary.refusal);
   if (summary.images == 0)
-    throw UsageError(options.bag + ": no picture in " + params.topics.image + " can be read");
+    throw UsageError(options.bag + ": no image in " + params.topics.image + " can be read");
   if (params.with_pose && summary.calibrated == 0)
     throw UsageError(options.bag + ": no calibration: " + summary.refusal);
   say(std::to_string(summary.images) + " images, " +

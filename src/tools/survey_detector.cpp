@@ -53,7 +53,7 @@ po::options_description describe(Options& o) {
   add("seed", po::value(&o.seed)->default_value(o.seed), "of the first frame; each further one has the next");
   add("output,o", po::value(&o.output), "folder of the results");
   add("params", po::value(&o.params), tools::kParamsHelp);
-  add("no-reference", po::bool_switch(&o.no_reference), "without the picture of the target");
+  add("no-reference", po::bool_switch(&o.no_reference), "without the image of the target");
   add("distance", po::value(&o.distance)->default_value("2,8"), "NEAREST,FARTHEST [m]");
   add("at", po::value(&o.at), "D1,D2,...: at these distances in turn, instead of --distance [m]");
   add("off-axis", po::value(&o.off_axis_deg)->default_value(o.off_axis_deg), "to either side, at most [deg]");
@@ -61,10 +61,10 @@ po::options_description describe(Options& o) {
   add("without-target", po::bool_switch(&o.without_target),
       "the scenario, but the wall closed at the target");
   add("antialiasing", po::value(&o.antialiasing), "instead of the scenario's: edges or multisampling");
-  add("save", po::value(&o.save), "folder for the pictures and the truth about them");
+  add("save", po::value(&o.save), "folder for the images and the truth about them");
   add("overlay", po::value(&o.overlay), "folder for pictures of the frames that went wrong; truth in white");
   add("load", po::value(&o.folders)->composing()->multitoken(),
-      "pictures from such folders, instead of drawing them");
+      "images from such folders, instead of drawing them");
   return description;
 }
 
@@ -115,18 +115,18 @@ class Survey {
     frames_ << evaluation::surveyColumns() << "\n";
   }
 
-  void look(const evaluation::SurveyPicture& picture) {
-    if (options_.no_reference || picture.reference.empty())
+  void look(const evaluation::SurveyImage& sample) {
+    if (options_.no_reference || sample.reference.empty())
       detector_.clearReference();
     else
-      detector_.setReference(detection::ReferenceAppearance(picture.reference, picture.reference_corners));
+      detector_.setReference(detection::ReferenceAppearance(sample.reference, sample.reference_corners));
     const auto start = Clock::now();
-    const auto window = detector_.detect(picture.image, 0.0, &picture.camera);
+    const auto window = detector_.detect(sample.image, 0.0, &sample.camera);
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    const auto result = evaluation::resultOf(picture, window, detector_.trace(), ms);
+    const auto result = evaluation::resultOf(sample, window, detector_.trace(), ms);
     frames_ << evaluation::surveyRow(result) << "\n";
     table_.add(result);
-    if (!options_.overlay.empty() && !isRight(result.verdict)) draw(picture, result);
+    if (!options_.overlay.empty() && !isRight(result.verdict)) draw(sample, result);
   }
 
   void finish() {
@@ -146,17 +146,16 @@ class Survey {
     return verdict == evaluation::SurveyVerdict::kHit || verdict == evaluation::SurveyVerdict::kNothing;
   }
 
-  void draw(const evaluation::SurveyPicture& picture, const evaluation::SurveyResult& result) const {
+  void draw(const evaluation::SurveyImage& sample, const evaluation::SurveyResult& result) const {
     cv::Mat canvas;
-    detection::drawDetection(picture.image, detector_.trace(), result.window ? &*result.window : nullptr,
+    detection::drawDetection(sample.image, detector_.trace(), result.window ? &*result.window : nullptr,
                              canvas);
     std::vector<cv::Point> corners;
-    for (const Eigen::Vector2d& corner : picture.truth.inner)
+    for (const Eigen::Vector2d& corner : sample.truth.inner)
       corners.emplace_back(cvRound(corner.x()), cvRound(corner.y()));
-    if (picture.truth.present) cv::polylines(canvas, corners, true, cv::Scalar::all(255));
-    const fs::path file =
-        fs::path(options_.overlay) / (picture.scenario + "_" + std::to_string(picture.seed) + "_" +
-                                      evaluation::toString(result.verdict) + ".png");
+    if (sample.truth.present) cv::polylines(canvas, corners, true, cv::Scalar::all(255));
+    const fs::path file = fs::path(options_.overlay) / (sample.scenario + "_" + std::to_string(sample.seed) +
+                                                        "_" + evaluation::toString(result.verdict) + ".png");
     if (!cv::imwrite(file.string(), canvas))
       throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
   }
@@ -180,14 +179,14 @@ simulation::Scenario load(const std::string& file, std::uint32_t seed, const Opt
   return scenario;
 }
 
-void draw(const Options& o, const std::function<void(const evaluation::SurveyPicture&)>& use) {
+void draw(const Options& o, const std::function<void(const evaluation::SurveyImage&)>& use) {
   tools::Progress progress("survey_detector", "images", o.scenarios.size() * o.frames);
   for (const std::string& file : o.scenarios)
     for (int i = 0; i < o.frames; ++i) {
       const std::uint32_t seed = o.seed + static_cast<std::uint32_t>(i);
-      auto picture = evaluation::takePicture(load(file, seed, o), seed, rangeOf(o, i), !o.no_reference);
-      picture.scenario = fs::path(file).stem().string();
-      use(picture);
+      auto sample = evaluation::takeImage(load(file, seed, o), seed, rangeOf(o, i), !o.no_reference);
+      sample.scenario = fs::path(file).stem().string();
+      use(sample);
       progress.passed();
     }
 }
@@ -195,9 +194,9 @@ void draw(const Options& o, const std::function<void(const evaluation::SurveyPic
 void drawAndLook(const Options& o, Survey& survey) {
   evaluation::SurveyFolder folder(o.save);
   if (!o.save.empty()) tools::makeFolder(o.save);
-  draw(o, [&](const evaluation::SurveyPicture& picture) {
-    if (!o.save.empty()) folder.add(picture);
-    survey.look(picture);
+  draw(o, [&](const evaluation::SurveyImage& sample) {
+    if (!o.save.empty()) folder.add(sample);
+    survey.look(sample);
   });
   if (!o.save.empty()) folder.writeTable();
 }

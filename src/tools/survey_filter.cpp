@@ -31,7 +31,7 @@ struct Options {
 po::options_description describe(Options& o) {
   po::options_description description(
       "Usage: survey_filter --output DIR [options]\n"
-      "Flies synthetic approaches (no pictures: borders with noise and lasting errors, odometry that "
+      "Flies synthetic approaches (no images: borders with noise and lasting errors, odometry that "
       "drifts,\n"
       "attitude that is wrong) through estimator and filter and compares with the truth.\n"
       "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % band.\n"

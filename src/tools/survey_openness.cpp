@@ -44,15 +44,15 @@ po::options_description describe(Options& o) {
   add("open", po::value(&o.open)->default_value(o.open), "drawn approaches to open windows");
   add("closed", po::value(&o.closed)->default_value(o.closed), "drawn approaches to closed ones");
   add("synthetic", po::value(&o.synthetic)->default_value(o.synthetic),
-      "approaches of each kind without pictures");
+      "approaches of each kind without images");
   add("glass", po::value(&o.glass)->default_value(o.glass),
-      "approaches without pictures to panes of each of several reflectivities");
+      "approaches without images to panes of each of several reflectivities");
   add("scenario", po::value(&o.scenarios)->composing()->multitoken(),
       "scenario files instead of random windows, --open approaches each");
   add("seed", po::value(&o.seed)->default_value(o.seed),
       "of the first approach; each further one has the next");
   add("params", po::value(&o.params), tools::kParamsHelp);
-  add("rate", po::value(&o.range.rate_hz)->default_value(o.range.rate_hz), "of the pictures [1/s]");
+  add("rate", po::value(&o.range.rate_hz)->default_value(o.range.rate_hz), "of the images [1/s]");
   add("decide", po::value(&o.range.decide_m)->default_value(o.range.decide_m),
       "distance at which the verdict counts [m]");
   add("trace", po::value(&o.trace), "csv file: the verdict over each approach");

@@ -42,7 +42,7 @@ po::options_description describe(Options& o) {
       "Draws random views with noisy borders, one cell for each distance, yaw and noise, estimates the pose "
       "and\ncompares it with the truth, with the Cramer-Rao bound, and with OpenCV on the corners where the "
       "same\nborders cross. Writes DIR/cells.csv, prints yaw RMSE over bound as a table.\n"
-      "With --load: from the pixels of pictures that survey_detector has saved to the pose, against the "
+      "With --load: from the pixels of images that survey_detector has saved to the pose, against the "
       "truth.\nWrites DIR/pictures.csv, prints the errors of poses and of borders as tables.\n\nOptions");
   auto add = description.add_options();
   add("help,h", "this text");
@@ -54,7 +54,7 @@ po::options_description describe(Options& o) {
   add("output,o", po::value(&o.output), "folder of the results");
   add("camera", po::value(&o.camera), "calibration without distortion; default 640 x 480, f = 554 px");
   add("window-size", po::value(&o.window_size), "W,H of the opening; default 1,1 [m]");
-  add("load", po::value(&o.folders)->composing()->multitoken(), "folders of pictures");
+  add("load", po::value(&o.folders)->composing()->multitoken(), "folders of images");
   add("params", po::value(&o.params), tools::kParamsHelp);
   add("attitude", po::value(&o.attitude_deg), "with --load: the attitude is known with this error [deg]");
   return description;
@@ -119,13 +119,13 @@ class Chain {
         estimator_(poseParams(o)),
         random_(o.seed) {}
 
-  void look(const evaluation::SurveyPicture& picture) {
-    if (picture.reference.empty())
+  void look(const evaluation::SurveyImage& sample) {
+    if (sample.reference.empty())
       detector_.clearReference();
     else
-      detector_.setReference(detection::ReferenceAppearance(picture.reference, picture.reference_corners));
-    const auto window = detector_.detect(picture.image, 0.0, &picture.camera);
-    results.push_back(evaluation::chainResult(picture, window, estimator_, gravityOf(picture)));
+      detector_.setReference(detection::ReferenceAppearance(sample.reference, sample.reference_corners));
+    const auto window = detector_.detect(sample.image, 0.0, &sample.camera);
+    results.push_back(evaluation::chainResult(sample, window, estimator_, gravityOf(sample)));
   }
 
   std::vector<evaluation::PoseChainResult> results;
@@ -139,10 +139,10 @@ class Chain {
     return params;
   }
 
-  std::optional<estimation::GravityPrior> gravityOf(const evaluation::SurveyPicture& picture) {
+  std::optional<estimation::GravityPrior> gravityOf(const evaluation::SurveyImage& sample) {
     if (!(options_.attitude_deg > 0.0)) return std::nullopt;
     const auto truth = evaluation::poseOfTrueCorners(
-        picture.truth.inner, picture.camera,
+        sample.truth.inner, sample.camera,
         {estimator_.params().opening_width_m, estimator_.params().opening_height_m});
     if (!truth) return std::nullopt;
     const double sigma = options_.attitude_deg * kRadPerDegree;
@@ -157,7 +157,7 @@ class Chain {
   std::mt19937 random_;
 };
 
-int surveyPictures(const Options& o) {
+int surveyImages(const Options& o) {
   if (o.window_size.empty()) throw UsageError("--load needs --window-size");
   tools::makeFolder(o.output);
   Chain chain(o);
@@ -177,7 +177,7 @@ int surveyPictures(const Options& o) {
 
 int run(const Options& o) {
   if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  return o.folders.empty() ? surveyNoise(o) : surveyPictures(o);
+  return o.folders.empty() ? surveyNoise(o) : surveyImages(o);
 }
 
 }  // namespace

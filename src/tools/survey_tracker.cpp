@@ -11,11 +11,11 @@
 
 #include "command_line.hpp"
 #include "evaluation/images/survey_flight.hpp"
-#include "evaluation/images/survey_picture.hpp"
+#include "evaluation/images/survey_image.hpp"
 #include "evaluation/images/track_survey.hpp"
 #include "progress.hpp"
 #include "simulation/camera/camera_sensor.hpp"
-#include "simulation/camera/reference_picture.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "simulation/random_stream.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
@@ -55,7 +55,7 @@ po::options_description describe(Options& o) {
   add("speed", po::value(&o.range.speed_mps)->default_value(o.range.speed_mps), "towards the plane [m/s]");
   add("end", po::value(&o.range.end_m)->default_value(o.range.end_m), "of the flight, before the plane [m]");
   add("wobble", po::value(&o.range.wobble_rad)->default_value(o.range.wobble_rad), "of the attitude [rad]");
-  add("no-reference", po::bool_switch(&o.no_reference), "without the picture of the target");
+  add("no-reference", po::bool_switch(&o.no_reference), "without the image of the target");
   add("no-attitude", po::bool_switch(&o.no_attitude), "the tracker does not know the attitude");
   return description;
 }
@@ -107,8 +107,8 @@ class Flight {
         tracker_(paramsOf(o)) {
     if (o.no_reference) return;
     geometry::Quadrilateral corners;
-    const cv::Mat picture = simulation::referencePicture(scenario_, &corners);
-    tracker_.setReference(detection::ReferenceAppearance(picture, corners));
+    const cv::Mat image = simulation::referenceImage(scenario_, &corners);
+    tracker_.setReference(detection::ReferenceAppearance(image, corners));
   }
 
   template <typename Use>

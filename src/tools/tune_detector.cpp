@@ -33,7 +33,7 @@ using tools::UsageError;
 
 const char *const kStages = "stages", *const kSliders = "parameters";
 const char* const kKeys =
-    "keys: g/G next or previous group of parameters, n/p next or previous picture, d defaults of this group, "
+    "keys: g/G next or previous group of parameters, n/p next or previous image, d defaults of this group, "
     "s save, h "
     "these keys, q or Esc quit";
 
@@ -48,8 +48,8 @@ struct Job {
 options::options_description describe(Job& job) {
   options::options_description description(
       std::string("Usage: tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
-                  "SOURCE: a picture, a folder of pictures, a bag, or a topic "
-                  "of pictures (begins with '/').\n") +
+                  "SOURCE: an image, a folder of images, a bag, or a topic "
+                  "of images (begins with '/').\n") +
       kKeys + ".\n");
   description.add_options()("help", "print this text")      //
       ("source", options::value(&job.source), "see above")  //
@@ -57,18 +57,18 @@ options::options_description describe(Job& job) {
        "yaml file with what differs from the defaults, for config:= and --params")  //
       ("params", options::value(&job.params), tools::kParamsHelp)                   //
       ("set", options::value(&job.settings)->composing(),
-       "NAME=VALUE, like edges/floor=4.5; may be repeated")                           //
-      ("reference", options::value(&job.reference.picture), "picture of the target")  //
+       "NAME=VALUE, like edges/floor=4.5; may be repeated")                         //
+      ("reference", options::value(&job.reference.picture), "image of the target")  //
       ("reference-corners", options::value(&job.corners),
-       "x1,y1,...,x4,y4: inner border of the opening in it")                                            //
-      ("image", options::value(&job.topic), "topic of the pictures in a bag; else the only one")        //
-      ("every", options::value(&job.every)->default_value(10), "take one picture of a bag in so many")  //
-      ("most", options::value(&job.most)->default_value(100), "pictures of a bag, at most")             //
+       "x1,y1,...,x4,y4: inner border of the opening in it")                                          //
+      ("image", options::value(&job.topic), "topic of the images in a bag; else the only one")        //
+      ("every", options::value(&job.every)->default_value(10), "take one image of a bag in so many")  //
+      ("most", options::value(&job.most)->default_value(100), "images of a bag, at most")             //
       ("width", options::value(&job.width)->default_value(400),
        "of each picture on the sheet of stages [px]")  //
       ("headless", options::bool_switch(&job.headless),
-       "no windows: look at all pictures once, print, save")  //
-      ("sheet", options::value(&job.sheet), "headless: also write the sheet of stages of the first picture");
+       "no windows: look at all images once, print, save")  //
+      ("sheet", options::value(&job.sheet), "headless: also write the sheet of stages of the first image");
   return description;
 }
 
@@ -85,17 +85,17 @@ void save(const std::string& file, const Bench& bench) {
 }
 
 int runHeadless(const Job& job, tools::TuningSource& source, Bench& bench) {
-  if (source.count() == 0) throw UsageError("--headless needs pictures or a bag");
+  if (source.count() == 0) throw UsageError("--headless needs images or a bag");
   std::vector<double> milliseconds;
   int found = 0;
   for (int i = 0; i < source.count(); ++i, source.step(1)) {
-    std::cout << source.name() << ": " << bench.look(source.picture()) << "\n";
+    std::cout << source.name() << ": " << bench.look(source.image()) << "\n";
     milliseconds.push_back(bench.milliseconds());
     found += bench.found();
   }
-  std::cout << "windows in " << found << " of " << source.count() << " pictures, median "
+  std::cout << "windows in " << found << " of " << source.count() << " images, median "
             << evaluation::quantile(milliseconds, 0.5) << " ms\n";
-  if (!job.sheet.empty() && !cv::imwrite(job.sheet, bench.sheet(source.picture(), job.width)))
+  if (!job.sheet.empty() && !cv::imwrite(job.sheet, bench.sheet(source.image(), job.width)))
     throw UsageError(job.sheet + ": cannot be written");
   if (!job.output.empty()) save(job.output, bench);
   return 0;
@@ -181,11 +181,11 @@ class Desk {
   }
 
   void show() {
-    const cv::Mat picture = source_.picture();
-    if (picture.empty() || (!dirty_ && source_.count() > 0)) return;
+    const cv::Mat image = source_.image();
+    if (image.empty() || (!dirty_ && source_.count() > 0)) return;
     dirty_ = false;
-    const std::string line = bench_.look(picture);
-    cv::Mat sheet = bench_.sheet(picture, job_.width);
+    const std::string line = bench_.look(image);
+    cv::Mat sheet = bench_.sheet(image, job_.width);
     cv::copyMakeBorder(sheet, sheet, 0, 26, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
     cv::putText(sheet, line, {8, sheet.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(255), 1,
                 cv::LINE_AA);

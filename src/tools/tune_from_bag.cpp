@@ -24,7 +24,7 @@ namespace {
 namespace options = boost::program_options;
 using namespace window_ingress;
 using evaluation::DetectionCounts;
-using evaluation::LabelledPicture;
+using evaluation::LabelledImage;
 using parameters::fieldsOf;
 using tools::UsageError;
 
@@ -38,13 +38,14 @@ struct Job {
   double held_out = 0.4;
 };
 
-using Pictures = std::vector<LabelledPicture>;
+using Images = std::vector<LabelledImage>;
 
 options::options_description describe(Job& job) {
   options::options_description description(
       "Usage: tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
-      "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H [OPTION...]\n"
-      "Tries settings of the detector on a part of the pictures and writes the keys it changed, if it is "
+      "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H "
+      "[OPTION...]\n"
+      "Tries settings of the detector on a part of the images and writes the keys it changed, if it is "
       "better on the "
       "rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong usage or "
       "unreadable input.\n");
@@ -53,14 +54,14 @@ options::options_description describe(Job& job) {
        "yaml file for the changed keys, to be given as config:= and --params")  //
       ("labels", options::value(&job.labels),
        "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)")                                  //
-      ("images", options::value(&job.images), "folder of the pictures that the csv names")                 //
-      ("bag", options::value(&job.bags)->multitoken(), "bags with pictures, calibration and truth")        //
+      ("images", options::value(&job.images), "folder of the images that the csv names")                   //
+      ("bag", options::value(&job.bags)->multitoken(), "bags with images, calibration and truth")          //
       ("truth", options::value(&job.topics.truth), "PoseStamped with the true T_camera_window, by stamp")  //
       ("window-size", options::value(&job.size), "W,H: inner size of the opening [m]")                     //
       ("image", options::value(&job.topics.image), "topic; else the only one of its type")                 //
       ("camera-info", options::value(&job.topics.camera_info), "likewise")                                 //
-      ("every", options::value(&job.every)->default_value(1), "take one picture of a bag in so many")      //
-      ("reference", options::value(&job.reference.picture), "picture of the target")                       //
+      ("every", options::value(&job.every)->default_value(1), "take one image of a bag in so many")        //
+      ("reference", options::value(&job.reference.picture), "image of the target")                         //
       ("reference-corners", options::value(&job.corners),
        "x1,y1,...,x4,y4: inner border of the opening in it")       //
       ("params", options::value(&job.params), tools::kParamsHelp)  //
@@ -92,19 +93,19 @@ void check(const Job& job) {
     throw UsageError("--reference-corners needs --reference");
 }
 
-Pictures read(const Job& job) {
+Images read(const Job& job) {
   if (!job.labels.empty()) return evaluation::readLabelled(job.labels, job.images);
   const auto size = tools::numbers("--window-size", job.size, 2);
   if (!(size[0] > 0.0 && size[1] > 0.0)) throw UsageError("--window-size: metres above 0");
-  Pictures pictures;
+  Images samples;
   for (const std::string& file : job.bags) {
     rosbag::Bag bag;
     adapters::openBag(bag, file);
-    const auto found = adapters::labelledPictures(bag, adapters::chooseTopics(bag, job.topics),
-                                                  {size[0], size[1]}, job.every);
-    pictures.insert(pictures.end(), found.begin(), found.end());
+    const auto found =
+        adapters::labelledImages(bag, adapters::chooseTopics(bag, job.topics), {size[0], size[1]}, job.every);
+    samples.insert(samples.end(), found.begin(), found.end());
   }
-  return pictures;
+  return samples;
 }
 
 /// A line every two seconds.
@@ -154,8 +155,8 @@ int run(const Job& job) {
   const detection::ReferenceAppearance* const given = reference ? &*reference : nullptr;
 
   const auto [tuning, held] = evaluation::split(read(job), job.held_out, job.seed);
-  std::printf("%zu pictures to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(),
-              held.size(), job.seed);
+  std::printf("%zu images to tune on, %zu held out (groups drawn with seed %u)\n", tuning.size(), held.size(),
+              job.seed);
   const evaluation::TuningOptions search{namesOf(job.names), job.trials, job.seed};
   const detection::DetectorParams tuned =
       evaluation::tuneDetector(tuning, start, given, search, Progress(job.trials));
@@ -170,7 +171,7 @@ int run(const Job& job) {
   std::printf("%s", changes.c_str());
   if (changes.empty() || after.f1() <= before.f1()) {
     std::printf("%s: nothing written\n",
-                changes.empty() ? "no setting was better" : "not better on the pictures held out");
+                changes.empty() ? "no setting was better" : "not better on the images held out");
     return 1;
   }
   write(job.output, tuned, "Held out: " + after.text() + "; before: " + before.text() + ".");

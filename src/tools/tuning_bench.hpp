@@ -34,10 +34,10 @@ class Bench {
   void changed() { detector_.setParams(params_); }
 
   /// \return one line: what was found, and what it cost
-  std::string look(const cv::Mat& picture) {
+  std::string look(const cv::Mat& image) {
     const double begun_sec = adapters::steadyNowSec();
     watch_.begin();
-    const auto window = detector_.detect(picture, 0.0);
+    const auto window = detector_.detect(image, 0.0);
     milliseconds_ = 1e3 * (adapters::steadyNowSec() - begun_sec);
     found_ = window.has_value();
     char text[120];
@@ -50,8 +50,8 @@ class Bench {
     return line + "; " + times();
   }
 
-  cv::Mat sheet(const cv::Mat& picture, int width) const {
-    return evaluation::stageSheet(picture, params_, reference_ ? &*reference_ : nullptr, width);
+  cv::Mat sheet(const cv::Mat& image, int width) const {
+    return evaluation::stageSheet(image, params_, reference_ ? &*reference_ : nullptr, width);
   }
   bool found() const { return found_; }
   double milliseconds() const { return milliseconds_; }

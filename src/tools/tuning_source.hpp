@@ -23,31 +23,31 @@ namespace window_ingress::tools {
 class TuningSource {
  public:
   virtual ~TuningSource() = default;
-  virtual cv::Mat picture() = 0;           ///< where we are; empty: none yet
+  virtual cv::Mat image() = 0;             ///< where we are; empty: none yet
   virtual std::string name() = 0;          ///< for people
   virtual void step(int) {}                ///< to another place
   virtual int count() const { return 0; }  ///< 0: a camera
 };
 
-class StoredPictures : public TuningSource {
+class StoredImages : public TuningSource {
  public:
-  void add(const std::string& name, const cv::Mat& picture) {
-    names_.push_back(name), pictures_.push_back(picture);
+  void add(const std::string& name, const cv::Mat& image) {
+    names_.push_back(name), images_.push_back(image);
   }
-  cv::Mat picture() override { return pictures_[at_]; }
+  cv::Mat image() override { return images_[at_]; }
   std::string name() override {
-    return names_[at_] + " (" + std::to_string(at_ + 1) + " of " + std::to_string(pictures_.size()) + ")";
+    return names_[at_] + " (" + std::to_string(at_ + 1) + " of " + std::to_string(images_.size()) + ")";
   }
   void step(int by) override {
-    const auto size = static_cast<int>(pictures_.size());
+    const auto size = static_cast<int>(images_.size());
     at_ = static_cast<std::size_t>(((static_cast<int>(at_) + by) % size + size) % size);
   }
-  int count() const override { return static_cast<int>(pictures_.size()); }
+  int count() const override { return static_cast<int>(images_.size()); }
 
  private:
   std::size_t at_ = 0;
   std::vector<std::string> names_;
-  std::vector<cv::Mat> pictures_;
+  std::vector<cv::Mat> images_;
 };
 
 class Camera : public TuningSource {
@@ -61,26 +61,26 @@ class Camera : public TuningSource {
           take(adapters::decode(*message, adapters::ImageLimits{}));
         });
   }
-  cv::Mat picture() override {
+  cv::Mat image() override {
     ros::spinOnce();
-    return picture_;
+    return image_;
   }
   std::string name() override { return topic_ + (refusal_.empty() ? "" : ", refused: " + refusal_); }
 
  private:
   void take(const adapters::DecodedImage& guarded) {
     refusal_ = guarded.reason;
-    if (!guarded.image.empty()) picture_ = guarded.image.clone();
+    if (!guarded.image.empty()) image_ = guarded.image.clone();
   }
   std::string topic_, refusal_;
-  cv::Mat picture_;
+  cv::Mat image_;
   ros::NodeHandle nh_;
   ros::Subscriber raw_, compressed_;
 };
 
-inline void addFile(const std::filesystem::path& path, StoredPictures& pictures) {
-  const cv::Mat picture = cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (!picture.empty()) pictures.add(path.filename().string(), picture);
+inline void addFile(const std::filesystem::path& path, StoredImages& images) {
+  const cv::Mat image = cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (!image.empty()) images.add(path.filename().string(), image);
 }
 
 /// \param source image, folder, bag, or the name of a topic
@@ -94,14 +94,14 @@ inline std::unique_ptr<TuningSource> openSource(const std::string& source, const
       throw UsageError(source + ": no such file, and no ROS master to ask for a topic");
     return std::make_unique<Camera>(source);
   }
-  if (!exists) throw UsageError(source + ": no such picture, folder or bag; a topic begins with '/'");
-  auto pictures = std::make_unique<StoredPictures>();
+  if (!exists) throw UsageError(source + ": no such image, folder or bag; a topic begins with '/'");
+  auto images = std::make_unique<StoredImages>();
   if (fs::is_directory(source)) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(source)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const auto& file : files)
-      if (cv::haveImageReader(file.string())) addFile(file, *pictures);
+      if (cv::haveImageReader(file.string())) addFile(file, *images);
   } else if (fs::path(source).extension() == ".bag") {
     rosbag::Bag bag;
     adapters::openBag(bag, source);
@@ -109,13 +109,13 @@ inline std::unique_ptr<TuningSource> openSource(const std::string& source, const
     wanted.image = image_topic;
     const auto topics = adapters::chooseTopics(bag, wanted);
     int number = 0;
-    for (const cv::Mat& picture : adapters::picturesOf(bag, topics, every, most))
-      pictures->add("picture " + std::to_string(every * number++) + " of " + topics.image, picture);
+    for (const cv::Mat& image : adapters::imagesOf(bag, topics, every, most))
+      images->add("image " + std::to_string(every * number++) + " of " + topics.image, image);
   } else {
-    addFile(source, *pictures);
+    addFile(source, *images);
   }
-  if (pictures->count() == 0) throw UsageError(source + ": no picture in it that can be read");
-  return pictures;
+  if (images->count() == 0) throw UsageError(source + ": no image in it that can be read");
+  return images;
 }
 
 }  // namespace window_ingress::tools

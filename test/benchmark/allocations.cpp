@@ -19,9 +19,9 @@ namespace {
 using namespace window_ingress::bench;
 using nlohmann::json;
 
-constexpr std::size_t kMinPictures = 30;  ///< counted; what happens now and then must happen among them
+constexpr std::size_t kMinImages = 30;  ///< counted; what happens now and then must happen among them
 
-json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double pictures, std::size_t limit) {
+json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double images, std::size_t limit) {
   std::vector<std::pair<std::size_t, AllocationSite>> order;
   for (const auto& [site, count] : counts) order.emplace_back(count, site);
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -29,7 +29,7 @@ json sitesOf(const std::map<AllocationSite, std::size_t>& counts, double picture
   for (std::size_t i = 0; i < std::min(limit, order.size()); ++i)
     sites.push_back({{"whose", toString(order[i].second.whose)},
                      {"where", order[i].second.where},
-                     {"per_picture", order[i].first / pictures}});
+                     {"per_picture", order[i].first / images}});
   return sites;
 }
 
@@ -38,20 +38,20 @@ json count(const Subject& subject, const Sequence& sequence, std::size_t limit) 
   const Step step = subject.start(sequence);
   if (!step) return {};
   const std::size_t turn = std::max<std::size_t>(1, 2 * (sequence.images.size() - 1));
-  const std::size_t pictures = turn * ((kMinPictures + turn - 1) / turn);
-  for (std::size_t i = 0; i < pictures; ++i) step();
+  const std::size_t images = turn * ((kMinImages + turn - 1) / turn);
+  for (std::size_t i = 0; i < images; ++i) step();
   startRecording();
-  for (std::size_t i = 0; i < pictures; ++i) step();
+  for (std::size_t i = 0; i < images; ++i) step();
   const Recording recording = stopRecording();
   std::map<AllocationSite, std::size_t> counts;
   std::map<Whose, std::size_t> sums;
   for (const AllocationSite& site : recording.sites) ++counts[site], ++sums[site.whose];
   json result;
   for (const Whose whose : {Whose::kOurs, Whose::kOpencv, Whose::kOther})
-    result[toString(whose)] = static_cast<double>(sums[whose]) / pictures;
-  result["bytes"] = static_cast<double>(recording.bytes) / pictures;
-  result["sites"] = sitesOf(counts, static_cast<double>(pictures), limit);
-  if (recording.overflow) result["not_attributed"] = static_cast<double>(recording.overflow) / pictures;
+    result[toString(whose)] = static_cast<double>(sums[whose]) / images;
+  result["bytes"] = static_cast<double>(recording.bytes) / images;
+  result["sites"] = sitesOf(counts, static_cast<double>(images), limit);
+  if (recording.overflow) result["not_attributed"] = static_cast<double>(recording.overflow) / images;
   return result;
 }
 

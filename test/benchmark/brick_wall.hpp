@@ -54,22 +54,22 @@ inline cv::Mat drawBrickWall(const BrickWall& wall, const geometry::PinholeCamer
 }
 
 /// The camera drifts a few pixels from image to image, 4 m before a window 1 m wide; f = 554 px.
-inline Sequence brickWallSequence(int pictures) {
+inline Sequence brickWallSequence(int images) {
   Sequence sequence;
   sequence.name = "brick_wall", sequence.kind = "drawn";
   sequence.camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.0472);
   const BrickWall wall;
-  for (int i = 0; i < pictures; ++i)
+  for (int i = 0; i < images; ++i)
     sequence.images.push_back(drawBrickWall(
         wall, *sequence.camera, cv::Point3d(0.3 + 0.010 * i, -0.2 + 0.006 * i, 4.0 - 0.017 * i), 1 + i));
   geometry::PinholeCamera near = *sequence.camera;
-  const cv::Mat picture = drawBrickWall(wall, near, cv::Point3d(0, 0, 2.0), 100);
+  const cv::Mat image = drawBrickWall(wall, near, cv::Point3d(0, 0, 2.0), 100);
   const double half = near.fx * wall.opening_m / 2 / 2.0;
   using Eigen::Vector2d;
   const Vector2d centre(near.cx, near.cy);
   sequence.reference.emplace(
-      picture, geometry::Quadrilateral{centre + Vector2d(-half, -half), centre + Vector2d(half, -half),
-                                       centre + Vector2d(half, half), centre + Vector2d(-half, half)});
+      image, geometry::Quadrilateral{centre + Vector2d(-half, -half), centre + Vector2d(half, -half),
+                                     centre + Vector2d(half, half), centre + Vector2d(-half, half)});
   return sequence;
 }
 

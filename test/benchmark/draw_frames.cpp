@@ -10,7 +10,7 @@ namespace {
 
 using namespace window_ingress;
 
-constexpr int kPictures = 8;
+constexpr int kImages = 8;
 constexpr double kRunUpSec = 1.0;
 constexpr unsigned kSeed = 3;
 
@@ -27,15 +27,15 @@ bench::Sequence rendered(const std::string& name, const std::string& scenario_fi
   simulation::VelocityCommand command;
   command.velocity_odom_mps =
       world.odometryDrift().linear() * world.T_odom_window().linear() * Eigen::Vector3d(0.4, 0.3, 0.0);
-  while (static_cast<int>(sequence.images.size()) < kPictures) {
+  while (static_cast<int>(sequence.images.size()) < kImages) {
     world.command(command);
     world.advance();
     const auto frame = world.takeFrame();
     if (frame && frame->stamp_sec > kRunUpSec) sequence.images.push_back(frame->image.clone());
   }
   geometry::Quadrilateral corners;
-  const cv::Mat picture = world.referencePicture(&corners);
-  sequence.reference.emplace(picture, corners);
+  const cv::Mat image = world.referenceImage(&corners);
+  sequence.reference.emplace(image, corners);
   return sequence;
 }
 
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     bench::addToFrameSet(argv[1], rendered("brick", "brick.yaml"));
     bench::addToFrameSet(argv[1], rendered("siding", "siding.yaml"));
     bench::addToFrameSet(argv[1], rendered("lens", "gusty.yaml"));
-    bench::addToFrameSet(argv[1], bench::brickWallSequence(kPictures));
+    bench::addToFrameSet(argv[1], bench::brickWallSequence(kImages));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "draw_frames: %s\n", error.what());
     return 1;

@@ -23,14 +23,14 @@ json readIndex(const std::string& folder) {
   }
 }
 
-cv::Mat readPicture(const std::string& file) {
-  cv::Mat picture = cv::imread(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (picture.empty()) throw std::runtime_error(file + ": cannot be read as an image");
-  return picture;
+cv::Mat readImage(const std::string& file) {
+  cv::Mat image = cv::imread(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (image.empty()) throw std::runtime_error(file + ": cannot be read as an image");
+  return image;
 }
 
-void writePicture(const std::string& file, const cv::Mat& picture) {
-  if (!cv::imwrite(file, picture)) throw std::runtime_error(file + ": cannot be written");
+void writeImage(const std::string& file, const cv::Mat& image) {
+  if (!cv::imwrite(file, image)) throw std::runtime_error(file + ": cannot be written");
 }
 
 geometry::PinholeCamera cameraFrom(const json& node) {
@@ -53,12 +53,12 @@ json toJson(const geometry::PinholeCamera& camera) {
 }
 
 detection::ReferenceAppearance referenceFrom(const std::string& folder, const json& node) {
-  const cv::Mat picture = readPicture(folder + "/" + node.at("picture").get<std::string>());
-  if (node.at("corners").is_null()) return detection::ReferenceAppearance(picture);
+  const cv::Mat image = readImage(folder + "/" + node.at("picture").get<std::string>());
+  if (node.at("corners").is_null()) return detection::ReferenceAppearance(image);
   const auto numbers = node.at("corners").get<std::array<double, 8>>();
   geometry::Quadrilateral opening;
   for (std::size_t i = 0; i < 4; ++i) opening[i] = {numbers[2 * i], numbers[2 * i + 1]};
-  return {picture, opening};
+  return {image, opening};
 }
 
 json toJson(const detection::ReferenceAppearance& reference, const std::string& file) {
@@ -72,8 +72,7 @@ Sequence sequenceFrom(const std::string& folder, const json& node) {
   sequence.name = node.at("name");
   sequence.kind = node.at("kind");
   sequence.period_sec = node.at("period_sec");
-  for (const std::string file : node.at("images"))
-    sequence.images.push_back(readPicture(folder + "/" + file));
+  for (const std::string file : node.at("images")) sequence.images.push_back(readImage(folder + "/" + file));
   if (sequence.images.empty()) throw std::runtime_error(indexOf(folder) + ": " + sequence.name + " is empty");
   if (!node.at("camera").is_null()) sequence.camera = cameraFrom(node.at("camera"));
   if (!node.at("reference").is_null()) sequence.reference = referenceFrom(folder, node.at("reference"));
@@ -101,14 +100,14 @@ void addToFrameSet(const std::string& folder, const Sequence& sequence) {
   json node = {{"name", sequence.name}, {"kind", sequence.kind}, {"period_sec", sequence.period_sec}};
   for (std::size_t i = 0; i < sequence.images.size(); ++i) {
     const std::string file = sequence.name + "_" + std::to_string(i) + ".png";
-    writePicture(folder + "/" + file, sequence.images[i]);
+    writeImage(folder + "/" + file, sequence.images[i]);
     node["images"].push_back(file);
   }
   node["camera"] = sequence.camera ? toJson(*sequence.camera) : json();
   node["reference"] = json();
   if (sequence.reference) {
     const std::string file = sequence.name + "_reference.png";
-    writePicture(folder + "/" + file, sequence.reference->picture());
+    writeImage(folder + "/" + file, sequence.reference->image());
     node["reference"] = toJson(*sequence.reference, file);
   }
   index.push_back(node);

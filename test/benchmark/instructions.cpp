@@ -16,21 +16,21 @@ namespace {
 
 using namespace window_ingress::bench;
 
-constexpr std::size_t kPictures = 2;
+constexpr std::size_t kImages = 2;
 
 void count(const Subject& subject, const Sequence& sequence) {
   const Step step = subject.start(sequence);
   if (!step) return;
-  const std::size_t pictures = std::min(kPictures, sequence.images.size());
-  for (std::size_t i = 0; i < 2 + pictures; ++i) step();
+  const std::size_t images = std::min(kImages, sequence.images.size());
+  for (std::size_t i = 0; i < 2 + images; ++i) step();
   const std::string name = subject.name + "/" + sequence.name;
   CALLGRIND_START_INSTRUMENTATION;
   CALLGRIND_ZERO_STATS;
   int found = 0;
-  for (std::size_t i = 0; i < pictures; ++i) found += step() ? 1 : 0;
+  for (std::size_t i = 0; i < images; ++i) found += step() ? 1 : 0;
   CALLGRIND_DUMP_STATS_AT(name.c_str());
   CALLGRIND_STOP_INSTRUMENTATION;
-  std::printf("%s pictures=%zu found=%d\n", name.c_str(), pictures, found);
+  std::printf("%s pictures=%zu found=%d\n", name.c_str(), images, found);
   std::fflush(stdout);
 }
 
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   try {
     const Arguments arguments(argc, argv);
     for (Sequence& sequence : readFrameSet(arguments.value("frames", "out/bench/frames"))) {
-      sequence.images.resize(std::min(kPictures, sequence.images.size()));
+      sequence.images.resize(std::min(kImages, sequence.images.size()));
       for (const Subject& subject : allSubjects())
         if (arguments.names(subject.name)) count(subject, sequence);
     }

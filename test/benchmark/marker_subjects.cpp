@@ -22,7 +22,7 @@
 namespace window_ingress::bench {
 namespace {
 
-[[maybe_unused]] std::vector<cv::Mat> greyPictures(const Sequence& sequence) {
+[[maybe_unused]] std::vector<cv::Mat> greyImages(const Sequence& sequence) {
   std::vector<cv::Mat> grey(sequence.images.size());
   for (std::size_t i = 0; i < grey.size(); ++i) cv::cvtColor(sequence.images[i], grey[i], cv::COLOR_BGR2GRAY);
   return grey;
@@ -58,7 +58,7 @@ class AprilTag {
 
 Step aprilTag(const Sequence& sequence, float decimate) {
   auto detector = std::make_shared<AprilTag>(decimate);
-  return [detector, grey = greyPictures(sequence), order = ToAndFro(sequence.images.size())]() mutable {
+  return [detector, grey = greyImages(sequence), order = ToAndFro(sequence.images.size())]() mutable {
     return detector->run(grey[order.next()]);
   };
 }
@@ -92,7 +92,7 @@ class ArUco {
 
 Step arUco(const Sequence& sequence) {
   auto detector = std::make_shared<ArUco>();
-  return [detector, grey = greyPictures(sequence), order = ToAndFro(sequence.images.size())]() mutable {
+  return [detector, grey = greyImages(sequence), order = ToAndFro(sequence.images.size())]() mutable {
     return detector->run(grey[order.next()]);
   };
 }

@@ -46,20 +46,20 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   try {
     const Arguments arguments(argc, argv);
-    const std::size_t pictures = std::stoul(arguments.value("pictures", "108000"));
+    const std::size_t images = std::stoul(arguments.value("pictures", "108000"));
     const auto sequences = readFrameSet(arguments.value("frames", "out/bench/frames"),
                                         [&](const std::string& name) { return arguments.names(name); });
     const std::vector<Step> track = stepsOf("track", sequences), search = stepsOf("search", sequences);
     if (track.empty() || search.empty()) throw std::runtime_error("no such sequence");
     std::vector<double> resident = {residentMegabytes()};
-    for (std::size_t i = 0; i < pictures; ++i) {
-      if (i == pictures / 10) resident.push_back(residentMegabytes());
+    for (std::size_t i = 0; i < images; ++i) {
+      if (i == images / 10) resident.push_back(residentMegabytes());
       track[i % track.size()]();
       if (i % kSearchEvery == 0) search[i / kSearchEvery % search.size()]();
     }
     resident.push_back(residentMegabytes());
     const double growth = resident.back() - resident[resident.size() - 2];
-    std::cout << nlohmann::json{{"pictures", pictures},
+    std::cout << nlohmann::json{{"pictures", images},
                                 {"start_mb", resident.front()},
                                 {"tenth_mb", resident[resident.size() - 2]},
                                 {"end_mb", resident.back()}}

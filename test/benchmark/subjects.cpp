@@ -37,7 +37,7 @@ Step composition(const Sequence& sequence, bool with_hough) {
     std::vector<cv::Point> opening;
     for (const auto& corner : sequence.reference->opening())
       opening.emplace_back(cvRound(corner.x()), cvRound(corner.y()));
-    peer->setReference(sequence.reference->picture(), opening);
+    peer->setReference(sequence.reference->image(), opening);
   }
   return [&sequence, peer, order = ToAndFro(sequence.images.size())]() mutable {
     return !peer->run(sequence.images[order.next()]).empty();

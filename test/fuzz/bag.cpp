@@ -15,7 +15,7 @@ void bag(const std::uint8_t* data, std::size_t size) {
     params.with_pose = true;
     int frames = 0;
     adapters::replay(recorded, params, [&](const adapters::ReplayedFrame& frame) {
-      require(!frame.picture.empty(), "a frame has a picture");
+      require(!frame.image.empty(), "a frame has an image");
       ++frames;
     });
   } catch (const adapters::BagError& error) {

@@ -2,7 +2,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "adapters/images/image_from_msg.hpp"
-#include "pictures.hpp"
+#include "any_image.hpp"
 #include "targets.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
 
@@ -48,9 +48,9 @@ void detection(const std::uint8_t* data, std::size_t size) {
   static detection::WindowTracker tracker{detection::DetectorParams()};
   tracker.reset();
   const bool calibrated = bytes.take<std::uint8_t>() % 2 > 0;
-  const int pictures = 1 + bytes.take<std::uint8_t>() % 3;
+  const int images = 1 + bytes.take<std::uint8_t>() % 3;
   Bytes scene = bytes;  // the same for every image but for what is drawn on it
-  for (int i = 0; i < pictures; ++i) {
+  for (int i = 0; i < images; ++i) {
     Bytes drawing = bytes;
     const adapters::DecodedImage guarded = adapters::decode(smallImage(scene), {});
     scene = bytes;

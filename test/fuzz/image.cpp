@@ -1,16 +1,16 @@
 #include "adapters/images/image_from_msg.hpp"
-#include "pictures.hpp"
+#include "any_image.hpp"
 #include "targets.hpp"
 
 namespace window_ingress::fuzz {
 namespace {
 
-void check(const adapters::DecodedImage& picture, const adapters::ImageLimits& limits) {
-  require(picture.image.empty() == !picture.reason.empty(), "a picture or a reason, not both or none");
-  if (picture.image.empty()) return;
-  require(picture.image.type() == CV_8UC1 || picture.image.type() == CV_8UC3, "8 bits, grey or colour");
-  require(picture.image.total() <= static_cast<std::size_t>(limits.max_pixels), "no more than max_pixels");
-  require(cv::sum(picture.image)[0] >= 0.0, "all of its bytes can be read");
+void check(const adapters::DecodedImage& decoded, const adapters::ImageLimits& limits) {
+  require(decoded.image.empty() == !decoded.reason.empty(), "an image or a reason, not both or none");
+  if (decoded.image.empty()) return;
+  require(decoded.image.type() == CV_8UC1 || decoded.image.type() == CV_8UC3, "8 bits, grey or colour");
+  require(decoded.image.total() <= static_cast<std::size_t>(limits.max_pixels), "no more than max_pixels");
+  require(cv::sum(decoded.image)[0] >= 0.0, "all of its bytes can be read");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class Autopilot:
             ("/clock", Clock), ("/mavros/local_position/odom", Odometry), ("/mavros/imu/data", Imu), ("/mavros/state", State))
             if simulates_time or kind is not Clock}
         rospy.Subscriber("/mavros/setpoint_velocity/cmd_vel", TwistStamped, self._obey)
-        rospy.Subscriber("/ground_truth/window_in_camera", PoseStamped, self._look)  # one with each picture
+        rospy.Subscriber("/ground_truth/window_in_camera", PoseStamped, self._look)  # one with each image
         threading.Thread(target=self._run, daemon=True).start()
 
     def _obey(self, message):

@@ -25,7 +25,7 @@ SPEED_MPS = 1.0
 WINDOW_X_M, CENTRE_Z_M, STOP_X_M = 5.0, 1.5, 6.8   # of config/scenarios/external.yaml
 CAMERA_AHEAD_M, CAMERA_UP_M = 0.10, 0.02
 OFFSET_Y_M = 0.07
-PATIENCE_S = 0.5   # with a world that draws nothing: a reset forgets pictures
+PATIENCE_S = 0.5   # with a world that draws nothing: a reset forgets images
 TOPIC = "/mavros/local_position/odom"
 
 
@@ -71,7 +71,7 @@ class Flight:
         Flight._next_s += 100.0
         self._distort = distort
         Flight._publisher = Flight._publisher or rospy.Publisher(TOPIC, Odometry, queue_size=20)
-        self._truths = support.Listener("ground_truth/window_in_camera", PoseStamped)  # one with each picture
+        self._truths = support.Listener("ground_truth/window_in_camera", PoseStamped)  # one with each image
         self._seen = self.began
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -116,26 +116,26 @@ class ExternalVehicleTest(unittest.TestCase):
         self.assertEqual(verdict.outcome_name, "PASSED", verdict.reason)
         self.assertAlmostEqual(verdict.offset_y, OFFSET_Y_M, delta=1e-3)
         truths = {t.header.stamp: t.pose.position for t in in_camera.since(0.0)}
-        pictures = [i for i in images.since(0.0) if i.header.stamp in truths]
-        self.assertGreater(len(pictures), 100)
-        self.assertGreaterEqual(len(pictures), len(images.since(0.0)) - 1, "truth stands beside each picture")
-        for picture in pictures:
-            x = pose_at((picture.header.stamp - flight.began).to_sec())[0]
-            where = truths[picture.header.stamp]
+        judged = [i for i in images.since(0.0) if i.header.stamp in truths]
+        self.assertGreater(len(judged), 100)
+        self.assertGreaterEqual(len(judged), len(images.since(0.0)) - 1, "truth stands beside each image")
+        for image in judged:
+            x = pose_at((image.header.stamp - flight.began).to_sec())[0]
+            where = truths[image.header.stamp]
             self.assertAlmostEqual(where.z, WINDOW_X_M - x - CAMERA_AHEAD_M, delta=0.01)
             self.assertAlmostEqual(where.x, OFFSET_Y_M, delta=1e-6)
             self.assertAlmostEqual(where.y, CAMERA_UP_M, delta=1e-6)
-        self.assert_opening_is_where_the_truth_says(pictures, truths)
+        self.assert_opening_is_where_the_truth_says(judged, truths)
 
-    def assert_opening_is_where_the_truth_says(self, pictures, truths):
+    def assert_opening_is_where_the_truth_says(self, images, truths):
         """The orange frame left of the opening: the columns that hold it, beside its projection."""
         focal = 320.0 / math.tan(0.6)
         checked = 0
-        for picture in pictures[::10]:
-            where = truths[picture.header.stamp]
+        for image in images[::10]:
+            where = truths[image.header.stamp]
             if not 2.0 < where.z < 4.5:
                 continue
-            pixels = numpy.frombuffer(picture.data, numpy.uint8).reshape(picture.height, picture.width, 3).astype(int)
+            pixels = numpy.frombuffer(image.data, numpy.uint8).reshape(image.height, image.width, 3).astype(int)
             row = pixels[int(round(239.5 + focal * where.y / where.z))]
             orange = numpy.flatnonzero((row[:, 2] > 120) & (row[:, 2] > 2 * row[:, 1]) & (row[:, 1] > row[:, 0]))
             left = orange[orange < 319.5 + focal * where.x / where.z]
@@ -181,7 +181,7 @@ class ExternalVehicleTest(unittest.TestCase):
         self.assertEqual(later.header.stamp.secs // 100, flight.began.secs // 100, "time is still the vehicle's")
         self.assertEqual([m.msg for m in log.since(begin) if "stamps moved" in m.msg], [])
 
-    def test_3_of_pictures_that_fall_due_at_once_only_the_newest_are_drawn(self):
+    def test_3_of_images_that_fall_due_at_once_only_the_newest_are_drawn(self):
         images = support.Listener("/camera/image_raw", Image)
         flight = Flight()
         images.wait(lambda i: i.header.stamp > flight.began + rospy.Duration(1.0), "a second of flight")
@@ -189,15 +189,15 @@ class ExternalVehicleTest(unittest.TestCase):
         begin, leap = time.monotonic(), int(4.0 * RATE_HZ)
         last = odometry_at(flight.began, leap)
         Flight._publisher.publish(last)
-        images.wait(lambda i: last.header.stamp - i.header.stamp < rospy.Duration(0.05), "the newest picture", begin=begin)
+        images.wait(lambda i: last.header.stamp - i.header.stamp < rospy.Duration(0.05), "the newest image", begin=begin)
         support.wait_for(lambda: time.monotonic() - begin > 1.0, "a second for others")
         of_the_gap = [i for i in images.since(begin) if i.header.stamp > flight.began + rospy.Duration(1.6)]
         self.assertEqual(len(of_the_gap), 2)
 
-    def test_4_when_it_falls_silent_pictures_stop_and_it_is_said(self):
+    def test_4_when_it_falls_silent_images_stop_and_it_is_said(self):
         flight = Flight()
         images = support.Listener("/camera/image_raw", Image)
-        images.wait(what="a picture")
+        images.wait(what="an image")
         flight.stop()
         support.Diagnostics().wait("world: vehicle_odom", "no more vehicle_odom")
         begin = time.monotonic()

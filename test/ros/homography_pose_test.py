@@ -38,7 +38,7 @@ def detection(stamp, frame_id="camera_optical_frame"):
 
 
 def partial(stamp):
-    """The same with its left and its right border alone, their ends out of the picture."""
+    """The same with its left and its right border alone, their ends out of the image."""
     message = detection(stamp)
     for i in (WindowDetection.RIGHT, WindowDetection.LEFT):
         edge, begin, end = message.edges[i], message.corners[i], message.corners[(i + 1) % 4]

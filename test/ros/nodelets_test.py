@@ -19,7 +19,7 @@ NODELET = ("rosrun", "nodelet", "nodelet")  # its services have no Python types 
 class NodeletsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        pixels = support.picture()
+        pixels = support.window_image()
         cls.mounting = support.publish_mounting()
         cls.streams = [support.Stream(topic, kind, make, rate) for topic, kind, make, rate in (
             ("image_raw", Image, lambda stamp: support.image_message(pixels, stamp), 10.0),
@@ -29,7 +29,7 @@ class NodeletsTest(unittest.TestCase):
         cls.poses = support.Listener("window_pose", WindowPose)
         cls.states = support.Listener("state", IngressState)
 
-    def test_1_from_picture_to_pose_in_one_process(self):
+    def test_1_from_image_to_pose_in_one_process(self):
         self.windows.wait(lambda w: w.detected, "a window", begin=0.0)
         self.poses.wait(lambda p: p.image.reject == p.image.OK, "a pose", begin=0.0)
         self.states.wait(lambda s: s.state_name == "IDLE", "the navigator's state", begin=0.0)

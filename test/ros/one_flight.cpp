@@ -51,12 +51,12 @@ struct Facts {
   }
 
   detection::ReferenceAppearance appearance() const {
-    const auto picture =
+    const auto decoded =
         adapters::decode(boost::make_shared<sensor_msgs::Image>(reference->image), adapters::ImageLimits());
     std::vector<double> corners;
     for (std::size_t i = 0; i < 4; ++i)
       corners.insert(corners.end(), {reference->corner_x[i], reference->corner_y[i]});
-    return adapters::makeReference(picture.image, corners, overlay.window_detector.detector);
+    return adapters::makeReference(decoded.image, corners, overlay.window_detector.detector);
   }
 
   configuration::Overlay overlay;
@@ -152,7 +152,7 @@ void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
     std_msgs::Header header;
     header.stamp = frame.stamp;
     header.frame_id = facts.reference->image.header.frame_id;
-    words.seen(header, frame.picture, *frame.perception);
+    words.seen(header, frame.image, *frame.perception);
     words.located(header, frame.camera.value(), *frame.tracker);
   });
 }
@@ -173,8 +173,8 @@ class Loop {
       eyes_.addAttitude(imu->header.stamp.toSec(), adapters::attitudeFromMsg(*imu).value.value());
     else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>())
       eyes_.calibrate(adapters::cameraFromMsg(*info, false).value.value());
-    else if (const auto picture = message.instantiate<sensor_msgs::CompressedImage>())
-      look(*picture);
+    else if (const auto image = message.instantiate<sensor_msgs::CompressedImage>())
+      look(*image);
   }
 
   /// That no odometry came after the last image.

@@ -11,7 +11,7 @@ Of the nodes' openness only the verdict is compared: depth behind the opening an
 2e-6 and 1e-5 of them, and the cause has not been found. Replay and closed loop are compared in all.
 
 Not compared: `milliseconds`, the time that an image took, and `seq`, which is a count of the transport. Nor the closed
-loop while it flies: it sees pictures before they are compressed, and numbers before they are rounded to a stamp's
+loop while it flies: it sees images before they are compressed, and numbers before they are rounded to a stamp's
 nanoseconds and to a quaternion. Nor what a navigator or an operator says to the memory of all windows: nobody does.
 Nor nodes on a clock of their own, which may leave out images that come too fast.
 """

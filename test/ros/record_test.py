@@ -54,11 +54,11 @@ class RecordTest(unittest.TestCase):
         with rosbag.Bag(self.bags[0]) as bag:
             topics = bag.get_type_and_topic_info().topics
             seconds = bag.get_end_time() - bag.get_start_time()
-            pictures = topics[NEEDED[0]].message_count
+            images = topics[NEEDED[0]].message_count
         self.assertEqual([topic for topic in NEEDED if topic not in topics], [])
         self.assertFalse({"/camera/image_raw", "/clock", "/debug_image", "/markers"} & set(topics))
         size_mb = os.path.getsize(self.bags[0]) / 1e6
-        print(f"recorded {size_mb:.1f} MB in {seconds:.1f} s: {60 * size_mb / seconds:.0f} MB a minute, {pictures} pictures", flush=True)
+        print(f"recorded {size_mb:.1f} MB in {seconds:.1f} s: {60 * size_mb / seconds:.0f} MB a minute, {images} images", flush=True)
         self.assertLess(60 * size_mb / seconds, 200.0, "MB a minute")
 
     def test_2_replay_bag_finds_the_window_in_it(self):

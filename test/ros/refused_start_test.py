@@ -75,7 +75,7 @@ class RefusedStartTest(unittest.TestCase):
         self.assertIn("raw", errors)
         self.assertIn("compressed", errors)
 
-    def test_missing_reference_picture_is_named(self):
+    def test_missing_reference_image_is_named(self):
         rospy.set_param("/window_detector/reference/picture", "/nowhere/window.jpg")
         process = launch("window_detector")
         _, errors = process.communicate(timeout=support.DEADLINE_S)

@@ -43,15 +43,15 @@ class Hand:
     def __init__(self):
         self.distance, self.left = 2.2, 0.2
         self._wall = wall()
-        self._bare = numpy.full_like(support.picture(), 185)
+        self._bare = numpy.full_like(support.window_image(), 185)
         self._random = numpy.random.default_rng(5)
         self.covers_the_lens = False
-        self._streams = [support.Stream("/camera/image_raw", Image, self._picture, RATE_HZ),
+        self._streams = [support.Stream("/camera/image_raw", Image, self._image, RATE_HZ),
                          support.Stream("/camera/camera_info", CameraInfo, lambda _: self._info, RATE_HZ)]
 
     _info = support.camera_info(rospy.Time(1))
 
-    def _picture(self, stamp):
+    def _image(self, stamp):
         self._info.header.stamp = stamp
         camera = numpy.array(self._info.K).reshape(3, 3)
         height, width = self._wall.shape[:2]

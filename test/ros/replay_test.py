@@ -37,7 +37,7 @@ class ReplayTest(unittest.TestCase):
         cls.states, cls.log = support.Listener("state", IngressState), support.Listener("/rosout", Log)
         config = os.path.join(cls.folder, "window.yaml")
         with open(config, "w", encoding="utf-8") as file:
-            file.write("homography_pose: {pose: {opening_width_m: 1.25, opening_height_m: 1.0}}\n")  # as support.picture() shows it
+            file.write("homography_pose: {pose: {opening_width_m: 1.25, opening_height_m: 1.0}}\n")  # as support.window_image() shows it
         cls.play = subprocess.Popen(["roslaunch", "window_ingress", "replay.launch", f"bag:={bag}", f"config:={config}", "loop:=true",
                                      "navigator:=true", f"wait:={LONG_S}"])
 

@@ -63,10 +63,10 @@ def ago(seconds):
 
 
 class Camera:
-    """A picture that is never the same twice, unless it is stuck."""
+    """An image that is never the same twice, unless it is stuck."""
 
     def __init__(self):
-        self.pixels = support.picture()
+        self.pixels = support.window_image()
         self.stuck = False
 
     def __call__(self, stamp):
@@ -83,7 +83,7 @@ def setpoint(stamp):
 
 
 def corners(stamp):
-    """Of a picture that took its time: odometry and tf of its exposure have come."""
+    """Of an image that took its time: odometry and tf of its exposure have come."""
     return detection(stamp - rospy.Duration(0.1))
 
 
@@ -183,17 +183,17 @@ class SpokenCausesTest(unittest.TestCase):
         self.while_sent("camera_info", support.changed(support.camera_info, header__frame_id="rear"),
                         ("homography_pose: calibration", "frames differ", "'camera_optical_frame'", "'rear'"))
 
-    # --- pictures
+    # --- images
 
-    def test_pictures_that_stop(self):
+    def test_images_that_stop(self):
         self.while_silent("image_raw", ("window_detector: image", "no more image on /image_raw"),
-                          ("window_detector: detection", "no picture for"))
+                          ("window_detector: detection", "no image for"))
 
-    def test_pictures_of_days_ago(self):
+    def test_images_of_days_ago(self):
         self.while_sent("image_raw", support.changed(self.camera, header__stamp=ago(50 * DAY_S)),
                         ("window_detector: image", "/image_raw", "stamp is 50 days old", "use_sim_time", "--clock"))
 
-    def test_pictures_of_an_unknown_encoding(self):
+    def test_images_of_an_unknown_encoding(self):
         self.while_sent("image_raw", support.changed(self.camera, encoding="florp"),
                         ("window_detector: image", "/image_raw", "refused", "florp"))
 
@@ -202,10 +202,10 @@ class SpokenCausesTest(unittest.TestCase):
             self.camera.stuck = value
         self.provoke(lambda: stick(True), lambda: stick(False), ("window_detector: image", "/image_raw", "does not change"))
 
-    def test_time_of_a_picture_beside_its_budget(self):
+    def test_time_of_an_image_beside_its_budget(self):
         status = support.wait_for(lambda: next((s for _, s in self.journal.since(0.0, "hurried_detector: time") if s.level), None),
                                   "a budget that is exceeded")
-        self.assertIn("the budget is 0.0 ms: pictures are dropped; most goes into", status.message)
+        self.assertIn("the budget is 0.0 ms: images are dropped; most goes into", status.message)
         values = {pair.key: float(pair.value) for pair in status.values}
         stages = ("track", "preprocess", "edges", "lines", "outlines", "candidates", "reference", "borders")
         self.assertGreater(sum(values[f"{stage}_ms"] for stage in stages), 0.0)

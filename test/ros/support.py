@@ -137,7 +137,7 @@ FRAME_PX = 16
 CORNERS = ((220, 150), (420, 150), (420, 310), (220, 310))  # inner border: pixels 220..420 x 150..310
 
 
-def picture():
+def window_image():
     """A plaster wall with an orange frame round a dark opening."""
     image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
     (left, top), _, (right, bottom), _ = CORNERS

@@ -35,7 +35,7 @@ class WindowDetectorTest(unittest.TestCase):
         return self.streams[-1]
 
     def test_corners_come_without_calibration(self):
-        pixels = support.picture()
+        pixels = support.window_image()
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         window = self.windows.wait(lambda w: w.detected, "a window without camera_info")
         for corner, wanted in zip(window.corners, support.CORNERS):
@@ -47,7 +47,7 @@ class WindowDetectorTest(unittest.TestCase):
         support.Diagnostics().wait("window_detector: camera_info", "no camera_info on /camera_info (0 publishers)")
 
     def test_the_attitude_of_the_exposure_comes_from_imu_and_mounting(self):
-        pixels = support.picture()
+        pixels = support.window_image()
         diagnostics = support.Diagnostics()
         self.stream(lambda stamp: support.image_message(pixels, stamp - rospy.Duration(0.03)))
         self.stream(support.camera_info, "camera_info", CameraInfo)
@@ -56,7 +56,7 @@ class WindowDetectorTest(unittest.TestCase):
         imu = self.stream(support.imu, "imu", Imu, 100.0)
         diagnostics.wait("window_detector: attitude", "image alone", "not in tf")
         mounting = support.publish_mounting()
-        diagnostics.wait("window_detector: attitude", "known at the last picture")
+        diagnostics.wait("window_detector: attitude", "known at the last image")
         self.windows.wait(lambda w: w.detected, "a window with attitude")
 
         def elsewhere(stamp):
@@ -69,7 +69,7 @@ class WindowDetectorTest(unittest.TestCase):
         mounting.unregister()
 
     def test_stamp_is_that_of_the_image(self):
-        pixels = support.picture()
+        pixels = support.window_image()
         sent = []
         self.stream(lambda stamp: sent.append(stamp) or support.image_message(pixels, stamp))
         self.stream(support.camera_info, "camera_info", CameraInfo)
@@ -85,7 +85,7 @@ class WindowDetectorTest(unittest.TestCase):
         self.assertEqual([corner.x for corner in window.corners], [0.0] * 4)
 
     def test_bad_images_are_refused_by_name_and_good_ones_go_on(self):
-        pixels = support.picture()
+        pixels = support.window_image()
 
         def overflow(stamp):  # height * step wraps in 32 bits: kills cv_bridge
             message = support.image_message(pixels, stamp)
@@ -98,7 +98,7 @@ class WindowDetectorTest(unittest.TestCase):
         self.windows.wait(lambda w: w.detected, "a window after bad images")
 
     def test_stamps_of_zero_and_far_future_are_refused(self):
-        pixels = support.picture()
+        pixels = support.window_image()
         diagnostics = support.Diagnostics()
         stream = self.stream(lambda stamp: support.image_message(pixels, rospy.Time()))
         diagnostics.wait("window_detector: image", "header.stamp is zero")
@@ -108,7 +108,7 @@ class WindowDetectorTest(unittest.TestCase):
         self.windows.wait(lambda w: w.detected, "a window after bad stamps")
 
     def test_debug_image_comes_while_somebody_looks(self):
-        pixels = support.picture()
+        pixels = support.window_image()
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         debug = support.Listener("debug_image", Image)
         image = debug.wait(what="a debug image")
@@ -124,7 +124,7 @@ class WindowDetectorTest(unittest.TestCase):
         refused = capture()
         self.assertFalse(refused.success)
         self.assertIn("no window in the last image", refused.message)
-        pixels = support.picture()
+        pixels = support.window_image()
         stream.make = lambda stamp: support.image_message(pixels, stamp)
         self.windows.wait(lambda w: w.detected, "a window")
         answers = []
@@ -149,7 +149,7 @@ class WindowDetectorTest(unittest.TestCase):
     def test_tuning_is_taken_or_refused_aloud_and_reaches_the_detector(self):
         client = Client("window_detector/tuning", timeout=support.DEADLINE_S)
         before = client.get_configuration(timeout=support.DEADLINE_S)
-        pixels = support.picture()
+        pixels = support.window_image()
         self.stream(lambda stamp: support.image_message(pixels, stamp))
         self.windows.wait(lambda w: w.detected, "a window")
         console, begin = support.Listener("/rosout", Log), time.monotonic()

@@ -25,7 +25,7 @@ class WorldCalibrationTest(unittest.TestCase):
         images = support.Listener("image_raw", Image)
         true = infos.wait(what="the true calibration, as the file is not there yet")
         self.assertNotAlmostEqual(true.K[0], FOCAL)
-        self.assertEqual(images.wait(what="a picture").width, true.width)
+        self.assertEqual(images.wait(what="an image").width, true.width)
         rospy.wait_for_service("set_camera_info", support.DEADLINE_S)
         wanted = CameraInfo(width=true.width, height=true.height, distortion_model="plumb_bob", D=[0.1, -0.05, 0.0, 0.0, 0.0],
                             K=[FOCAL, 0, 319.5, 0, FOCAL, 239.5, 0, 0, 1], R=[1, 0, 0, 0, 1, 0, 0, 0, 1],

@@ -84,12 +84,12 @@ class WorldFaultsTest(unittest.TestCase):
         self.assertFalse(math.isnan(imu.wait(begin=begin).orientation.w), "a reset ends all faults")
         self.assertEqual(info.wait(begin=begin).K[0], focal)
 
-    def test_picture_transform_and_clock_stand_still(self):
+    def test_image_transform_and_clock_stand_still(self):
         images, clock, transforms = self.listen("image_raw", Image), self.listen("/clock", Clock), self.listen("/tf", rospy.AnyMsg)
         self.inject("image", "stuck")
         self.inject("tf", "off")
         begin = self.inject("clock", "stuck") + 0.3
-        support.wait_for(lambda: len(images.since(begin)) > 5 and len(clock.since(begin)) > 20, "pictures and times")
+        support.wait_for(lambda: len(images.since(begin)) > 5 and len(clock.since(begin)) > 20, "images and times")
         self.assertEqual(len({m.data for m in images.since(begin)}), 1)
         self.assertGreater(len({m.header.stamp for m in images.since(begin)}), 5)
         self.assertEqual(len({m.clock for m in clock.since(begin)}), 1)
@@ -110,13 +110,13 @@ class WorldFaultsTest(unittest.TestCase):
             self.assertFalse(reply.success)
             self.assertIn(word, reply.message)
 
-    def test_truth_stands_beside_each_picture(self):
+    def test_truth_stands_beside_each_image(self):
         truths, images = self.listen("ground_truth/window_in_camera", PoseStamped), self.listen("image_raw", Image)
         begin = time.monotonic()
-        support.wait_for(lambda: len(images.since(begin)) > 10, "pictures")
+        support.wait_for(lambda: len(images.since(begin)) > 10, "images")
         stamps = {m.header.stamp for m in truths.since(0.0)}
-        pictures = images.since(begin)[:-1]
-        self.assertEqual([m.header.stamp for m in pictures if m.header.stamp not in stamps], [])
+        judged = images.since(begin)[:-1]
+        self.assertEqual([m.header.stamp for m in judged if m.header.stamp not in stamps], [])
 
     def test_a_calibration_can_be_set_and_is_stored(self):
         info = self.listen("camera_info", CameraInfo)

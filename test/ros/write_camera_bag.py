@@ -20,7 +20,7 @@ COMMANDS = ("/cmd_vel", "/uav1/mavros/setpoint_velocity/cmd_vel", "/mavros/setpo
 START_S, RATE_HZ, RECORDED_S = 1000.0, 20, 5000.0
 
 
-def picture_message(pixels, stamp, is_raw):
+def message_of(pixels, stamp, is_raw):
     if is_raw:
         return support.image_message(pixels, stamp)
     message = CompressedImage(format="bgr8; jpeg compressed bgr8", data=cv2.imencode(".jpg", pixels)[1].tobytes())
@@ -38,7 +38,7 @@ def recorded_outputs(stamp):
 
 def messages(stamp, pixels, words, image):
     is_raw = "raw" in words
-    yield image if is_raw else image + "/compressed", picture_message(pixels, stamp, is_raw)
+    yield image if is_raw else image + "/compressed", message_of(pixels, stamp, is_raw)
     if "no_info" not in words:
         yield image.rsplit("/", 1)[0] + "/camera_info", support.camera_info(stamp)
     if "no_odom" not in words:
@@ -52,7 +52,7 @@ def main():
     file, *words = sys.argv[1:]
     named = dict(word.split("=") for word in words if "=" in word)
     image, count = named.get("image", "/camera/image_raw"), int(RATE_HZ * float(named.get("seconds", "3")))
-    pixels, received = support.picture(), 0
+    pixels, received = support.window_image(), 0
     rospy.rostime.set_rostime_initialized(True)
     with rosbag.Bag(file, "w") as bag:
         transforms = support.transforms_type()([support.mounting()])

@@ -64,7 +64,7 @@ inline geometry::Quadrilateral grown(const geometry::Quadrilateral& quad, double
   return result;
 }
 
-struct WindowPicture {
+struct DrawnWindow {
   int width = 640, height = 480;
   int type = CV_8UC3;
   geometry::Quadrilateral opening;
@@ -85,7 +85,7 @@ struct WindowPicture {
 };
 
 /// The same image before a wall of bricks with pale joints.
-inline cv::Mat drawnBricks(const WindowPicture& window, int brick_px = 32, int course_px = 12) {
+inline cv::Mat drawnBricks(const DrawnWindow& window, int brick_px = 32, int course_px = 12) {
   cv::Mat image(window.height, window.width, CV_8UC3, cv::Scalar(60, 75, 140));
   const cv::Scalar joint(150, 155, 160);
   for (int y = 0, row = 0; y < image.rows; y += course_px, ++row) {

@@ -21,9 +21,9 @@ class OpencvComposition {
   /// \param with_hough false: the edges themselves are dilated
   explicit OpencvComposition(bool with_hough = true) : with_hough_(with_hough) {}
 
-  /// \param picture BGR \param opening inner border of the opening in it
-  void setReference(const cv::Mat& picture, const std::vector<cv::Point>& opening) {
-    reference_ = histogram(picture, opening);
+  /// \param image BGR \param opening inner border of the opening in it
+  void setReference(const cv::Mat& image, const std::vector<cv::Point>& opening) {
+    reference_ = histogram(image, opening);
   }
 
   /// \param image CV_8UC3 \return the largest outline that passes, four corners; or nothing

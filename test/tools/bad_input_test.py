@@ -28,7 +28,7 @@ def assert_refused(result, code, *words):
 
 
 @pytest.fixture
-def picture(tmp_path):
+def image(tmp_path):
     file = tmp_path / "plain.png"
     cv2.imwrite(str(file), numpy.full((120, 160, 3), 128, numpy.uint8))
     return file
@@ -67,36 +67,36 @@ def test_unknown_option_is_wrong_usage(tool):
     assert_refused(run(tool, "--no-such-option"), 2, "no-such-option")
 
 
-def test_missing_picture_is_named(tmp_path):
+def test_missing_image_is_named(tmp_path):
     missing = tmp_path / "missing.png"
     assert_refused(run("detect_images", "--output", tmp_path / "out.csv", missing), 2, missing)
 
 
-def test_unreadable_picture_is_named_and_the_others_are_done(tmp_path, picture):
+def test_unreadable_image_is_named_and_the_others_are_done(tmp_path, image):
     broken = tmp_path / "broken.png"
-    broken.write_bytes(picture.read_bytes()[:40])
+    broken.write_bytes(image.read_bytes()[:40])
     output = tmp_path / "out.csv"
-    result = run("detect_images", "--output", output, broken, picture)
+    result = run("detect_images", "--output", output, broken, image)
     assert result.returncode == 1
     assert sum(str(broken) in line for line in result.stderr.splitlines()) == 1
     rows = output.read_text().splitlines()
     assert len(rows) == 3
-    assert rows[2].startswith(str(picture)) or rows[2].startswith(picture.name)
+    assert rows[2].startswith(str(image)) or rows[2].startswith(image.name)
 
 
-def test_output_that_cannot_be_written_to_is_a_failed_job(picture):
+def test_output_that_cannot_be_written_to_is_a_failed_job(image):
     if not pathlib.Path("/dev/full").exists():
         pytest.skip("no /dev/full here")
-    assert_refused(run("detect_images", "--output", "/dev/full", picture), 1, "/dev/full")
+    assert_refused(run("detect_images", "--output", "/dev/full", image), 1, "/dev/full")
 
 
-def test_folder_of_the_output_is_made(tmp_path, picture):
+def test_folder_of_the_output_is_made(tmp_path, image):
     output = tmp_path / "new" / "out.csv"
-    assert run("detect_images", "--output", output, picture).returncode == 0
+    assert run("detect_images", "--output", output, image).returncode == 0
     assert len(output.read_text().splitlines()) == 2
 
 
-def test_camera_without_calibration_is_refused(tmp_path, picture):
+def test_camera_without_calibration_is_refused(tmp_path, image):
     camera = tmp_path / "camera.yaml"
     zeros = "[" + ", ".join(["0"] * 9) + "]"
     camera.write_text(
@@ -105,20 +105,20 @@ def test_camera_without_calibration_is_refused(tmp_path, picture):
         "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
         f"rectification_matrix: {{rows: 3, cols: 3, data: {zeros}}}\n"
         "projection_matrix: {rows: 3, cols: 4, data: [" + ", ".join(["0"] * 12) + "]}\n")
-    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", picture)
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", image)
     assert_refused(result, 2, camera, "uncalibrated")
 
 
-def test_missing_camera_file_is_named(tmp_path, picture):
+def test_missing_camera_file_is_named(tmp_path, image):
     camera = tmp_path / "camera.yaml"
-    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", picture)
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--camera", camera, "--window-size", "1,1", image)
     assert_refused(result, 2, camera)
 
 
-def test_bad_parameter_file_is_named_with_line_and_key(tmp_path, picture):
+def test_bad_parameter_file_is_named_with_line_and_key(tmp_path, image):
     params = tmp_path / "params.yaml"
     params.write_text("window_detector:\n  detector: {no_such_key: 1}\n")
-    result = run("detect_images", "--output", tmp_path / "out.csv", "--params", params, picture)
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--params", params, image)
     assert_refused(result, 2, f"{params}:2", "window_detector/detector/no_such_key")
 
 
@@ -201,27 +201,27 @@ def test_what_is_not_there_is_said_with_what_builds_it():
     assert_refused(run("no_such_tool"), 2, "no tool, node or command 'no_such_tool'", "scripts/build")
 
 
-def reference_of(tmp_path, picture, text):
+def reference_of(tmp_path, image, text):
     file = tmp_path / "window.yaml"
-    file.write_text(text.format(picture))
-    return run("detect_images", "--output", tmp_path / "found.csv", "--params", file, picture)
+    file.write_text(text.format(image))
+    return run("detect_images", "--output", tmp_path / "found.csv", "--params", file, image)
 
 
-def test_a_reference_file_is_taken_as_params(tmp_path, picture):
+def test_a_reference_file_is_taken_as_params(tmp_path, image):
     whole = "window_detector: {{reference: {{picture: '{}', corners: [40.5, 30, 120, 30, 120, 90, 40, 90]}}}}"
-    done = reference_of(tmp_path, picture, whole)
-    assert done.returncode == 0 and "a window in 0 of 1 pictures" in done.stdout, done.stderr
-    assert_refused(reference_of(tmp_path, picture, "window_detector: {{reference: {{picture: '{}', corners: [1, 2]}}}}"), 2, "eight numbers")
+    done = reference_of(tmp_path, image, whole)
+    assert done.returncode == 0 and "a window in 0 of 1 images" in done.stdout, done.stderr
+    assert_refused(reference_of(tmp_path, image, "window_detector: {{reference: {{picture: '{}', corners: [1, 2]}}}}"), 2, "eight numbers")
     nowhere = "window_detector: {{reference: {{picture: '{}.none'}}}}"
-    assert_refused(reference_of(tmp_path, picture, nowhere), 2, "cannot be read as a picture")
+    assert_refused(reference_of(tmp_path, image, nowhere), 2, "cannot be read as an image")
 
 
 OVERLAY_TOOLS = {
-    "detect_images": ("--output", "OUT/found.csv", "PICTURE"), "draw_stages": ("--scenario", NOMINAL, "--output", "OUT/sheet.jpg"),
-    "fly": ("--scenario", NOMINAL, "--output", "OUT"), "make_reference": ("PICTURE", "--output", "OUT/reference.png", "--corners", "1,1,9,1,9,9,1,9"),
+    "detect_images": ("--output", "OUT/found.csv", "IMAGE"), "draw_stages": ("--scenario", NOMINAL, "--output", "OUT/sheet.jpg"),
+    "fly": ("--scenario", NOMINAL, "--output", "OUT"), "make_reference": ("IMAGE", "--output", "OUT/reference.png", "--corners", "1,1,9,1,9,9,1,9"),
     "survey_detector": ("--scenario", NOMINAL, "--frames", "1", "--output", "OUT"), "survey_filter": ("--runs", "2", "--output", "OUT"),
     "survey_openness": ("--synthetic", "1", "--output", "OUT"), "survey_tracker": ("--scenario", NOMINAL, "--output", "OUT"),
-    "tune_detector": ("PICTURE", "--headless"), "check_overlay": ()}
+    "tune_detector": ("IMAGE", "--headless"), "check_overlay": ()}
 
 
 @pytest.mark.parametrize("tool", OVERLAY_TOOLS)
@@ -230,10 +230,10 @@ OVERLAY_TOOLS = {
     ("detector: {min_score: 0.5}", "did you mean 'window_detector: {detector: ..}'?"),
     ("ingress_navigater: {rate_hz: 40}", "did you mean 'ingress_navigator'?"),
     ("ingress_navigator: {navigator: {vehicle: {half_width_m: 0.45}}}", "it is now 'vehicle: {..}'")])
-def test_an_overlay_with_keys_that_nobody_reads_is_refused_by_every_tool(tmp_path, picture, tool, text, meant):
+def test_an_overlay_with_keys_that_nobody_reads_is_refused_by_every_tool(tmp_path, image, tool, text, meant):
     file = tmp_path / "overlay.yaml"
     file.write_text(text)
-    words = [str(word).replace("OUT", str(tmp_path / "out")).replace("PICTURE", str(picture)) for word in OVERLAY_TOOLS[tool]]
+    words = [str(word).replace("OUT", str(tmp_path / "out")).replace("IMAGE", str(image)) for word in OVERLAY_TOOLS[tool]]
     options = [file] if tool == "check_overlay" else ["--params", file]
     assert_refused(run(tool, *words, *options), 2, f"{file}:1: {text.split(':')[0]}", meant)
 

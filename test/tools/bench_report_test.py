@@ -63,7 +63,7 @@ def test_a_track_that_was_lost_is_no_track(tmp_path):
     assert "track" not in json.loads((tmp_path / "bench.json").read_text())["ratios"]["brick_wall"]
 
 
-def test_instructions_are_those_of_a_picture(tmp_path):
+def test_instructions_are_those_of_an_image(tmp_path):
     folder = tmp_path / "callgrind"
     folder.mkdir()
     (folder / "counted.log").write_text(

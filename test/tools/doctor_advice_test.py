@@ -150,9 +150,9 @@ def said_by(doctor, *, alive=("window_detector", "homography_pose", "ingress_nav
 def test_a_cause_comes_first_and_what_follows_from_it_stands_below_it(doctor, capsys):
     said_by(doctor, homography_pose__window=(2, "no more window on /window"), homography_pose__detection=(0, "ok"),
             ingress_navigator__window_pose=(2, "no more window_pose on /window_pose"), ingress_navigator__mission=(1, "HOLD: no window seen"),
-            setpoint_guard__cmd_vel_in=(2, "/cmd_vel_in is silent"), window_detector__image=(2, "the picture does not change any more"))
+            setpoint_guard__cmd_vel_in=(2, "/cmd_vel_in is silent"), window_detector__image=(2, "the image does not change any more"))
     lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
-    assert lines[0] == "ERROR  window_detector: image: the picture does not change any more"
+    assert lines[0] == "ERROR  window_detector: image: the image does not change any more"
     assert lines[1] == "       mend: restart the camera's driver"
     assert [line.split(": ", 1)[1] for line in lines[2:-1]] == [
         "homography_pose: window: no more window on /window", "ingress_navigator: window_pose: no more window_pose on /window_pose",
@@ -195,11 +195,11 @@ def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys)
 
 
 @pytest.mark.parametrize("called, launch, wanted", [
-    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/run make_reference PICTURE"),
-    ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; rosrun window_ingress make_reference PICTURE")])
+    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/run make_reference IMAGE"),
+    ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; rosrun window_ingress make_reference IMAGE")])
 def test_mends_are_commands_as_the_user_runs_them(doctor, monkeypatch, called, launch, wanted):
     monkeypatch.setenv("WINDOW_INGRESS_RUN", called)
-    assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/run make_reference PICTURE", launch) == wanted
+    assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/run make_reference IMAGE", launch) == wanted
 
 
 @pytest.mark.parametrize("words", [["--seconds", "abc"], ["--seconds", "-1"], ["--seconds", "nan"], ["--nope"]])

@@ -120,11 +120,11 @@ def test_sequence_counts_missing_partial_and_wrong_as_lost():
 
 
 def draw_window(shift):
-    picture = numpy.full((240, 320, 3), 200, numpy.uint8)
-    cv2.rectangle(picture, (80 + shift, 60), (220 + shift, 170), (20, 95, 225), -1)
-    cv2.rectangle(picture, (95 + shift, 75), (205 + shift, 155), (40, 40, 40), -1)
-    picture = cv2.GaussianBlur(picture, (0, 0), 0.6)  # no camera gives steps without any blur
-    return picture, [(94.5 + shift, 74.5), (205.5 + shift, 74.5), (205.5 + shift, 155.5), (94.5 + shift, 155.5)]
+    image = numpy.full((240, 320, 3), 200, numpy.uint8)
+    cv2.rectangle(image, (80 + shift, 60), (220 + shift, 170), (20, 95, 225), -1)
+    cv2.rectangle(image, (95 + shift, 75), (205 + shift, 155), (40, 40, 40), -1)
+    image = cv2.GaussianBlur(image, (0, 0), 0.6)  # no camera gives steps without any blur
+    return image, [(94.5 + shift, 74.5), (205.5 + shift, 74.5), (205.5 + shift, 155.5), (94.5 + shift, 155.5)]
 
 
 def test_a_window_that_moves_is_followed(tmp_path):
@@ -132,8 +132,8 @@ def test_a_window_that_moves_is_followed(tmp_path):
         writer = csv.DictWriter(file, ["file"] + [f"{axis}{i}" for i in range(1, 5) for axis in "xy"])
         writer.writeheader()
         for i in range(6):
-            picture, quad = draw_window(2 * i)
-            cv2.imwrite(str(tmp_path / f"{i}.png"), picture)
+            image, quad = draw_window(2 * i)
+            cv2.imwrite(str(tmp_path / f"{i}.png"), image)
             corners = {f"{axis}{k + 1}": quad[k][j] for k in range(4) for j, axis in enumerate("xy")}
             writer.writerow({"file": f"{i}.png", **corners})
     tool = next(path for path in (ROOT / "build/ros/devel/lib/window_ingress/detect_images",

@@ -12,7 +12,7 @@ import rosbag
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = ROOT / "../shared/data"
 WALL_BGR = (145, 163, 172)
-SHOWS_ALL = 104  # number of a picture in which all three are whole
+SHOWS_ALL = 104  # number of an image in which all three are whole
 # Inner borders on the wall, in the target's axes [m]: left, right, top, bottom; and around what is painted over.
 BORDERS_M = {"target": (0.65, -0.65, 0.55, -0.55), "poster": (2.853, 1.962, 0.590, -0.195), "glass": (-1.806, -2.602, 0.494, -0.304)}
 FRAME_M = 0.16
@@ -52,7 +52,7 @@ class Kiosk:
         return np.clip(projected[:, :2] / projected[:, 2:], -20000, 20000)
 
     def only(self, name, folder):
-        """\\return bag, picture that shows it, its corners there"""
+        """\\return bag, image that shows it, its corners there"""
         seen = 0
         with rosbag.Bag(str(folder / "flight.bag"), "w") as out:
             for topic, message, time in self.bag.read_messages():

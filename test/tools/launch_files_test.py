@@ -442,7 +442,7 @@ def test_a_recorded_simulated_flight_can_be_replayed():
     assert "/image_compressor" not in dump("sim")["nodes"]
 
 
-def test_pictures_of_a_recording_are_by_choice():
+def test_images_of_a_recording_are_by_choice():
     assert "/camera/image_raw" in recorded("images:=raw") and "/camera/image_raw/compressed" not in recorded("images:=raw")
     assert not any("image_raw" in word for word in recorded("images:=none"))
     assert "/eye/image_raw/compressed" in recorded("image:=/eye/image_raw")

@@ -1,4 +1,4 @@
-"""look_at_board.py: whatever it looks from, the whole board is in the picture, and the views differ as a calibrator wants."""
+"""look_at_board.py: whatever it looks from, the whole board is in the image, and the views differ as a calibrator wants."""
 import importlib.util
 import pathlib
 
@@ -31,12 +31,12 @@ def seen(view):
 
 
 @pytest.mark.parametrize("view", VIEWS)
-def test_the_whole_board_is_in_the_picture(view):
+def test_the_whole_board_is_in_the_image(view):
     u, v = seen(view)
     assert 0 <= u.min() and u.max() < 640 and 0 <= v.min() and v.max() < 480
 
 
-def test_near_and_far_and_in_all_parts_of_the_picture():
+def test_near_and_far_and_in_all_parts_of_the_image():
     pixels = numpy.array([seen(view) for view in VIEWS])
     widths = numpy.ptp(pixels[:, 0], axis=1)
     assert widths.max() > 2.5 * widths.min()

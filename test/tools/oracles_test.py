@@ -147,7 +147,7 @@ def test_O6_what_does_not_recover():
     assert names(oracles.O6(recording, LIMITS, 9.5, "node: odom")) == ["O6"]
 
 
-def test_O7_memory_threads_and_time_of_a_picture():
+def test_O7_memory_threads_and_time_of_an_image():
     recording = good()
     recording.processes = [Process(float(i), NAVIGATOR, 40.0 + 4.0 * i, 9) for i in range(10)]
     assert names(always(recording)) == ["O7"]

@@ -74,10 +74,10 @@ def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
     parameters = yaml.safe_load((tmp_path / "new/window.yaml").read_text())
     assert parameters["homography_pose"]["pose"] == {"opening_width_m": 0.5, "opening_height_m": 0.4}
     reference = parameters["window_detector"]["reference"]
-    picture = cv2.imread(reference["picture"])
+    image = cv2.imread(reference["picture"])
     left, top, right, _, _, bottom, _, _ = reference["corners"]
     assert (right - left) / (bottom - top) == pytest.approx(1.25, abs=0.01)
-    middle = picture[round(top) + 40]
+    middle = image[round(top) + 40]
     edge = round(left)
     assert middle[edge - 3][2] > 200 and middle[edge - 3][0] < 40 and max(middle[edge + 3]) < 100  # frame, opening
     checked = subprocess.run([ROOT / "scripts/run", "check_overlay", tmp_path / "new/window.yaml"], capture_output=True, text=True, check=False)

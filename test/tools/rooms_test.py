@@ -18,7 +18,7 @@ def texts():
             try:
                 yield file, file.read_text(encoding="utf-8")
             except UnicodeDecodeError:
-                pass  # a picture
+                pass  # an image
 
 
 def test_scripts_are_what_a_user_calls():

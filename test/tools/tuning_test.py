@@ -1,4 +1,4 @@
-"""Tuning tools and the operator's reference: without a display, on pictures that the test makes; with one where there is Xvfb."""
+"""Tuning tools and the operator's reference: without a display, on images that the test makes; with one where there is Xvfb."""
 import csv
 import os
 import pathlib
@@ -31,7 +31,7 @@ def corners_at(x, z):
     return [(cx - half_w, cy - half_h), (cx + half_w, cy - half_h), (cx + half_w, cy + half_h), (cx - half_w, cy + half_h)]
 
 
-def picture(corners, seed=1):
+def window_image(corners, seed=1):
     image = numpy.full((HEIGHT, WIDTH, 3), 190, numpy.uint8)
     if corners:
         (left, top), _, (right, bottom), _ = [(round(x), round(y)) for x, y in corners]
@@ -47,25 +47,25 @@ NAMES = "abcdefghijkl"
 
 @pytest.fixture(scope="module")
 def labelled(tmp_path_factory):
-    """Folder with twelve pictures of a window, two of a wall, and labels.csv."""
+    """Folder with twelve images of a window, two of a wall, and labels.csv."""
     folder = tmp_path_factory.mktemp("labelled")
     with open(folder / "labels.csv", "w", newline="") as file:
         table = csv.writer(file)
         table.writerow(["file", "label", *(axis + str(i) for i in range(1, 5) for axis in "xy")])
         for name, view in zip(NAMES, VIEWS):
-            cv2.imwrite(str(folder / f"{name}.png"), picture(corners_at(*view), ord(name)))
+            cv2.imwrite(str(folder / f"{name}.png"), window_image(corners_at(*view), ord(name)))
             table.writerow([f"{name}.png", "window", *(f"{value:.2f}" for corner in corners_at(*view) for value in corner)])
         for name in ("wall_x", "wall_y"):
-            cv2.imwrite(str(folder / f"{name}.png"), picture(None, ord(name[-1])))
+            cv2.imwrite(str(folder / f"{name}.png"), window_image(None, ord(name[-1])))
             table.writerow([f"{name}.png", "none", *[""] * 8])
     return folder
 
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory):
-    """The same views as a flight with calibration and truth, a picture a second."""
+    """The same views as a flight with calibration and truth, an image a second."""
     file = tmp_path_factory.mktemp("bag") / "views.bag"
-    numpy.savez(file.with_suffix(".npz"), pictures=[picture(corners_at(*view), i) for i, view in enumerate(VIEWS)], views=VIEWS)
+    numpy.savez(file.with_suffix(".npz"), pictures=[window_image(corners_at(*view), i) for i, view in enumerate(VIEWS)], views=VIEWS)
     script = f"""
 import numpy, rosbag, rospy
 from geometry_msgs.msg import PoseStamped
@@ -105,14 +105,14 @@ def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
     code, said, errors = run("tune_detector", labelled, "--headless", "--set", "edges/floor=4.5", "--set", "preprocess/equalise=true",
                              "--set", "max_candidates=30", "--output", saved, "--sheet", sheet)
     assert code == 0, errors
-    assert "windows in 12 of 14 pictures, median" in said
+    assert "windows in 12 of 14 images, median" in said
     assert "a.png (1 of 14): window, score" in said and "lines" in said
     assert "wall_x.png (13 of 14): no window" in said
     assert yaml.safe_load(saved.read_text()) == {"window_detector": {"detector": {
         "edges": {"floor": 4.5}, "preprocess": {"equalise": True}, "max_candidates": 30}}}
     assert cv2.imread(str(sheet)).shape[1] > 1000
     code, said, errors = run("tune_detector", labelled / "a.png", "--headless", "--params", saved, "--set", "gates/min_area=0.5")
-    assert code == 0 and "windows in 0 of 1 pictures" in said, errors
+    assert code == 0 and "windows in 0 of 1 images" in said, errors
     code, _, errors = run("detect_images", "--output", tmp_path / "found.csv", "--params", saved, labelled)
     assert code == 0, errors
 
@@ -120,11 +120,11 @@ def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
 def test_a_bag_is_a_source_too(bag):
     code, said, errors = run("tune_detector", bag, "--headless", "--every", "3")
     assert code == 0, errors
-    assert "windows in 4 of 4 pictures" in said and "picture 9 of /camera/image_raw" in said
+    assert "windows in 4 of 4 images" in said and "image 9 of /camera/image_raw" in said
 
 
 @pytest.mark.parametrize("arguments, words", [
-    ([], "no SOURCE"), (["/nowhere.png", "--headless"], "no such picture"), (["/camera/image_raw", "--headless"], "no ROS master"),
+    ([], "no SOURCE"), (["/nowhere.png", "--headless"], "no such image"), (["/camera/image_raw", "--headless"], "no ROS master"),
     (["LABELLED", "--headless", "--set", "edges/flor=1"], "edges/flor"), (["LABELLED", "--headless", "--set", "edges/floor=1e9"], "is not within"),
     (["LABELLED", "--headless", "--params", "/nowhere.yaml"], "/nowhere.yaml"), (["LABELLED"], "--output is missing"),
     (["LABELLED", "--output", "x.yaml"], "no display"), (["LABELLED", "--headless", "--output", "/proc/x.yaml"], "cannot be written")])
@@ -201,10 +201,10 @@ def test_bad_thresholds_are_mended_and_the_changed_keys_written(labelled, blind,
     tuned = yaml.safe_load(saved.read_text())["window_detector"]["detector"]
     assert set(tuned) <= {"gates", "min_score"} and tuned["gates"]["min_area"] < 0.2
     code, said, errors = run("tune_detector", labelled, "--headless", "--params", saved)
-    assert code == 0 and "windows in 12 of 14 pictures" in said, errors
+    assert code == 0 and "windows in 12 of 14 images" in said, errors
 
 
-def test_bags_with_truth_are_labelled_pictures(bag, blind, tmp_path):
+def test_bags_with_truth_are_labelled_images(bag, blind, tmp_path):
     code, said, errors = tune("--bag", bag, "--truth", "/truth", "--window-size", "1.2,1.0", "--params", blind, "--output", tmp_path / "b.yaml")
     assert code == 0, said + errors
     assert "held out, after:  recall 100.0 %" in said
@@ -247,7 +247,7 @@ def test_a_reference_is_made_from_four_corners(labelled, tmp_path):
     x, y = (round(value) for value in corners_at(*VIEWS[0])[0])
     assert understood[y, x + 20, 1] > 150, "the inner border is drawn in green"
     code, said, errors = run("tune_detector", labelled, "--headless", "--reference", written, "--reference-corners", flat(corners_at(*VIEWS[0])))
-    assert code == 0 and "windows in 12 of 14 pictures" in said and ", distance 0.0" in said, said + errors
+    assert code == 0 and "windows in 12 of 14 images" in said and ", distance 0.0" in said, said + errors
 
 
 def test_corners_are_fitted_to_the_edges_near_them(labelled, tmp_path):
@@ -316,9 +316,9 @@ def test_corners_are_clicked(labelled, tmp_path, display, off, times):
 
 
 @pytest.mark.parametrize("arguments, words", [
-    ([], "no picture given"), (["/nowhere.png"], "/nowhere.png"), (["PICTURE"], "no display"),
-    (["PICTURE", "--corners", "1,2,3"], "--corners"), (["PICTURE", "--corners", "1,1,5,5,5,1,1,5"], "no convex quadrilateral"),
-    (["PICTURE", "--corners", "10,10,900,10,900,90,10,90"], "corners")])
+    ([], "no image given"), (["/nowhere.png"], "/nowhere.png"), (["IMAGE"], "no display"),
+    (["IMAGE", "--corners", "1,2,3"], "--corners"), (["IMAGE", "--corners", "1,1,5,5,5,1,1,5"], "no convex quadrilateral"),
+    (["IMAGE", "--corners", "10,10,900,10,900,90,10,90"], "corners")])
 def test_make_reference_says_what_is_wrong(labelled, arguments, words):
-    code, _, errors = run("make_reference", *[labelled / "a.png" if a == "PICTURE" else a for a in arguments], DISPLAY="", WAYLAND_DISPLAY="")
+    code, _, errors = run("make_reference", *[labelled / "a.png" if a == "IMAGE" else a for a in arguments], DISPLAY="", WAYLAND_DISPLAY="")
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors

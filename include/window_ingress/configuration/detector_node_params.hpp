@@ -9,7 +9,7 @@
 
 namespace window_ingress::configuration {
 
-/// The operator's image of the target.
+/// The reference image.
 struct ReferenceParams {
   std::string picture;          ///< image file of the target; empty: no reference
   std::vector<double> corners;  ///< corners of the opening's inner border in the reference image, x1 y1 .. x4

@@ -25,7 +25,7 @@ struct AppearanceMatch {
 /// True if no pixel of a grid over the image has a colour: then no comparison of colours means anything.
 bool isGrey(const cv::Mat& image);
 
-/// How the target looks (P9): made once from a picture of it.
+/// How the target looks (P9): made once from an image of it.
 ///
 /// The limit on the distance comes from the reference image: the distance of nine tenths of the other
 /// places in it lies further away. So a frame that stands out may look quite different in another light, and
@@ -33,23 +33,23 @@ bool isGrey(const cv::Mat& image);
 /// colour tells nothing, and the odds stay near 1.
 class ReferenceAppearance {
  public:
-  /// \param picture CV_8UC3 (a grey one gives a reference without colour, which rejects nothing)
+  /// \param image CV_8UC3 (a grey one gives a reference without colour, which rejects nothing)
   /// \param opening inner border of the opening in the image, canonical order; frame and surround lie
   /// outside
-  ReferenceAppearance(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  ReferenceAppearance(const cv::Mat& image, const geometry::Quadrilateral& opening);
 
   /// The whole image is the target with its frame; `frame_width` is that of the frame, in mean sides of the
   /// image. Where the opening lies in it is a guess then, see `openingIsKnown`.
-  explicit ReferenceAppearance(const cv::Mat& picture, double frame_width = 0.05);
+  explicit ReferenceAppearance(const cv::Mat& image, double frame_width = 0.05);
 
   /// The same, the opening found by its geometry alone.
-  static ReferenceAppearance guessed(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  static ReferenceAppearance guessed(const cv::Mat& image, const geometry::Quadrilateral& opening);
 
   /// False if somebody guessed where the opening is: its colours may be compared, its shape may not.
   bool openingIsKnown() const { return opening_is_known_; }
 
   /// Why an image with this opening in it cannot be a reference; empty if it can.
-  static std::string faultOf(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  static std::string faultOf(const cv::Mat& image, const geometry::Quadrilateral& opening);
 
   /// Compares a candidate's ring; nothing if there is no colour to compare.
   std::optional<AppearanceMatch> compare(const cv::Mat& image, const geometry::Quadrilateral& opening,
@@ -71,11 +71,11 @@ class ReferenceAppearance {
   /// Distance of the adapted appearance from the operator's reference; 0 before the first adaptation.
   double drift() const;
 
-  const cv::Mat& picture() const { return picture_; }
+  const cv::Mat& image() const { return image_; }
   const geometry::Quadrilateral& opening() const { return opening_; }
 
  private:
-  cv::Mat picture_;
+  cv::Mat image_;
   geometry::Quadrilateral opening_;
   bool opening_is_known_ = true;
   std::shared_ptr<const RingColours> colours_, adapted_;

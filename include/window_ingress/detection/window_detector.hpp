@@ -56,6 +56,6 @@ WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBo
 /// Reference from an image that is the target with its frame, without corners given: the detector looks for
 /// the inner border in the image; where it finds none, the frame is taken to be a twentieth of the image
 /// wide.
-ReferenceAppearance referenceFromPicture(const cv::Mat& picture, const DetectorParams& params);
+ReferenceAppearance referenceFromImage(const cv::Mat& image, const DetectorParams& params);
 
 }  // namespace window_ingress::detection

@@ -76,7 +76,7 @@ class TargetEstimator {
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const std::optional<Eigen::Isometry3d>& T_base_camera);
   void see(
-      ObservedImage picture);  ///< the same with all windows of the image, whether or not one is the target
+      ObservedImage image);  ///< the same with all windows of the image, whether or not one is the target
   /// An observation that still waits for odometry is processed with what there is.
   void flush();
   void reset();
@@ -111,23 +111,23 @@ class TargetEstimator {
   std::optional<double> otherWindow() const;
 
  private:
-  void process(const ObservedImage& picture);
-  void use(const ObservedImage& picture);
+  void process(const ObservedImage& image);
+  void use(const ObservedImage& image);
   geometry::OpeningSize lookedFor() const;
   std::optional<Eigen::Isometry3d> cameraAt(double stamp_sec,
                                             const std::optional<Eigen::Isometry3d>& T_base_camera) const;
-  void rememberWindows(const ObservedImage& picture);
+  void rememberWindows(const ObservedImage& image);
   void startAnewIfNot(std::uint32_t target_before);
-  std::string updateFilter(const ObservedImage& picture);  // empty, or why it was not used
+  std::string updateFilter(const ObservedImage& image);  // empty, or why it was not used
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
-  void checkSize(const ObservedImage& picture, const Eigen::Isometry3d& T_odom_camera);
-  void checkClocks(const ObservedImage& picture);
+  void checkSize(const ObservedImage& image, const Eigen::Isometry3d& T_odom_camera);
+  void checkClocks(const ObservedImage& image);
   bool isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const;
   std::optional<Eigen::Matrix3d> attitudeAt(double stamp_sec);
-  std::optional<GravityPrior> gravity(const ObservedImage& picture);
-  PoseResult estimate(const ObservedImage& picture);
-  void judgeOpenness(const ObservedImage& picture);
+  std::optional<GravityPrior> gravity(const ObservedImage& image);
+  PoseResult estimate(const ObservedImage& image);
+  void judgeOpenness(const ObservedImage& image);
 
   TargetEstimatorParams params_;
   WindowPoseEstimator estimator_;

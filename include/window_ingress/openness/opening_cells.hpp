@@ -25,7 +25,7 @@ class OpeningCells {
   /// \param cells as in `InteriorPoint::beside`
   void seeBeside(std::uint64_t cells, double log_odds);
   /// Takes what was seen beside the points of one image.
-  void endPicture();
+  void endImage();
   void clear() { *this = OpeningCells(); }
 
   struct Share {
@@ -44,10 +44,10 @@ class OpeningCells {
   static constexpr float kMax = 12.0f;
   static constexpr float kSure = 2.0f;  ///< log odds by which a cell is one or the other
   static constexpr int kMinBeside = 3;  // points on one image
-  static constexpr int kMinPictures = 5;
+  static constexpr int kMinImages = 5;
   std::array<float, kSide * kSide> open_{}, closed_{};
   std::array<int, kSide * kSide> deep_{}, shallow_{};  // points beside the cell, on this image
-  std::array<int, kSide * kSide> pictures_{};          // on which the cell was beside deep points alone
+  std::array<int, kSide * kSide> images_{};            // on which the cell was beside deep points alone
 };
 
 }  // namespace window_ingress::openness

@@ -45,8 +45,8 @@ const char* DetectionStrip::whyShown(const ReplayedFrame& frame) {
 
 void DetectionStrip::add(const ReplayedFrame& frame) {
   const char* why = whyShown(frame);
-  if (!why || frame.picture.empty() || !frame.perception) return;
-  detection::drawDetection(frame.picture, frame.perception->trace(),
+  if (!why || frame.image.empty() || !frame.perception) return;
+  detection::drawDetection(frame.image, frame.perception->trace(),
                            frame.row.window ? &*frame.row.window : nullptr, canvas_);
   const double scale = std::min(1.0, static_cast<double>(kWidestPx) / canvas_.cols);
   cv::Mat small;

@@ -54,13 +54,13 @@ void FlightBag::onStart(const simulation::World& world) {
 void FlightBag::onImage(const simulation::CameraFrame& frame, const detection::DetectionTrace&,
                         const std::optional<detection::WindowObservation>&) {
   const ros::Time now = stampOf(world_->timeSec());
-  sensor_msgs::CompressedImage picture;
-  picture.header = headerOf(stampOf(frame.stamp_sec), kCameraFrame);
-  picture.format = "bgr8; jpeg compressed bgr8";
+  sensor_msgs::CompressedImage image;
+  image.header = headerOf(stampOf(frame.stamp_sec), kCameraFrame);
+  image.format = "bgr8; jpeg compressed bgr8";
   cv::imencode(".jpg", frame.image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, 95});
-  picture.data.assign(jpeg_.begin(), jpeg_.end());
-  write("/camera/image_raw/compressed", now, picture);
-  write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, picture.header));
+  image.data.assign(jpeg_.begin(), jpeg_.end());
+  write("/camera/image_raw/compressed", now, image);
+  write("/ground_truth/window_in_camera", now, toPoseStampedMsg(frame.T_camera_window, image.header));
 }
 
 void FlightBag::onCalibration(const simulation::CalibrationSample& sample) {

@@ -17,21 +17,21 @@ namespace window_ingress::adapters {
 namespace {
 
 /// Calls `each` with every image that can be read, until it says false.
-void forEachPicture(const rosbag::Bag& bag, const std::string& topic, int every,
-                    const std::function<bool(const std_msgs::Header&, const cv::Mat&)>& each) {
+void forEachImage(const rosbag::Bag& bag, const std::string& topic, int every,
+                  const std::function<bool(const std_msgs::Header&, const cv::Mat&)>& each) {
   int number = 0;
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     if (number++ % every != 0) continue;
-    DecodedImage picture;
+    DecodedImage decoded;
     std_msgs::Header header;
     if (const auto image = message.instantiate<sensor_msgs::Image>()) {
       header = image->header;
-      picture = decode(image, ImageLimits{});
+      decoded = decode(image, ImageLimits{});
     } else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
       header = compressed->header;
-      picture = decode(*compressed, ImageLimits{});
+      decoded = decode(*compressed, ImageLimits{});
     }
-    if (!picture.image.empty() && !each(header, picture.image)) return;
+    if (!decoded.image.empty() && !each(header, decoded.image)) return;
   }
 }
 
@@ -72,37 +72,37 @@ auto readingBag(const rosbag::Bag& bag, const Work& work) {
 
 }  // namespace
 
-std::vector<evaluation::LabelledPicture> labelledPictures(const rosbag::Bag& bag, const BagTopics& topics,
-                                                          const geometry::OpeningSize& opening, int every) {
+std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, const BagTopics& topics,
+                                                      const geometry::OpeningSize& opening, int every) {
   return readingBag(bag, [&] {
     const auto truth = truthOf(bag, topics.truth);
     const geometry::PinholeCamera camera = cameraOf(bag, topics.camera_info);
-    std::vector<evaluation::LabelledPicture> pictures;
-    forEachPicture(bag, topics.image, every, [&](const std_msgs::Header& header, const cv::Mat& image) {
+    std::vector<evaluation::LabelledImage> images;
+    forEachImage(bag, topics.image, every, [&](const std_msgs::Header& header, const cv::Mat& image) {
       const auto pose = truth.find(header.stamp);
       if (pose == truth.end() || image.cols != camera.width || image.rows != camera.height) return true;
-      auto picture = evaluation::labelled(image.clone(), pose->second, camera, opening);
-      if (!picture) return true;
-      picture->name = std::to_string(header.stamp.toSec());
-      picture->group = groupOf(bag, header.stamp);
-      pictures.push_back(*picture);
+      auto sample = evaluation::labelled(image.clone(), pose->second, camera, opening);
+      if (!sample) return true;
+      sample->name = std::to_string(header.stamp.toSec());
+      sample->group = groupOf(bag, header.stamp);
+      images.push_back(*sample);
       return true;
     });
-    if (pictures.empty())
-      throw BagError(bag.getFileName() + ": no picture on " + topics.image + " with the stamp of a pose on " +
+    if (images.empty())
+      throw BagError(bag.getFileName() + ": no image on " + topics.image + " with the stamp of a pose on " +
                      topics.truth + " and the size of the calibration");
-    return pictures;
+    return images;
   });
 }
 
-std::vector<cv::Mat> picturesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most) {
+std::vector<cv::Mat> imagesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most) {
   return readingBag(bag, [&] {
-    std::vector<cv::Mat> pictures;
-    forEachPicture(bag, topics.image, every, [&](const std_msgs::Header&, const cv::Mat& image) {
-      pictures.push_back(image.clone());
-      return static_cast<int>(pictures.size()) < most;
+    std::vector<cv::Mat> images;
+    forEachImage(bag, topics.image, every, [&](const std_msgs::Header&, const cv::Mat& image) {
+      images.push_back(image.clone());
+      return static_cast<int>(images.size()) < most;
     });
-    return pictures;
+    return images;
   });
 }
 

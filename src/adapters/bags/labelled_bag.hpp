@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapters/bags/bag_topics.hpp"
-#include "evaluation/images/labelled_picture.hpp"
+#include "evaluation/images/labelled_image.hpp"
 #include "window_ingress/geometry/opening.hpp"
 
 namespace window_ingress::adapters {
@@ -13,10 +13,10 @@ namespace window_ingress::adapters {
 /// \param topics as chosen by `chooseTopics`, `truth` among them
 /// \param every take one image of so many
 /// \throws BagError if the bag is damaged, or nothing in it can be used
-std::vector<evaluation::LabelledPicture> labelledPictures(const rosbag::Bag& bag, const BagTopics& topics,
-                                                          const geometry::OpeningSize& opening, int every);
+std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, const BagTopics& topics,
+                                                      const geometry::OpeningSize& opening, int every);
 
 /// Images of a bag alone, decoded. \param most stop after so many
-std::vector<cv::Mat> picturesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most);
+std::vector<cv::Mat> imagesOf(const rosbag::Bag& bag, const BagTopics& topics, int every, int most);
 
 }  // namespace window_ingress::adapters

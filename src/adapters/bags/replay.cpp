@@ -204,7 +204,7 @@ void Replay::forgetAll() {
 
 Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
   if (!camera_ || (camera_.value->width == image.cols && camera_.value->height == image.rows)) return camera_;
-  return {std::nullopt, "camera_info is for pictures of another size"};
+  return {std::nullopt, "camera_info is for images of another size"};
 }
 
 Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) const {
@@ -214,19 +214,19 @@ Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) c
 void Replay::processFirst() {
   const Waiting waiting = std::move(waiting_.front());
   waiting_.pop_front();
-  const DecodedImage picture = waiting.decode();
-  if (!picture.reason.empty()) return refuse("image", picture.reason);
+  const DecodedImage decoded = waiting.decode();
+  if (!decoded.reason.empty()) return refuse("image", decoded.reason);
   ReplayedFrame frame;
   frame.stamp = waiting.header.stamp;
-  frame.picture = picture.image;
-  const auto camera = cameraOf(picture.image);
+  frame.image = decoded.image;
+  const auto camera = cameraOf(decoded.image);
   if (!camera) refuse("camera_info", camera.reason);
   frame.camera = camera.value;
   frame.has_odometry =
       odometry_.at(frame.stamp.toSec(), estimation::TargetEstimator::kMaxPoseGapSec).has_value();
   frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
   const double begun_ms = nowMs();
-  frame.row.window = perception_.update(inputOf(picture.image, waiting.header, camera));
+  frame.row.window = perception_.update(inputOf(decoded.image, waiting.header, camera));
   frame.perception = &perception_;
   frame.tracker = &tracker_;
   frame.detector_ms = nowMs() - begun_ms;

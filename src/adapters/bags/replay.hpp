@@ -45,7 +45,7 @@ struct ReplayedFrame {
   bool has_odometry = false;               ///< at the exposure
   bool has_attitude = false;               ///< likewise
   std::optional<Eigen::Isometry3d> truth;  ///< T_camera_window, if the bag holds it for this image
-  cv::Mat picture;                         ///< valid during the call
+  cv::Mat image;                           ///< valid during the call
   const perception::WindowPerception* perception = nullptr;  ///< likewise: all that it saw
   const estimation::TargetEstimator* tracker = nullptr;      ///< likewise: all that is known after it
   double detector_ms = 0.0, pose_ms = 0.0;

@@ -56,7 +56,7 @@ std::string badDistortion(const sensor_msgs::CameraInfo& m) {
     return "distortion model '" + m.distortion_model.substr(0, 40) +
            "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
            "use "
-           "rectified pictures (image_proc) and set vehicle/image_is_rectified";
+           "rectified images (image_proc) and set vehicle/image_is_rectified";
   if (m.D.empty() && !isFisheye(m.distortion_model)) return "";
   if (m.D.size() != wanted)
     return "D holds " + text(m.D.size()) + " numbers, " + m.distortion_model + " has " + text(wanted);
@@ -77,13 +77,13 @@ std::string badRegion(const sensor_msgs::CameraInfo& m, bool rectified) {
     return "region of interest lies outside the image";
   const bool whole = full || (m.roi.width == m.width && m.roi.height == m.height);
   if (rectified && !whole && !m.roi.do_rectify)
-    return "region of interest of the raw image (do_rectify false) cannot be applied to rectified pictures";
+    return "region of interest of the raw image (do_rectify false) cannot be applied to rectified images";
   return "";
 }
 
 std::string badProjection(const sensor_msgs::CameraInfo& m, bool rectified) {
   if (!rectified) return m.K[0] > 0.0 && m.K[4] > 0.0 ? "" : "focal length in K must be positive";
-  if (zero(m.P)) return "P is zero, but the pictures are said to be rectified (image_is_rectified)";
+  if (zero(m.P)) return "P is zero, but the images are said to be rectified (image_is_rectified)";
   return m.P[0] > 0.0 && m.P[5] > 0.0 ? "" : "focal length in P must be positive";
 }
 

@@ -24,7 +24,7 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       camera_(nh, diagnostics_, vehicle_.image_is_rectified),
       images_(nh, diagnostics_, params_.image_transport, params_.image,
               limitsFor(params_.lockstep, vehicle_.stamps),
-              [this](const auto& header, const auto& picture) { receive(header, picture); }),
+              [this](const auto& header, const auto& decoded) { receive(header, decoded); }),
       tuning_(pnh, params_.detector, [this](const auto& params) { perception_.setParams(params); }),
       times_(params_.budget_ms, steadyNowSec) {
   perception_.setWatch(&times_.watch());
@@ -58,7 +58,7 @@ void DetectorNode::receivePose(const window_ingress::WindowPoseConstPtr& message
 }
 
 // The pose of the image before says where the target is expected in this one.
-bool DetectorNode::hasPoseOfLastPicture() const {
+bool DetectorNode::hasPoseOfLastImage() const {
   if (pose_subscriber_.getNumPublishers() == 0 || looked_.isZero()) return true;
   return last_pose_ && last_pose_->header.stamp >= looked_;
 }
@@ -68,7 +68,7 @@ bool DetectorNode::isComplete(const Lockstep::Step& step) const {
                          (!attitude_ || attitude_->isConnected(step.header.frame_id));
   return (step.has_image ? waiting_header_.stamp >= step.image : connected) &&
          (!attitude_ || attitude_->lastStamp() >= step.imu) && camera_.lastStamp() >= step.camera_info &&
-         reference_stamp_ >= step.reference && hasPoseOfLastPicture();
+         reference_stamp_ >= step.reference && hasPoseOfLastImage();
 }
 
 // Before the first image there is an answer, too: those who wait for it learn that this node is there.
@@ -85,10 +85,10 @@ void DetectorNode::lookInStep(const Lockstep::Step& step) {
   window_publisher_.publish(message);
 }
 
-void DetectorNode::receive(const std_msgs::Header& header, const DecodedImage& picture) {
-  if (!lockstep_) return look(header, picture);
+void DetectorNode::receive(const std_msgs::Header& header, const DecodedImage& decoded) {
+  if (!lockstep_) return look(header, decoded);
   waiting_header_ = header;
-  waiting_ = picture;
+  waiting_ = decoded;
   lockstep_->check();
 }
 
@@ -99,10 +99,10 @@ void DetectorNode::restartIfClockJumpedBack() {
   last_pose_.reset();
 }
 
-void DetectorNode::look(const std_msgs::Header& header, const DecodedImage& picture) {
+void DetectorNode::look(const std_msgs::Header& header, const DecodedImage& decoded) {
   restartIfClockJumpedBack();
-  times_.begin(header, picture.decode_ms);
-  const cv::Mat& image = picture.image;
+  times_.begin(header, decoded.decode_ms);
+  const cv::Mat& image = decoded.image;
   const auto camera = camera_.cameraOf(image.cols, image.rows, header);
   detection::TrackInput seen;
   seen.image = image;
@@ -113,7 +113,7 @@ void DetectorNode::look(const std_msgs::Header& header, const DecodedImage& pict
   const auto& window = perception_.update(seen);
   searched_sec_ = steadyNowSec();
   looked_ = header.stamp;
-  last_picture_ = picture;
+  last_image_ = decoded;
   window_ingress::WindowDetection message = window ? toMsg(*window) : toMsg(perception_.trace());
   for (const detection::SeenWindow& one : perception_.windows()) message.windows.push_back(toMsg(one));
   message.header = header;
@@ -161,23 +161,23 @@ void DetectorNode::receiveReference(const window_ingress::ReferenceImage& messag
 void DetectorNode::use(const detection::ReferenceAppearance& reference, const std::string& source) {
   perception_.setReference(reference);
   reference_is_guess_ = !reference.openingIsKnown();
-  reference_from_ = source + (detection::isGrey(reference.picture()) ? ", which has no colour" : "") +
+  reference_from_ = source + (detection::isGrey(reference.image()) ? ", which has no colour" : "") +
                     (reference.openingIsKnown() ? "" : ", opening guessed: give reference/corners");
 }
 
 // Why there is nothing to capture, or nothing.
 std::string DetectorNode::captureFault() const {
-  if (last_picture_.image.empty()) return "no image so far";
+  if (last_image_.image.empty()) return "no image so far";
   if (!perception_.window()) return "no window in the last image: " + perception_.trace().detail;
   if (!perception_.window()->whole()) return "the window is not whole in the last image";
-  return detection::isGrey(last_picture_.image) ? "the pictures have no colour" : "";
+  return detection::isGrey(last_image_.image) ? "the images have no colour" : "";
 }
 
 bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& response) {
   response.message = captureFault();
   response.success = response.message.empty();
   if (!response.success) return true;
-  const detection::ReferenceAppearance reference(last_picture_.image, perception_.window()->corners);
+  const detection::ReferenceAppearance reference(last_image_.image, perception_.window()->corners);
   use(reference, "live image");
   response.message = "the window in the last image is the reference now";
   if (params_.reference.capture_file.empty()) return true;
@@ -199,10 +199,10 @@ bool DetectorNode::reset(Trigger::Request&, Trigger::Response& response) {
 }
 
 Health DetectorNode::detectionHealth() const {
-  if (last_picture_.image.empty()) return {Health::kOk, "no image so far"};
+  if (last_image_.image.empty()) return {Health::kOk, "no image so far"};
   const double silent_sec = steadyNowSec() - searched_sec_;
   if (silent_sec > kSilenceSec)
-    return {Health::kWarn, "no picture for " + std::to_string(static_cast<int>(silent_sec)) + " s"};
+    return {Health::kWarn, "no image for " + std::to_string(static_cast<int>(silent_sec)) + " s"};
   return {Health::kOk, perception_.window() ? "window in view" : "no window: " + perception_.trace().detail};
 }
 

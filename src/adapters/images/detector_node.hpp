@@ -40,15 +40,15 @@ class DetectorNode : public Node {
   using Trigger = std_srvs::Trigger;
   using Tuning = Reconfigure<window_ingress::WindowDetectorConfig, detection::DetectorParams>;
 
-  void receive(const std_msgs::Header& header, const DecodedImage& picture);
+  void receive(const std_msgs::Header& header, const DecodedImage& decoded);
   void restartIfClockJumpedBack();
-  void look(const std_msgs::Header& header, const DecodedImage& picture);
+  void look(const std_msgs::Header& header, const DecodedImage& decoded);
   bool isComplete(const Lockstep::Step& step) const;
   void lookInStep(const Lockstep::Step& step);
   void publishDebugImage(const std_msgs::Header& header, const cv::Mat& image, double milliseconds);
   std::string yawAt(const ros::Time& stamp) const;
   void receivePose(const window_ingress::WindowPose::ConstPtr& message);
-  bool hasPoseOfLastPicture() const;
+  bool hasPoseOfLastImage() const;
   std::optional<geometry::Quadrilateral> expectedAt(const std_msgs::Header& header) const;
   void receiveReference(const window_ingress::ReferenceImage& message);
   void use(const detection::ReferenceAppearance& reference, const std::string& source);
@@ -68,7 +68,7 @@ class DetectorNode : public Node {
   ImageSource images_;
   Tuning tuning_;
   cv::Mat canvas_;
-  DecodedImage last_picture_;
+  DecodedImage last_image_;
   double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
   bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference

@@ -20,14 +20,15 @@ bool isPublished(const std::string& topic) {
 
 }  // namespace
 
-CompressedPicture compress(const sensor_msgs::ImageConstPtr& image, const ImageCompressorParams& params) {
-  const DecodedImage picture = decode(image, params.image);
-  if (!picture.reason.empty()) return {std::nullopt, picture.reason};
+Converted<sensor_msgs::CompressedImage> compress(const sensor_msgs::ImageConstPtr& image,
+                                                 const ImageCompressorParams& params) {
+  const DecodedImage decoded = decode(image, params.image);
+  if (!decoded.reason.empty()) return {std::nullopt, decoded.reason};
   sensor_msgs::CompressedImage message;
   message.header = image->header;
-  const std::string encoding = picture.image.channels() == 1 ? "mono8" : "bgr8";
+  const std::string encoding = decoded.image.channels() == 1 ? "mono8" : "bgr8";
   message.format = encoding + "; jpeg compressed " + (encoding == "mono8" ? "" : encoding);
-  if (!cv::imencode(".jpg", picture.image, message.data, {cv::IMWRITE_JPEG_QUALITY, params.quality}))
+  if (!cv::imencode(".jpg", decoded.image, message.data, {cv::IMWRITE_JPEG_QUALITY, params.quality}))
     return {std::nullopt, "cannot be written as JPEG"};
   return {message, ""};
 }
@@ -46,12 +47,12 @@ ImageCompressorNode::ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& p
 
 void ImageCompressorNode::receive(const sensor_msgs::ImageConstPtr& image) {
   if (publisher_.getNumSubscribers() == 0) return;
-  const CompressedPicture picture = compress(image, params_);
-  if (!picture.message) {
-    ROS_WARN_THROTTLE(10.0, "image not compressed: %s", picture.reason.c_str());
+  const auto compressed = compress(image, params_);
+  if (!compressed) {
+    ROS_WARN_THROTTLE(10.0, "image not compressed: %s", compressed.reason.c_str());
     return;
   }
-  publisher_.publish(*picture.message);
+  publisher_.publish(*compressed.value);
 }
 
 }  // namespace window_ingress::adapters

@@ -4,9 +4,7 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
-#include <optional>
-#include <string>
-
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_from_msg.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/diagnostics.hpp"
@@ -24,11 +22,8 @@ struct ImageCompressorParams {
 };
 
 /// An image as JPEG under the same header, or why there is none.
-struct CompressedPicture {
-  std::optional<sensor_msgs::CompressedImage> message;
-  std::string reason;  ///< empty if there is one
-};
-CompressedPicture compress(const sensor_msgs::ImageConstPtr& image, const ImageCompressorParams& params);
+Converted<sensor_msgs::CompressedImage> compress(const sensor_msgs::ImageConstPtr& image,
+                                                 const ImageCompressorParams& params);
 
 /// Images as JPEG, for recordings of cameras whose driver does not compress: image_raw to compressed.
 /// Silent, saying so, where somebody publishes there already.

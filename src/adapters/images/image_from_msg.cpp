@@ -123,10 +123,9 @@ DecodedImage refusal(const std::string& reason) {
 
 cv::Mat converted(const sensor_msgs::ImageConstPtr& message, const Encoding& encoding,
                   std::shared_ptr<const void>& owner) {
-  const cv_bridge::CvImageConstPtr picture = share(message, encoding);
-  owner =
-      std::make_shared<std::pair<cv_bridge::CvImageConstPtr, sensor_msgs::ImageConstPtr>>(picture, message);
-  return picture->image;
+  const cv_bridge::CvImageConstPtr image = share(message, encoding);
+  owner = std::make_shared<std::pair<cv_bridge::CvImageConstPtr, sensor_msgs::ImageConstPtr>>(image, message);
+  return image->image;
 }
 
 }  // namespace
@@ -163,7 +162,7 @@ DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits
     result.image = converted(message, encoding, result.owner);
     result.warning = unusedRange(*message, encoding);
     if (result.image.type() == CV_8UC1 || result.image.type() == CV_8UC3) return result;
-    return refusal("cv_bridge made no 8-bit picture of encoding " + message->encoding);
+    return refusal("cv_bridge made no 8-bit image of encoding " + message->encoding);
   } catch (const std::exception& error) {
     return refusal(std::string("cannot be converted: ") + error.what());
   }

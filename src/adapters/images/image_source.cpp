@@ -66,14 +66,14 @@ void ImageSource::receive(const std_msgs::Header& header, const std::function<De
   const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
   if (late) return health_.refused(*late);
   const double begun_sec = steadyNowSec();
-  DecodedImage picture = decode();
-  picture.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
-  if (!picture.reason.empty()) return health_.refused(picture.reason);
-  if (stuck_.sameForSec(picture.image, steadyNowSec()) > kStuckSec)
-    picture.warning = "the picture does not change any more: is the camera stuck?";
-  health_.accepted(picture.warning);
+  DecodedImage decoded = decode();
+  decoded.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
+  if (!decoded.reason.empty()) return health_.refused(decoded.reason);
+  if (stuck_.sameForSec(decoded.image, steadyNowSec()) > kStuckSec)
+    decoded.warning = "the image does not change any more: is the camera stuck?";
+  health_.accepted(decoded.warning);
   health_.stamped(header.stamp.toSec());
-  callback_(header, picture);
+  callback_(header, decoded);
 }
 
 }  // namespace window_ingress::adapters

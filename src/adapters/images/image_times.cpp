@@ -32,7 +32,7 @@ void ImageTimes::notePeriod(const std_msgs::Header& header) {
 }
 
 void ImageTimes::end() {
-  const double part = pictures_++ == 0 ? 1.0 : kTimeSmoothing, whole_ms = decode_ms_ + sinceBegin();
+  const double part = images_++ == 0 ? 1.0 : kTimeSmoothing, whole_ms = decode_ms_ + sinceBegin();
   whole_ms_ += part * (whole_ms - whole_ms_);
   decoding_ms_ += part * (decode_ms_ - decoding_ms_);
   slowest_ms_ = std::max(slowest_ms_, whole_ms);
@@ -41,7 +41,7 @@ void ImageTimes::end() {
 }
 
 Health ImageTimes::health() const {
-  if (pictures_ == 0) return {Health::kOk, "no image so far"};
+  if (images_ == 0) return {Health::kOk, "no image so far"};
   Health health;
   health.values = {{"whole_ms", whole_ms_},
                    {"slowest_ms", slowest_ms_},
@@ -55,8 +55,8 @@ Health ImageTimes::health() const {
   char text[200];
   std::snprintf(
       text, sizeof text,
-      slow ? "%.1f ms a picture, the budget is %.1f ms: pictures are dropped; most goes into '%s' (%.1f ms)"
-           : "%.1f ms a picture of %.1f ms; most goes into '%s' (%.1f ms)",
+      slow ? "%.1f ms an image, the budget is %.1f ms: images are dropped; most goes into '%s' (%.1f ms)"
+           : "%.1f ms an image of %.1f ms; most goes into '%s' (%.1f ms)",
       whole_ms_, budgetMs(), detection::toString(static_cast<detection::Stage>(most)), stage_ms_[most]);
   health.text = text;
   if (slow) health.level = Health::kWarn;

@@ -40,7 +40,7 @@ class ImageTimes {
   double period_ms_ = 0.0;
   std::array<double, detection::kStages> stage_ms_{};  // means of late
   std::optional<std_msgs::Header> before_;
-  long pictures_ = 0;
+  long images_ = 0;
 };
 
 }  // namespace window_ingress::adapters

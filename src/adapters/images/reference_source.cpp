@@ -12,9 +12,9 @@
 namespace window_ingress::adapters {
 namespace {
 
-bool writePicture(const std::string& file, const cv::Mat& picture) {
+bool writeImage(const std::string& file, const cv::Mat& image) {
   try {
-    return cv::imwrite(file, picture);
+    return cv::imwrite(file, image);
   } catch (const cv::Exception&) {  // no such format
     return false;
   }
@@ -29,9 +29,9 @@ std::string yamlQuoted(const std::string& text) {
 
 }  // namespace
 
-detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+detection::ReferenceAppearance makeReference(const cv::Mat& image, const std::vector<double>& corners,
                                              const detection::DetectorParams& params) {
-  if (corners.empty()) return detection::referenceFromPicture(picture, params);
+  if (corners.empty()) return detection::referenceFromImage(image, params);
   if (corners.size() != 8)
     throw ParameterError("reference/corners holds " + std::to_string(corners.size()) +
                          " numbers instead of 8");
@@ -39,29 +39,29 @@ detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto canonical = geometry::canonical(quad);
   if (!canonical) throw ParameterError("reference/corners are no convex quadrilateral in cyclic order");
-  if (const std::string fault = detection::ReferenceAppearance::faultOf(picture, *canonical); !fault.empty())
+  if (const std::string fault = detection::ReferenceAppearance::faultOf(image, *canonical); !fault.empty())
     throw ParameterError("reference/corners: " + fault);
-  return {picture, *canonical};
+  return {image, *canonical};
 }
 
 detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImage& message,
                                              const ImageLimits& limits,
                                              const detection::DetectorParams& params) {
-  const DecodedImage picture = decode(boost::make_shared<sensor_msgs::Image>(message.image), limits);
-  if (!picture.reason.empty()) throw ParameterError("reference image: " + picture.reason);
+  const DecodedImage decoded = decode(boost::make_shared<sensor_msgs::Image>(message.image), limits);
+  if (!decoded.reason.empty()) throw ParameterError("reference image: " + decoded.reason);
   std::vector<double> corners;
   for (std::size_t i = 0; i < 4; ++i)
     corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
   const bool whole = std::all_of(corners.begin(), corners.end(), [](double number) { return number == 0.0; });
-  return makeReference(picture.image, whole ? std::vector<double>() : corners, params);
+  return makeReference(decoded.image, whole ? std::vector<double>() : corners, params);
 }
 
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params) {
-  const cv::Mat picture = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (picture.empty())
+  const cv::Mat image = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (image.empty())
     throw ParameterError("reference/picture: cannot read '" + reference.picture + "' as an image");
-  return makeReference(picture, reference.corners, params);
+  return makeReference(image, reference.corners, params);
 }
 
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference) {
@@ -71,10 +71,9 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
   std::error_code ignored;
   fs::create_directories(path.parent_path(), ignored);
   const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
-  if (!writePicture(path.string(), reference.picture()) ||
-      !writePicture(understood.string(), detection::drawReference(reference)))
-    throw ParameterError("reference: cannot write '" + path.string() +
-                         "' as a picture, or what is beside it");
+  if (!writeImage(path.string(), reference.image()) ||
+      !writeImage(understood.string(), detection::drawReference(reference)))
+    throw ParameterError("reference: cannot write '" + path.string() + "' as an image, or what is beside it");
   const fs::path text = fs::path(path).replace_extension(".yaml");
   std::ofstream output(text);
   output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(path.string())

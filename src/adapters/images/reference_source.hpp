@@ -18,7 +18,7 @@ namespace window_ingress::adapters {
 using configuration::ReferenceParams;
 
 /// A reference from an image and eight numbers, or none for the whole image. \throws ParameterError
-detection::ReferenceAppearance makeReference(const cv::Mat& picture, const std::vector<double>& corners,
+detection::ReferenceAppearance makeReference(const cv::Mat& image, const std::vector<double>& corners,
                                              const detection::DetectorParams& params);
 
 /// The same from a message, live or recorded. \throws ParameterError

@@ -23,7 +23,7 @@ Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                   odometry.aheadSec());
   const std::string ahead = text;
   if (!offset) return {Health::kOk, "to be seen in the first turn before a window" + ahead};
-  std::snprintf(text, sizeof text, "pictures are stamped %.2f +- %.2f s %s beside odometry",
+  std::snprintf(text, sizeof text, "images are stamped %.2f +- %.2f s %s beside odometry",
                 std::abs(offset->late_sec), offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
   const double least_sec = std::max(kMaxOffsetSec, kSigmas * offset->sigma_sec);
   if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text + ahead};

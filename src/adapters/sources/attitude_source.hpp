@@ -43,7 +43,7 @@ class AttitudeSource {
   std::string base_frame_;
   estimation::PoseBuffer attitudes_;
   ros::Time stamp_;
-  std::string refusal_, missing_ = "no picture so far";
+  std::string refusal_, missing_ = "no image so far";
   std::function<void()> came_;
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_;

@@ -49,15 +49,15 @@ std::string CameraSource::misfit(int width_px, int height_px, const std::string&
   return "";
 }
 
-void CameraSource::compareStamps(const ros::Time& picture) {
-  apart_sec_ = picture.toSec() - stamp_.toSec();
+void CameraSource::compareStamps(const ros::Time& image) {
+  apart_sec_ = image.toSec() - stamp_.toSec();
   if (std::abs(apart_sec_) <= kNearSec || together_sec_ == 0.0) together_sec_ = steadyNowSec();
 }
 
 Converted<geometry::PinholeCamera> CameraSource::cameraOf(int width_px, int height_px,
-                                                          const std_msgs::Header& picture) {
-  misfit_ = camera_ ? misfit(width_px, height_px, picture.frame_id) : "";
-  if (camera_) compareStamps(picture.stamp);
+                                                          const std_msgs::Header& image) {
+  misfit_ = camera_ ? misfit(width_px, height_px, image.frame_id) : "";
+  if (camera_) compareStamps(image.stamp);
   return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
 }
 
@@ -66,7 +66,7 @@ std::string CameraSource::undoneTwice() const {
   const auto& lens = camera_.value->distortion;
   const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
   if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
-  return "pictures on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
+  return "images on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
          subscriber_.getTopic() + " is undone once more; if they are, set vehicle/image_is_rectified";
 }
 

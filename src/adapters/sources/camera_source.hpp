@@ -23,7 +23,7 @@ class CameraSource {
   CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified);
 
   /// The camera of an image of this size, or why there is none. An empty `frame_id` fits every frame.
-  Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& picture);
+  Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& image);
 
   void receive(const sensor_msgs::CameraInfo& message);
 
@@ -34,7 +34,7 @@ class CameraSource {
 
  private:
   std::string misfit(int width_px, int height_px, const std::string& frame_id) const;
-  void compareStamps(const ros::Time& picture);
+  void compareStamps(const ros::Time& image);
   Health fitHealth() const;
 
   std::string undoneTwice() const;

@@ -6,10 +6,10 @@
 namespace window_ingress::adapters {
 namespace {
 
-constexpr double kMaxSilenceSec = 5.0;   // after a longer one it is another flight
-constexpr double kMaxLateSec = 0.5;      // a stamp that goes back further begins another flight
-constexpr std::size_t kMaxPictures = 2;  // that are drawn of those which fall due at once
-constexpr long kForgivenPictures = 30;   // while the house is built, the vehicle flies on
+constexpr double kMaxSilenceSec = 5.0;  // after a longer one it is another flight
+constexpr double kMaxLateSec = 0.5;     // a stamp that goes back further begins another flight
+constexpr std::size_t kMaxImages = 2;   // that are drawn of those which fall due at once
+constexpr long kForgivenImages = 30;    // while the house is built, the vehicle flies on
 
 }  // namespace
 
@@ -47,21 +47,21 @@ void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vec
 }
 
 // An external vehicle waits for nobody: what a slow machine cannot draw in time is lost, not late.
-void WorldNode::deliverNewestPictures() {
+void WorldNode::deliverNewestImages() {
   while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
   std::deque<simulation::Exposure> due;
   while (const auto exposure = world_->takeExposure()) due.push_back(*exposure);
-  pictures_due_ += static_cast<long>(due.size());
-  for (; due.size() > kMaxPictures; due.pop_front()) ++pictures_lost_;
+  images_due_ += static_cast<long>(due.size());
+  for (; due.size() > kMaxImages; due.pop_front()) ++images_lost_;
   for (const simulation::Exposure& exposure : due) deliver(world_->draw(exposure));
 }
 
 Health WorldNode::externalHealth() const {
   if (!running_) return {Health::kOk, "no vehicle_odom so far"};
-  if (pictures_lost_ * 10 <= pictures_due_ || pictures_lost_ <= kForgivenPictures)
+  if (images_lost_ * 10 <= images_due_ || images_lost_ <= kForgivenImages)
     return {Health::kOk, "time is that of vehicle_odom"};
-  return {Health::kWarn, std::to_string(pictures_lost_) + " of " + std::to_string(pictures_due_) +
-                             " pictures are lost: this machine draws too slowly"};
+  return {Health::kWarn, std::to_string(images_lost_) + " of " + std::to_string(images_due_) +
+                             " images are lost: this machine draws too slowly"};
 }
 
 }  // namespace window_ingress::adapters

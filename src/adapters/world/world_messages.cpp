@@ -41,7 +41,7 @@ window_ingress::ReferenceImage toReferenceMsg(const simulation::World& world,
                                               const std_msgs::Header& header) {
   geometry::Quadrilateral corners;
   window_ingress::ReferenceImage message;
-  message.image = *toImageMsg(world.referencePicture(&corners), header);
+  message.image = *toImageMsg(world.referenceImage(&corners), header);
   for (std::size_t i = 0; i < 4; ++i) {
     message.corner_x[i] = corners[i].x();
     message.corner_y[i] = corners[i].y();

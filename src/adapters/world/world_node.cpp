@@ -84,9 +84,9 @@ void WorldNode::restart() {
   answer_.reset();
   followed_sec_ = -1.0;
   clock_due_sec_ = debt_sec_ = 0.0;
-  pictures_due_ = pictures_lost_ = 0;
+  images_due_ = images_lost_ = 0;
   began_sec_ = steadyNowSec();
-  pictures_.emplace(world_->scenario().camera.rate_hz);
+  images_.emplace(world_->scenario().camera.rate_hz);
   truth_due_.emplace(world_->scenario().odometry.rate_hz);
   referee_.restart();
   publishers_.facts(*world_, now());
@@ -99,7 +99,7 @@ void WorldNode::restart() {
 // --- time --------------------------------------------------------------------------------------------------
 
 void WorldNode::tick() {
-  if (isExternal()) return deliverNewestPictures();
+  if (isExternal()) return deliverNewestImages();
   if (lockstep_) return tickLockstep();
   const double now_sec = steadyNowSec();
   debt_sec_ += running_ ? (now_sec - ticked_sec_) * params_.real_time_factor : 0.0;
@@ -109,7 +109,7 @@ void WorldNode::tick() {
   debt_sec_ = std::min(debt_sec_, kMaxDebtSec);
   for (; debt_sec_ >= kStepSec; debt_sec_ -= kStepSec) {
     stepOnce();
-    deliverPictures();
+    deliverImages();
   }
 }
 
@@ -130,17 +130,17 @@ void WorldNode::tickLockstep() {
 void WorldNode::advanceToNextStep() {
   if (answer_) world_->command(*answer_);
   answer_.reset();
-  deliverPictures();
+  deliverImages();
   do stepOnce();
-  while (!pictureIsDue());
+  while (!imageIsDue());
   tellTime();
   lockstep_->ask(now());
 }
 
 // The shutter opens for the first time at the end of the first step.
-bool WorldNode::pictureIsDue() {
+bool WorldNode::imageIsDue() {
   const double exposed_sec = world_->timeSec() - world_->scenario().camera.latency_sec;
-  return exposed_sec + 1e-9 >= kStepSec && pictures_->due(exposed_sec);
+  return exposed_sec + 1e-9 >= kStepSec && images_->due(exposed_sec);
 }
 
 bool WorldNode::mayRun() {
@@ -169,7 +169,7 @@ ros::Time WorldNode::stampOf(double world_sec) const { return toStamp(epoch_sec_
 
 // --- what leaves -------------------------------------------------------------------------------------------
 
-void WorldNode::deliverPictures() {
+void WorldNode::deliverImages() {
   while (const auto sample = world_->takeCalibration()) sendCalibration(*sample);
   while (const auto frame = world_->takeFrame()) deliver(*frame);
 }

@@ -46,10 +46,10 @@ class WorldNode : public Node {
   void tickLockstep();
   void advanceToNextStep();
   bool mayRun();
-  bool pictureIsDue();
+  bool imageIsDue();
   void stepOnce();
-  void deliverPictures();
-  void deliverNewestPictures();
+  void deliverImages();
+  void deliverNewestImages();
   void deliver(const simulation::CameraFrame& frame);
   void receiveCommand(const geometry_msgs::TwistStampedConstPtr& message);
   void receiveState(const window_ingress::IngressStateConstPtr& message);
@@ -81,14 +81,14 @@ class WorldNode : public Node {
   double clock_due_sec_ = 0.0;
   double created_sec_, ticked_sec_, debt_sec_ = 0.0, lost_sec_ = 0.0;
   double began_sec_ = 0.0, followed_sec_ = -1.0;
-  long pictures_due_ = 0, pictures_lost_ = 0;  // beside an external vehicle
+  long images_due_ = 0, images_lost_ = 0;  // beside an external vehicle
   bool running_ = false;
 
   camera_info_manager::CameraInfoManager camera_info_;
   WorldPublishers publishers_;
   WorldReferee referee_;
   std::optional<WorldLockstep> lockstep_;
-  std::optional<simulation::Periodic> truth_due_, pictures_;  // the latter for lockstep
+  std::optional<simulation::Periodic> truth_due_, images_;  // the latter for lockstep
   ros::Subscriber command_subscriber_, state_subscriber_, vehicle_subscriber_;
   ros::ServiceServer reset_, inject_;
   ros::ServiceClient detector_reset_, pose_reset_;

@@ -29,7 +29,7 @@ class WorldPublishers {
   void imu(const simulation::ImuSample& sample, const ros::Time& stamp);
   /// Of the vehicle, and of a window that moves.
   void truth(const simulation::World& world, const ros::Time& stamp);
-  /// What does not change during a flight: camera's mounting, the window, the operator's picture of it.
+  /// What does not change during a flight: camera's mounting, the window, the reference image.
   void facts(const simulation::World& world, const ros::Time& stamp);
 
   bool imagesAreAwaited() const { return image_.getNumSubscribers() > 0; }

@@ -12,9 +12,9 @@ namespace window_ingress::detection {
 class RingMatcher {
  public:
   /// See RingModel.
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0,
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0,
              const std::optional<OpeningAspect>& aspect = std::nullopt) {
-    model_.learn(picture, opening, colour);
+    model_.learn(image, opening, colour);
     model_.setAspect(aspect);
   }
   void forget() { model_.forget(); }

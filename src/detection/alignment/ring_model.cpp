@@ -60,18 +60,17 @@ int segmentOf(const Vector2d& p, const Shape& shape, double side_px, int a_side)
 /// The image, smoothed for one level, read between its pixels.
 class RingReader {
  public:
-  RingReader(const cv::Mat& picture, const geometry::UnitSquare& map, int level, const RingModel& model)
-      : picture_(picture), map_(map), level_(level), model_(model) {}
+  RingReader(const cv::Mat& image, const geometry::UnitSquare& map, int level, const RingModel& model)
+      : image_(image), map_(map), level_(level), model_(model) {}
 
   bool read(const Vector2d& p, std::array<float, 3>& value) const {
     const Vector2d at = ImagePyramid::onLevel(map_.toImage(p + Vector2d(0.5, 0.5)), level_);
-    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < picture_.cols - 1 && at.y() < picture_.rows - 1))
+    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image_.cols - 1 && at.y() < image_.rows - 1))
       return false;
-    const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y()),
-              channels = picture_.channels();
+    const int column = static_cast<int>(at.x()), row = static_cast<int>(at.y()), channels = image_.channels();
     const auto u = static_cast<float>(at.x() - column), v = static_cast<float>(at.y() - row);
-    const float *top = picture_.ptr<float>(row) + column * channels,
-                *bottom = picture_.ptr<float>(row + 1) + column * channels;
+    const float *top = image_.ptr<float>(row) + column * channels,
+                *bottom = image_.ptr<float>(row + 1) + column * channels;
     for (int c = 0; c < channels; ++c)
       value[c] = logOf((1.0F - v) * ((1.0F - u) * top[c] + u * top[c + channels]) +
                        v * ((1.0F - u) * bottom[c] + u * bottom[c + channels]));
@@ -80,7 +79,7 @@ class RingReader {
   }
 
  private:
-  const cv::Mat& picture_;
+  const cv::Mat& image_;
   const geometry::UnitSquare& map_;
   int level_;
   const RingModel& model_;
@@ -201,18 +200,18 @@ void RingModel::weighColour(float& blue, float& green, float& red) const {
   for (float* channel : {&blue, &green, &red}) *channel = brightness + colour_ * (*channel - brightness);
 }
 
-void RingModel::learn(const cv::Mat& picture, const Quadrilateral& opening, double colour) {
+void RingModel::learn(const cv::Mat& image, const Quadrilateral& opening, double colour) {
   forget();
-  if (picture.empty() || (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)) return;
+  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) return;
   if (!geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
-  channels_ = picture.channels();
+  channels_ = image.channels();
   colour_ = static_cast<float>(colour);
   const double aspect = geometry::aspectRatio(opening);
   const Shape shape{2.0 * aspect / (1.0 + aspect), 2.0 / (1.0 + aspect)};
   const double side_px = std::sqrt(std::abs(geometry::signedArea(opening)) / (shape.width * shape.height));
   const geometry::UnitSquare map(opening);
   ImagePyramid pyramid;
-  pyramid.set(picture);
+  pyramid.set(image);
   cv::Mat smooth;
   const double finest = std::clamp(side_px, kCoarsest, kFinest);
   const int count = 1 + static_cast<int>(std::floor(2.0 * std::log2(finest / kCoarsest) + 1e-6));

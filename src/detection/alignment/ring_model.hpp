@@ -56,9 +56,9 @@ class RingModel {
  public:
   static constexpr double kWidth = 0.22;  ///< of the ring [mean sides of the opening]
 
-  /// \param picture CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels \param colour weight of
+  /// \param image CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels \param colour weight of
   /// the differences between channels, beside brightness
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening, double colour = 1.0);
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0);
   void forget() { levels_.clear(), aspect_.reset(); }
   bool known() const { return !levels_.empty(); }
   int channels() const { return channels_; }

@@ -16,11 +16,11 @@ constexpr float kMaxGain = 2.0F;
 constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth, relative to the centre's
 
 // Of the samples that are seen.
-RingMoments momentsOf(const float* ring, const float* picture, const float* weights, int begin, int end) {
+RingMoments momentsOf(const float* ring, const float* image, const float* weights, int begin, int end) {
   RingMoments m;
   for (int i = begin; i < end; ++i) {
-    const float w = weights[i], x = w * ring[i], y = w * picture[i];
-    m.n += w, m.x += x, m.y += y, m.xx += x * ring[i], m.yy += y * picture[i], m.xy += x * picture[i];
+    const float w = weights[i], x = w * ring[i], y = w * image[i];
+    m.n += w, m.x += x, m.y += y, m.xx += x * ring[i], m.yy += y * image[i], m.xy += x * image[i];
   }
   return m;
 }
@@ -68,10 +68,10 @@ void RingView::place(const Matrix3d& map, int level) {
 }
 
 template <int kChannels>
-int RingView::readPixels(const cv::Mat& picture) {
+int RingView::readPixels(const cv::Mat& image) {
   const auto count = at_x_.size();
-  const auto row_step = picture.step[0];
-  const auto right = static_cast<float>(picture.cols - 1), bottom = static_cast<float>(picture.rows - 1);
+  const auto row_step = image.step[0];
+  const auto right = static_cast<float>(image.cols - 1), bottom = static_cast<float>(image.rows - 1);
   int seen = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float x = at_x_[i], y = at_y_[i];
@@ -84,7 +84,7 @@ int RingView::readPixels(const cv::Mat& picture) {
     }
     const int column = static_cast<int>(x), row = static_cast<int>(y);
     const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
-    const uchar *top = picture.data + row * row_step + column * kChannels, *below = top + row_step;
+    const uchar *top = image.data + row * row_step + column * kChannels, *below = top + row_step;
     for (int c = 0; c < kChannels; ++c) {
       const float upper = static_cast<float>(top[c]) + u * static_cast<float>(top[c + kChannels] - top[c]);
       const float lower =
@@ -100,10 +100,10 @@ double RingView::look(const Scale& scale, const Matrix3d& map) {
   ring_ = scale.ring;
   place(map, scale.level);
   const std::size_t count = at_x_.size();
-  channels_ = scale.picture->channels();
+  channels_ = scale.image->channels();
   values_.resize(channels_ * count);
   weights_.resize(count);
-  const int seen = channels_ == 1 ? readPixels<1>(*scale.picture) : readPixels<3>(*scale.picture);
+  const int seen = channels_ == 1 ? readPixels<1>(*scale.image) : readPixels<3>(*scale.image);
   return static_cast<double>(seen) / static_cast<double>(std::max<std::size_t>(1, count));
 }
 

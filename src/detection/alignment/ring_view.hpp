@@ -54,7 +54,7 @@ class RingView {
   /// One resolution of model and image.
   struct Scale {
     const RingLevel* ring;
-    const cv::Mat* picture;
+    const cv::Mat* image;
     int level;
   };
   Scale scaleFor(double quad_side_px, double wanted_px);
@@ -83,7 +83,7 @@ class RingView {
  private:
   void place(const Eigen::Matrix3d& map, int level);
   template <int kChannels>
-  int readPixels(const cv::Mat& picture);
+  int readPixels(const cv::Mat& image);
 
   const RingModel* model_ = nullptr;
   const geometry::PinholeCamera* lens_ = nullptr;

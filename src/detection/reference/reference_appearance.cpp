@@ -46,16 +46,15 @@ bool touchesFrame(const Vector2d& centre) {
 }
 
 // Distances of rings at other places of the image, whether there is something or not.
-std::vector<double> distancesElsewhere(const cv::Mat& picture, const Quadrilateral& opening,
+std::vector<double> distancesElsewhere(const cv::Mat& image, const Quadrilateral& opening,
                                        const RingColours& colours) {
   std::vector<double> distances;
   const geometry::UnitSquare square(opening);
   for (int i = 0; i < kElsewhereSteps; ++i)
     for (int k = 0; k < kElsewhereSteps; ++k) {
-      const Vector2d at((i + 0.5) / kElsewhereSteps * picture.cols,
-                        (k + 0.5) / kElsewhereSteps * picture.rows);
+      const Vector2d at((i + 0.5) / kElsewhereSteps * image.cols, (k + 0.5) / kElsewhereSteps * image.rows);
       if (touchesFrame(square.fromImage(at))) continue;
-      if (const auto other = coloursOf(picture, placedAt(opening, kElsewhereScale, at)))
+      if (const auto other = coloursOf(image, placedAt(opening, kElsewhereScale, at)))
         distances.push_back(bhattacharyya(colours.seen, other->seen));
     }
   return distances;
@@ -76,36 +75,36 @@ double oddsOf(double distance, double limit, double elsewhere) {
 
 }  // namespace
 
-ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, const Quadrilateral& opening)
-    : picture_(picture.clone()), opening_(opening) {
-  if (isGrey(picture_)) return;
-  const auto colours = coloursOf(picture_, opening_);
+ReferenceAppearance::ReferenceAppearance(const cv::Mat& image, const Quadrilateral& opening)
+    : image_(image.clone()), opening_(opening) {
+  if (isGrey(image_)) return;
+  const auto colours = coloursOf(image_, opening_);
   if (!colours) return;
   colours_ = std::make_shared<RingColours>(*colours);
-  elsewhere_ = lowQuantile(distancesElsewhere(picture_, opening_, *colours));
+  elsewhere_ = lowQuantile(distancesElsewhere(image_, opening_, *colours));
 }
 
-ReferenceAppearance::ReferenceAppearance(const cv::Mat& picture, double frame_width)
-    : ReferenceAppearance(guessed(picture, inset(picture.size(), frame_width))) {}
+ReferenceAppearance::ReferenceAppearance(const cv::Mat& image, double frame_width)
+    : ReferenceAppearance(guessed(image, inset(image.size(), frame_width))) {}
 
-ReferenceAppearance ReferenceAppearance::guessed(const cv::Mat& picture, const Quadrilateral& opening) {
-  ReferenceAppearance reference(picture, opening);
+ReferenceAppearance ReferenceAppearance::guessed(const cv::Mat& image, const Quadrilateral& opening) {
+  ReferenceAppearance reference(image, opening);
   reference.opening_is_known_ = false;
   return reference;
 }
 
-std::string ReferenceAppearance::faultOf(const cv::Mat& picture, const Quadrilateral& opening) {
-  if (picture.empty()) return "the picture is empty";
-  if (picture.type() != CV_8UC1 && picture.type() != CV_8UC3)
-    return "the picture has neither one nor three channels of eight bits";
+std::string ReferenceAppearance::faultOf(const cv::Mat& image, const Quadrilateral& opening) {
+  if (image.empty()) return "the image is empty";
+  if (image.type() != CV_8UC1 && image.type() != CV_8UC3)
+    return "the image has neither one nor three channels of eight bits";
   if (!geometry::isFinite(opening) || !geometry::isConvex(opening))
     return "the corners are no convex quadrilateral";
   for (const Vector2d& corner : opening)
-    if (corner.x() < -0.5 || corner.y() < -0.5 || corner.x() > picture.cols - 0.5 ||
-        corner.y() > picture.rows - 0.5)
+    if (corner.x() < -0.5 || corner.y() < -0.5 || corner.x() > image.cols - 0.5 ||
+        corner.y() > image.rows - 0.5)
       return "corner (" + std::to_string(std::lround(corner.x())) + ", " +
-             std::to_string(std::lround(corner.y())) + ") lies outside the picture of " +
-             std::to_string(picture.cols) + " x " + std::to_string(picture.rows) + " pixels";
+             std::to_string(std::lround(corner.y())) + ") lies outside the image of " +
+             std::to_string(image.cols) + " x " + std::to_string(image.rows) + " pixels";
   const auto sides = geometry::sideLengths(opening);
   const double shortest = *std::min_element(sides.begin(), sides.end());
   if (shortest < kShortestSidePx)

@@ -94,12 +94,12 @@ double ReferenceBorders::unlikeThroughHaze(const Bands& colours, int side) const
   return unlike(clear, side);
 }
 
-void ReferenceBorders::learn(const cv::Mat& picture, const Quadrilateral& opening) {
+void ReferenceBorders::learn(const cv::Mat& image, const Quadrilateral& opening) {
   known_ = false;
-  if (picture.type() != CV_8UC3 || picture.empty() || !geometry::isConvex(opening)) return;
+  if (image.type() != CV_8UC3 || image.empty() || !geometry::isConvex(opening)) return;
   const auto sides = geometry::sideLengths(opening);
   aspect_ = (sides[0] + sides[2]) / (sides[1] + sides[3]);
-  measure(picture, opening, nullptr, aspect_, kFine);
+  measure(image, opening, nullptr, aspect_, kFine);
   double frame = 0.0;
   for (int i = 0; i < 4; ++i) {
     if (!coloursFrom(sides_[i], 0.0, reference_colours_[i])) return;

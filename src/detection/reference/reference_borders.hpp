@@ -24,7 +24,7 @@ class ReferenceBorders {
   static constexpr double kSureWorth = 0.3;  ///< of borders that are surely the reference's
 
   /// \param opening inner border in the image, canonical order. Without colour nothing is learned.
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
   void forget() { known_ = false; }
   bool known() const { return known_; }
 

@@ -48,9 +48,9 @@ ReferenceJudge::ReferenceJudge(const DetectorParams& params)
     : appearance_(params.appearance), min_correlation_(params.min_correlation) {}
 
 // A grey image as one of three equal channels.
-const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& picture) {
-  if (picture.channels() != 1) return picture;
-  cv::cvtColor(picture, channels_, cv::COLOR_GRAY2BGR);
+const cv::Mat& ReferenceJudge::inChannels(const cv::Mat& image) {
+  if (image.channels() != 1) return image;
+  cv::cvtColor(image, channels_, cv::COLOR_GRAY2BGR);
   return channels_;
 }
 
@@ -60,16 +60,15 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   ring_.forget();
   shape_.forget();
   frame_colours_.reset();
-  is_grey_ = reference_ && isGrey(reference_->picture());
+  is_grey_ = reference_ && isGrey(reference_->image());
   if (!reference_ || !reference_->openingIsKnown() ||
-      !ReferenceAppearance::faultOf(reference_->picture(), reference_->opening()).empty())
+      !ReferenceAppearance::faultOf(reference_->image(), reference_->opening()).empty())
     return;
-  borders_.learn(inChannels(reference_->picture()), reference_->opening());
-  shape_.learn(reference_->picture(), reference_->opening());
-  ring_.learn(inChannels(reference_->picture()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
+  borders_.learn(inChannels(reference_->image()), reference_->opening());
+  shape_.learn(reference_->image(), reference_->opening());
+  ring_.learn(inChannels(reference_->image()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
               shape_.aspect());
-  if (!frameless())
-    frame_colours_ = ringColours(reference_->picture(), reference_->opening(), RingWidths(), 1);
+  if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), RingWidths(), 1);
 }
 
 // The rival with its borders where the reference's are, if they are found near it.

@@ -71,7 +71,7 @@ class ReferenceJudge {
 
  private:
   bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const;
-  const cv::Mat& inChannels(const cv::Mat& picture);
+  const cv::Mat& inChannels(const cv::Mat& image);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                         const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);
   void locateAll(const cv::Mat& image, const geometry::PinholeCamera* camera,

@@ -107,22 +107,22 @@ std::optional<double> RectangleMisfit::of(const Quadrilateral& ideal,
   return std::sqrt(square);
 }
 
-void ReferenceShape::learn(const cv::Mat& picture, const Quadrilateral& opening) {
+void ReferenceShape::learn(const cv::Mat& image, const Quadrilateral& opening) {
   forget();
-  if (picture.empty() || !geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
+  if (image.empty() || !geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
   double least = 1e9, most = 0.0;
   for (double focal : kFocalLengths) {
     PinholeCamera camera;
-    camera.fx = camera.fy = focal * std::max(picture.cols, picture.rows);
-    camera.cx = 0.5 * (picture.cols - 1), camera.cy = 0.5 * (picture.rows - 1);
+    camera.fx = camera.fy = focal * std::max(image.cols, image.rows);
+    camera.cx = 0.5 * (image.cols - 1), camera.cy = 0.5 * (image.rows - 1);
     const double aspect = aspectOf(opening, camera);
     least = std::min(least, aspect), most = std::max(most, aspect);
   }
   if (!(most > 0.0 && most < 1e9)) return;
   aspect_ = Measured{std::sqrt(least * most), 0.5 * (most - least)};
   seen_aspect_ = geometry::aspectRatio(opening);
-  if (picture.type() != CV_8UC3) return;
-  measureSides(picture, opening, nullptr, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
+  if (image.type() != CV_8UC3) return;
+  measureSides(image, opening, nullptr, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
   const double thinnest = std::max(kThinnest, kBlur_px / meanSide(opening));
   for (int i = 0; i < 4; ++i) {
     double end = 0.0;

@@ -38,8 +38,8 @@ struct Measured {
 /// relative to the opening's sides. Both stay the same from anywhere; size does not show in one image.
 class ReferenceShape {
  public:
-  /// \param picture by an unknown camera: its focal length is taken to be half to twice the longer side
-  void learn(const cv::Mat& picture, const geometry::Quadrilateral& opening);
+  /// \param image by an unknown camera: its focal length is taken to be half to twice the longer side
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
   void forget() { aspect_.reset(), frame_.fill(0.0); }
 
   /// Of the opening; nothing before `learn`.

@@ -30,9 +30,9 @@ void AppearanceMonitor::learnBorders() {
   borders_.reset();
   if (!reference_) return;
   borders_ = std::make_unique<ReferenceBorders>();
-  borders_->learn(reference_->picture(), reference_->opening());
+  borders_->learn(reference_->image(), reference_->opening());
   ring_.forget();
-  if (reference_->openingIsKnown()) ring_.learn(reference_->picture(), reference_->opening());
+  if (reference_->openingIsKnown()) ring_.learn(reference_->image(), reference_->opening());
 }
 
 void AppearanceMonitor::start() {

@@ -11,7 +11,7 @@
 
 namespace window_ingress::detection {
 
-bool isPicture(const cv::Mat& image) {
+bool isUsableImage(const cv::Mat& image) {
   return !image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3);
 }
 

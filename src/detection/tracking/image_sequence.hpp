@@ -11,7 +11,7 @@
 namespace window_ingress::detection {
 
 /// An image that can be looked at: CV_8UC1 or CV_8UC3, not empty.
-bool isPicture(const cv::Mat& image);
+bool isUsableImage(const cv::Mat& image);
 
 /// The same size, focal lengths, principal point and distortion.
 bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b);

@@ -126,7 +126,7 @@ bool WindowTracker::Impl::surrounds(const TrackInput& input) {
       !geometry::contains(motion.quad(), {0.5 * images.size().width, 0.5 * images.size().height}))
     return false;
   refuse(RejectReason::kBorder,
-         std::to_string(quad_tracker.inView()) + " of 4 sides in view: the picture lies within the window");
+         std::to_string(quad_tracker.inView()) + " of 4 sides in view: the image lies within the window");
   own_trace.candidates.clear();
   return true;
 }
@@ -188,7 +188,7 @@ void WindowTracker::reset() {
 }
 
 std::optional<WindowObservation> WindowTracker::update(const TrackInput& input) {
-  if (!isPicture(input.image) || !std::isfinite(input.stamp_sec)) {
+  if (!isUsableImage(input.image) || !std::isfinite(input.stamp_sec)) {
     impl_->forget();
     impl_->has_own_trace = false;
     impl_->windows.clear();

@@ -47,7 +47,7 @@ std::string missingSides(const WindowObservation& window, int sides) {
   for (int i = 0; i < 4; ++i)
     if (!window.edges[i].visible) unseen += std::string(unseen.empty() ? "" : ", ") + kNames[i];
   return std::to_string(window.visibleSides()) + " of 4 sides in view: " + unseen + " not seen; " +
-         (sides == 4 ? "no pose from this picture alone" : "too few even with a prior pose");
+         (sides == 4 ? "no pose from this image alone" : "too few even with a prior pose");
 }
 
 std::string faultOfPartial(const WindowObservation& window, const geometry::PinholeCamera& camera,

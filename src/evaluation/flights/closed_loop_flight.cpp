@@ -17,9 +17,9 @@ using simulation::Outcome;
 
 constexpr double kTrackPeriod_sec = 0.1;
 
-simulation::World::Pictures picturesFor(const FlightParams& params) {
-  using Pictures = simulation::World::Pictures;
-  return params.without_pictures ? Pictures::kNone : Pictures::kDrawn;
+simulation::World::Images imagesFor(const FlightParams& params) {
+  using Images = simulation::World::Images;
+  return params.without_images ? Images::kNone : Images::kDrawn;
 }
 
 const simulation::Scenario& flyable(const simulation::Scenario& scenario) {
@@ -38,12 +38,12 @@ class Flight {
   Flight(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
          const std::vector<FlightObserver*>& observers)
       : observers_(observers),
-        world_(flyable(scenario), seed, picturesFor(params)),
+        world_(flyable(scenario), seed, imagesFor(params)),
         params_(withFactsOf(world_, params)),
         perception_(params_),
         sight_(params_.sight, seed),
         navigator_(params_.navigator) {
-    if (!params_.without_pictures) showReference();
+    if (!params_.without_images) showReference();
     timing_.lap(Stage::kOther);
   }
 
@@ -124,19 +124,19 @@ void Flight::calibrate(const simulation::CalibrationSample& sample) {
 
 void Flight::showReference() {
   geometry::Quadrilateral corners;
-  const cv::Mat picture = world_.referencePicture(&corners);
-  perception_.setReference(detection::ReferenceAppearance(picture, corners));
+  const cv::Mat image = world_.referenceImage(&corners);
+  perception_.setReference(detection::ReferenceAppearance(image, corners));
 }
 
 std::optional<detection::WindowObservation> Flight::detect(const simulation::CameraFrame& frame) {
-  if (params_.without_pictures && !world_.scenario().window.present) return std::nullopt;
-  if (params_.without_pictures)
+  if (params_.without_images && !world_.scenario().window.present) return std::nullopt;
+  if (params_.without_images)
     return sight_.look(world_.camera(), frame.T_camera_window, world_.opening(), frame.stamp_sec);
   return perception_.detect(frame.image, frame.stamp_sec, world_.T_base_camera());
 }
 
 void Flight::look(const simulation::CameraFrame& frame) {
-  timing_.lap(Stage::kPicture);
+  timing_.lap(Stage::kImage);
   timing_.countFrame();
   const auto window = detect(frame);
   timing_.lap(Stage::kDetector);
@@ -152,7 +152,7 @@ void Flight::look(const simulation::CameraFrame& frame) {
 // What the operator of a scenario does: points at the target as soon as it is in the memory of all windows,
 // and then starts the mission.
 void Flight::chooseTarget() {
-  if (!world_.scenario().target_chosen || was_chosen_ || params_.without_pictures) return;
+  if (!world_.scenario().target_chosen || was_chosen_ || params_.without_images) return;
   const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
   was_chosen_ = tracker().selectWindowNear(T_odom_window.translation()).success;
 }

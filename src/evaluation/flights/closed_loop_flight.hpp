@@ -27,8 +27,8 @@ struct FlightParams {
   estimation::FilterParams filter;
   estimation::TargetEstimatorParams tracker;
   navigation::NavigatorParams navigator;
-  double step_rate_hz = 30.0;     ///< of the navigator [1/s]
-  bool without_pictures = false;  ///< the window is seen by `ProjectedDetector`, no image is drawn
+  double step_rate_hz = 30.0;   ///< of the navigator [1/s]
+  bool without_images = false;  ///< the window is seen by `ProjectedDetector`, no image is drawn
   SightParams sight;
   std::set<std::string>
       said;  ///< by the operator: "vehicle/half_width_m"; what is not is taken from the world

@@ -66,7 +66,7 @@ FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
   params.tracker.needed = configuration::neededBy(params.navigator.vehicle);
   tellOpening(world, params.said, params.pose);
   tellPolicy(world.scenario(), params.said, params.navigator.commit);
-  if (params.without_pictures)  // nothing shows it
+  if (params.without_images)  // nothing shows it
     params.navigator.commit.glass = "excluded", params.navigator.commit.unverified_opening = "allow";
   return params;
 }

@@ -42,7 +42,7 @@ std::string toJson(const FlightSummary& summary, const CampaignFacts& facts) {
   json["seeds"] = facts.seeds;
   json["draws"] = facts.draws;
   json["params"] = facts.params;
-  json["pictures"] = facts.with_pictures;
+  json["pictures"] = facts.with_images;
   json["version"] = facts.version;
   json["flights"] = summary.flights;
   json["passed"] = summary.passed;

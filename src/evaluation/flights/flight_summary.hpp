@@ -58,7 +58,7 @@ struct CampaignFacts {
   std::string seeds;     ///< e.g. "1..20"
   std::string draws;     ///< file; empty: none was given
   std::string params;    ///< file laid over the defaults; empty: none was given
-  bool with_pictures = true;
+  bool with_images = true;
   std::string version;  ///< of the package
 };
 

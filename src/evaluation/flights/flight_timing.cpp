@@ -7,7 +7,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr Stage kAll[kStages] = {Stage::kPhysics, Stage::kPicture,   Stage::kDetector,
+constexpr Stage kAll[kStages] = {Stage::kPhysics, Stage::kImage,     Stage::kDetector,
                                  Stage::kPose,    Stage::kNavigator, Stage::kOther};
 
 }  // namespace
@@ -16,8 +16,8 @@ const char* toString(Stage stage) {
   switch (stage) {
     case Stage::kPhysics:
       return "physics, sensors, referee";
-    case Stage::kPicture:
-      return "picture: rendering, camera";
+    case Stage::kImage:
+      return "image: rendering, camera";
     case Stage::kDetector:
       return "detector";
     case Stage::kPose:

@@ -7,7 +7,7 @@
 namespace window_ingress::evaluation {
 
 /// Where the time of a closed-loop flight goes.
-enum class Stage { kPhysics, kPicture, kDetector, kPose, kNavigator, kOther };
+enum class Stage { kPhysics, kImage, kDetector, kPose, kNavigator, kOther };
 constexpr std::size_t kStages = 6;
 
 const char* toString(Stage stage);

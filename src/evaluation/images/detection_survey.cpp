@@ -62,20 +62,20 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   return worstCornerDistance(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit : border;
 }
 
-SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detection::WindowObservation>& window,
+SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::WindowObservation>& window,
                       const detection::DetectionTrace& trace, double milliseconds) {
   SurveyResult result;
-  result.scenario = picture.scenario;
-  result.seed = picture.seed;
-  result.distance_m = picture.distance_m;
-  result.off_axis_rad = picture.off_axis_rad;
+  result.scenario = sample.scenario;
+  result.seed = sample.seed;
+  result.distance_m = sample.distance_m;
+  result.off_axis_rad = sample.off_axis_rad;
   result.milliseconds = milliseconds;
-  result.truth = picture.truth;
+  result.truth = sample.truth;
   result.window = window;
   const bool whole = window && window->whole();
-  result.verdict = judge(whole ? std::make_optional(window->corners) : std::nullopt, picture.truth);
+  result.verdict = judge(whole ? std::make_optional(window->corners) : std::nullopt, sample.truth);
   result.outcome = window ? "found" : std::string(detection::toString(trace.outcome)) + ": " + trace.detail;
-  if (picture.truth.present) result.true_candidate = fateOfTrueCandidate(trace, picture.truth.inner);
+  if (sample.truth.present) result.true_candidate = fateOfTrueCandidate(trace, sample.truth.inner);
   return result;
 }
 

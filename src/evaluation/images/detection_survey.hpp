@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluation/images/corner_statistics.hpp"
-#include "evaluation/images/survey_picture.hpp"
+#include "evaluation/images/survey_image.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 
@@ -45,7 +45,7 @@ struct SurveyResult {
   std::string true_candidate;
 };
 
-SurveyResult resultOf(const SurveyPicture& picture, const std::optional<detection::WindowObservation>& window,
+SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::WindowObservation>& window,
                       const detection::DetectionTrace& trace, double milliseconds);
 
 std::string surveyColumns();

@@ -24,10 +24,10 @@ struct Move {
 
 class Search {
  public:
-  Search(const std::vector<LabelledPicture>& pictures, const detection::DetectorParams& start,
+  Search(const std::vector<LabelledImage>& samples, const detection::DetectorParams& start,
          const detection::ReferenceAppearance* reference, const TuningOptions& options,
          const TuningProgress& progress)
-      : pictures_(pictures),
+      : samples_(samples),
         reference_(reference),
         progress_(progress),
         params_(start),
@@ -40,9 +40,9 @@ class Search {
       fields_.push_back(*field);
       start_.push_back(field->get());
     }
-    if (pictures.empty() || fields_.empty())
+    if (samples.empty() || fields_.empty())
       throw std::invalid_argument("nothing to tune, or nothing to tune on");
-    best_ = countDetections(pictures_, params_, reference_);
+    best_ = countDetections(samples_, params_, reference_);
   }
 
   detection::DetectorParams run() {
@@ -86,7 +86,7 @@ class Search {
   }
 
   bool reaches(double merit) {
-    const DetectionCounts counts = countDetections(pictures_, params_, reference_);
+    const DetectionCounts counts = countDetections(samples_, params_, reference_);
     if (counts.merit() < merit) return false;
     best_ = counts;
     return true;
@@ -102,7 +102,7 @@ class Search {
     }
   }
 
-  const std::vector<LabelledPicture>& pictures_;
+  const std::vector<LabelledImage>& samples_;
   const detection::ReferenceAppearance* reference_;
   const TuningProgress& progress_;
   detection::DetectorParams params_;
@@ -134,11 +134,11 @@ std::vector<std::string> usualFields() {
           "min_correlation"};
 }
 
-detection::DetectorParams tuneDetector(const std::vector<LabelledPicture>& pictures,
+detection::DetectorParams tuneDetector(const std::vector<LabelledImage>& samples,
                                        const detection::DetectorParams& start,
                                        const detection::ReferenceAppearance* reference,
                                        const TuningOptions& options, const TuningProgress& progress) {
-  return Search(pictures, start, reference, options, progress).run();
+  return Search(samples, start, reference, options, progress).run();
 }
 
 }  // namespace window_ingress::evaluation

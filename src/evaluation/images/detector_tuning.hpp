@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/images/labelled_picture.hpp"
+#include "evaluation/images/labelled_image.hpp"
 
 namespace window_ingress::evaluation {
 
@@ -27,7 +27,7 @@ using TuningProgress = std::function<void(int done, const DetectionCounts& best)
 /// worked is repeated. In the end each change without which the merit is the same is taken back.
 /// Deterministic. \return settings at least as good on these images as `start` \throws
 /// std::invalid_argument for a name that is none, or an empty list of images
-detection::DetectorParams tuneDetector(const std::vector<LabelledPicture>& pictures,
+detection::DetectorParams tuneDetector(const std::vector<LabelledImage>& samples,
                                        const detection::DetectorParams& start,
                                        const detection::ReferenceAppearance* reference,
                                        const TuningOptions& options, const TuningProgress& progress);

@@ -33,13 +33,13 @@ cv::Mat coloured(const cv::Mat& image) {
 /// Collects the images, all in one size, each with a line of text below.
 class Sheet {
  public:
-  Sheet(const cv::Size& picture, int cell_width_px)
-      : cell_(cell_width_px, cell_width_px * picture.height / picture.width) {}
+  Sheet(const cv::Size& image, int cell_width_px)
+      : cell_(cell_width_px, cell_width_px * image.height / image.width) {}
 
-  void add(const cv::Mat& picture, const std::string& caption) {
+  void add(const cv::Mat& image, const std::string& caption) {
     cv::Mat cell;
-    cv::resize(coloured(picture), cell, cell_, 0, 0,
-               picture.cols > cell_.width ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(coloured(image), cell, cell_, 0, 0,
+               image.cols > cell_.width ? cv::INTER_AREA : cv::INTER_LINEAR);
     const int text_px = std::max(16, cell_.width / 22);
     cv::copyMakeBorder(cell, cell, kGap_px, text_px, kGap_px, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
     cv::putText(cell, caption, {kGap_px + 2, cell.rows - text_px / 4}, cv::FONT_HERSHEY_SIMPLEX,
@@ -66,17 +66,17 @@ class Sheet {
 /// The level the search runs on, enlarged so that lines of one pixel remain fine.
 struct Canvas {
   explicit Canvas(const cv::Mat& level) {
-    cv::resize(coloured(level), picture, cv::Size(), kZoom, kZoom, cv::INTER_LINEAR);
-    picture.convertTo(picture, -1, kBackground);
+    cv::resize(coloured(level), image, cv::Size(), kZoom, kZoom, cv::INTER_LINEAR);
+    image.convertTo(image, -1, kBackground);
   }
   static Eigen::Vector2d at(const Eigen::Vector2d& p) {
     return kZoom * p + Eigen::Vector2d::Constant(0.5 * (kZoom - 1));
   }
   void draw(const Quadrilateral& q, const cv::Scalar& colour) {
-    detection::drawQuad(picture, {at(q[0]), at(q[1]), at(q[2]), at(q[3])}, colour, 1);
+    detection::drawQuad(image, {at(q[0]), at(q[1]), at(q[2]), at(q[3])}, colour, 1);
   }
   static constexpr double kZoom = 2.0;
-  cv::Mat picture;
+  cv::Mat image;
 };
 
 cv::Scalar colourOfDirection(const Eigen::Vector2d& normal) {
@@ -95,27 +95,27 @@ cv::Mat drawSegments(const cv::Mat& level, const Segments& segments) {
     return cv::Point2d(zoomed.x(), zoomed.y());
   };
   for (const auto& segment : segments)
-    cv::line(canvas.picture, pixel(segment.a), pixel(segment.b), colourOfDirection(segment.normal), 2,
+    cv::line(canvas.image, pixel(segment.a), pixel(segment.b), colourOfDirection(segment.normal), 2,
              cv::LINE_AA);
-  return canvas.picture;
+  return canvas.image;
 }
 
 cv::Mat drawOutlines(const cv::Mat& closed, const std::vector<detection::Candidate>& candidates) {
   Canvas canvas(closed);
   std::vector<std::vector<cv::Point>> outlines;
   cv::Mat large;
-  cv::resize(closed, large, canvas.picture.size(), 0, 0, cv::INTER_NEAREST);
+  cv::resize(closed, large, canvas.image.size(), 0, 0, cv::INTER_NEAREST);
   cv::findContours(large, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
-  canvas.picture.setTo(cv::Scalar::all(0));
-  cv::drawContours(canvas.picture, outlines, -1, cv::Scalar::all(120));
+  canvas.image.setTo(cv::Scalar::all(0));
+  cv::drawContours(canvas.image, outlines, -1, cv::Scalar::all(120));
   for (const auto& candidate : candidates) canvas.draw(candidate.quad, kOrange);
-  return canvas.picture;
+  return canvas.image;
 }
 
 cv::Mat drawQuads(const cv::Mat& level, const std::vector<detection::Candidate>& candidates) {
   Canvas canvas(level);
   for (const auto& candidate : candidates) canvas.draw(candidate.quad, kBlue);
-  return canvas.picture;
+  return canvas.image;
 }
 
 cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace, int& count) {
@@ -203,7 +203,7 @@ cv::Mat stageSheet(const cv::Mat& image, const DetectorParams& params,
                    const detection::ReferenceAppearance* reference, int cell_width_px) {
   if ((image.type() != CV_8UC1 && image.type() != CV_8UC3) || std::min(image.cols, image.rows) < kSmallest_px)
     throw std::invalid_argument(
-        "a picture of 8 bits, grey or colour, with at least 64 pixels each way is needed");
+        "an image of 8 bits, grey or colour, with at least 64 pixels each way is needed");
   if (cell_width_px < kSmallest_px) throw std::invalid_argument("the pictures of the sheet are too small");
   Sheet sheet(image.size(), cell_width_px);
   addStages(image, params, sheet);

@@ -41,24 +41,24 @@ Quadrilateral quadrilateral(const double* numbers) {
   return quad;
 }
 
-std::string rowOf(const SurveyPicture& picture) {
-  const SurveyTruth& truth = picture.truth;
+std::string rowOf(const SurveyImage& sample) {
+  const SurveyTruth& truth = sample.truth;
   const Quadrilateral none = quadrilateral(std::array<double, 8>{}.data());
-  return picture.scenario + "," + std::to_string(picture.seed) + "," + formatted("%.6f", picture.distance_m) +
-         "," + formatted("%.6f", picture.off_axis_rad) + "," + (truth.present ? "1," : "0,") +
-         (truth.outer ? "1," : "0,") + (picture.reference.empty() ? "0" : "1") + numbers(truth.inner) +
+  return sample.scenario + "," + std::to_string(sample.seed) + "," + formatted("%.6f", sample.distance_m) +
+         "," + formatted("%.6f", sample.off_axis_rad) + "," + (truth.present ? "1," : "0,") +
+         (truth.outer ? "1," : "0,") + (sample.reference.empty() ? "0" : "1") + numbers(truth.inner) +
          numbers(truth.outer.value_or(none)) + numbers(truth.far) +
-         numbers(picture.reference.empty() ? none : picture.reference_corners);
+         numbers(sample.reference.empty() ? none : sample.reference_corners);
 }
 
-void writePicture(const std::string& file, const cv::Mat& image) {
+void writeImage(const std::string& file, const cv::Mat& image) {
   if (!cv::imwrite(file, image, {cv::IMWRITE_PNG_COMPRESSION, 1}))
     throw std::runtime_error(file + ": cannot be written; is the disk full?");
 }
 
-cv::Mat readPicture(const std::string& file) {
+cv::Mat readImage(const std::string& file) {
   const cv::Mat image = cv::imread(file, cv::IMREAD_COLOR);
-  if (image.empty()) throw TableError(file + ": cannot be read as a picture");
+  if (image.empty()) throw TableError(file + ": cannot be read as an image");
   return image;
 }
 
@@ -93,16 +93,16 @@ std::vector<double> numbersOf(std::istringstream& row) {
 
 }  // namespace
 
-std::string SurveyFolder::fileOf(const SurveyPicture& picture, const std::string& ending) const {
-  return (std::filesystem::path(folder_) / (picture.scenario + "_" + std::to_string(picture.seed) + ending))
+std::string SurveyFolder::fileOf(const SurveyImage& sample, const std::string& ending) const {
+  return (std::filesystem::path(folder_) / (sample.scenario + "_" + std::to_string(sample.seed) + ending))
       .string();
 }
 
-void SurveyFolder::add(const SurveyPicture& picture) {
-  writePicture(fileOf(picture, ".png"), picture.image);
-  if (!picture.reference.empty()) writePicture(fileOf(picture, ".reference.png"), picture.reference);
-  writeText(fileOf(picture, ".camera.yaml"), calibrationOf(picture.camera));
-  rows_.push_back(rowOf(picture));
+void SurveyFolder::add(const SurveyImage& sample) {
+  writeImage(fileOf(sample, ".png"), sample.image);
+  if (!sample.reference.empty()) writeImage(fileOf(sample, ".reference.png"), sample.reference);
+  writeText(fileOf(sample, ".camera.yaml"), calibrationOf(sample.camera));
+  rows_.push_back(rowOf(sample));
 }
 
 void SurveyFolder::writeTable() const {
@@ -125,24 +125,24 @@ void SurveyFolder::readTable() {
   }
 }
 
-SurveyPicture SurveyFolder::load(int i) const {
+SurveyImage SurveyFolder::load(int i) const {
   std::istringstream row(rows_.at(i));
-  SurveyPicture picture;
-  std::getline(row, picture.scenario, ',');
+  SurveyImage sample;
+  std::getline(row, sample.scenario, ',');
   const std::vector<double> values = numbersOf(row);
   const double* quads = values.data() + kNumbersBeforeCorners + 2;
-  picture.seed = static_cast<std::uint32_t>(values[0]);
-  picture.distance_m = values[1];
-  picture.off_axis_rad = values[2];
-  picture.truth.present = values[3] != 0.0;
-  picture.truth.inner = quadrilateral(quads);
-  if (values[4] != 0.0) picture.truth.outer = quadrilateral(quads + 8);
-  picture.truth.far = quadrilateral(quads + 16);
-  picture.reference_corners = quadrilateral(quads + 24);
-  picture.image = readPicture(fileOf(picture, ".png"));
-  if (values[5] != 0.0) picture.reference = readPicture(fileOf(picture, ".reference.png"));
-  picture.camera = parameters::readCalibrationFile(fileOf(picture, ".camera.yaml"));
-  return picture;
+  sample.seed = static_cast<std::uint32_t>(values[0]);
+  sample.distance_m = values[1];
+  sample.off_axis_rad = values[2];
+  sample.truth.present = values[3] != 0.0;
+  sample.truth.inner = quadrilateral(quads);
+  if (values[4] != 0.0) sample.truth.outer = quadrilateral(quads + 8);
+  sample.truth.far = quadrilateral(quads + 16);
+  sample.reference_corners = quadrilateral(quads + 24);
+  sample.image = readImage(fileOf(sample, ".png"));
+  if (values[5] != 0.0) sample.reference = readImage(fileOf(sample, ".reference.png"));
+  sample.camera = parameters::readCalibrationFile(fileOf(sample, ".camera.yaml"));
+  return sample;
 }
 
 }  // namespace window_ingress::evaluation

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/images/survey_picture.hpp"
+#include "evaluation/images/survey_image.hpp"
 
 namespace window_ingress::evaluation {
 
@@ -14,15 +14,15 @@ class SurveyFolder {
  public:
   explicit SurveyFolder(const std::string& folder) : folder_(folder) {}
 
-  void add(const SurveyPicture& picture);  ///< \throws std::runtime_error if a file cannot be written
-  void writeTable() const;                 ///< truth.csv; \throws std::runtime_error
+  void add(const SurveyImage& sample);  ///< \throws std::runtime_error if a file cannot be written
+  void writeTable() const;              ///< truth.csv; \throws std::runtime_error
 
   void readTable();  ///< \throws TableError
   int size() const { return static_cast<int>(rows_.size()); }
-  SurveyPicture load(int i) const;  ///< \throws TableError
+  SurveyImage load(int i) const;  ///< \throws TableError
 
  private:
-  std::string fileOf(const SurveyPicture& picture, const std::string& ending) const;
+  std::string fileOf(const SurveyImage& sample, const std::string& ending) const;
 
   std::string folder_;
   std::vector<std::string> rows_;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluation/images/corner_statistics.hpp"
-#include "evaluation/images/survey_picture.hpp"
+#include "evaluation/images/survey_image.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 

@@ -21,7 +21,7 @@ OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed
   result.is_open = scenario.window.isOpen();
   result.kind = !scenario.window.present ? "poster" : result.is_open ? "room" : scenario.window.closed_by;
   result.room_m = result.is_open ? scenario.house.room_depth_m : 0.0;
-  int pictures = 0;
+  int images = 0;
   for (int i = 0; i < approach.steps(); ++i) {
     const cv::Mat image =
         sensor.expose(approach.motion(i), static_cast<std::uint64_t>(i), approach.timeSec(i));
@@ -33,10 +33,10 @@ OpennessResult flyDrawn(const simulation::Scenario& scenario, std::uint32_t seed
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
     result.milliseconds += ms;
     result.slowest_ms = std::max(result.slowest_ms, ms);
-    ++pictures;
+    ++images;
     approach.note(i, result, each);
   }
-  result.milliseconds /= std::max(1, pictures);
+  result.milliseconds /= std::max(1, images);
   return result;
 }
 

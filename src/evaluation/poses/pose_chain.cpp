@@ -79,22 +79,22 @@ std::optional<Eigen::Isometry3d> poseOfTrueCorners(const Quadrilateral& corners,
   return result.estimate->best.T_camera_window;
 }
 
-PoseChainResult chainResult(const SurveyPicture& picture,
+PoseChainResult chainResult(const SurveyImage& sample,
                             const std::optional<detection::WindowObservation>& window,
                             const estimation::WindowPoseEstimator& estimator,
                             const std::optional<estimation::GravityPrior>& gravity) {
   PoseChainResult out;
-  out.scenario = picture.scenario;
-  out.seed = picture.seed;
-  out.distance_m = picture.distance_m;
+  out.scenario = sample.scenario;
+  out.seed = sample.seed;
+  out.distance_m = sample.distance_m;
   const geometry::OpeningSize opening{estimator.params().opening_width_m,
                                       estimator.params().opening_height_m};
-  const auto truth = poseOfTrueCorners(picture.truth.inner, picture.camera, opening);
+  const auto truth = poseOfTrueCorners(sample.truth.inner, sample.camera, opening);
   if (!truth || !window || !window->whole()) return out;
-  out.detected = judge(window->corners, picture.truth) == SurveyVerdict::kHit;
+  out.detected = judge(window->corners, sample.truth) == SurveyVerdict::kHit;
   if (!out.detected) return out;
-  out.borders = borderErrors(*window, picture.truth.inner, picture.camera);
-  const auto result = estimator.estimate(*window, picture.camera, gravity);
+  out.borders = borderErrors(*window, sample.truth.inner, sample.camera);
+  const auto result = estimator.estimate(*window, sample.camera, gravity);
   out.estimate = result.estimate;
   out.reject = result.detail;
   if (out.estimate) compare(*truth, gravity ? gravity->up_camera : Eigen::Vector3d(0.0, -1.0, 0.0), out);

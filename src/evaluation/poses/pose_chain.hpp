@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/images/survey_picture.hpp"
+#include "evaluation/images/survey_image.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/opening.hpp"
@@ -45,7 +45,7 @@ struct PoseChainResult {
 };
 
 /// \param gravity nothing: the attitude is not given
-PoseChainResult chainResult(const SurveyPicture& picture,
+PoseChainResult chainResult(const SurveyImage& sample,
                             const std::optional<detection::WindowObservation>& window,
                             const estimation::WindowPoseEstimator& estimator,
                             const std::optional<estimation::GravityPrior>& gravity);

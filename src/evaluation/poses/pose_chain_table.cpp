@@ -119,7 +119,7 @@ std::string poseChainRow(const PoseChainResult& r) {
 
 std::string poseChainTable(const std::vector<PoseChainResult>& results) {
   std::string text =
-      "| m | pictures | right border | poses | yaw RMSE deg | median deg | lateral RMSE cm | distance RMSE % "
+      "| m | images | right border | poses | yaw RMSE deg | median deg | lateral RMSE cm | distance RMSE % "
       "| yaw error^2 / variance | sign trusted | wrong | trusted and wrong |\n|" +
       std::string("---|---|---|---|---|---|---|---|---|---|---|---|\n");
   const auto groups = byDistance(results);

@@ -48,7 +48,7 @@ void KeyframeEvidence::mark(const DepthParts& parts, OpeningCells& cells) {
     cells.see(entry.track.last().place, log_odds);
     cells.seeBeside(entry.beside, log_odds);
   }
-  cells.endPicture();
+  cells.endImage();
 }
 
 StretchSays KeyframeEvidence::says(const DepthParts& parts, double distance_m,

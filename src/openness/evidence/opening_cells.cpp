@@ -43,12 +43,12 @@ void OpeningCells::seeBeside(std::uint64_t cells, double log_odds) {
   }
 }
 
-void OpeningCells::endPicture() {
+void OpeningCells::endImage() {
   for (std::size_t i = 0; i < deep_.size(); ++i) {
     if (shallow_[i] > 0)
-      pictures_[i] = 0;
+      images_[i] = 0;
     else
-      pictures_[i] += deep_[i] >= kMinBeside;
+      images_[i] += deep_[i] >= kMinBeside;
   }
   deep_.fill(0), shallow_.fill(0);
 }
@@ -61,7 +61,7 @@ bool OpeningCells::isClosed(int x, int y) const {
 bool OpeningCells::isOpen(int x, int y) const {
   if (x < 0 || y < 0 || x >= kSide || y >= kSide || isClosed(x, y)) return false;
   const auto i = static_cast<std::size_t>(y * kSide + x);
-  return open_[i] >= kSure || pictures_[i] >= kMinPictures;
+  return open_[i] >= kSure || images_[i] >= kMinImages;
 }
 
 // Nothing was seen through it, but on both sides of it.

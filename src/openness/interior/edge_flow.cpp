@@ -62,14 +62,14 @@ double dot(const Patch& a, const Patch& b) {
 
 }  // namespace
 
-void SlopePicture::take(const cv::Mat& grey) {
+void SlopeImage::take(const cv::Mat& grey) {
   cv::Sobel(grey, dx_, CV_32F, 1, 0, 3, 1.0 / 8.0);
   cv::Sobel(grey, dy_, CV_32F, 0, 1, 3, 1.0 / 8.0);
   cv::magnitude(dx_, dy_, slope_);
 }
 
-std::vector<EdgePoint> SlopePicture::steepest(const cv::Rect& inner, int spacing_px, double least_slope,
-                                              std::size_t most) const {
+std::vector<EdgePoint> SlopeImage::steepest(const cv::Rect& inner, int spacing_px, double least_slope,
+                                            std::size_t most) const {
   std::vector<std::pair<float, EdgePoint>> found;
   for (int top = inner.y; top < inner.y + inner.height; top += spacing_px)
     for (int left = inner.x; left < inner.x + inner.width; left += spacing_px) {

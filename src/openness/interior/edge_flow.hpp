@@ -12,7 +12,7 @@ struct EdgePoint {
 };
 
 /// Slopes of a grey image.
-class SlopePicture {
+class SlopeImage {
  public:
   void take(const cv::Mat& grey);                                                   ///< CV_8UC1
   int steeperThan(double slope) const { return cv::countNonZero(slope_ > slope); }  ///< pixels

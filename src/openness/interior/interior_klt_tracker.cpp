@@ -106,9 +106,9 @@ struct InteriorKltTracker::Impl {
   cv::Size size;            // of the straightened images
   double key_scale = 1.0;   // pixels of the key image a straightened one
   cv::Matx33d to_straight;  // of the image looked at last
-  cv::Matx33d key_to_picture;
+  cv::Matx33d key_to_image;
   cv::Mat cut, straight, key_straight, mask, contrast;
-  SlopePicture slopes;
+  SlopeImage slopes;
   SmoothRegions regions;
   std::vector<cv::Mat> key_pyramid, pyramid;
   std::vector<Track> points;
@@ -142,7 +142,7 @@ void InteriorKltTracker::Impl::takeKey(const cv::Mat& image, const WindowObserva
   straighten(image, window.corners);
   if (image.channels() == 3) chooseChannel(image, window.corners);
   cv::buildOpticalFlowPyramid(straight, key_pyramid, {kReach, kReach}, kLevels, true);
-  key_to_picture = to_straight.inv();
+  key_to_image = to_straight.inv();
   key_scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.key_stamp_sec = window.stamp_sec;
   tracks.key_corners = window.corners;
@@ -245,21 +245,21 @@ void InteriorKltTracker::Impl::flowCorners() {
 }
 
 void InteriorKltTracker::Impl::report(WindowObservation& window) {
-  const cv::Matx33d to_picture = to_straight.inv();
+  const cv::Matx33d to_image = to_straight.inv();
   const double scale = std::sqrt(geometry::signedArea(window.corners) / size.area());
   tracks.sigma_px = kFlowSigma_px * std::max(scale, 1.0);
   tracks.points.clear();
   regions.find(straight, params.surface_slope);
   for (const Track& track : points) {
-    const Eigen::Vector2d now = mapped(to_picture, track.now);
+    const Eigen::Vector2d now = mapped(to_image, track.now);
     Eigen::Vector2d normal = Eigen::Vector2d::Zero();
     if (track.isEdge()) {
       const cv::Point2f beside = track.now + cv::Point2f(-track.normal.y, track.normal.x);
-      const Eigen::Vector2d along = (mapped(to_picture, beside) - now).normalized();
+      const Eigen::Vector2d along = (mapped(to_image, beside) - now).normalized();
       normal = {along.y(), -along.x()};
     }
     tracks.points.push_back(
-        {track.id, mapped(key_to_picture, track.key), now, normal, regions.cellsBeside(track.now)});
+        {track.id, mapped(key_to_image, track.key), now, normal, regions.cellsBeside(track.now)});
   }
   window.interior = tracks;
 }

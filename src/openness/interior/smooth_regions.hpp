@@ -25,7 +25,7 @@ class SmoothRegions {
  private:
   void fillCells(int regions);
 
-  SlopePicture slopes_;
+  SlopeImage slopes_;
   cv::Mat small_, is_smooth_, labels_;  // half as wide and high
   std::vector<double> brightness_;      // by label: sum of it, and pixels, and those in one cell
   std::vector<int> pixels_, within_;

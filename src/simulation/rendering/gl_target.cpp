@@ -25,7 +25,7 @@ void GlTarget::create(const GlFunctions& gl, const cv::Size& size, int samples) 
     attach(gl, GL_COLOR_ATTACHMENT0, GL_RGBA8, 0);
     complete = complete && gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   }
-  if (!complete) throw std::runtime_error("OpenGL refuses a framebuffer of the picture's size");
+  if (!complete) throw std::runtime_error("OpenGL refuses a framebuffer of the image's size");
 }
 
 void GlTarget::read(const GlFunctions& gl, const cv::Range& rows, cv::Mat& rgba) const {

@@ -171,10 +171,10 @@ struct Renderer::Impl {
 
   // Part of the image in which the room can be seen: seen from outside, what the opening spans.
   cv::Rect roomIn(const Eigen::Isometry3d& T_camera_window) const {
-    const cv::Rect picture(0, 0, camera.width, camera.height);
-    if (other_clear_holes) return picture;
+    const cv::Rect image(0, 0, camera.width, camera.height);
+    if (other_clear_holes) return image;
     const bool outside = T_camera_window.inverse().translation().x() < -kNear_m;
-    if (!outside) return picture;
+    if (!outside) return image;
     if (!opening) return {};
     std::vector<Eigen::Vector3d> corners;
     for (const auto& corner : geometry::openingCorners(*opening))

@@ -11,7 +11,7 @@
 
 namespace window_ingress::simulation {
 
-/// The panes of a scene, all in one plane. What they mirror is a picture of its own, taken by the mirrored
+/// The panes of a scene, all in one plane. What they mirror is an image of its own, taken by the mirrored
 /// camera with the same pixels; laid over what is seen through them, each point by its own part.
 class Glazing {
  public:

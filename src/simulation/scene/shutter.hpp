@@ -12,10 +12,10 @@ namespace window_ingress::simulation {
 /// stamp. Few images are drawn when little moves, one when nothing does.
 class Shutter {
  public:
-  static constexpr int kMaxPictures = 6;
+  static constexpr int kMaxImages = 6;
   static constexpr int kMaxBands = 24;
-  static constexpr double kShiftOfPicture_px = 1.5;  ///< between two images
-  static constexpr double kShiftOfBand_px = 0.75;    ///< between two bands of rows
+  static constexpr double kShiftOfImage_px = 1.5;  ///< between two images
+  static constexpr double kShiftOfBand_px = 0.75;  ///< between two bands of rows
 
   Shutter(double exposure_sec, double readout_sec) : exposure_sec_(exposure_sec), readout_sec_(readout_sec) {}
 

@@ -26,7 +26,7 @@ cv::Mat siding(cv::RNG& random);
 cv::Mat louvres(cv::RNG& random);
 cv::Mat wood(cv::RNG& random);
 
-// --- images (texture_pictures.cpp)
+// --- pictures (texture_pictures.cpp)
 cv::Mat glass(cv::RNG& random);
 cv::Mat curtain(cv::RNG& random);
 cv::Mat poster(cv::RNG& random);

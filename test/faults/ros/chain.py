@@ -17,7 +17,7 @@ CAMERA_HZ, VEHICLE_HZ, AUTOPILOT_HZ = 15.0, 50.0, 10.0
 MOVES_WITHIN_S = 20.0
 
 
-def picture(shift_px=0):
+def window_image(shift_px=0):
     """A plaster wall with an orange frame round a dark opening."""
     image = numpy.full((support.HEIGHT, support.WIDTH, 3), 190, numpy.uint8)
     frame = support.FRAME_PX
@@ -28,10 +28,10 @@ def picture(shift_px=0):
 
 
 class Camera:
-    """Pictures that are never the same twice."""
+    """Images that are never the same twice."""
 
     def __init__(self, pixels=None):
-        self.pixels = picture() if pixels is None else pixels
+        self.pixels = window_image() if pixels is None else pixels
 
     def __call__(self, stamp):
         self.pixels[0, 0, 0] = (int(self.pixels[0, 0, 0]) + 1) % 256

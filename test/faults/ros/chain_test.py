@@ -43,8 +43,8 @@ Row.__new__.__defaults__ = (None,)  # counts: words that the images' status hold
 
 
 def sized(width, height, encoding="bgr8"):
-    """Other pictures of that size, of the same scene."""
-    pixels = cv2.resize(chain.picture(), (width, height))
+    """Other images of that size, of the same scene."""
+    pixels = cv2.resize(chain.window_image(), (width, height))
     if encoding == "mono8":
         pixels = cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY)
 
@@ -93,7 +93,7 @@ def rows():
         Row("M15", "another encoding", "image_raw", sized(640, 480, "mono8"), [], GOES_ON),
         Row("M19", "each stamp twice", "image_raw", Repeating(image), [], FLIES_ON, "is not after the one before"),
         Row("M19", "every other frame from before", "image_raw", Shuffled(image, 0.2), [], FLIES_ON, "is not after the one before"),
-        Row("M22", "no frame_id in pictures", "image_raw", changed(image, header__frame_id=""),
+        Row("M22", "no frame_id in images", "image_raw", changed(image, header__frame_id=""),
             [(MOUNTING, "base_link <- ''")], STOPS),
         Row("M22", "frame_id of another camera", "image_raw", changed(image, header__frame_id="rear"),
             [(INFO, "'rear'", "'camera_optical_frame'")], STOPS),
@@ -101,10 +101,10 @@ def rows():
             [(INFO, "stamps of image and camera_info", "apart")], FLIES_ON),
         Row("M31", "info of another size", "camera_info", changed(support.camera_info, width=320, height=240),
             [(INFO, "sizes differ"), ("homography_pose: calibration", "sizes differ", "320x240")], STOPS),
-        Row("M38", "pictures stamped 4294967295", "image_raw", changed(image, header__stamp=far), [(IMAGE, "ahead of the clock")], STOPS),
+        Row("M38", "images stamped 4294967295", "image_raw", changed(image, header__stamp=far), [(IMAGE, "ahead of the clock")], STOPS),
         Row("M38", "odometry stamped 4294967295", "odom", changed(odom, header__stamp=far), [(ODOM, "ahead of the clock")], STOPS),
         Row("M38", "odometry stamped 1", "odom", changed(odom, header__stamp=past), [(ODOM, "days old")], STOPS),
-        Row("M40", "pictures 5 s ahead", "image_raw", changed(image, header__stamp=later(5.0)), [(IMAGE, "ahead of the clock")], STOPS),
+        Row("M40", "images 5 s ahead", "image_raw", changed(image, header__stamp=later(5.0)), [(IMAGE, "ahead of the clock")], STOPS),
         Row("M40", "odometry 5 s old", "odom", changed(odom, header__stamp=later(-5.0)), [(ODOM, "s old, limit")], STOPS),
         Row("M58", "imu without attitude", "imu", changed(support.imu, orientation_covariance=[-1.0] + 8 * [0.0]),
             [("homography_pose: imu", "refused")], None),
@@ -175,7 +175,7 @@ class ChainTest(unittest.TestCase):
 
     def test_M21_jpeg_that_is_cut_off_or_damaged(self):
         said, windows = "compressed_detector: image", support.Listener("seen_in_jpeg", WindowDetection)
-        goods = itertools.cycle([bytes(cv2.imencode(".jpg", chain.picture() + numpy.uint8(i))[1]) for i in range(4)])
+        goods = itertools.cycle([bytes(cv2.imencode(".jpg", chain.window_image() + numpy.uint8(i))[1]) for i in range(4)])
         good = next(goods)
 
         def sound(stamp):
@@ -183,7 +183,7 @@ class ChainTest(unittest.TestCase):
         jpeg = support.Stream("jpeg/compressed", CompressedImage, sound, 10.0)
         try:
             for what, data in (("truncated", good[:len(good) // 20]), ("damaged", good[:2] + bytes(len(good) - 2)), ("empty", b""),
-                               ("no picture", b"not a picture at all"), ("png header alone", PNG_OF_4E9_PIXELS)):
+                               ("no image", b"not an image at all"), ("png header alone", PNG_OF_4E9_PIXELS)):
                 windows.wait(lambda w: w.detected, f"a window before {what}", begin=time.monotonic())
                 begin = time.monotonic()
                 jpeg.make = lambda stamp, data=data: compressed(data, stamp)
@@ -193,10 +193,10 @@ class ChainTest(unittest.TestCase):
         finally:
             jpeg.stop()
             windows.stop()
-        note("M21", "truncated, damaged, empty, foreign and oversized: each refused by name, the next good picture seen")
+        note("M21", "truncated, damaged, empty, foreign and oversized: each refused by name, the next good image seen")
 
-    def test_M34_rectified_pictures_whose_distortion_would_be_undone_again(self):
-        pictures = support.Stream("image_rect", Image, chain.Camera(), 10.0)
+    def test_M34_rectified_images_whose_distortion_would_be_undone_again(self):
+        images = support.Stream("image_rect", Image, chain.Camera(), 10.0)
         infos = support.Stream("rect_info", CameraInfo, changed(support.camera_info, D=[-0.2, 0.05, 0.0, 0.0, 0.0]), 10.0)
         begin = time.monotonic()
         try:
@@ -204,7 +204,7 @@ class ChainTest(unittest.TestCase):
             infos.make = support.camera_info
             self.assert_none(self.monitor.recovers(time.monotonic(), "rect_detector: calibration"), "no lens, no hint")
         finally:
-            pictures.stop()
+            images.stop()
             infos.stop()
         note("M34", "image_is_rectified is honoured; a topic named rect with a distortion is said")
 

@@ -3,7 +3,7 @@
 O1 no process dies  O2 numbers finite, stamps never back  O3 speed, yaw rate and acceleration within limits
 O4 zero setpoint 0.3 s after pose or odometry is lost, stream never below 10 Hz while enabled
 O5 the cause is named in the diagnostics within 2 s  O6 recovers when the fault ends, moves only after its dwell or ~start
-O7 memory flat, threads and time of a picture bounded  O8 the same input twice gives the same output
+O7 memory flat, threads and time of an image bounded  O8 the same input twice gives the same output
 O9 no motion when not enabled, or when the autopilot does not follow
 
 Times are seconds of the steady clock of the machine, those named stamp are of the messages.
@@ -25,7 +25,7 @@ Death = collections.namedtuple("Death", "at node")
 BadNumber = collections.namedtuple("BadNumber", "at topic path value")
 StampBack = collections.namedtuple("StampBack", "at topic before after")
 Process = collections.namedtuple("Process", "at node megabytes threads")
-Frame = collections.namedtuple("Frame", "at milliseconds age_sec")  # of a picture: time spent, stamp to arrival
+Frame = collections.namedtuple("Frame", "at milliseconds age_sec")  # of an image: time spent, stamp to arrival
 Restart = collections.namedtuple("Restart", "at")                   # of the clock: stamps may go back here
 Blind = collections.namedtuple("Blind", "at seconds")                 # the observer itself was not awake, until `at`
 Violation = collections.namedtuple("Violation", "oracle at text")
@@ -236,7 +236,7 @@ def O7(recording, limits):
         if threads > limits.threads_growth:
             found.append(Violation("O7", last[-1].at, f"{node} has {threads:.0f} threads more"))
     slow = [f for f in recording.frames if f.milliseconds > limits.frame_ms]
-    return found + [Violation("O7", f.at, f"a picture took {f.milliseconds:.0f} ms") for f in slow[:1]]
+    return found + [Violation("O7", f.at, f"an image took {f.milliseconds:.0f} ms") for f in slow[:1]]
 
 
 def median(values):

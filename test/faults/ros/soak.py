@@ -68,7 +68,7 @@ class Soak:
         self.inject = service("world/inject", Inject)
         self.outcomes, self.faults = collections.Counter(), collections.Counter()
         self.violations, self.memory, self.touched_disobeying = [], [], 0
-        self.flights = self.pictures = 0
+        self.flights = self.images = 0
         self.least_hz, self.worst_frame_ms, self.blind_s = float("inf"), 0.0, 0.0
         self.began = time.monotonic()
 
@@ -139,7 +139,7 @@ class Soak:
         found = self.monitor.violations(began, end) + oracles.contact(end, outcome, done)
         self.violations += found
         part = self.monitor.part(began, end)
-        self.pictures += len(part.frames)
+        self.images += len(part.frames)
         self.worst_frame_ms = max([self.worst_frame_ms] + [f.milliseconds for f in part.frames])
         self.note_rate(part, began, end)
         self.memory.append({p.node: (p.megabytes, p.threads) for p in part.processes})
@@ -172,7 +172,7 @@ class Soak:
         return {"minutes": round((time.monotonic() - self.began) / 60.0, 1), "flights": self.flights, "outcomes": dict(self.outcomes),
                 "faults": sum(self.faults.values()), "kinds_of_fault": len(self.faults),
                 "touched_while_the_vehicle_did_not_obey": self.touched_disobeying, "messages": self.monitor.messages,
-                "pictures": self.pictures, "longest_picture_ms": round(self.worst_frame_ms, 1),
+                "pictures": self.images, "longest_picture_ms": round(self.worst_frame_ms, 1),
                 "least_setpoints_a_second": self.least_hz, "observer_kept_from_looking_s": round(self.blind_s, 1),
                 "memory_mb": {node: [round(first[node][0], 1), round(last[0], 1)] for node, last in self.memory[-1].items() if node in first},
                 "threads": {node: [first[node][1], last[1]] for node, last in self.memory[-1].items() if node in first},

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Too many and too large pictures for too little time; see dev/starve."""
+"""Too many and too large images for too little time; see dev/starve."""
 import argparse
 import os
 import pathlib
@@ -22,14 +22,14 @@ import support
 
 SCALE, RATE_HZ = 6, 200.0
 LAUNCH = str(fault_paths.HERE / "starve.launch.xml")
-GROWTH_MB = 120.0   # a picture has 11 MB, and a few are held at a time
+GROWTH_MB = 120.0   # an image has 11 MB, and a few are held at a time
 SETTLE_S = 5.0
 
 
-def pictures():
+def images():
     """This process publishes as fast as it is allowed to, and says how many."""
     rospy.init_node("flood")
-    pixels = cv2.resize(cv2.cvtColor(chain.picture(), cv2.COLOR_BGR2GRAY), None, fx=SCALE, fy=SCALE)
+    pixels = cv2.resize(cv2.cvtColor(chain.window_image(), cv2.COLOR_BGR2GRAY), None, fx=SCALE, fy=SCALE)
     message = Image(height=pixels.shape[0], width=pixels.shape[1], encoding="mono8", step=pixels.shape[1], data=pixels.tobytes())
     message.header.frame_id = "camera_optical_frame"
     publisher = rospy.Publisher("image_raw", Image, queue_size=1)
@@ -77,7 +77,7 @@ class Starvation:
         try:
             self.chain.fly(self.monitor)  # streams, be it on its way or in IDLE
         except AssertionError:
-            print("not on its way: the pictures come too late to fly by", file=sys.stderr)
+            print("not on its way: the images come too late to fly by", file=sys.stderr)
         support.wait_for(lambda: time.monotonic() > self.begun + SETTLE_S, "everything to have settled")
         begin = time.monotonic()
         support.wait_for(lambda: time.monotonic() > begin + self.options.seconds, "the time of the measurement", self.options.seconds + 10)
@@ -103,11 +103,11 @@ class Starvation:
         problems = [f"{v.oracle}: {v.text}" for v in self.monitor.violations(begin, end)]
         late = ages[int(0.95 * len(ages))] if ages else float("inf")
         if late > 0.15 + 3.0 * period:
-            problems.append(f"pictures are queued: seen {late:.2f} s after their stamp, {period:.2f} s apart")
+            problems.append(f"images are queued: seen {late:.2f} s after their stamp, {period:.2f} s apart")
         if not least >= self.monitor.limits.least_rate_hz:
             problems.append(f"{least:.0f} setpoints a second")
         detector = memory["/window_detector"]
-        seen = (f"{len(part.frames) / (end - begin):.1f} pictures a second seen, median {1e3 * ages[len(ages) // 2]:.0f} ms and 95 % within "
+        seen = (f"{len(part.frames) / (end - begin):.1f} images a second seen, median {1e3 * ages[len(ages) // 2]:.0f} ms and 95 % within "
                 f"{1e3 * late:.0f} ms after their stamp; at least {least:.0f} setpoints a second; detector {detector[0]:.0f} to "
                 f"{max(detector):.0f} MB; blind {sum(b.seconds for b in part.blind):.1f} s") if ages else "nothing seen"
         return problems, seen
@@ -115,7 +115,7 @@ class Starvation:
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--flood", action="store_true", help="the pictures alone, on all cores")
+    parser.add_argument("--flood", action="store_true", help="the images alone, on all cores")
     parser.add_argument("--seconds", type=float, default=20.0)
     options = parser.parse_args()
     file = os.path.join(os.environ.get("ROS_HOME", "/tmp"), "sent")
@@ -126,7 +126,7 @@ def main():
             problems, seen = starvation.judge(*span)
             running = time.monotonic() - starvation.begun
         sent = int(pathlib.Path(file).read_text()) / running if os.path.exists(file) else float("nan")
-    seen = f"about {sent:.0f} pictures of 11 MB a second sent, {seen}"
+    seen = f"about {sent:.0f} images of 11 MB a second sent, {seen}"
     print(seen)
     for problem in problems[:10]:
         print(f"NOT MET: {problem}")
@@ -136,6 +136,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--publish"]:
-        pictures()
+        images()
     else:
         sys.exit(main())

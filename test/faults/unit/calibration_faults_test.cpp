@@ -156,11 +156,11 @@ TEST(Fault, M30_Fisheye) {
   const geometry::OpeningSize opening{1.2, 1.0};
   const Eigen::Isometry3d T =
       geometry::makePose(geometry::R_optical_flu() * geometry::yawRotation(0.3), {0.3, -0.2, 1.6});
-  test::WindowPicture picture;
-  picture.opening = *geometry::projectOpening(camera.value->withoutDistortion(), T, opening);
-  picture.frame_px = 14.0;
+  test::DrawnWindow drawn;
+  drawn.opening = *geometry::projectOpening(camera.value->withoutDistortion(), T, opening);
+  drawn.frame_px = 14.0;
   const auto window = detection::WindowDetector(detection::DetectorParams())
-                          .detect(bent(picture.draw(), *camera.value), 1.0, &*camera.value);
+                          .detect(bent(drawn.draw(), *camera.value), 1.0, &*camera.value);
   ASSERT_TRUE(window);
   EXPECT_LT(test::worstCorner(window->corners, *geometry::projectOpening(*camera.value, T, opening)), 1.0);
   const auto pose =
@@ -169,7 +169,7 @@ TEST(Fault, M30_Fisheye) {
   const double error_m = (pose.estimate->best.T_camera_window.translation() - T.translation()).norm();
   EXPECT_LT(error_m, 0.03);
   EXPECT_NEAR(pose.estimate->yaw_rad, 0.3, 0.03);
-  RecordProperty("seen", "as OpenCV projects; window found in a fisheye picture, pose off by " +
+  RecordProperty("seen", "as OpenCV projects; window found in a fisheye image, pose off by " +
                              std::to_string(static_cast<int>(1000.0 * error_m)) + " mm");
 }
 

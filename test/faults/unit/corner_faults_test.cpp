@@ -74,10 +74,9 @@ TEST(Fault, M47_TooFewOrTooManyCorners) {
     EXPECT_FALSE(result.estimate) << visible;
     EXPECT_NE(result.detail.find("0 of 4 sides in view"), std::string::npos) << result.detail;
   }
-  const cv::Mat picture(100, 100, CV_8UC3, cv::Scalar::all(90));
+  const cv::Mat image(100, 100, CV_8UC3, cv::Scalar::all(90));
   for (const std::size_t numbers : {2u, 6u, 7u, 9u, 10u, 2000000u})
-    EXPECT_THROW(adapters::makeReference(picture, std::vector<double>(numbers, 1.0), {}),
-                 std::invalid_argument)
+    EXPECT_THROW(adapters::makeReference(image, std::vector<double>(numbers, 1.0), {}), std::invalid_argument)
         << numbers;
   auto flooded = adapters::toMsg(seen({a, b, c, d}));
   flooded.header.stamp = ros::Time(1.0);

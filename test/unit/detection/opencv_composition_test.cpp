@@ -9,11 +9,11 @@ namespace window_ingress::test::opencv_composition_test {
 constexpr double kFramePx = 14.0, kLinePx = 8.0;  ///< it may take the outer border, and its lines are thick
 constexpr double kLeft = 220, kTop = 140, kRight = 420, kBottom = 320;
 
-WindowPicture plainWindow() {
-  WindowPicture picture;
-  picture.opening = rectangle(kLeft, kTop, kRight, kBottom);
-  picture.frame_px = kFramePx;
-  return picture;
+DrawnWindow plainWindow() {
+  DrawnWindow drawn;
+  drawn.opening = rectangle(kLeft, kTop, kRight, kBottom);
+  drawn.frame_px = kFramePx;
+  return drawn;
 }
 
 std::vector<cv::Point> opening() {
@@ -38,23 +38,23 @@ TEST(OpencvComposition, WithoutHoughItFindsAPlainWindow) {
 
 // Redrawn segments leave gaps at corners in most images: the weakness of the literal chain. In a clean one
 // it works.
-TEST(OpencvComposition, WithHoughItFindsAWindowInAPictureWithoutNoise) {
+TEST(OpencvComposition, WithHoughItFindsAWindowInAnImageWithoutNoise) {
   OpencvComposition composition;
-  WindowPicture clean = plainWindow();
+  DrawnWindow clean = plainWindow();
   clean.noise = 0.0;
   const auto found = composition.run(clean.draw());
   ASSERT_EQ(found.size(), 4u);
   EXPECT_TRUE(isNear(found, kFramePx + kLinePx)) << cv::boundingRect(found);
 }
 
-TEST(OpencvComposition, FindsNothingInAFlatPicture) {
+TEST(OpencvComposition, FindsNothingInAFlatImage) {
   OpencvComposition composition;
   EXPECT_TRUE(composition.run(cv::Mat(480, 640, CV_8UC3, cv::Scalar(150, 165, 175))).empty());
 }
 
 TEST(OpencvComposition, ReferenceOfAnotherColourRejects) {
   OpencvComposition composition(false);
-  WindowPicture other = plainWindow();
+  DrawnWindow other = plainWindow();
   other.hole = cv::Scalar(40, 200, 40), other.frame = cv::Scalar(220, 40, 200);
   composition.setReference(other.draw(), opening());
   EXPECT_TRUE(composition.run(plainWindow().draw()).empty());

@@ -10,7 +10,7 @@ namespace window_ingress::detection::reference_drawing_test {
 
 const geometry::Quadrilateral kOpening{Eigen::Vector2d(200, 150), {400, 150}, {400, 350}, {200, 350}};
 
-cv::Mat picture(int type) { return {480, 640, type, cv::Scalar::all(100)}; }
+cv::Mat image(int type) { return {480, 640, type, cv::Scalar::all(100)}; }
 
 TEST(RingLine, LiesSoFarOutsideASquare) {
   const auto line = ringLine(kOpening, 0.1);
@@ -32,7 +32,7 @@ TEST(RingLine, HoldsTheOpeningWhateverItsShape) {
 
 // Tints where the colours are compared, the rest faded, and the border in green.
 TEST(DrawReference, ShowsBorderAndBands) {
-  const ReferenceAppearance reference(picture(CV_8UC3), kOpening);
+  const ReferenceAppearance reference(image(CV_8UC3), kOpening);
   const cv::Mat drawn = drawReference(reference);  // bands: 10 px and 28 px wide
   ASSERT_EQ(drawn.type(), CV_8UC3);
   EXPECT_EQ(drawn.cols, 640);
@@ -45,10 +45,10 @@ TEST(DrawReference, ShowsBorderAndBands) {
   EXPECT_GT(at(300, 150)[1], 150) << "the border in green";
 }
 
-TEST(DrawReference, GreyPicturesAndGuessesAreDrawn) {
-  EXPECT_EQ(drawReference(ReferenceAppearance(picture(CV_8UC1), kOpening)).type(), CV_8UC3);
-  const cv::Mat known = drawReference(ReferenceAppearance(picture(CV_8UC3), kOpening));
-  const cv::Mat guessed = drawReference(ReferenceAppearance::guessed(picture(CV_8UC3), kOpening));
+TEST(DrawReference, GreyImagesAndGuessesAreDrawn) {
+  EXPECT_EQ(drawReference(ReferenceAppearance(image(CV_8UC1), kOpening)).type(), CV_8UC3);
+  const cv::Mat known = drawReference(ReferenceAppearance(image(CV_8UC3), kOpening));
+  const cv::Mat guessed = drawReference(ReferenceAppearance::guessed(image(CV_8UC3), kOpening));
   EXPECT_GT(cv::norm(known, guessed), 0.0) << "the text says so";
 }
 

@@ -21,8 +21,8 @@ double sum(const StageTimer& watch) {
   return total;
 }
 
-cv::Mat picture() {
-  test::WindowPicture window;
+cv::Mat windowImage() {
+  test::DrawnWindow window;
   window.opening = {Eigen::Vector2d(220, 150), {420, 150}, {420, 310}, {220, 310}};
   window.frame_px = 14.0;
   return window.draw();
@@ -48,7 +48,7 @@ TEST(StageTimer, AddsUpAndBeginsAnew) {
 }
 
 TEST(StageTimer, AWindowIsSearchedThenFollowed) {
-  const cv::Mat image = picture();
+  const cv::Mat image = windowImage();
   StageTimer watch(slowClock);
   WindowTracker tracker{DetectorParams{}};
   tracker.setWatch(&watch);
@@ -70,7 +70,7 @@ TEST(StageTimer, NobodyNeedsOne) {
   WindowDetector detector{DetectorParams{}};
   EXPECT_EQ(detector.watch(), nullptr);
   done(detector.watch(), Stage::kEdges);
-  EXPECT_TRUE(detector.detect(picture(), 0.0));
+  EXPECT_TRUE(detector.detect(windowImage(), 0.0));
 }
 
 }  // namespace window_ingress::detection::stage_timer_test

@@ -55,7 +55,7 @@ TEST(TextOverlay, TheBoxLeavesFreeWhatIsToBeFree) {
   EXPECT_FALSE(isBlank(crowded(cv::Rect(0, 0, 100, 50)))) << "in its usual corner";
 }
 
-TEST(TextOverlay, TextGrowsWithThePicture) {
+TEST(TextOverlay, TextGrowsWithTheImage) {
   cv::Mat small(240, 320, CV_8UC3), large(1200, 1600, CV_8UC3);
   EXPECT_GT(TextOverlay(large).lineHeight(), 2 * TextOverlay(small).lineHeight());
 }

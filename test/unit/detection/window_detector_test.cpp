@@ -15,7 +15,7 @@
 
 namespace window_ingress::detection::window_detector_test {
 
-using test::WindowPicture;
+using test::DrawnWindow;
 
 geometry::Quadrilateral randomOpening(std::mt19937& random, int width, int height) {
   const auto uniform = [&](double low, double high) {
@@ -34,15 +34,15 @@ class Views {
   explicit Views(unsigned seed) : random_(seed) {}
 
   cv::Mat draw(const Eigen::Isometry3d& T_camera_window, geometry::Quadrilateral* opening) {
-    WindowPicture picture;
-    picture.seed = static_cast<unsigned>(random_());
-    picture.frame_px = 0.0;
-    cv::Mat image(picture.height, picture.width, CV_8UC3, picture.wall);
-    test::fillQuad(image, *geometry::projectOpening(camera_, T_camera_window, {1.34, 1.14}), picture.frame);
+    DrawnWindow drawn;
+    drawn.seed = static_cast<unsigned>(random_());
+    drawn.frame_px = 0.0;
+    cv::Mat image(drawn.height, drawn.width, CV_8UC3, drawn.wall);
+    test::fillQuad(image, *geometry::projectOpening(camera_, T_camera_window, {1.34, 1.14}), drawn.frame);
     *opening = *geometry::canonical(*geometry::projectOpening(camera_, T_camera_window, {1.2, 1.0}));
-    test::fillQuad(image, *opening, picture.hole);
+    test::fillQuad(image, *opening, drawn.hole);
     cv::GaussianBlur(image, image, cv::Size(), 0.6);
-    test::addNoise(image, 2.0, picture.seed);
+    test::addNoise(image, 2.0, drawn.seed);
     return image;
   }
 
@@ -84,9 +84,9 @@ int viewsFound(WindowDetector& detector, unsigned seed, int trials) {
 TEST(WindowDetector, WithAReferenceFindsTheInnerBorderFromManyDistancesAndAngles) {
   Views views(1);
   geometry::Quadrilateral opening;
-  const cv::Mat picture = views.draw(Views::square(1.9), &opening);
+  const cv::Mat drawn = views.draw(Views::square(1.9), &opening);
   WindowDetector detector{DetectorParams()};
-  detector.setReference(ReferenceAppearance(picture, opening));
+  detector.setReference(ReferenceAppearance(drawn, opening));
   EXPECT_GE(viewsFound(detector, 11, 60), 57);
 }
 
@@ -102,18 +102,18 @@ TEST(WindowDetector, FindsBareHoles) {
   int found = 0;
   const int trials = 60;
   for (int i = 0; i < trials; ++i) {
-    WindowPicture picture;
-    picture.opening = randomOpening(random, picture.width, picture.height);
-    picture.type = i % 2 ? CV_8UC1 : CV_8UC3;
-    picture.seed = i;
-    const auto window = detector.detect(picture.draw(), 0.1 * i);
-    if (window && test::worstCorner(window->corners, picture.opening) < 0.2) ++found;
+    DrawnWindow drawn;
+    drawn.opening = randomOpening(random, drawn.width, drawn.height);
+    drawn.type = i % 2 ? CV_8UC1 : CV_8UC3;
+    drawn.seed = i;
+    const auto window = detector.detect(drawn.draw(), 0.1 * i);
+    if (window && test::worstCorner(window->corners, drawn.opening) < 0.2) ++found;
   }
   EXPECT_GE(found, 57) << "of " << trials;
 }
 
 TEST(WindowDetector, TheReferenceChoosesAmongWindowsOfDifferentPaint) {
-  WindowPicture target, reference;
+  DrawnWindow target, reference;
   reference.width = 320, reference.height = 240;
   reference.opening = test::rectangle(90, 70, 230, 170);
   reference.frame_px = 9;
@@ -138,16 +138,16 @@ TEST(WindowDetector, TheReferenceChoosesAmongWindowsOfDifferentPaint) {
 
 TEST(WindowDetector, AWindowCutByTheBorderIsNone) {
   WindowDetector detector{DetectorParams()};
-  WindowPicture picture;
-  picture.opening = test::rectangle(-40, 120, 180, 330);
-  EXPECT_FALSE(detector.detect(picture.draw(), 0.0));
+  DrawnWindow drawn;
+  drawn.opening = test::rectangle(-40, 120, 180, 330);
+  EXPECT_FALSE(detector.detect(drawn.draw(), 0.0));
 }
 
 TEST(WindowDetector, TheSameImageGivesTheSameAnswerWhateverCameBefore) {
-  WindowPicture picture;
-  picture.opening = test::turned(test::rectangle(220, 140, 420, 320), 0.1, 0.1);
-  picture.frame_px = 10;
-  const cv::Mat image = picture.draw();
+  DrawnWindow drawn;
+  drawn.opening = test::turned(test::rectangle(220, 140, 420, 320), 0.1, 0.1);
+  drawn.frame_px = 10;
+  const cv::Mat image = drawn.draw();
   WindowDetector fresh{DetectorParams()}, used{DetectorParams()};
   used.detect(cv::Mat(1080, 1920, CV_8UC1, cv::Scalar(40)), 0.0);
   used.detect(cv::Mat(100, 90, CV_8UC3, cv::Scalar(40, 80, 90)), 0.1);
@@ -169,19 +169,19 @@ TEST(WindowDetector, ImagesThatCannotHoldAWindowGiveAReason) {
   }
 }
 
-TEST(WindowDetector, AGreyPictureHasOneAnswerWhateverItsEncoding) {
-  test::WindowPicture picture;
-  picture.opening = test::rectangle(240, 160, 400, 290), picture.frame_px = 10;
+TEST(WindowDetector, AGreyImageHasOneAnswerWhateverItsEncoding) {
+  test::DrawnWindow drawn;
+  drawn.opening = test::rectangle(240, 160, 400, 290), drawn.frame_px = 10;
   cv::Mat grey, as_colours;
-  cv::cvtColor(picture.draw(), grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(drawn.draw(), grey, cv::COLOR_BGR2GRAY);
   cv::cvtColor(grey, as_colours, cv::COLOR_GRAY2BGR);
   for (const cv::Mat& reference : {grey, as_colours}) {
     WindowDetector detector{DetectorParams()};
-    detector.setReference(ReferenceAppearance(reference, picture.opening));
+    detector.setReference(ReferenceAppearance(reference, drawn.opening));
     for (const cv::Mat& image : {grey, as_colours}) {
       const auto window = detector.detect(image, 0.0);
       ASSERT_TRUE(window) << detector.trace().detail;
-      EXPECT_LT(test::worstCorner(window->corners, picture.opening), 1.0);
+      EXPECT_LT(test::worstCorner(window->corners, drawn.opening), 1.0);
     }
   }
 }

@@ -11,7 +11,7 @@ namespace window_ingress::estimation::chain_on_renderings_test {
 
 using namespace fixtures;
 
-simulation::CameraFrame pictureOf(simulation::World& world) {
+simulation::CameraFrame frameOf(simulation::World& world) {
   for (;;) {
     world.advance();
     if (auto frame = world.takeFrame()) return *frame;
@@ -25,27 +25,27 @@ double largestCornerError(const detection::WindowObservation& window, const geom
 }
 
 struct Errors {
-  int pictures = 0, found = 0;
+  int images = 0, found = 0;
   double yaw_rad = 0, lateral_m = 0, yaw_squares = 0;
 };
 
-Errors measure(double distance_m, int pictures) {
+Errors measure(double distance_m, int images) {
   detection::WindowDetector detector{detection::DetectorParams{}};
   const WindowPoseEstimator estimator{PoseParams{}};
   std::mt19937 random(static_cast<unsigned>(10 * distance_m));
   std::uniform_real_distribution<double> off_axis(-0.6, 0.6), heading(-0.1, 0.1);
   Errors errors;
-  for (; errors.pictures < pictures; ++errors.pictures) {
+  for (; errors.images < images; ++errors.images) {
     simulation::Scenario scenario;
     scenario.start.distance_m = distance_m;
     scenario.start.off_axis_rad = off_axis(random);
     scenario.start.heading_rad = heading(random);
-    scenario.house.texture_seed = 1 + errors.pictures;
-    simulation::World world(scenario, 1 + errors.pictures);
+    scenario.house.texture_seed = 1 + errors.images;
+    simulation::World world(scenario, 1 + errors.images);
     geometry::Quadrilateral opening;
-    const cv::Mat reference = world.referencePicture(&opening);
+    const cv::Mat reference = world.referenceImage(&opening);
     detector.setReference(detection::ReferenceAppearance(reference, opening));
-    const auto frame = pictureOf(world);
+    const auto frame = frameOf(world);
     const Eigen::Isometry3d& truth = frame.T_camera_window;
     const auto window = detector.detect(frame.image, frame.stamp_sec, &world.camera());
     const auto corners = geometry::projectOpening(world.camera(), truth, world.opening());
@@ -67,12 +67,12 @@ Errors measure(double distance_m, int pictures) {
   return errors;
 }
 
-TEST(ChainOnRenderings, OnePictureGivesTheYawToAFractionOfADegree) {
+TEST(ChainOnRenderings, OneImageGivesTheYawToAFractionOfADegree) {
   const double limits[][3] = {{2.0, 0.05, 0.003}, {4.0, 0.2, 0.015}};  // distance [m], yaw [deg], lateral [m]
   for (const auto& [distance, yaw_deg, lateral] : limits) {
     const auto errors = measure(distance, 8);
     std::printf("%g m: found %d of %d, yaw %.3f deg, lateral %.4f m, normalised yaw error squared %.2f\n",
-                distance, errors.found, errors.pictures, errors.yaw_rad / kDegree, errors.lateral_m,
+                distance, errors.found, errors.images, errors.yaw_rad / kDegree, errors.lateral_m,
                 errors.yaw_squares);
     EXPECT_GE(errors.found, 6);
     EXPECT_LT(errors.yaw_rad, yaw_deg * kDegree);

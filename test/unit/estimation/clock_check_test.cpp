@@ -31,7 +31,7 @@ struct Turning {
   }
 };
 
-TEST(ClockCheck, FindsHowLatePicturesAreStamped) {
+TEST(ClockCheck, FindsHowLateImagesAreStamped) {
   for (const double late_sec : {-0.2, -0.1, 0.0, 0.05, 0.1, 0.2}) {
     Turning turning;
     turning.late_sec = late_sec;

@@ -131,7 +131,7 @@ TEST(PartialView, WithoutEnoughBordersThereIsAReason) {
   hints.prior = PosePrior{T, spreadOf(0.1, 0.05).cwiseAbs2().asDiagonal()};
   const auto alone = estimator.estimate(partly(whole, kNoBottom), camera());
   EXPECT_EQ(alone.reject, PoseReject::kBadCorners);
-  EXPECT_EQ(alone.detail, "3 of 4 sides in view: bottom not seen; no pose from this picture alone");
+  EXPECT_EQ(alone.detail, "3 of 4 sides in view: bottom not seen; no pose from this image alone");
   const auto one = estimator.estimate(partly(whole, kOne), camera(), hints);
   EXPECT_EQ(one.reject, PoseReject::kBadCorners);
   EXPECT_NE(one.detail.find("too few even with a prior pose"), std::string::npos) << one.detail;

@@ -17,8 +17,8 @@ struct Watch {
 
   Watch() { row.noise_px = 0.05; }
 
-  void look(int pictures, int target) {
-    for (int n = 0; n < pictures; ++n, now_sec += 0.05) {
+  void look(int images, int target) {
+    for (int n = 0; n < images; ++n, now_sec += 0.05) {
       const Eigen::Vector3d position(-6.0, -3.8 + 0.6 * std::sin(2.0 * now_sec), 1.5);
       tracker.addOdometry(now_sec, geometry::makePose(Eigen::Matrix3d::Identity(), position));
       const auto view = row.from(position);

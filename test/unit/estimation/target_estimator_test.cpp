@@ -154,7 +154,7 @@ TEST(TargetEstimator, ForbidsTheApproachWhileTheSizeIsOpenOrTooSmall) {
   EXPECT_NE(narrow.target(3.0)->approach_forbidden.find("NO_GO"), std::string::npos);
 }
 
-TEST(TargetEstimator, ForbidsTheApproachWhileManyPicturesContradictTheWindow) {
+TEST(TargetEstimator, ForbidsTheApproachWhileManyImagesContradictTheWindow) {
   for (const double aside_m : {0.0, 0.5}) {  // every second image shows another place
     auto track = tracker();
     for (int i = 0; i <= 60; ++i) {
@@ -164,7 +164,7 @@ TEST(TargetEstimator, ForbidsTheApproachWhileManyPicturesContradictTheWindow) {
     }
     const auto target = track.target(2.0);
     ASSERT_TRUE(target) << track.lastUpdate().why_not;
-    EXPECT_EQ(target->approach_forbidden.find("pictures contradict") != std::string::npos, aside_m > 0.0)
+    EXPECT_EQ(target->approach_forbidden.find("images contradict") != std::string::npos, aside_m > 0.0)
         << target->approach_forbidden;
   }
 }

@@ -20,8 +20,8 @@ struct Watch {
   Viewpoint view = test::WindowRow::from({-8.0, -3.8, 1.5});
 
   /// \param target number in the row of the one that the detector follows, -1: none
-  void look(int pictures, int target) {
-    for (int n = 0; n < pictures; ++n, now_sec += 0.1) {
+  void look(int images, int target) {
+    for (int n = 0; n < images; ++n, now_sec += 0.1) {
       const auto filtered = target < 0 ? std::nullopt : std::optional(row.filtered(target, now_sec));
       memory.see(row.look(now_sec, view, target, random), filtered, row.size);
     }

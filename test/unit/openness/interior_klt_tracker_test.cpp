@@ -97,7 +97,7 @@ TEST(InteriorKltTracker, pointsOfAPosterStayInThePlane) {
   const Isometry3d key = cameraAt(3.0), now = cameraAt(2.8);
   auto first = windowFrom(key, 1.0), second = windowFrom(now, 1.1);
   follower.follow(draw(key, poster), first);
-  EXPECT_TRUE(first.interior.empty()) << "the key picture itself";
+  EXPECT_TRUE(first.interior.empty()) << "the keyframe itself";
   follower.follow(draw(now, poster), second);
   ASSERT_GT(second.interior.points.size(), 15u);
   EXPECT_EQ(second.interior.key_stamp_sec, 1.0);
@@ -180,7 +180,7 @@ TEST(InteriorKltTracker, switchedOffOrWithBadInputItHandsOutNothing) {
   }
   auto far = windowFrom(camera, 2.0);
   for (auto& corner : far.corners) corner += Eigen::Vector2d(1e5, 1e5);
-  EXPECT_NO_THROW(follower.follow(image, far)) << "outside the picture";
+  EXPECT_NO_THROW(follower.follow(image, far)) << "outside the image";
   off.max_side_px = 7.0;
   EXPECT_THROW(InteriorKltTracker{off}, std::invalid_argument);
 }

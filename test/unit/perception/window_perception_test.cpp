@@ -10,7 +10,7 @@ constexpr int kFrames = 12;
 
 // A framed window that grows from image to image, with texture in its opening.
 detection::TrackInput frameAt(int i) {
-  test::WindowPicture drawn;
+  test::DrawnWindow drawn;
   drawn.width = 320, drawn.height = 240, drawn.frame_px = 6.0, drawn.seed = 1 + i;
   drawn.opening = test::rectangle(100.0 - 0.5 * i, 70.0 - 0.5 * i, 210.0 + 0.5 * i, 160.0 + 0.5 * i);
   detection::TrackInput frame;

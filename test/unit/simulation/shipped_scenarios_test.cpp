@@ -26,7 +26,7 @@ Scenario load(const std::string& name, std::uint32_t seed) {
 }
 
 // As the camera delivers it from the start, if it looked at the window.
-cv::Mat firstPicture(Scenario scenario, std::uint32_t seed) {
+cv::Mat firstImage(Scenario scenario, std::uint32_t seed) {
   scenario.start.heading_rad = 0.0;
   scenario.camera.width_px = 160;
   scenario.camera.height_px = 120;
@@ -66,11 +66,11 @@ TEST(ShippedScenarios, BeginWithACommentOnWhatTheyAreForAndStandInTheDocumentati
   }
 }
 
-TEST(ShippedScenarios, ArePicturesNeitherBlackNorSaturated) {
+TEST(ShippedScenarios, AreImagesNeitherBlackNorSaturated) {
   for (const auto& name : shippedNames()) {
-    const cv::Mat picture = firstPicture(load(name, 3), 3);
+    const cv::Mat image = firstImage(load(name, 3), 3);
     cv::Mat grey;
-    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
     EXPECT_GT(cv::mean(grey)[0], 22.0) << name;
     EXPECT_LT(cv::mean(grey)[0], 215.0) << name;
     EXPECT_LT(cv::countNonZero(grey > 252), 0.05 * static_cast<double>(grey.total())) << name;
@@ -100,11 +100,11 @@ TEST(ShippedScenarios, BacklitIsBrighterInsideThanTheWall) {
   }
 }
 
-TEST(ShippedScenarios, ThePosterShowsWhatTheReferencePictureShows) {
+TEST(ShippedScenarios, ThePosterShowsWhatTheReferenceImageShows) {
   const Scenario scenario = load("poster_only", 1);
   ASSERT_FALSE(scenario.window.present);
   geometry::Quadrilateral corners;
-  const cv::Mat reference = World(scenario, 1).referencePicture(&corners);
+  const cv::Mat reference = World(scenario, 1).referenceImage(&corners);
   const auto camera = scenario.camera.model();
   const double distance_m = camera.fx * scenario.window.width_m / (corners[1].x() - corners[0].x());
   cv::Mat poster;
@@ -122,13 +122,13 @@ TEST(ShippedScenarios, ThePosterShowsWhatTheReferencePictureShows) {
 
 TEST(ShippedScenarios, TheReferenceShowsTheOpenTargetWhateverIsThereByNow) {
   const Scenario open = load("nominal", 4);
-  const cv::Mat expected = World(open, 4).referencePicture(nullptr);
+  const cv::Mat expected = World(open, 4).referenceImage(nullptr);
   Scenario absent = open, closed = open, foggy = open;
   absent.window.present = false;
   closed.window.closed_by = "board";
   foggy.house.fog_m = 8.0;
   for (const Scenario& scenario : {absent, closed, foggy})
-    EXPECT_EQ(cv::norm(expected, World(scenario, 4).referencePicture(nullptr), cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(expected, World(scenario, 4).referenceImage(nullptr), cv::NORM_INF), 0.0);
 }
 
 }  // namespace window_ingress::simulation::shipped_scenarios_test

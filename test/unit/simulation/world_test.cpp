@@ -95,18 +95,18 @@ TEST(World, AFlightStraightAtTheWindowPasses) {
   EXPECT_GT(*world.referee().minClearance(), 0.2);
 }
 
-TEST(World, ReferencePictureShowsTheTargetSquareWithItsFrameOutsideTheCorners) {
+TEST(World, ReferenceImageShowsTheTargetSquareWithItsFrameOutsideTheCorners) {
   Scenario scenario;
   scenario.camera.k1 = -0.2;
   const World world(scenario, 1);
   geometry::Quadrilateral corners;
-  const cv::Mat picture = world.referencePicture(&corners);
-  ASSERT_EQ(picture.size(), cv::Size(640, 480));
+  const cv::Mat image = world.referenceImage(&corners);
+  ASSERT_EQ(image.size(), cv::Size(640, 480));
   const double wide_px = corners[1].x() - corners[0].x(), high_px = corners[3].y() - corners[0].y();
   EXPECT_NEAR(wide_px / high_px, 1.2, 1e-9);
   const double frame_px = 0.07 * wide_px / 1.2;
   const auto at = [&](double x, double y) {
-    return picture.at<cv::Vec3b>(static_cast<int>(std::lround(y)), static_cast<int>(std::lround(x)));
+    return image.at<cv::Vec3b>(static_cast<int>(std::lround(y)), static_cast<int>(std::lround(x)));
   };
   const auto isOrange = [](const cv::Vec3b& bgr) {
     return bgr[2] > 120 && bgr[2] > 2 * bgr[1] && bgr[1] > bgr[0];
@@ -136,19 +136,19 @@ TEST(World, CommandsAreUnderstoodInTheDriftedAxes) {
   EXPECT_LT(worst_mps, 0.5 * 0.5 * drifted_rad + 0.03) << "in the true axes it would be all of the drift";
 }
 
-TEST(World, NoiseHasTheSizeAskedAndIsNewInEachPicture) {
+TEST(World, NoiseHasTheSizeAskedAndIsNewInEachImage) {
   Scenario scenario = quietScenario();
   scenario.camera.noise_grey = 3.0;
   scenario.odometry.velocity_noise_mps = 0.0;  // or the vehicle would not hold still between the two
   scenario.camera.blur_px = 0.0;
   World world(scenario, 1);
-  std::vector<cv::Mat> pictures;
-  while (pictures.size() < 2) {
+  std::vector<cv::Mat> images;
+  while (images.size() < 2) {
     world.advance();
-    if (const auto frame = world.takeFrame()) pictures.push_back(frame->image.clone());
+    if (const auto frame = world.takeFrame()) images.push_back(frame->image.clone());
   }
   cv::Mat difference;
-  cv::subtract(pictures[1], pictures[0], difference, cv::noArray(), CV_16S);
+  cv::subtract(images[1], images[0], difference, cv::noArray(), CV_16S);
   cv::Scalar mean, deviation;
   cv::meanStdDev(difference, mean, deviation);
   EXPECT_NEAR(deviation[1], 3.0 * std::sqrt(2.0), 0.4);

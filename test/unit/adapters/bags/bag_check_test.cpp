@@ -119,7 +119,7 @@ TEST_F(BagCheck, FlippedBytesAreReadOrRefused) {
     ++(sound ? accepted : refused);
     if (sound && accepted % 89 == 0) replayed();
   }
-  EXPECT_GT(accepted, 100) << "a flipped pixel is a picture still";
+  EXPECT_GT(accepted, 100) << "a flipped pixel is an image still";
   EXPECT_GT(refused, 100);
 }
 

@@ -49,7 +49,7 @@ geometry::PinholeCamera camera() {
   return camera;
 }
 
-sensor_msgs::Image picture(const std_msgs::Header& header, bool with_window) {
+sensor_msgs::Image imageMessage(const std_msgs::Header& header, bool with_window) {
   cv::Mat image(480, 640, CV_8UC3, cv::Scalar(190, 190, 190));
   cv::RNG random(5);
   cv::Mat noise(image.size(), CV_16SC3), noisy;
@@ -110,7 +110,7 @@ void record(const std::string& file, const Recording& recording) {
       std_msgs::Header header;
       header.stamp = stamp;
       header.frame_id = "eye";
-      bag.write("/eye/image_raw", at, picture(header, i % 4 != 3));
+      bag.write("/eye/image_raw", at, imageMessage(header, i % 4 != 3));
       if (recording.calibrated) write(bag, "/eye/camera_info", at, "eye", camera());
       if (recording.with_odometry) bag.write("/odom", at, odometry(stamp, 1e-4 * i));
       if (recording.with_imu) bag.write("/imu", at - ros::Duration(0.001), imu(stamp));
@@ -154,7 +154,7 @@ std::vector<std::string> linesOf(const fs::path& file) {
   return lines;
 }
 
-TEST_F(ReplayTest, EveryPictureIsAFrameWithWhatItCameWith) {
+TEST_F(ReplayTest, EveryImageIsAFrameWithWhatItCameWith) {
   record(folder_ / "a.bag", {});
   const Result result = replayed(folder_ / "a.bag");
   ASSERT_EQ(result.frames.size(), static_cast<std::size_t>(kImages));
@@ -179,7 +179,7 @@ TEST_F(ReplayTest, WhatIsMissingIsCounted) {
   EXPECT_EQ(result.summary.images, kImages);
   EXPECT_EQ(result.summary.with_odometry, 0);
   EXPECT_EQ(result.summary.with_attitude, 0);
-  EXPECT_TRUE(result.frames[0].row.pose.has_value()) << "a picture alone has a pose";
+  EXPECT_TRUE(result.frames[0].row.pose.has_value()) << "an image alone has a pose";
   EXPECT_FALSE(result.frames[0].filtered.has_value());
 }
 
@@ -213,7 +213,7 @@ TEST_F(ReplayTest, AJumpForwardIsNoJumpBack) {
   EXPECT_EQ(replayed(folder_ / "later.bag").summary.jumps, 0);
 }
 
-TEST_F(ReplayTest, TablesHaveARowAPictureAndRepeatThemselves) {
+TEST_F(ReplayTest, TablesHaveARowAnImageAndRepeatThemselves) {
   record(folder_ / "a.bag", {});
   for (const char* name : {"one", "two"}) {
     rosbag::Bag bag;

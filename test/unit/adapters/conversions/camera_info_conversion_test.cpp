@@ -34,7 +34,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(CameraInfo, RawPicturesTakeKAndD) {
+TEST(CameraInfo, RawImagesTakeKAndD) {
   const auto camera = cameraFromMsg(makeInfo(), false);
   ASSERT_TRUE(camera) << camera.reason;
   EXPECT_EQ(camera.value->fx, 554.0);
@@ -44,7 +44,7 @@ TEST(CameraInfo, RawPicturesTakeKAndD) {
   EXPECT_EQ(camera.value->distortion[0], -0.2);
 }
 
-TEST(CameraInfo, RectifiedPicturesTakePAndNoDistortion) {
+TEST(CameraInfo, RectifiedImagesTakePAndNoDistortion) {
   const auto camera = cameraFromMsg(makeInfo(), true);
   ASSERT_TRUE(camera) << camera.reason;
   EXPECT_EQ(camera.value->fx, 500.0);
@@ -71,7 +71,7 @@ TEST(CameraInfo, RefusesFocalLengthsThatAreNotPositive) {
   EXPECT_FALSE(refusal([](auto& info) { info.P[0] = -1.0; }, true).empty());
 }
 
-TEST(CameraInfo, ZeroPServesRawPicturesOnly) {
+TEST(CameraInfo, ZeroPServesRawImagesOnly) {
   EXPECT_TRUE(refusal([](auto& info) { info.P.assign(0.0); }).empty());
   EXPECT_TRUE(contains(refusal([](auto& info) { info.P.assign(0.0); }, true), "P is zero"));
 }
@@ -93,7 +93,7 @@ TEST(CameraInfo, RefusesUnknownModelsAndSaysWhichAreKnown) {
   for (const std::string model : {"Equidistant", "", "PLUMB_BOB", "division"})
     EXPECT_TRUE(contains(refusal([&](auto& info) { info.distortion_model = model; }), "plumb_bob")) << model;
   EXPECT_TRUE(refusal([](auto& info) { info.distortion_model = "equidistant"; }, true).empty())
-      << "rectified pictures have no model any more";
+      << "rectified images have no model any more";
 }
 
 TEST(CameraInfo, TheWordFisheyeIsEquidistant) {
@@ -147,7 +147,7 @@ TEST(CameraInfo, RegionMovesThePrincipalPoint) {
   EXPECT_EQ(camera.value->cx, 219.5);
   EXPECT_EQ(camera.value->cy, 189.5);
   EXPECT_EQ(camera.value->width, 320);
-  EXPECT_FALSE(cameraFromMsg(info, true)) << "a raw region does not fit rectified pictures";
+  EXPECT_FALSE(cameraFromMsg(info, true)) << "a raw region does not fit rectified images";
   info.roi.do_rectify = true;
   EXPECT_TRUE(cameraFromMsg(info, true));
 }

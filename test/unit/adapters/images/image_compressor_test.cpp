@@ -21,14 +21,14 @@ boost::shared_ptr<sensor_msgs::Image> gradient(const std::string& encoding, int 
   return image;
 }
 
-TEST(Compress, ComesBackAsTheSamePictureUnderTheSameHeader) {
+TEST(Compress, ComesBackAsTheSameImageUnderTheSameHeader) {
   for (const auto& [encoding, channels] : {std::pair{"bgr8", 3}, {"mono8", 1}, {"rgb8", 3}}) {
     const auto image = gradient(encoding, channels);
-    const CompressedPicture picture = compress(image, {});
-    ASSERT_TRUE(picture.message) << picture.reason;
-    EXPECT_EQ(picture.message->header.stamp, ros::Time(7.25));
-    EXPECT_EQ(picture.message->header.frame_id, "eye");
-    const DecodedImage before = decode(image, {}), after = decode(*picture.message, {});
+    const auto compressed = compress(image, {});
+    ASSERT_TRUE(compressed) << compressed.reason;
+    EXPECT_EQ(compressed.value->header.stamp, ros::Time(7.25));
+    EXPECT_EQ(compressed.value->header.frame_id, "eye");
+    const DecodedImage before = decode(image, {}), after = decode(*compressed.value, {});
     ASSERT_TRUE(after.reason.empty()) << after.reason;
     ASSERT_EQ(after.image.type(), before.image.type()) << encoding;
     EXPECT_LT(cv::norm(before.image, after.image, cv::NORM_L1) / static_cast<double>(image->data.size()),
@@ -40,17 +40,17 @@ TEST(Compress, LessQualityIsSmaller) {
   ImageCompressorParams rough;
   rough.quality = 10;
   const auto image = gradient("bgr8", 3);
-  EXPECT_LT(compress(image, rough).message->data.size(), compress(image, {}).message->data.size());
+  EXPECT_LT(compress(image, rough).value->data.size(), compress(image, {}).value->data.size());
 }
 
-TEST(Compress, WhatIsNoPictureIsRefusedWithAReason) {
+TEST(Compress, WhatIsNoImageIsRefusedWithAReason) {
   auto image = gradient("bgr8", 3);
   image->data.resize(100);
   EXPECT_FALSE(compress(image, {}).reason.empty());
   image = gradient("32FC1", 4);
-  const CompressedPicture picture = compress(image, {});
-  EXPECT_FALSE(picture.message);
-  EXPECT_NE(picture.reason.find("32FC1"), std::string::npos) << picture.reason;
+  const auto compressed = compress(image, {});
+  EXPECT_FALSE(compressed);
+  EXPECT_NE(compressed.reason.find("32FC1"), std::string::npos) << compressed.reason;
 }
 
 }  // namespace window_ingress::adapters::image_compressor_test

@@ -26,11 +26,11 @@ sensor_msgs::ImagePtr makeImage(const std::string& encoding, std::uint32_t width
 
 // A colour ramp as BGR, every encoding of which must look alike.
 cv::Mat ramp() {
-  cv::Mat picture(48, 64, CV_8UC3);
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x)
-      picture.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<uchar>(3 * x), static_cast<uchar>(4 * y), 90);
-  return picture;
+  cv::Mat image(48, 64, CV_8UC3);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      image.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<uchar>(3 * x), static_cast<uchar>(4 * y), 90);
+  return image;
 }
 
 sensor_msgs::ImagePtr fromMat(const cv::Mat& mat, const std::string& encoding) {
@@ -169,14 +169,14 @@ TEST(ImageFromMsg, NothingRandomGetsThroughOrThrows) {
   }
 }
 
-TEST(StuckWatch, TimesPicturesThatStayTheSame) {
+TEST(StuckWatch, TimesImagesThatStayTheSame) {
   StuckWatch watch;
-  cv::Mat picture = ramp();
-  EXPECT_EQ(watch.sameForSec(picture, 10.0), 0.0);
-  EXPECT_EQ(watch.sameForSec(picture.clone(), 11.5), 1.5);
-  picture += cv::Scalar::all(1);
-  EXPECT_EQ(watch.sameForSec(picture, 12.0), 0.0);
-  EXPECT_EQ(watch.sameForSec(picture.colRange(0, 40), 12.5), 0.0) << "another size is another picture";
+  cv::Mat image = ramp();
+  EXPECT_EQ(watch.sameForSec(image, 10.0), 0.0);
+  EXPECT_EQ(watch.sameForSec(image.clone(), 11.5), 1.5);
+  image += cv::Scalar::all(1);
+  EXPECT_EQ(watch.sameForSec(image, 12.0), 0.0);
+  EXPECT_EQ(watch.sameForSec(image.colRange(0, 40), 12.5), 0.0) << "another size is another image";
   EXPECT_EQ(watch.sameForSec(cv::Mat(1, 1, CV_8UC1, cv::Scalar(0)), 13.0), 0.0);
 }
 

@@ -14,7 +14,7 @@ class ImageTimesTest : public testing::Test {
   void SetUp() override { now_sec = 1000.0; }
 
   // One image; number and stamp go on by one image of the camera for each that was dropped.
-  void picture(ImageTimes& times, double edges_ms, int dropped = 0) {
+  void image(ImageTimes& times, double edges_ms, int dropped = 0) {
     header_.seq += 1 + dropped;
     header_.stamp += ros::Duration((1 + dropped) * 0.05);
     times.begin(header_, 2.0);
@@ -36,40 +36,40 @@ class ImageTimesTest : public testing::Test {
 TEST_F(ImageTimesTest, StagesAreToldInMilliseconds) {
   ImageTimes times(0.0, fakeClock);
   EXPECT_EQ(times.health().level, Health::kOk);
-  for (int i = 0; i < 5; ++i) picture(times, 7.0);
+  for (int i = 0; i < 5; ++i) image(times, 7.0);
   const Health health = times.health();
   EXPECT_NEAR(value(health, "edges_ms"), 7.0, 1e-6);
   EXPECT_NEAR(value(health, "borders_ms"), 1.0, 1e-6);
   EXPECT_NEAR(value(health, "decode_ms"), 2.0, 1e-6);
   EXPECT_NEAR(value(health, "whole_ms"), 10.0, 1e-6);
-  EXPECT_NEAR(value(health, "budget_ms"), 50.0, 1e-3) << "the time between two pictures";
+  EXPECT_NEAR(value(health, "budget_ms"), 50.0, 1e-3) << "the time between two images";
   EXPECT_EQ(health.level, Health::kOk);
 }
 
-TEST_F(ImageTimesTest, MoreThanTheTimeBetweenPicturesIsAWarning) {
+TEST_F(ImageTimesTest, MoreThanTheTimeBetweenImagesIsAWarning) {
   ImageTimes times(0.0, fakeClock);
-  for (int i = 0; i < 5; ++i) picture(times, 120.0, 2);
+  for (int i = 0; i < 5; ++i) image(times, 120.0, 2);
   const Health health = times.health();
   EXPECT_EQ(health.level, Health::kWarn);
-  EXPECT_NEAR(value(health, "budget_ms"), 50.0, 1e-3) << "dropped pictures count";
+  EXPECT_NEAR(value(health, "budget_ms"), 50.0, 1e-3) << "dropped images count";
   EXPECT_NE(health.text.find("'edges' (120.0 ms)"), std::string::npos) << health.text;
-  for (int i = 0; i < 40; ++i) picture(times, 3.0);
+  for (int i = 0; i < 40; ++i) image(times, 3.0);
   EXPECT_EQ(times.health().level, Health::kOk);
 }
 
 TEST_F(ImageTimesTest, ABudgetThatIsGivenCounts) {
   ImageTimes times(5.0, fakeClock);
-  picture(times, 7.0);
+  image(times, 7.0);
   EXPECT_EQ(times.health().level, Health::kWarn);
 }
 
 TEST_F(ImageTimesTest, PausesAndJumpsBackAreNoPeriods) {
   ImageTimes times(0.0, fakeClock);
-  for (int i = 0; i < 3; ++i) picture(times, 1.0);
+  for (int i = 0; i < 3; ++i) image(times, 1.0);
   header_.stamp += ros::Duration(60.0);
-  picture(times, 1.0);
+  image(times, 1.0);
   header_.stamp -= ros::Duration(100.0 * 0.05);
-  picture(times, 1.0);
+  image(times, 1.0);
   EXPECT_NEAR(value(times.health(), "budget_ms"), 50.0, 1e-3);
 }
 

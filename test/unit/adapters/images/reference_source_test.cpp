@@ -21,19 +21,19 @@ class ReferenceSource : public ::testing::Test {
   }
   ~ReferenceSource() override { fs::remove_all(folder_); }
 
-  static test::WindowPicture picture() {
-    test::WindowPicture picture;
-    picture.width = 320, picture.height = 240, picture.frame_px = 6;
-    picture.opening = test::rectangle(100.25, 80.5, 220, 170);
-    return picture;
+  static test::DrawnWindow window() {
+    test::DrawnWindow drawn;
+    drawn.width = 320, drawn.height = 240, drawn.frame_px = 6;
+    drawn.opening = test::rectangle(100.25, 80.5, 220, 170);
+    return drawn;
   }
   fs::path folder_;
 };
 
 TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
   const fs::path file = folder_ / "below" / "window's.png";
-  const cv::Mat image = picture().draw();
-  saveReference(file.string(), {image, picture().opening});
+  const cv::Mat image = window().draw();
+  saveReference(file.string(), {image, window().opening});
   const YAML::Node saved =
       YAML::LoadFile((folder_ / "below" / "window's.yaml").string())["window_detector"]["reference"];
   EXPECT_FALSE(cv::imread((folder_ / "below" / "window's_understood.png").string()).empty());
@@ -41,24 +41,24 @@ TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
   params.picture = saved["picture"].as<std::string>();
   params.corners = saved["corners"].as<std::vector<double>>();
   const auto reference = loadReference(params, {});
-  EXPECT_EQ(cv::norm(reference.picture(), image, cv::NORM_INF), 0.0);
-  for (int i = 0; i < 4; ++i) EXPECT_LT((reference.opening()[i] - picture().opening[i]).norm(), 1e-3);
+  EXPECT_EQ(cv::norm(reference.image(), image, cv::NORM_INF), 0.0);
+  for (int i = 0; i < 4; ++i) EXPECT_LT((reference.opening()[i] - window().opening[i]).norm(), 1e-3);
 }
 
 TEST_F(ReferenceSource, WhatCannotBeWrittenIsSaid) {
-  const cv::Mat image = picture().draw();
-  EXPECT_THROW(saveReference((folder_ / "a.nosuchformat").string(), {image, picture().opening}),
+  const cv::Mat image = window().draw();
+  EXPECT_THROW(saveReference((folder_ / "a.nosuchformat").string(), {image, window().opening}),
                ParameterError);
-  EXPECT_THROW(saveReference("/proc/nowhere/a.png", {image, picture().opening}), ParameterError);
+  EXPECT_THROW(saveReference("/proc/nowhere/a.png", {image, window().opening}), ParameterError);
 }
 
 TEST_F(ReferenceSource, BadReferencesAreRefused) {
-  const cv::Mat image = picture().draw();
+  const cv::Mat image = window().draw();
   EXPECT_THROW(makeReference(image, {1, 2, 3}, {}), ParameterError);
   EXPECT_THROW(makeReference(image, {1, 1, 1, 1, 1, 1, 1, 1}, {}), ParameterError);
   EXPECT_THROW(loadReference({}, {}), ParameterError);
   fs::create_directories(folder_);
-  std::ofstream(folder_ / "text.png") << "no picture";
+  std::ofstream(folder_ / "text.png") << "no image";
   ReferenceParams params;
   params.picture = (folder_ / "text.png").string();
   EXPECT_THROW(loadReference(params, {}), ParameterError);

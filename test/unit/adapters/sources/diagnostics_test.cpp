@@ -19,16 +19,16 @@ TEST(FailureCount, CountsInARowForEachCallback) {
 
 TEST(FailureCount, ManyInARowAreAnErrorAndNoLongerSaid) {
   FailureCount failures;
-  for (int i = 0; i < FailureCount::kMany; ++i) EXPECT_TRUE(failures.failed("image", "bad picture"));
-  EXPECT_FALSE(failures.failed("image", "bad picture"));
+  for (int i = 0; i < FailureCount::kMany; ++i) EXPECT_TRUE(failures.failed("image", "bad image"));
+  EXPECT_FALSE(failures.failed("image", "bad image"));
   const Health health = failures.health();
   EXPECT_EQ(health.level, Health::kError);
-  EXPECT_EQ(health.text, "6 callbacks failed; the last one was image: bad picture");
+  EXPECT_EQ(health.text, "6 callbacks failed; the last one was image: bad image");
 }
 
 TEST(FailureCount, RecoveryLeavesAWarning) {
   FailureCount failures;
-  for (int i = 0; i < FailureCount::kMany; ++i) failures.failed("image", "bad picture");
+  for (int i = 0; i < FailureCount::kMany; ++i) failures.failed("image", "bad image");
   failures.succeeded("image");
   EXPECT_EQ(failures.health().level, Health::kWarn);
 }

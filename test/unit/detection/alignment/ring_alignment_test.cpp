@@ -14,8 +14,8 @@ using test::seenFrom;
 struct Scene {
   explicit Scene(const PatchedWall& drawn) : wall(drawn) {
     Quadrilateral opening;
-    const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &opening);
-    model.learn(picture, opening);
+    const cv::Mat image = wall.draw(seenFrom(2.5, 0.0), &opening);
+    model.learn(image, opening);
   }
   void look(const Eigen::Isometry3d& from, cv::Scalar within = cv::Scalar(20, 40, 30)) {
     image = wall.draw(from, &opening, within);
@@ -178,20 +178,20 @@ TEST(RingAlignment, LensesAreSeenThrough) {
 
 TEST(RingModel, WhatTheReferenceDoesNotShowIsLeftOut) {
   Quadrilateral opening;
-  const cv::Mat picture = PatchedWall(3).draw(seenFrom(2.5, 0.0), &opening);
+  const cv::Mat image = PatchedWall(3).draw(seenFrom(2.5, 0.0), &opening);
   const int top = static_cast<int>(opening[0].y()) - 4;  // next to nothing above the opening
   Quadrilateral cut = opening;
   for (auto& corner : cut) corner.y() -= top;
   RingModel whole, part;
-  whole.learn(picture, opening);
-  part.learn(picture.rowRange(top, picture.rows), cut);
+  whole.learn(image, opening);
+  part.learn(image.rowRange(top, image.rows), cut);
   ASSERT_TRUE(whole.known() && part.known());
   EXPECT_LT(part.level(24.0).size(), 0.85 * whole.level(24.0).size());
   EXPECT_GT(part.level(24.0).size(), 0.5 * whole.level(24.0).size());
   for (float y : part.level(24.0).y) EXPECT_GT(y, -0.6F);
 }
 
-TEST(RingModel, NothingIsLearnedFromWhatIsNoPicture) {
+TEST(RingModel, NothingIsLearnedFromWhatIsNoImage) {
   RingModel model;
   model.learn(cv::Mat(), test::rectangle(0, 0, 10, 10));
   EXPECT_FALSE(model.known());

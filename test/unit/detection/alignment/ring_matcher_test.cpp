@@ -23,8 +23,8 @@ ScoredCandidate rough(const Quadrilateral& quad, double score = 0.7) {
 struct Known {
   explicit Known(const PatchedWall& wall) {
     Quadrilateral corners;
-    const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
-    judge.learn(picture, corners);
+    const cv::Mat reference = wall.draw(seenFrom(2.5, 0.0), &corners);
+    judge.learn(reference, corners);
     image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
   }
   RingMatcher judge;
@@ -68,9 +68,9 @@ TrackInput inputOf(const cv::Mat& image) {
 std::optional<Quadrilateral> aligned(const PatchedWall& wall, const Quadrilateral& followed,
                                      const cv::Mat& image) {
   Quadrilateral corners;
-  const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
+  const cv::Mat reference = wall.draw(seenFrom(2.5, 0.0), &corners);
   AppearanceMonitor watch{DetectorParams()};
-  watch.setReference(std::make_shared<ReferenceAppearance>(picture, corners));
+  watch.setReference(std::make_shared<ReferenceAppearance>(reference, corners));
   std::optional<Quadrilateral> found;
   for (int i = 0; i < 3 && !found; ++i) found = watch.align(inputOf(image), followed);
   return found;
@@ -98,12 +98,12 @@ TEST(AppearanceMonitor, TheWallLeadsToAFrameThatWasLeft) {
   EXPECT_LT(test::worstCorner(*found, known.opening), 2.5);
 }
 
-/// What the detector makes of views of a wall, with a picture of it as reference.
+/// What the detector makes of views of a wall, with an image of it as reference.
 struct Detected {
   explicit Detected(const PatchedWall& wall) : detector(DetectorParams()) {
     Quadrilateral corners;
-    const cv::Mat picture = wall.draw(seenFrom(2.5, 0.0), &corners);
-    detector.setReference(ReferenceAppearance(picture, corners));
+    const cv::Mat image = wall.draw(seenFrom(2.5, 0.0), &corners);
+    detector.setReference(ReferenceAppearance(image, corners));
   }
   std::optional<WindowObservation> look(const PatchedWall& wall, double yaw_rad, Quadrilateral* opening) {
     cv::Mat image = wall.draw(seenFrom(3.0, yaw_rad), opening, cv::Scalar(30, 40, 35));

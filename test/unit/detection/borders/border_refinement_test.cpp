@@ -22,19 +22,18 @@ TEST(BorderRefinement, CornersOfAntialiasedWindowsToATenthOfAPixel) {
   double squares = 0.0, bias = 0.0;
   const int trials = 60;
   for (int i = 0; i < trials; ++i) {
-    test::WindowPicture picture;
-    picture.width = 320, picture.height = 240, picture.type = i % 2 ? CV_8UC1 : CV_8UC3, picture.seed = i;
+    test::DrawnWindow drawn;
+    drawn.width = 320, drawn.height = 240, drawn.type = i % 2 ? CV_8UC1 : CV_8UC3, drawn.seed = i;
     const double x = 60 + 10 * uniform(random), y = 50 + 10 * uniform(random);
-    picture.opening =
+    drawn.opening =
         test::turned(test::rectangle(x, y, x + 60 + 100 * uniform(random), y + 50 + 80 * uniform(random)),
                      0.5 * (uniform(random) - 0.5), 0.3 * (uniform(random) - 0.5));
-    const auto borders =
-        refinement.run(picture.draw(), {jittered(picture.opening, random, 1.5), 3.0}, nullptr);
+    const auto borders = refinement.run(drawn.draw(), {jittered(drawn.opening, random, 1.5), 3.0}, nullptr);
     ASSERT_TRUE(borders) << i;
-    EXPECT_LT(test::worstCorner(borders->corners, picture.opening), 0.15) << i;
-    for (int k = 0; k < 4; ++k) squares += (borders->corners[k] - picture.opening[k]).squaredNorm() / 8.0;
+    EXPECT_LT(test::worstCorner(borders->corners, drawn.opening), 0.15) << i;
+    for (int k = 0; k < 4; ++k) squares += (borders->corners[k] - drawn.opening[k]).squaredNorm() / 8.0;
     bias +=
-        std::sqrt(geometry::signedArea(borders->corners)) - std::sqrt(geometry::signedArea(picture.opening));
+        std::sqrt(geometry::signedArea(borders->corners)) - std::sqrt(geometry::signedArea(drawn.opening));
   }
   EXPECT_LT(std::sqrt(squares / trials), 0.04) << "RMS a coordinate [px]";
   EXPECT_LT(std::abs(bias / trials), 0.03) << "outward bias [px]";
@@ -47,14 +46,13 @@ TEST(BorderRefinement, TellsItsOwnErrorWithinAFactor) {
     double mahalanobis = 0.0;
     const int trials = 30;
     for (int i = 0; i < trials; ++i) {
-      test::WindowPicture picture;
-      picture.width = 200, picture.height = 160, picture.noise = noise, picture.seed = 100 + i;
-      picture.opening = test::turned(test::rectangle(50.3, 40.2, 150.1, 120.4), 0.05 + 0.01 * i, 0.1);
-      const auto borders =
-          refinement.run(picture.draw(), {jittered(picture.opening, random, 1.0), 3.0}, nullptr);
+      test::DrawnWindow drawn;
+      drawn.width = 200, drawn.height = 160, drawn.noise = noise, drawn.seed = 100 + i;
+      drawn.opening = test::turned(test::rectangle(50.3, 40.2, 150.1, 120.4), 0.05 + 0.01 * i, 0.1);
+      const auto borders = refinement.run(drawn.draw(), {jittered(drawn.opening, random, 1.0), 3.0}, nullptr);
       ASSERT_TRUE(borders);
       for (int k = 0; k < 4; ++k) {
-        const Eigen::Vector2d error = borders->corners[k] - picture.opening[k];
+        const Eigen::Vector2d error = borders->corners[k] - drawn.opening[k];
         mahalanobis += error.dot(borders->corner_covariance[k].inverse() * error) / 8.0;
       }
     }

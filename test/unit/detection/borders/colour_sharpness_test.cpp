@@ -15,24 +15,24 @@ const geometry::Quadrilateral kOpening{
 // A frame whose paint goes on around the corner for two pixels, darker; the reveal, as bright as that paint;
 // and what is behind.
 cv::Mat drawn(double noise) {
-  cv::Mat picture(210, 260, CV_8UC3, kFrame);
-  picture(cv::Rect(61, 51, 139, 109)).setTo(kPaint);
-  picture(cv::Rect(63, 53, 135, 105)).setTo(kReveal);
-  picture(cv::Rect(69, 59, 123, 93)).setTo(kBehind);
-  cv::Mat rough(picture.size(), CV_16SC3), sum;
+  cv::Mat image(210, 260, CV_8UC3, kFrame);
+  image(cv::Rect(61, 51, 139, 109)).setTo(kPaint);
+  image(cv::Rect(63, 53, 135, 105)).setTo(kReveal);
+  image(cv::Rect(69, 59, 123, 93)).setTo(kBehind);
+  cv::Mat rough(image.size(), CV_16SC3), sum;
   cv::RNG random(5);
   random.fill(rough, cv::RNG::NORMAL, 0.0, noise);
-  picture.convertTo(sum, CV_16SC3);
+  image.convertTo(sum, CV_16SC3);
   sum += rough;
-  sum.convertTo(picture, CV_8UC3);
-  cv::GaussianBlur(picture, picture, {}, 0.6);
-  return picture;
+  sum.convertTo(image, CV_8UC3);
+  cv::GaussianBlur(image, image, {}, 0.6);
+  return image;
 }
 
 // Colour at half of the size, as a compressed image has it.
-cv::Mat withSoftColour(const cv::Mat& picture) {
+cv::Mat withSoftColour(const cv::Mat& image) {
   cv::Mat planes[3], small, converted;
-  cv::cvtColor(picture, converted, cv::COLOR_BGR2YCrCb);
+  cv::cvtColor(image, converted, cv::COLOR_BGR2YCrCb);
   cv::split(converted, planes);
   for (int c = 1; c < 3; ++c) {
     cv::resize(planes[c], small, {}, 0.5, 0.5, cv::INTER_AREA);
@@ -43,9 +43,9 @@ cv::Mat withSoftColour(const cv::Mat& picture) {
   return converted;
 }
 
-EdgeProfiles topOf(const cv::Mat& picture) {
+EdgeProfiles topOf(const cv::Mat& image) {
   EdgeProfiles profiles;
-  profiles.sample(picture, nullptr, {kOpening[0], kOpening[1], 40, 0.06, 7});
+  profiles.sample(image, nullptr, {kOpening[0], kOpening[1], 40, 0.06, 7});
   return profiles;
 }
 

@@ -104,7 +104,7 @@ TEST(TwoStepEdge, ASharpenedEdgeIsOneEdge) {
   EXPECT_LT(std::abs(edge.front), 0.15);
 }
 
-TEST(TwoStepEdge, GreyPicturesAndBadNumbers) {
+TEST(TwoStepEdge, GreyImagesAndBadNumbers) {
   Strip grey;
   grey.apart = 2.0;
   const auto one = across(grey, 1);

@@ -10,12 +10,12 @@
 
 namespace window_ingress::detection::candidate_search_test {
 
-test::WindowPicture framed(double scale = 1.0) {
-  test::WindowPicture picture;
-  picture.width = static_cast<int>(640 * scale), picture.height = static_cast<int>(480 * scale);
-  picture.opening = test::rectangle(200.3 * scale, 150.2 * scale, 420.4 * scale, 330.1 * scale);
-  picture.frame_px = 14.0 * scale;
-  return picture;
+test::DrawnWindow framed(double scale = 1.0) {
+  test::DrawnWindow drawn;
+  drawn.width = static_cast<int>(640 * scale), drawn.height = static_cast<int>(480 * scale);
+  drawn.opening = test::rectangle(200.3 * scale, 150.2 * scale, 420.4 * scale, 330.1 * scale);
+  drawn.frame_px = 14.0 * scale;
+  return drawn;
 }
 
 bool holds(const std::vector<ScoredCandidate>& rivals, const geometry::Quadrilateral& quad,
@@ -29,11 +29,10 @@ TEST(CandidateSearch, OneSetOfParametersServesAllImageSizes) {
   CandidateSearch search{DetectorParams()};
   for (double scale : {0.5, 1.0, 2.0, 3.0}) {
     DetectionTrace trace;
-    const auto picture = framed(scale);
-    const auto rivals = search.run(picture.draw(), nullptr, trace);
-    EXPECT_TRUE(holds(rivals, picture.opening, 3.0 * search.factor())) << "inner, scale " << scale;
-    EXPECT_TRUE(holds(rivals, test::grown(picture.opening, picture.frame_px), 3.0 * search.factor()))
-        << scale;
+    const auto drawn = framed(scale);
+    const auto rivals = search.run(drawn.draw(), nullptr, trace);
+    EXPECT_TRUE(holds(rivals, drawn.opening, 3.0 * search.factor())) << "inner, scale " << scale;
+    EXPECT_TRUE(holds(rivals, test::grown(drawn.opening, drawn.frame_px), 3.0 * search.factor())) << scale;
     EXPECT_FALSE(trace.budget_exceeded);
   }
 }
@@ -84,7 +83,7 @@ TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
   CandidateSearch search{DetectorParams()};
   DetectionTrace trace;
   const bool at_once = holds(search.run(image, nullptr, trace), opening, 6.0);
-  EXPECT_FALSE(at_once) << "the picture is too easy for this test";
+  EXPECT_FALSE(at_once) << "the image is too easy for this test";
   EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
 }
 
@@ -110,14 +109,14 @@ TEST(CandidateSearch, AThinBlurredFrameIsFoundByItsPaintInAnyLight) {
   CandidateSearch search{DetectorParams()};
   DetectionTrace trace;
   EXPECT_FALSE(holds(search.run(image, nullptr, trace), opening, 8.0))
-      << "the picture is too easy for this test";
-  EXPECT_FALSE(holds(search.runOnColours(trace), opening, 8.0)) << "the picture is too easy for this test";
+      << "the image is too easy for this test";
+  EXPECT_FALSE(holds(search.runOnColours(trace), opening, 8.0)) << "the image is too easy for this test";
   EXPECT_TRUE(holds(search.runOnPaint(Eigen::Vector3f(-0.76F, 0.12F, 0.64F), trace), opening, 8.0));
   EXPECT_FALSE(holds(search.runOnPaint(Eigen::Vector3f(-0.41F, 0.82F, -0.41F), trace), opening, 8.0))
       << "another paint";
 }
 
-TEST(CandidateSearch, AGreyPictureHasNoColours) {
+TEST(CandidateSearch, AGreyImageHasNoColours) {
   cv::Mat grey;
   cv::cvtColor(framed().draw(), grey, cv::COLOR_BGR2GRAY);
   CandidateSearch search{DetectorParams()};

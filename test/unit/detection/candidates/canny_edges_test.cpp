@@ -48,7 +48,7 @@ TEST(EdgeMap, GradientIsThatOfTheStrongestChannelWhateverTheSize) {
       }
 }
 
-TEST(EdgeMap, APartOfALargerPictureIsReadRowByRow) {
+TEST(EdgeMap, APartOfALargerImageIsReadRowByRow) {
   const cv::Mat large = noise(50, 90, CV_8UC3, 7), part = large(cv::Rect(10, 5, 33, 20));
   EdgeDetector detector{EdgeMapParams()};
   const cv::Mat edges = detector.run(part).edges.clone();

@@ -53,7 +53,7 @@ TEST(EdgeChains, ACircleIsCutIntoShortRuns) {
   for (const EdgeChain& run : found) EXPECT_LT(run.length(), 60.0);
 }
 
-TEST(EdgeChains, EmptyAndTinyPicturesHaveNone) {
+TEST(EdgeChains, EmptyAndTinyImagesHaveNone) {
   EdgeChains runs;
   for (const cv::Size& size : {cv::Size(1, 1), cv::Size(3, 2), cv::Size(64, 64)})
     EXPECT_TRUE(runsOf(runs, cv::Mat(size, CV_8UC1, cv::Scalar(9))).empty());

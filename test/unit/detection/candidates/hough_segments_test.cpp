@@ -19,10 +19,10 @@ std::vector<Segment> segmentsOf(const EdgeMap& map) {
 }
 
 cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
-  test::WindowPicture picture;
-  picture.width = 320, picture.height = 240, picture.type = CV_8UC1;
-  picture.opening = opening, picture.noise = noise;
-  return picture.draw();
+  test::DrawnWindow drawn;
+  drawn.width = 320, drawn.height = 240, drawn.type = CV_8UC1;
+  drawn.opening = opening, drawn.noise = noise;
+  return drawn.draw();
 }
 
 TEST(HoughSegments, FindsTheFourSidesOfAWindowFromAnyAngle) {

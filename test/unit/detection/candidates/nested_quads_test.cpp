@@ -11,9 +11,9 @@ namespace window_ingress::detection::nested_quads_test {
 const auto kOpening = test::rectangle(100, 80, 220, 170);
 
 cv::Mat framed() {
-  test::WindowPicture picture;
-  picture.width = 320, picture.height = 240, picture.opening = kOpening, picture.frame_px = 10;
-  return picture.draw();
+  test::DrawnWindow drawn;
+  drawn.width = 320, drawn.height = 240, drawn.opening = kOpening, drawn.frame_px = 10;
+  return drawn.draw();
 }
 
 std::vector<NestedVerdict> judge(const cv::Mat& image, const std::vector<geometry::Quadrilateral>& loops) {

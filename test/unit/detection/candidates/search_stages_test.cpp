@@ -45,12 +45,12 @@ TEST(Preprocess, EqualisationRaisesContrastAndTakesBothTypes) {
 TEST(EdgeDetector, ThresholdsFollowTheContrastOfTheImage) {
   EdgeDetector detector{EdgeMapParams()};
   for (double contrast : {12.0, 40.0, 120.0}) {
-    test::WindowPicture picture;
-    picture.opening = test::rectangle(200, 150, 420, 330);
-    picture.wall = cv::Scalar::all(60 + contrast);
-    picture.hole = cv::Scalar::all(60);
-    picture.noise = 1.0;
-    const EdgeMap& map = detector.run(picture.draw());
+    test::DrawnWindow drawn;
+    drawn.opening = test::rectangle(200, 150, 420, 330);
+    drawn.wall = cv::Scalar::all(60 + contrast);
+    drawn.hole = cv::Scalar::all(60);
+    drawn.noise = 1.0;
+    const EdgeMap& map = detector.run(drawn.draw());
     const int on_border = cv::countNonZero(map.edges(cv::Rect(197, 170, 7, 140)));
     EXPECT_GE(on_border, 130) << "contrast " << contrast;
   }

@@ -13,10 +13,10 @@ const auto kOpening = test::rectangle(100, 80, 220, 170);
 const cv::Scalar kOrange(50, 140, 215), kBlue(200, 120, 40);
 
 cv::Mat window(const cv::Scalar& frame, const cv::Scalar& hole, double light = 1.0) {
-  test::WindowPicture picture;
-  picture.width = 320, picture.height = 240, picture.opening = kOpening, picture.frame_px = 6;
-  picture.frame = frame, picture.hole = hole;
-  cv::Mat image = picture.draw();
+  test::DrawnWindow drawn;
+  drawn.width = 320, drawn.height = 240, drawn.opening = kOpening, drawn.frame_px = 6;
+  drawn.frame = frame, drawn.hole = hole;
+  cv::Mat image = drawn.draw();
   image.convertTo(image, -1, light);
   return image;
 }
@@ -50,9 +50,9 @@ TEST(ReferenceAppearance, TheOuterBorderOfTheSameFrameIsFurther) {
   EXPECT_GT(distance(image, test::grown(kOpening, 6)), distance(image) + 0.3);
 }
 
-TEST(ReferenceAppearance, SaysWhyAPictureCannotBeOne) {
-  const cv::Mat picture = window(kOrange, cv::Scalar(60, 55, 50));
-  EXPECT_EQ(ReferenceAppearance::faultOf(picture, kOpening), "");
+TEST(ReferenceAppearance, SaysWhyAnImageCannotBeOne) {
+  const cv::Mat drawn = window(kOrange, cv::Scalar(60, 55, 50));
+  EXPECT_EQ(ReferenceAppearance::faultOf(drawn, kOpening), "");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::pair<geometry::Quadrilateral, std::string> bad[] = {
       {test::rectangle(5000, 5000, 5100, 5100), "outside"},
@@ -60,16 +60,16 @@ TEST(ReferenceAppearance, SaysWhyAPictureCannotBeOne) {
       {{Eigen::Vector2d(nan, 0), {9, 0}, {9, 9}, {0, 9}}, "convex"},
       {{Eigen::Vector2d(100, 80), {220, 170}, {220, 80}, {100, 170}}, "convex"}};
   for (const auto& [corners, word] : bad)
-    EXPECT_NE(ReferenceAppearance::faultOf(picture, corners).find(word), std::string::npos) << word;
+    EXPECT_NE(ReferenceAppearance::faultOf(drawn, corners).find(word), std::string::npos) << word;
   EXPECT_NE(ReferenceAppearance::faultOf(cv::Mat(), kOpening), "");
   EXPECT_NE(ReferenceAppearance::faultOf(cv::Mat(240, 320, CV_16UC3), kOpening), "");
 }
 
 TEST(ReferenceAppearance, KnowsWhetherItsOpeningIsAGuess) {
-  const cv::Mat picture = window(kOrange, cv::Scalar(60, 55, 50));
-  EXPECT_TRUE(ReferenceAppearance(picture, kOpening).openingIsKnown());
-  EXPECT_FALSE(ReferenceAppearance(picture).openingIsKnown());
-  EXPECT_FALSE(ReferenceAppearance::guessed(picture, kOpening).openingIsKnown());
+  const cv::Mat drawn = window(kOrange, cv::Scalar(60, 55, 50));
+  EXPECT_TRUE(ReferenceAppearance(drawn, kOpening).openingIsKnown());
+  EXPECT_FALSE(ReferenceAppearance(drawn).openingIsKnown());
+  EXPECT_FALSE(ReferenceAppearance::guessed(drawn, kOpening).openingIsKnown());
 }
 
 TEST(ReferenceAppearance, NoAnswerForGreyTooFewPixelsAndBadQuads) {
@@ -90,7 +90,7 @@ TEST(ReferenceAppearance, NoAnswerForGreyTooFewPixelsAndBadQuads) {
 // The target's frame, a little bluer.
 cv::Mat evening() { return window(cv::Scalar(75, 140, 205), cv::Scalar(60, 55, 50)); }
 
-TEST(ReferenceAppearance, WholePictureCountsItsRimForTheFrame) {
+TEST(ReferenceAppearance, WholeImageCountsItsRimForTheFrame) {
   const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
   const ReferenceAppearance rim(image(cv::Rect(93, 73, 134, 104)), 0.05);
   const auto own = rim.distance(image, kOpening, {}),
@@ -100,9 +100,9 @@ TEST(ReferenceAppearance, WholePictureCountsItsRimForTheFrame) {
   EXPECT_GT(*other, 0.6);
 }
 
-TEST(ReferenceAppearance, LimitAndOddsFollowWhatElseIsInThePicture) {
+TEST(ReferenceAppearance, LimitAndOddsFollowWhatElseIsInTheImage) {
   const ReferenceAppearance orange(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
-  const ReferenceAppearance bare(window(test::WindowPicture().wall, cv::Scalar(60, 55, 50)), kOpening);
+  const ReferenceAppearance bare(window(test::DrawnWindow().wall, cv::Scalar(60, 55, 50)), kOpening);
   const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
   const auto seen = orange.compare(image, kOpening, {});
   ASSERT_TRUE(seen);
@@ -125,7 +125,7 @@ TEST(ReferenceAppearance, AdaptsToTheLightButNeverFurtherThanAllowed) {
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(reference.adapt(view, kOpening, 0.1, params));
   EXPECT_LT(*reference.distance(view, kOpening, params), 0.6 * before);
   EXPECT_LT(*reference.distance(window(kOrange, cv::Scalar(60, 55, 50)), kOpening, params), 0.01)
-      << "the operator's picture stays valid";
+      << "the reference image stays valid";
   for (int i = 0; i < 200; ++i)
     reference.adapt(window(kOrange + i / 200.0 * (kBlue - kOrange), cv::Scalar(60, 55, 50)), kOpening, 0.3,
                     params);

@@ -77,7 +77,7 @@ TEST(ReferenceBorders, AReferenceWithoutAFrameIsKnownAsSuch) {
   EXPECT_FALSE(learned(Facade()).frameless());
 }
 
-TEST(ReferenceBorders, NothingFromPicturesWithoutColourOrWithoutSense) {
+TEST(ReferenceBorders, NothingFromImagesWithoutColourOrWithoutSense) {
   const Facade facade;
   ReferenceBorders borders;
   cv::Mat grey;

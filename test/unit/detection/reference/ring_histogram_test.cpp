@@ -102,7 +102,7 @@ TEST(RingHistogram, AVeilOfHazeIsTakenOff) {
   EXPECT_GT(bhattacharyya(*reference, *blue), 0.6);
 }
 
-TEST(RingHistogram, ABandOutsideThePictureIsNotSeenAndNotCompared) {
+TEST(RingHistogram, ABandOutsideTheImageIsNotSeenAndNotCompared) {
   const cv::Mat image = noisyWindow(1, 2.0), frame = image(cv::Rect(93, 73, 135, 105)).clone();
   const auto whole = ringColours(image, kOpening, {}, kFew);
   const auto cut = ringColours(frame, test::rectangle(7, 7, 127, 97), {0.04, 0.30}, kFew);
@@ -121,7 +121,7 @@ TEST(RingHistogram, BlendGoesFromOneToTheOther) {
   EXPECT_LT(bhattacharyya(blended(*a, *b, 0.3), *a), bhattacharyya(blended(*a, *b, 0.7), *a) + 1e-9);
 }
 
-TEST(RingHistogram, GreyPicturesHaveNoAnswer) {
+TEST(RingHistogram, GreyImagesHaveNoAnswer) {
   const cv::Mat noisy = noisyWindow(1, 5.0);
   cv::Mat grey;
   cv::cvtColor(noisy, grey, cv::COLOR_BGR2GRAY);
@@ -131,7 +131,7 @@ TEST(RingHistogram, GreyPicturesHaveNoAnswer) {
   EXPECT_TRUE(isGrey(grey));
   cv::rectangle(grey, {0, 200}, {320, 240}, cv::Scalar(20, 20, 220), cv::FILLED);
   EXPECT_FALSE(isGrey(grey));
-  EXPECT_TRUE(ringColours(grey, kOpening, {}, kFew)) << "a colourless frame in a picture with colours";
+  EXPECT_TRUE(ringColours(grey, kOpening, {}, kFew)) << "a colourless frame in an image with colours";
 }
 
 TEST(RingHistogram, BadQuadrilateralsHaveNoAnswer) {
@@ -145,7 +145,7 @@ TEST(RingHistogram, BadQuadrilateralsHaveNoAnswer) {
 }
 
 // Steep perspectives, partly outside and beyond the horizon: never a pixel outside the image.
-TEST(RingSamples, StayWithinThePicture) {
+TEST(RingSamples, StayWithinTheImage) {
   cv::RNG random(3);
   const cv::Mat image = noisyWindow(1, 5.0);
   RingSamples samples;

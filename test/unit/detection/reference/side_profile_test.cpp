@@ -46,7 +46,7 @@ TEST(SideProfile, SidesAreMeasuredFromTheLoopOutwards) {
   }
 }
 
-TEST(SideProfile, EndsWithThePicture) {
+TEST(SideProfile, EndsWithTheImage) {
   const cv::Mat image(200, 200, CV_8UC3, cv::Scalar::all(90));
   std::array<SideProfile, 4> sides;
   measureSides(image, test::rectangle(5, 60, 105, 160), nullptr, {0.1, 0.4, 1.0, 24, 140}, sides);

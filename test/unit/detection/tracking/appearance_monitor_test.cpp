@@ -11,16 +11,16 @@ constexpr int kEvery = 4;
 struct Watched {
   Watched() {
     params.track.appearance_every = kEvery;
-    picture.width = 320, picture.height = 240;
-    picture.opening = test::rectangle(80, 60, 240, 180);
-    input.image = picture.draw();
-    window.corners = picture.opening;
+    drawn.width = 320, drawn.height = 240;
+    drawn.opening = test::rectangle(80, 60, 240, 180);
+    input.image = drawn.draw();
+    window.corners = drawn.opening;
     window.corner_visible = {true, true, true, true};
   }
   bool look(AppearanceMonitor& watch) { return watch.look(input, window.corners, window); }
 
   DetectorParams params;
-  test::WindowPicture picture;
+  test::DrawnWindow drawn;
   TrackInput input;
   WindowObservation window;
 };
@@ -28,7 +28,7 @@ struct Watched {
 TEST(AppearanceMonitor, LooksOnceInAWhileAndAgreesWithTheReferenceItself) {
   Watched seen;
   AppearanceMonitor watch(seen.params);
-  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.drawn.opening));
   watch.start();
   int looked = 0;
   for (int i = 1; i <= 3 * kEvery; ++i) {
@@ -44,7 +44,7 @@ TEST(AppearanceMonitor, LooksOnceInAWhileAndAgreesWithTheReferenceItself) {
 TEST(AppearanceMonitor, AnotherPaintIsUnlikeUntilASearchHasSeenItAgain) {
   Watched seen;
   AppearanceMonitor watch(seen.params);
-  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.drawn.opening));
   cv::Mat other;
   const int blue_and_red_swapped[] = {0, 2, 1, 1, 2, 0};
   other.create(seen.input.image.size(), CV_8UC3);
@@ -61,7 +61,7 @@ TEST(AppearanceMonitor, WithoutAReferenceNothingIsCompared) {
   Watched seen;
   AppearanceMonitor watch(seen.params);
   for (int i = 0; i < 2 * kEvery; ++i) EXPECT_TRUE(seen.look(watch));
-  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.drawn.opening));
   watch.setReference(nullptr);
   EXPECT_TRUE(seen.look(watch));
   EXPECT_FALSE(seen.window.has_appearance);
@@ -71,7 +71,7 @@ TEST(AppearanceMonitor, WithoutAReferenceNothingIsCompared) {
 TEST(AppearanceMonitor, AWindowThatIsNotWholeIsNotComparedNorLearned) {
   Watched seen;
   AppearanceMonitor watch(seen.params);
-  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.picture.opening));
+  watch.setReference(std::make_shared<ReferenceAppearance>(seen.input.image, seen.drawn.opening));
   seen.window.corner_visible[2] = false;
   EXPECT_TRUE(seen.look(watch));
   EXPECT_FALSE(watch.hasAgreed());

@@ -33,7 +33,7 @@ struct Row {
   }
 };
 
-TEST(ExpectedPlace, ChoosesTheWindowAmongEqualOnesFromTheFirstPicture) {
+TEST(ExpectedPlace, ChoosesTheWindowAmongEqualOnesFromTheFirstImage) {
   for (int window = 0; window < 3; ++window) {
     Row row;
     int whole = 0;
@@ -47,12 +47,12 @@ TEST(ExpectedPlace, ChoosesTheWindowAmongEqualOnesFromTheFirstPicture) {
   }
 }
 
-TEST(ExpectedPlace, EndsATrackOfAnotherWindowAfterAFewPicturesAndTheNewOneHasANumberOfItsOwn) {
+TEST(ExpectedPlace, EndsATrackOfAnotherWindowAfterAFewImagesAndTheNewOneHasANumberOfItsOwn) {
   Row row;
   for (int n = 0; n < 10; ++n) row.look(row.corners(0));
   const auto before = row.look(row.corners(0));
   ASSERT_LT(row.off(before, 0), 2.0);
-  EXPECT_LT(row.off(row.look(row.corners(2)), 0), 2.0) << "one picture is not believed";
+  EXPECT_LT(row.off(row.look(row.corners(2)), 0), 2.0) << "one image is not believed";
   for (int n = 0; n < 8; ++n) row.look(row.corners(2));
   const auto after = row.look(row.corners(2));
   ASSERT_LT(row.off(after, 2), 2.0);
@@ -90,7 +90,7 @@ TEST(ExpectedPlace, ThatIsNoQuadrilateralIsNotHeeded) {
   }
 }
 
-TEST(AllWindows, OfThePictureAreToldAboutOnceASecondWhileOneIsFollowed) {
+TEST(AllWindows, OfTheImageAreToldAboutOnceASecondWhileOneIsFollowed) {
   Row row;
   int told = 0, most = 0, targets = 0;
   for (int n = 0; n < 90; ++n) {

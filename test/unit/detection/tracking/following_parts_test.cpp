@@ -129,7 +129,7 @@ TEST(FrontBorder, StaysAtABlurredBorder) {
   }
 }
 
-TEST(StretchInView, IsCutByThePicture) {
+TEST(StretchInView, IsCutByTheImage) {
   const cv::Size size(320, 240);
   const auto cut = stretchInView({Vector2d(-100, 50), Vector2d(500, 50)}, size, 3.0, nullptr);
   ASSERT_TRUE(cut);

@@ -9,13 +9,13 @@ namespace window_ingress::detection::track_loss_test {
 
 const geometry::PinholeCamera kCamera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.2);
 
-test::WindowPicture windowOf(int frame) {
-  test::WindowPicture picture;
-  picture.width = 320, picture.height = 240;
-  picture.opening = test::rectangle(100, 80, 196, 160);
-  picture.frame_px = 8.0;
-  picture.seed = 1 + frame;
-  return picture;
+test::DrawnWindow windowOf(int frame) {
+  test::DrawnWindow drawn;
+  drawn.width = 320, drawn.height = 240;
+  drawn.opening = test::rectangle(100, 80, 196, 160);
+  drawn.frame_px = 8.0;
+  drawn.seed = 1 + frame;
+  return drawn;
 }
 
 // An attitude that is wrong foretells the window elsewhere; it is searched, and found where it was.

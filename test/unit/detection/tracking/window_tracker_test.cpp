@@ -13,8 +13,8 @@
 namespace window_ingress::detection::window_tracker_test {
 
 using geometry::Quadrilateral;
+using test::DrawnWindow;
 using test::FlatFacade;
-using test::WindowPicture;
 
 constexpr double kPeriodSec = 1.0 / 30.0;
 
@@ -40,14 +40,13 @@ TrackInput viewOf(const FlatFacade& wall, const FlatFacade::Camera& from, int fr
 /// The frame was followed, no search was needed.
 bool followed(const WindowTracker& tracker) { return tracker.tracking() && tracker.trace().segments == 0; }
 
-WindowPicture windowAt(double x, double y, double half, double frame_px, int frame) {
-  WindowPicture picture;
-  picture.width = 320, picture.height = 240;
-  picture.opening =
-      test::turned(test::rectangle(x - 1.2 * half, y - half, x + 1.2 * half, y + half), 0.0, 0.1);
-  picture.frame_px = frame_px;
-  picture.seed = 1 + frame;
-  return picture;
+DrawnWindow windowAt(double x, double y, double half, double frame_px, int frame) {
+  DrawnWindow drawn;
+  drawn.width = 320, drawn.height = 240;
+  drawn.opening = test::turned(test::rectangle(x - 1.2 * half, y - half, x + 1.2 * half, y + half), 0.0, 0.1);
+  drawn.frame_px = frame_px;
+  drawn.seed = 1 + frame;
+  return drawn;
 }
 
 TEST(WindowTracker, FollowsAMovingWindowToATenthOfAPixelUnderOneNumber) {
@@ -56,16 +55,16 @@ TEST(WindowTracker, FollowsAMovingWindowToATenthOfAPixelUnderOneNumber) {
   double squares = 0.0;
   const int frames = 50;
   for (int i = 0; i < frames; ++i) {
-    WindowPicture picture = windowAt(150 + 30 * std::sin(0.05 * i), 115 + 12 * std::sin(0.08 * i),
-                                     40.0 + 0.4 * i, 6.0 + 0.06 * i, i);
-    picture.opening = test::turned(picture.opening, 0.05 * std::sin(0.1 * i), 0.0);
-    const auto window = tracker.update(inputOf(picture.draw(), i));
+    DrawnWindow drawn = windowAt(150 + 30 * std::sin(0.05 * i), 115 + 12 * std::sin(0.08 * i), 40.0 + 0.4 * i,
+                                 6.0 + 0.06 * i, i);
+    drawn.opening = test::turned(drawn.opening, 0.05 * std::sin(0.1 * i), 0.0);
+    const auto window = tracker.update(inputOf(drawn.draw(), i));
     ASSERT_TRUE(window) << i << ": " << tracker.trace().detail;
     ASSERT_TRUE(window->whole()) << i;
     EXPECT_EQ(window->target_id, 1u);
-    EXPECT_LT(test::worstCorner(window->corners, picture.opening), 0.3) << i;
+    EXPECT_LT(test::worstCorner(window->corners, drawn.opening), 0.3) << i;
     for (int k = 0; k < 4; ++k)
-      squares += (window->corners[k] - picture.opening[k]).squaredNorm() / (8.0 * frames);
+      squares += (window->corners[k] - drawn.opening[k]).squaredNorm() / (8.0 * frames);
     searches += !followed(tracker);
   }
   EXPECT_LE(searches, 2);
@@ -77,32 +76,32 @@ TEST(WindowTracker, DoesNotSlipToTheOtherBorderOfItsFrame) {
   WindowTracker tracker{DetectorParams()};
   for (int i = 0; i < 40; ++i) {
     const double jump = 4.0 * (i / 4 % 2);
-    const WindowPicture picture = windowAt(150 + jump, 115 - jump, 50.0, 4.0, i);
-    const auto window = tracker.update(inputOf(picture.draw(), i));
+    const DrawnWindow drawn = windowAt(150 + jump, 115 - jump, 50.0, 4.0, i);
+    const auto window = tracker.update(inputOf(drawn.draw(), i));
     ASSERT_TRUE(window) << i << ": " << tracker.trace().detail;
-    EXPECT_LT(test::worstCorner(window->corners, picture.opening), 0.4) << i;
+    EXPECT_LT(test::worstCorner(window->corners, drawn.opening), 0.4) << i;
   }
 }
 
 TEST(WindowTracker, AWindowThatVanishesIsGivenUpInTheSameFrame) {
   WindowTracker tracker{DetectorParams()};
-  const WindowPicture picture = windowAt(150, 115, 50.0, 6.0, 0);
-  for (int i = 0; i < 10; ++i) ASSERT_TRUE(tracker.update(inputOf(picture.draw(), i)));
-  cv::Mat wall(240, 320, CV_8UC3, picture.wall);
+  const DrawnWindow drawn = windowAt(150, 115, 50.0, 6.0, 0);
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(tracker.update(inputOf(drawn.draw(), i)));
+  cv::Mat wall(240, 320, CV_8UC3, drawn.wall);
   test::addNoise(wall, 2.0, 5);
   EXPECT_FALSE(tracker.update(inputOf(wall, 10)));
   EXPECT_FALSE(tracker.tracking());
   EXPECT_FALSE(tracker.trace().detail.empty());
-  const auto again = tracker.update(inputOf(picture.draw(), 11));
+  const auto again = tracker.update(inputOf(drawn.draw(), 11));
   ASSERT_TRUE(again);
   EXPECT_EQ(again->target_id, 1u) << "in its place and soon: the same";
 }
 
 TEST(WindowTracker, ASideThatIsHiddenIsNoEdgeAndTheRestGoesOn) {
   WindowTracker tracker{DetectorParams()};
-  const WindowPicture picture = windowAt(150, 115, 50.0, 6.0, 0);
-  for (int i = 0; i < 8; ++i) ASSERT_TRUE(tracker.update(inputOf(picture.draw(), i)));
-  cv::Mat hidden = picture.draw();
+  const DrawnWindow drawn = windowAt(150, 115, 50.0, 6.0, 0);
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(tracker.update(inputOf(drawn.draw(), i)));
+  cv::Mat hidden = drawn.draw();
   hidden(cv::Rect(195, 30, 60, 180)).setTo(cv::Scalar(90, 200, 90));
   const auto window = tracker.update(inputOf(hidden, 8));
   ASSERT_TRUE(window) << tracker.trace().detail;
@@ -111,7 +110,7 @@ TEST(WindowTracker, ASideThatIsHiddenIsNoEdgeAndTheRestGoesOn) {
   EXPECT_FALSE(window->edges[geometry::kRight].visible);
   EXPECT_FALSE(window->corner_visible[geometry::kTopRight]);
   EXPECT_EQ(window->corners[geometry::kTopRight], Eigen::Vector2d(0, 0));
-  EXPECT_LT((window->corners[geometry::kTopLeft] - picture.opening[0]).norm(), 0.3);
+  EXPECT_LT((window->corners[geometry::kTopLeft] - drawn.opening[0]).norm(), 0.3);
 }
 
 // The side is too near to the image's edge to be learnt when the window is found.
@@ -119,8 +118,8 @@ TEST(WindowTracker, ASideThatComesIntoViewLaterIsFollowedToo) {
   WindowTracker tracker{DetectorParams()};
   int whole = 0;
   for (int i = 0; i < 20; ++i) {
-    const WindowPicture picture = windowAt(61.3 + 2.0 * i, 115, 50.0, 6.0, i);
-    const auto window = tracker.update(inputOf(picture.draw(), i));
+    const DrawnWindow drawn = windowAt(61.3 + 2.0 * i, 115, 50.0, 6.0, i);
+    const auto window = tracker.update(inputOf(drawn.draw(), i));
     ASSERT_TRUE(window) << i << ": " << tracker.trace().detail;
     EXPECT_EQ(window->target_id, 1u);
     whole += i > 0 && window->whole();
@@ -238,8 +237,8 @@ TEST(WindowTracker, TimeSizeAndCalibrationStartAnew) {
   const cv::Mat image = windowAt(150, 115, 50.0, 6.0, 0).draw();
   geometry::PinholeCamera one = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.2), other = one;
   other.fx += 1.0;
-  const auto numberAt = [&](int frame, const geometry::PinholeCamera* model, const cv::Mat& picture) {
-    TrackInput input = inputOf(picture, frame);
+  const auto numberAt = [&](int frame, const geometry::PinholeCamera* model, const cv::Mat& shown) {
+    TrackInput input = inputOf(shown, frame);
     input.camera = model;
     const auto window = tracker.update(input);
     return window ? window->target_id : 0u;
@@ -259,17 +258,17 @@ TEST(WindowTracker, TimeSizeAndCalibrationStartAnew) {
 }
 
 /// A window of this paint, a little further on in each frame.
-cv::Mat painted(const cv::Scalar& paint, int frame, WindowPicture* drawn = nullptr) {
-  WindowPicture picture = windowAt(150 + 10 * std::sin(0.05 * frame), 115, 42, 6, frame);
-  picture.frame = paint;
-  if (drawn) *drawn = picture;
-  return picture.draw();
+cv::Mat painted(const cv::Scalar& paint, int frame, DrawnWindow* drawn = nullptr) {
+  DrawnWindow window = windowAt(150 + 10 * std::sin(0.05 * frame), 115, 42, 6, frame);
+  window.frame = paint;
+  if (drawn) *drawn = window;
+  return window.draw();
 }
 
-ReferenceAppearance pictureOf(const cv::Scalar& paint) {
-  WindowPicture drawn;
-  const cv::Mat picture = painted(paint, 0, &drawn);
-  return {picture, drawn.opening};
+ReferenceAppearance referenceOf(const cv::Scalar& paint) {
+  DrawnWindow drawn;
+  const cv::Mat image = painted(paint, 0, &drawn);
+  return {image, drawn.opening};
 }
 
 const cv::Scalar kOrange(40, 130, 220), kTinted(110, 150, 190), kBlue(210, 110, 40);
@@ -278,7 +277,7 @@ TEST(WindowTracker, ItsReferenceFollowsTheLightSlowlyAndNotFar) {
   DetectorParams params;
   params.track.appearance_every = 5;
   WindowTracker tracker(params);
-  tracker.setReference(pictureOf(kOrange));
+  tracker.setReference(referenceOf(kOrange));
   EXPECT_EQ(tracker.referenceDrift(), 0.0);
   int found = 0;
   double drift = 0.0;
@@ -294,13 +293,13 @@ TEST(WindowTracker, ItsReferenceFollowsTheLightSlowlyAndNotFar) {
   }
   EXPECT_EQ(found, 240) << "its looks alone never end a track";
   EXPECT_GT(drift, 0.02);
-  tracker.setReference(pictureOf(kOrange));
+  tracker.setReference(referenceOf(kOrange));
   EXPECT_EQ(tracker.referenceDrift(), 0.0) << "a new one is as it is given";
 }
 
 TEST(WindowTracker, AnotherWindowNeverBecomesTheReference) {
   WindowTracker tracker{DetectorParams()};
-  tracker.setReference(pictureOf(kOrange));
+  tracker.setReference(referenceOf(kOrange));
   for (int i = 0; i < 60; ++i) {
     EXPECT_FALSE(tracker.update(inputOf(painted(kBlue, i), i))) << i;
     EXPECT_EQ(tracker.referenceDrift(), 0.0);
@@ -308,7 +307,7 @@ TEST(WindowTracker, AnotherWindowNeverBecomesTheReference) {
   EXPECT_TRUE(tracker.update(inputOf(painted(kOrange, 60), 60)));
 }
 
-TEST(WindowTracker, BadPicturesAndNumbersAreRefused) {
+TEST(WindowTracker, BadImagesAndNumbersAreRefused) {
   WindowTracker tracker{DetectorParams()};
   const cv::Mat good = windowAt(150, 115, 50.0, 6.0, 0).draw();
   ASSERT_TRUE(tracker.update(inputOf(good, 0)));
@@ -341,7 +340,7 @@ TEST(WindowTracker, RefusesBadParameters) {
   EXPECT_THROW(tracker.setParams(params), std::invalid_argument);
 }
 
-TEST(WindowTracker, TheSamePicturesGiveTheSameAnswers) {
+TEST(WindowTracker, TheSameImagesGiveTheSameAnswers) {
   WindowTracker a{DetectorParams()}, b{DetectorParams()};
   b.update(inputOf(windowAt(120, 100, 40.0, 0.0, 3).draw(), -100));
   b.reset();

@@ -78,7 +78,7 @@ std::optional<double> lateSecFound(double odometry_ahead_sec) {
   scenario.start.distance_m = 4.0;
   scenario.odometry.stamp_offset_sec = odometry_ahead_sec;
   FlightParams params;
-  params.without_pictures = true;
+  params.without_images = true;
   const auto flight = flyOnce(scenario, 3, params);
   return flight.clock_offset ? std::optional(flight.clock_offset->late_sec) : std::nullopt;
 }

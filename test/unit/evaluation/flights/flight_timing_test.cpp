@@ -10,12 +10,12 @@ TEST(FlightTiming, GivesEachLapToItsStageAndSumsUp) {
   timing.begin();
   while (std::chrono::duration<double>(FlightTiming::Clock::now() - began).count() < 0.01) {
   }
-  timing.lap(Stage::kPicture);
+  timing.lap(Stage::kImage);
   timing.lap(Stage::kPose);
-  EXPECT_GE(timing.spentSec(Stage::kPicture), 0.0099);
-  EXPECT_LT(timing.spentSec(Stage::kPose), timing.spentSec(Stage::kPicture));
+  EXPECT_GE(timing.spentSec(Stage::kImage), 0.0099);
+  EXPECT_LT(timing.spentSec(Stage::kPose), timing.spentSec(Stage::kImage));
   EXPECT_EQ(timing.spentSec(Stage::kDetector), 0.0);
-  EXPECT_DOUBLE_EQ(timing.totalSec(), timing.spentSec(Stage::kPicture) + timing.spentSec(Stage::kPose));
+  EXPECT_DOUBLE_EQ(timing.totalSec(), timing.spentSec(Stage::kImage) + timing.spentSec(Stage::kPose));
   timing.countFrame();
   timing.addSimulated(1.5);
   FlightTiming sum;
@@ -28,7 +28,7 @@ TEST(FlightTiming, GivesEachLapToItsStageAndSumsUp) {
 
 TEST(FlightTiming, TableNamesEveryStageAlsoWithoutAFlight) {
   const std::string text = FlightTiming().table();
-  for (const char* name : {"physics", "picture", "detector", "pose", "navigator", "rest", "times real time"})
+  for (const char* name : {"physics", "image", "detector", "pose", "navigator", "rest", "times real time"})
     EXPECT_NE(text.find(name), std::string::npos) << name;
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }

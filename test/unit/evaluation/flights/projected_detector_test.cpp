@@ -45,7 +45,7 @@ TEST(ProjectedDetector, CornersAreTheTrueOnesWithTheSpreadTheyState) {
   EXPECT_NEAR(squares, 1.0, 0.1);
 }
 
-TEST(ProjectedDetector, NearTheWindowSidesLeaveThePicture) {
+TEST(ProjectedDetector, NearTheWindowSidesLeaveTheImage) {
   EXPECT_EQ(seenFrom({-4.0, 0.0, 0.0})->visibleSides(), 4);
   const auto near = seenFrom({-0.92, 0.0, 0.0});  // higher than the image, not yet wider
   ASSERT_TRUE(near);
@@ -53,7 +53,7 @@ TEST(ProjectedDetector, NearTheWindowSidesLeaveThePicture) {
   EXPECT_FALSE(near->whole());
   EXPECT_FALSE(near->edges[0].visible);
   EXPECT_TRUE(near->edges[1].visible);
-  EXPECT_FALSE(seenFrom({-0.3, 0.0, 0.0})) << "the picture lies within the window";
+  EXPECT_FALSE(seenFrom({-0.3, 0.0, 0.0})) << "the image lies within the window";
 }
 
 TEST(ProjectedDetector, NothingFromBehindBesideOrTooFar) {
@@ -80,12 +80,12 @@ TEST(ProjectedDetector, MissesAsOftenAsItIsToldTo) {
   EXPECT_THROW(ProjectedDetector(params, 1), std::invalid_argument);
 }
 
-TEST(ProjectedDetector, AFlightWithoutPicturesPassesAndRepeats) {
+TEST(ProjectedDetector, AFlightWithoutImagesPassesAndRepeats) {
   simulation::Scenario scenario;
   scenario.start.distance_m = 3.5;
   scenario.start.off_axis_rad = 0.3;
   FlightParams params;
-  params.without_pictures = true;
+  params.without_images = true;
   const auto one = flyOnce(scenario, 7, params), again = flyOnce(scenario, 7, params);
   EXPECT_EQ(one.outcome, simulation::Outcome::kPassed) << one.reason;
   EXPECT_EQ(one.time_sec, again.time_sec);

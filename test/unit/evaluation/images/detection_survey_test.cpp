@@ -61,13 +61,13 @@ TEST(SurveyVerdict, WithoutTargetAnythingFoundIsFalse) {
   EXPECT_EQ(judge(std::nullopt, none), SurveyVerdict::kNothing);
 }
 
-SurveyPicture pictureAt(double distance_m) {
-  SurveyPicture picture;
-  picture.scenario = "walls";
-  picture.seed = 5;
-  picture.distance_m = distance_m;
-  picture.truth = truth();
-  return picture;
+SurveyImage sampleAt(double distance_m) {
+  SurveyImage sample;
+  sample.scenario = "walls";
+  sample.seed = 5;
+  sample.distance_m = distance_m;
+  sample.truth = truth();
+  return sample;
 }
 
 detection::WindowObservation seen(const Quadrilateral& quad) {
@@ -85,9 +85,9 @@ TEST(SurveyResult, TellsWhatStoppedTheTrueCandidate) {
   candidate.quad = box(20, 30, 120, 130);
   candidate.reject = detection::RejectReason::kAspect;
   trace.candidates.push_back(candidate);
-  EXPECT_EQ(resultOf(pictureAt(4.0), std::nullopt, trace, 1.0).true_candidate, "score");
+  EXPECT_EQ(resultOf(sampleAt(4.0), std::nullopt, trace, 1.0).true_candidate, "score");
   trace.candidates.erase(trace.candidates.begin());
-  EXPECT_EQ(resultOf(pictureAt(4.0), std::nullopt, trace, 1.0).true_candidate, "unseen");
+  EXPECT_EQ(resultOf(sampleAt(4.0), std::nullopt, trace, 1.0).true_candidate, "unseen");
 }
 
 TEST(SurveyResult, CandidatesThatAreNoQuadrilateralsAreNoTrouble) {
@@ -95,7 +95,7 @@ TEST(SurveyResult, CandidatesThatAreNoQuadrilateralsAreNoTrouble) {
   trace.candidates.resize(2);
   for (auto& corner : trace.candidates[0].quad) corner.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (auto& corner : trace.candidates[1].quad) corner.setZero();
-  EXPECT_EQ(resultOf(pictureAt(4.0), std::nullopt, trace, 1.0).true_candidate, "unseen");
+  EXPECT_EQ(resultOf(sampleAt(4.0), std::nullopt, trace, 1.0).true_candidate, "unseen");
 }
 
 TEST(SurveyResult, RowHasAllColumns) {
@@ -103,14 +103,14 @@ TEST(SurveyResult, RowHasAllColumns) {
   const detection::DetectionTrace trace;
   for (const bool found : {true, false}) {
     const auto window = found ? std::make_optional(seen(kInner)) : std::nullopt;
-    const std::string row = surveyRow(resultOf(pictureAt(4.0), window, trace, 1.0));
+    const std::string row = surveyRow(resultOf(sampleAt(4.0), window, trace, 1.0));
     EXPECT_EQ(fields(row), fields(surveyColumns())) << row;
   }
 }
 
 SurveyResult resultAt(double distance_m, const std::optional<Quadrilateral>& found, double ms = 1.0) {
   const auto window = found ? std::make_optional(seen(*found)) : std::nullopt;
-  return resultOf(pictureAt(distance_m), window, {}, ms);
+  return resultOf(sampleAt(distance_m), window, {}, ms);
 }
 
 TEST(SurveySummary, CountsVerdictsAndMeasuresHitsOnly) {

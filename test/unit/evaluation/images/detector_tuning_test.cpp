@@ -11,12 +11,12 @@
 namespace window_ingress::evaluation::detector_tuning_test {
 
 /// Small images of a window, and of walls.
-std::vector<LabelledPicture> pictures(int count, unsigned seed) {
+std::vector<LabelledImage> images(int count, unsigned seed) {
   std::mt19937 random(seed);
-  std::vector<LabelledPicture> result;
+  std::vector<LabelledImage> result;
   for (int i = 0; i < count; ++i) {
     const double left = 40.0 + random() % 60, top = 30.0 + random() % 40, width = 90.0 + random() % 50;
-    test::WindowPicture window;
+    test::DrawnWindow window;
     window.width = 320, window.height = 240;
     window.opening = {
         Eigen::Vector2d(left, top), {left + width, top}, {left + width, top + 100}, {left, top + 100}};
@@ -41,7 +41,7 @@ TuningOptions options(int trials) {
 }
 
 TEST(TuneDetector, UndoesABadSettingAndChangesNothingElse) {
-  const auto set = pictures(4, 3);
+  const auto set = images(4, 3);
   const detection::DetectorParams start = blinded();
   ASSERT_LT(countDetections(set, start, nullptr).recall(), 1.0);
   int calls = 0;
@@ -61,7 +61,7 @@ TEST(TuneDetector, UndoesABadSettingAndChangesNothingElse) {
 }
 
 TEST(TuneDetector, IsTheSameForTheSameSeed) {
-  const auto set = pictures(2, 5);
+  const auto set = images(2, 5);
   const auto run = [&](std::uint32_t seed) {
     TuningOptions o = options(12);
     o.seed = seed;
@@ -75,9 +75,9 @@ TEST(TuneDetector, RefusesWhatItCannotDo) {
   const auto ignore = [](int, const DetectionCounts&) {};
   TuningOptions unknown = options(1);
   unknown.names = {"edges/flor"};
-  EXPECT_THROW(tuneDetector(pictures(1, 1), {}, nullptr, unknown, ignore), std::invalid_argument);
+  EXPECT_THROW(tuneDetector(images(1, 1), {}, nullptr, unknown, ignore), std::invalid_argument);
   EXPECT_THROW(tuneDetector({}, {}, nullptr, options(1), ignore), std::invalid_argument);
-  EXPECT_THROW(tuneDetector(pictures(1, 1), {}, nullptr, TuningOptions{}, ignore), std::invalid_argument);
+  EXPECT_THROW(tuneDetector(images(1, 1), {}, nullptr, TuningOptions{}, ignore), std::invalid_argument);
 }
 
 TEST(TuneDetector, UsualFieldsAreFieldsOfTheDetector) {

@@ -10,11 +10,11 @@ namespace window_ingress::evaluation::stage_sheet_test {
 
 constexpr int kWidth = 200;
 
-test::WindowPicture window() {
-  test::WindowPicture picture;
-  picture.width = 320, picture.height = 240, picture.frame_px = 8;
-  picture.opening = test::rectangle(100, 70, 220, 170);
-  return picture;
+test::DrawnWindow window() {
+  test::DrawnWindow drawn;
+  drawn.width = 320, drawn.height = 240, drawn.frame_px = 8;
+  drawn.opening = test::rectangle(100, 70, 220, 170);
+  return drawn;
 }
 
 bool holdsGreen(const cv::Mat& part) {
@@ -27,9 +27,9 @@ bool holdsGreen(const cv::Mat& part) {
 }
 
 TEST(StageSheet, ThreeRowsOfThreeAndTheTargetInTheLast) {
-  const auto picture = window();
-  const detection::ReferenceAppearance reference(picture.draw(), picture.opening);
-  const cv::Mat sheet = stageSheet(picture.draw(), {}, &reference, kWidth);
+  const auto drawn = window();
+  const detection::ReferenceAppearance reference(drawn.draw(), drawn.opening);
+  const cv::Mat sheet = stageSheet(drawn.draw(), {}, &reference, kWidth);
   ASSERT_EQ(sheet.type(), CV_8UC3);
   EXPECT_NEAR(sheet.cols, 3 * kWidth, 40);
   EXPECT_NEAR(sheet.rows, 3 * kWidth * 240 / 320, 120);
@@ -38,7 +38,7 @@ TEST(StageSheet, ThreeRowsOfThreeAndTheTargetInTheLast) {
   EXPECT_FALSE(holdsGreen(sheet(cv::Rect(0, 0, sheet.cols / 3, sheet.rows / 3))));
 }
 
-TEST(StageSheet, GreyPicturesAndEmptyWallsAreDrawn) {
+TEST(StageSheet, GreyImagesAndEmptyWallsAreDrawn) {
   EXPECT_FALSE(stageSheet(cv::Mat(240, 320, CV_8UC1, cv::Scalar(90)), {}, nullptr, kWidth).empty());
 }
 

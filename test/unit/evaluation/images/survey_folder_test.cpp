@@ -21,15 +21,15 @@ class SurveyFolderTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  static SurveyPicture draw(bool with_reference, double k1 = 0.0, const std::string& lens = "plumb_bob") {
+  static SurveyImage draw(bool with_reference, double k1 = 0.0, const std::string& lens = "plumb_bob") {
     simulation::Scenario scenario;
     scenario.camera.width_px = 160;
     scenario.camera.height_px = 120;
     scenario.camera.k1 = k1;
     scenario.camera.lens = lens;
-    SurveyPicture picture = takePicture(scenario, 3, ViewRange(), with_reference);
-    picture.scenario = "calm";
-    return picture;
+    SurveyImage sample = takeImage(scenario, 3, ViewRange(), with_reference);
+    sample.scenario = "calm";
+    return sample;
   }
 
   fs::path folder_;
@@ -40,14 +40,14 @@ void expectSame(const geometry::Quadrilateral& a, const geometry::Quadrilateral&
 }
 
 TEST_F(SurveyFolderTest, LoadsWhatWasSaved) {
-  const SurveyPicture first = draw(true), bent = draw(false, -0.2);
+  const SurveyImage first = draw(true), bent = draw(false, -0.2);
   SurveyFolder saved(folder_.string());
   saved.add(first);
   saved.writeTable();
   SurveyFolder folder(folder_.string());
   folder.readTable();
   ASSERT_EQ(folder.size(), 1);
-  const SurveyPicture loaded = folder.load(0);
+  const SurveyImage loaded = folder.load(0);
   EXPECT_EQ(loaded.scenario, "calm");
   EXPECT_EQ(loaded.seed, 3u);
   EXPECT_NEAR(loaded.distance_m, first.distance_m, 1e-6);
@@ -70,7 +70,7 @@ TEST_F(SurveyFolderTest, LoadsWhatWasSaved) {
 }
 
 TEST_F(SurveyFolderTest, ALensStaysWhatItIs) {
-  const SurveyPicture fisheye = draw(false, -0.02, "equidistant");
+  const SurveyImage fisheye = draw(false, -0.02, "equidistant");
   ASSERT_EQ(fisheye.camera.model, geometry::LensModel::kEquidistant);
   SurveyFolder saved(folder_.string());
   saved.add(fisheye);
@@ -92,7 +92,7 @@ TEST_F(SurveyFolderTest, FoldersThatAreNoneAreErrorsWithTheirName) {
   whole.writeTable();
   fs::remove(folder_ / "calm_3.png");
   whole.readTable();
-  EXPECT_THROW(whole.load(0), TableError) << "a picture is missing";
+  EXPECT_THROW(whole.load(0), TableError) << "an image is missing";
   EXPECT_THROW(SurveyFolder("/no/such/folder").writeTable(), std::runtime_error);
 }
 
@@ -105,26 +105,26 @@ TEST_F(SurveyFolderTest, CutRowsAreErrors) {
   EXPECT_THROW(SurveyFolder(folder_.string()).readTable(), TableError);
 }
 
-TEST(SurveyPicture, AutomaticGainsHaveSettled) {
+TEST(SurveyImage, AutomaticGainsHaveSettled) {
   simulation::Scenario scenario;
   scenario.camera.width_px = 160;
   scenario.camera.height_px = 120;
   scenario.camera.noise_grey = 0.0;
   scenario.camera.auto_exposure = true;
   scenario.camera.target_grey = 90.0;
-  const SurveyPicture picture = takePicture(scenario, 4, ViewRange(), false);
-  const cv::Scalar mean = cv::mean(picture.image);
+  const SurveyImage sample = takeImage(scenario, 4, ViewRange(), false);
+  const cv::Scalar mean = cv::mean(sample.image);
   EXPECT_NEAR((mean[0] + mean[1] + mean[2]) / 3.0, 90.0, 4.0);
 }
 
-TEST(SurveyPicture, ClosedWallHasThePlaceButNoTarget) {
+TEST(SurveyImage, ClosedWallHasThePlaceButNoTarget) {
   simulation::Scenario scenario;
   scenario.window.present = false;
   scenario.camera.width_px = 160;
   scenario.camera.height_px = 120;
-  const SurveyPicture picture = takePicture(scenario, 4, ViewRange(), true);
-  EXPECT_FALSE(picture.truth.present);
-  EXPECT_FALSE(picture.reference.empty()) << "the reference shows what is looked for";
+  const SurveyImage sample = takeImage(scenario, 4, ViewRange(), true);
+  EXPECT_FALSE(sample.truth.present);
+  EXPECT_FALSE(sample.reference.empty()) << "the reference shows what is looked for";
 }
 
 }  // namespace window_ingress::evaluation::survey_folder_test

@@ -36,7 +36,7 @@ TEST(SurveyView, ShowsTheWholeOpeningWithinTheRange) {
   }
   EXPECT_TRUE(nearest_m >= 2.0 && nearest_m < 2.8) << nearest_m;
   EXPECT_TRUE(farthest_m <= 8.0 && farthest_m > 7.2) << farthest_m;
-  EXPECT_LT(left, 0.15) << "anywhere in the picture";
+  EXPECT_LT(left, 0.15) << "anywhere in the image";
   EXPECT_GT(right, 0.85);
 }
 

@@ -82,7 +82,7 @@ TEST(TrackSurvey, VerdictsOfPartialObservationsAreThoseOfTheirSides) {
   EXPECT_EQ(judged(kBeyond, twoSides(20.0)).verdict, TrackVerdict::kWrong);
 }
 
-TEST(TrackSurvey, SidesOfABentPictureAreStraightOnceUnbent) {
+TEST(TrackSurvey, SidesOfABentImageAreStraightOnceUnbent) {
   auto bent = kCamera;
   bent.distortion = {-0.25, 0.06, 0.0, 0.0, 0.0};
   Quadrilateral truth = kInside;

@@ -54,15 +54,15 @@ TEST(OpeningCells, strongerEvidenceDecides) {
   EXPECT_EQ(cells.shareOf(kNeeded, kOpening).open, 1.0);
 }
 
-void seeBeside(OpeningCells& cells, int deep, int shallow, int pictures) {
-  for (int i = 0; i < pictures; ++i) {
+void seeBeside(OpeningCells& cells, int deep, int shallow, int images) {
+  for (int i = 0; i < images; ++i) {
     for (int j = 0; j < deep; ++j) cells.seeBeside(~std::uint64_t{0}, 4.0);
     for (int j = 0; j < shallow; ++j) cells.seeBeside(~std::uint64_t{0}, -4.0);
-    cells.endPicture();
+    cells.endImage();
   }
 }
 
-TEST(OpeningCells, whatLiesBesideDeepPointsIsOpenAfterSomePictures) {
+TEST(OpeningCells, whatLiesBesideDeepPointsIsOpenAfterSomeImages) {
   OpeningCells cells;
   seeBeside(cells, 3, 0, 4);
   EXPECT_EQ(cells.shareOf(kNeeded, kOpening).open, 0.0);

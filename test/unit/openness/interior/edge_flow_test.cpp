@@ -19,7 +19,7 @@ cv::Mat edgeAt(float x, float lean) {
 }
 
 TEST(EdgeFlow, findsTheSteepestPlaces) {
-  SlopePicture slopes;
+  SlopeImage slopes;
   slopes.take(edgeAt(40.0f, 0.0f));
   const auto edges = slopes.steepest({5, 5, 70, 50}, 10, 5.0, 100);
   ASSERT_EQ(edges.size(), 5u);

@@ -18,20 +18,20 @@ std::uint64_t column(int x) {
 
 // Two halves of a plain image, parted by an upright edge in the middle, with noise.
 cv::Mat halves(double left, double right, double sigma) {
-  cv::Mat picture(120, 160, CV_8UC1, cv::Scalar(left));
-  picture.colRange(80, 160).setTo(right);
-  cv::Mat noise(picture.size(), CV_16SC1), sum;
+  cv::Mat image(120, 160, CV_8UC1, cv::Scalar(left));
+  image.colRange(80, 160).setTo(right);
+  cv::Mat noise(image.size(), CV_16SC1), sum;
   cv::RNG(7).fill(noise, cv::RNG::NORMAL, 0.0, sigma);
-  picture.convertTo(sum, CV_16SC1);
+  image.convertTo(sum, CV_16SC1);
   sum += noise;
-  sum.convertTo(picture, CV_8UC1);
-  cv::GaussianBlur(picture, picture, cv::Size(), 0.8);
-  return picture;
+  sum.convertTo(image, CV_8UC1);
+  cv::GaussianBlur(image, image, cv::Size(), 0.8);
+  return image;
 }
 
-std::uint64_t beside(const cv::Mat& picture, const cv::Point2f& point) {
+std::uint64_t beside(const cv::Mat& image, const cv::Point2f& point) {
   SmoothRegions regions;
-  regions.find(picture, kSlope);
+  regions.find(image, kSlope);
   return regions.cellsBeside(point);
 }
 
@@ -45,14 +45,14 @@ TEST(SmoothRegions, bothSidesOfAnEdgeLieBesideItsPoints) {
 
 TEST(SmoothRegions, whatIsBeyondAnEdgeDoesNotLieBesideAPoint) {
   for (const double contrast : {5.0, 10.0, -20.0, 100.0}) {
-    cv::Mat picture = halves(100, 100 + contrast, 2.0);
-    cv::circle(picture, {25, 60}, 5, 160, -1);
-    EXPECT_NE(beside(picture, {20.0f, 60.0f}) & column(1), 0u);
-    EXPECT_EQ(beside(picture, {20.0f, 60.0f}) & (column(3) | column(4) | column(5)), 0u) << contrast;
+    cv::Mat image = halves(100, 100 + contrast, 2.0);
+    cv::circle(image, {25, 60}, 5, 160, -1);
+    EXPECT_NE(beside(image, {20.0f, 60.0f}) & column(1), 0u);
+    EXPECT_EQ(beside(image, {20.0f, 60.0f}) & (column(3) | column(4) | column(5)), 0u) << contrast;
   }
 }
 
-TEST(SmoothRegions, plainPictureLiesBesideAnyOfItsPoints) {
+TEST(SmoothRegions, plainImageLiesBesideAnyOfItsPoints) {
   EXPECT_EQ(beside(halves(120, 120, 2.0), {30.0f, 30.0f}), kAll);
 }
 
@@ -63,9 +63,9 @@ TEST(SmoothRegions, tooDarkOrTooBrightToShowAnEdgeIsNone) {
 
 TEST(SmoothRegions, textureIsNone) { EXPECT_EQ(beside(halves(120, 120, 60.0), {30.0f, 30.0f}), 0u); }
 
-TEST(SmoothRegions, pointsOutsideAndTinyPicturesHarmNothing) {
+TEST(SmoothRegions, pointsOutsideAndTinyImagesHarmNothing) {
   SmoothRegions regions;
-  EXPECT_EQ(regions.cellsBeside({10.0f, 10.0f}), 0u) << "before any picture";
+  EXPECT_EQ(regions.cellsBeside({10.0f, 10.0f}), 0u) << "before any image";
   regions.find(cv::Mat(3, 2, CV_8UC1, cv::Scalar(100)), kSlope);
   for (const float place : {-1e6f, -3.0f, 1.0f, 50.0f, 1e6f}) (void)regions.cellsBeside({place, place});
   EXPECT_EQ(regions.cellsBeside({1e6f, 1e6f}), 0u);

@@ -170,10 +170,10 @@ TEST(CameraSensor, BlurMovesNoCorner) {
 }
 
 // Mean grey of images of a standing camera, over time.
-std::vector<double> meansOver(const CameraParams& params, int pictures, cv::Scalar* last = nullptr) {
+std::vector<double> meansOver(const CameraParams& params, int images, cv::Scalar* last = nullptr) {
   CameraSensor camera(buildScene(Scenario()), params, 1);
   std::vector<double> means;
-  for (int i = 0; i < pictures; ++i) {
+  for (int i = 0; i < images; ++i) {
     const cv::Scalar mean = cv::mean(camera.expose(standingAt(5.0), i, i * kPeriod_sec));
     means.push_back((mean[0] + mean[1] + mean[2]) / 3.0);
     if (last) *last = mean;
@@ -191,7 +191,7 @@ TEST(CameraSensor, AutoExposureReachesItsTargetWithItsTimeConstant) {
   EXPECT_LT(means.front(), 60.0);
   EXPECT_NEAR(means.back(), 90.0, 2.0);
   const double passed = std::log(means[15] / means.back()) / std::log(means[0] / means.back());
-  EXPECT_NEAR(passed, std::exp(-1.0), 0.08) << "15 pictures are one time constant";
+  EXPECT_NEAR(passed, std::exp(-1.0), 0.08) << "15 images are one time constant";
 
   params.greatest_gain = 0.5;
   const auto limited = meansOver(params, 120);
@@ -274,7 +274,7 @@ TEST(CameraTransport, JitterAndLossHaveTheirSizeAndRepeat) {
   EXPECT_GT(different, 4000);
 }
 
-TEST(CameraTransport, InTheWorldNoPictureOvertakesAnother) {
+TEST(CameraTransport, InTheWorldNoImageOvertakesAnother) {
   Scenario scenario;
   scenario.camera.width_px = 64;
   scenario.camera.height_px = 48;
@@ -282,17 +282,17 @@ TEST(CameraTransport, InTheWorldNoPictureOvertakesAnother) {
   scenario.camera.drop_probability = 0.1;
   World world(scenario, 1);
   double last_sec = -1.0;
-  int pictures = 0;
+  int images = 0;
   while (world.timeSec() < 3.0) {
     world.advance();
     while (const auto frame = world.takeFrame()) {
       EXPECT_GT(frame->stamp_sec, last_sec);
       EXPECT_GE(world.timeSec() - frame->stamp_sec, scenario.camera.latency_sec - 1e-9);
       last_sec = frame->stamp_sec;
-      ++pictures;
+      ++images;
     }
   }
-  EXPECT_NEAR(pictures, 0.9 * 30 * 2.8, 10);
+  EXPECT_NEAR(images, 0.9 * 30 * 2.8, 10);
 }
 
 TEST(CameraParams, ACalibrationFileTakesThePlaceOfTheFieldOfView) {

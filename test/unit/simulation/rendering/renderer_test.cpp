@@ -229,7 +229,7 @@ TEST(Renderer, SmoothedEdgesLookAsMultisampledOnes) {
   }
 }
 
-TEST(Renderer, RowsAloneAreThoseOfTheWholePictureAndTheOthersStay) {
+TEST(Renderer, RowsAloneAreThoseOfTheWholeImageAndTheOthersStay) {
   Scenario scenario;
   const Scene scene = buildScene(scenario);
   Renderer renderer(scene, PinholeCamera::fromFieldOfView(160, 120, 1.2));

@@ -76,11 +76,11 @@ TEST(Texture, SameSeedSamePatternAndPatternsWrapAround) {
   EXPECT_LT(seam, 2.0 * within + 1.0);
 }
 
-TEST(Lens, WithoutDistortionItSharesThePictureAndWithItSeesWider) {
+TEST(Lens, WithoutDistortionItSharesTheImageAndWithItSeesWider) {
   geometry::PinholeCamera camera = geometry::PinholeCamera::fromFieldOfView(64, 48, 1.2);
-  cv::Mat picture(48, 64, CV_8UC3, cv::Scalar(1, 2, 3)), same;
-  Lens(camera).distort(picture, same);
-  EXPECT_EQ(same.data, picture.data);
+  cv::Mat image(48, 64, CV_8UC3, cv::Scalar(1, 2, 3)), same;
+  Lens(camera).distort(image, same);
+  EXPECT_EQ(same.data, image.data);
   camera.distortion[0] = -0.2;
   EXPECT_GT(Lens(camera).idealSize().width, 64);
   camera.distortion[0] = -5.0;

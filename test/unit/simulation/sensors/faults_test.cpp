@@ -72,7 +72,7 @@ bool sameBytes(const cv::Mat& a, const cv::Mat& b) {
 
 bool during(double at_sec) { return at_sec + 1e-9 >= kAtSec && at_sec + 1e-9 < kEndSec; }
 
-const CameraFrame* pictureOf(const Recording& recording, double stamp_sec) {
+const CameraFrame* frameOf(const Recording& recording, double stamp_sec) {
   for (const auto& frame : recording.frames)
     if (frame.stamp_sec == stamp_sec) return &frame;
   return nullptr;
@@ -92,14 +92,14 @@ TEST(Faults, TheSameSeedGivesTheSameBytesWithEachOfThem) {
     }
 }
 
-TEST(Faults, AFaultOfASensorLeavesTheTruthAndAllOtherPicturesAsTheyWere) {
+TEST(Faults, AFaultOfASensorLeavesTheTruthAndAllOtherImagesAsTheyWere) {
   const Recording healthy = record({});
   for (const char* kind : {"off", "stuck", "garbage", "wrong", "slow", "delayed", "intermittent"}) {
     const Recording faulty = record({fault("image", kind), fault("odom", kind), fault("imu", kind)});
     EXPECT_EQ(faulty.T_odom_base.matrix(), healthy.T_odom_base.matrix()) << kind;
     int compared = 0;
     for (std::size_t i = 0; i < faulty.frames.size(); ++i) {
-      const auto* other = pictureOf(healthy, faulty.frames[i].stamp_sec);
+      const auto* other = frameOf(healthy, faulty.frames[i].stamp_sec);
       ASSERT_NE(other, nullptr) << kind;
       EXPECT_EQ(faulty.frames[i].T_camera_window.matrix(), other->T_camera_window.matrix());
       if (during(faulty.frame_at_sec[i])) continue;
@@ -110,14 +110,14 @@ TEST(Faults, AFaultOfASensorLeavesTheTruthAndAllOtherPicturesAsTheyWere) {
   }
 }
 
-TEST(Faults, PicturesAreWhatTheTableSays) {
+TEST(Faults, ImagesAreWhatTheTableSays) {
   const Recording healthy = record({}), stuck = record({fault("image", "stuck")}),
                   garbage = record({fault("image", "garbage")}), mirrored = record({fault("image", "wrong")});
   std::size_t before = 0;
   while (!during(stuck.frame_at_sec[before + 1])) ++before;
   int seen = 0;
   for (std::size_t i = before + 1; during(stuck.frame_at_sec[i]); ++i, ++seen) {
-    const cv::Mat& was = pictureOf(healthy, stuck.frames[i].stamp_sec)->image;
+    const cv::Mat& was = frameOf(healthy, stuck.frames[i].stamp_sec)->image;
     EXPECT_TRUE(sameBytes(stuck.frames[i].image, stuck.frames[before].image));
     EXPECT_GT(stuck.frames[i].stamp_sec, stuck.frames[i - 1].stamp_sec);
     cv::Mat flipped;

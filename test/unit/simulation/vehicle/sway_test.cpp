@@ -36,7 +36,7 @@ TEST(Sway, VelocityIsTheChangeOfItsPlace) {
 TEST(Sway, MovesTheWindowAndWhatTheCameraSees) {
   Scenario scenario;
   scenario.sway = swing(0.0);
-  World world(scenario, 1, World::Pictures::kNone);
+  World world(scenario, 1, World::Images::kNone);
   const Eigen::Vector3d before = world.T_odom_window().translation();
   double furthest_m = 0.0;
   while (world.timeSec() < 4.0) {
@@ -60,7 +60,7 @@ TEST(Sway, AVehicleThatHoversIsMetByAWallThatComes) {
   scenario.start.distance_m = 0.9;
   scenario.start.height_offset_m = 1.2;
   scenario.house.eaves_m = 4.0;
-  World world(scenario, 1, World::Pictures::kNone);
+  World world(scenario, 1, World::Images::kNone);
   while (world.timeSec() < 4.0) world.advance();
   EXPECT_EQ(world.referee().judge(Claim::kNone).outcome, Outcome::kCollision);
 }

@@ -11,6 +11,6 @@ namespace window_ingress::simulation {
 /// surround, in the camera's exposure. It shows the target even where the wall or the window is closed by
 /// now. \param corners receives those of its opening in that image; may be null \throws std::runtime_error
 /// if there is no software renderer
-cv::Mat referencePicture(const Scenario& scenario, geometry::Quadrilateral* corners);
+cv::Mat referenceImage(const Scenario& scenario, geometry::Quadrilateral* corners);
 
 }  // namespace window_ingress::simulation

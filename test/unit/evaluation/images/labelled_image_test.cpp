@@ -1,4 +1,4 @@
-#include "evaluation/images/labelled_picture.hpp"
+#include "evaluation/images/labelled_image.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,21 +12,21 @@
 #include "evaluation/flights/flight_table.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::evaluation::labelled_picture_test {
+namespace window_ingress::evaluation::labelled_image_test {
 
 namespace fs = std::filesystem;
 
 const geometry::Quadrilateral kOpening{Eigen::Vector2d(220, 150), {420, 150}, {420, 310}, {220, 310}};
 
-LabelledPicture windowPicture(unsigned seed = 1) {
-  test::WindowPicture window;
+LabelledImage windowImage(unsigned seed = 1) {
+  test::DrawnWindow window;
   window.opening = kOpening;
   window.frame_px = 14.0;
   window.seed = seed;
   return {"window", "group", window.draw(), {kOpening}, std::nullopt};
 }
 
-LabelledPicture wall() {
+LabelledImage wall() {
   return {"wall", "other", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(190)), {}, std::nullopt};
 }
 
@@ -46,15 +46,15 @@ TEST(DetectionCounts, SaysRatesWithTheirIntervals) {
 }
 
 TEST(CountDetections, FoundMissedAndWrong) {
-  LabelledPicture elsewhere = windowPicture(), unlabelled = windowPicture(), missing = wall();
+  LabelledImage elsewhere = windowImage(), unlabelled = windowImage(), missing = wall();
   for (auto& corner : elsewhere.targets[0]) corner += Eigen::Vector2d(150.0, 0.0);
   unlabelled.targets.clear();
   missing.targets = {kOpening};
-  const auto count = [](const LabelledPicture& picture) {
-    return countDetections({picture}, detection::DetectorParams(), nullptr);
+  const auto count = [](const LabelledImage& sample) {
+    return countDetections({sample}, detection::DetectorParams(), nullptr);
   };
-  EXPECT_EQ(count(windowPicture()).found, 1);
-  EXPECT_GT(count(windowPicture()).overlap, 0.95);
+  EXPECT_EQ(count(windowImage()).found, 1);
+  EXPECT_GT(count(windowImage()).overlap, 0.95);
   EXPECT_EQ(count(elsewhere).missed, 1);
   EXPECT_EQ(count(elsewhere).wrong, 1);
   EXPECT_EQ(count(unlabelled).wrong, 1);
@@ -67,7 +67,7 @@ class LabelledFile : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
-  std::vector<LabelledPicture> read(const std::string& text) {
+  std::vector<LabelledImage> read(const std::string& text) {
     const std::string file = (folder_ / "labels.csv").string();
     std::ofstream(file) << text;
     return readLabelled(file, folder_.string());
@@ -80,29 +80,29 @@ class LabelledFile : public testing::Test {
     }
     return "";
   }
-  fs::path folder_ = fs::temp_directory_path() / ("labelled_picture_test_" + std::to_string(::getpid()));
+  fs::path folder_ = fs::temp_directory_path() / ("labelled_image_test_" + std::to_string(::getpid()));
   const std::string header_ = "file,label,x1,y1,x2,y2,x3,y3,x4,y4\n";
 };
 
 TEST_F(LabelledFile, ReadsTargetsNegativesAndWhatIsQuoted) {
-  cv::imwrite((folder_ / "a1.png").string(), windowPicture().image);
+  cv::imwrite((folder_ / "a1.png").string(), windowImage().image);
   cv::imwrite((folder_ / "b.png").string(), wall().image);
-  const auto pictures = read(header_ +
-                             "a1.png,\"gate, red\",220,150,420,150,420,310,220,310\n"
-                             "a1.png,gate,420,310,220,310,220,150,420,150\n"
-                             "b.png,negative,,,,,,,,\n"
-                             "b.png,pose_only_gate,1,1,5,1,5,5,1,5\n");
-  ASSERT_EQ(pictures.size(), 2u);
-  EXPECT_EQ(pictures[0].targets.size(), 2u);
-  EXPECT_EQ(pictures[0].targets[1][0], kOpening[0]) << "from any corner on";
-  EXPECT_EQ(pictures[0].group, "a") << "neighbours in a video";
-  EXPECT_TRUE(pictures[1].targets.empty());
+  const auto samples = read(header_ +
+                            "a1.png,\"gate, red\",220,150,420,150,420,310,220,310\n"
+                            "a1.png,gate,420,310,220,310,220,150,420,150\n"
+                            "b.png,negative,,,,,,,,\n"
+                            "b.png,pose_only_gate,1,1,5,1,5,5,1,5\n");
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples[0].targets.size(), 2u);
+  EXPECT_EQ(samples[0].targets[1][0], kOpening[0]) << "from any corner on";
+  EXPECT_EQ(samples[0].group, "a") << "neighbours in a video";
+  EXPECT_TRUE(samples[1].targets.empty());
 }
 
 TEST_F(LabelledFile, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_NE(errorOf("").find("empty"), std::string::npos);
   EXPECT_NE(errorOf("file,x1\n").find("no column 'y1'"), std::string::npos);
-  EXPECT_NE(errorOf(header_).find("no picture"), std::string::npos);
+  EXPECT_NE(errorOf(header_).find("no image"), std::string::npos);
   EXPECT_NE(errorOf(header_ + "none.png,,1,1,5,1,5,5,1,5\n").find("none.png: cannot be read"),
             std::string::npos);
   EXPECT_NE(errorOf(header_ + "\na.png,,1,1,5,1,5,nan,1,5\n").find("labels.csv:3: 'nan' is no number"),
@@ -124,22 +124,22 @@ TEST(Labelled, WholeNoneAndInPart) {
   ASSERT_TRUE(at(0.0, 4.0));
   ASSERT_EQ(at(0.0, 4.0)->targets.size(), 1u);
   EXPECT_NEAR(at(0.0, 4.0)->targets[0][0].x(), 319.5 - 500.0 * 0.6 / 4.0, 1e-9);
-  EXPECT_FALSE(at(2.4, 4.0)) << "cut by the border of the picture";
-  EXPECT_TRUE(at(9.0, 4.0)->targets.empty()) << "beside the picture";
+  EXPECT_FALSE(at(2.4, 4.0)) << "cut by the border of the image";
+  EXPECT_TRUE(at(9.0, 4.0)->targets.empty()) << "beside the image";
   EXPECT_TRUE(at(0.0, -4.0)->targets.empty()) << "behind the camera";
-  EXPECT_FALSE(at(0.0, 0.5)) << "the picture lies within it";
+  EXPECT_FALSE(at(0.0, 0.5)) << "the image lies within it";
 }
 
 TEST(Split, KeepsGroupsTogetherAndIsDrawnByTheSeed) {
-  std::vector<LabelledPicture> pictures;
+  std::vector<LabelledImage> samples;
   for (int i = 0; i < 40; ++i) {
-    pictures.push_back(wall());
-    pictures.back().group = "group " + std::to_string(i / 4);
-    pictures.back().name = std::to_string(i);
+    samples.push_back(wall());
+    samples.back().group = "group " + std::to_string(i / 4);
+    samples.back().name = std::to_string(i);
   }
   std::set<std::string> drawn;
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
-    const auto [tuned, held] = split(pictures, 0.3, seed);
+    const auto [tuned, held] = split(samples, 0.3, seed);
     EXPECT_EQ(held.size(), 12u);
     EXPECT_EQ(tuned.size(), 28u);
     std::string names;
@@ -147,14 +147,14 @@ TEST(Split, KeepsGroupsTogetherAndIsDrawnByTheSeed) {
       names += a.name + " ";
       for (const auto& b : tuned) EXPECT_NE(a.group, b.group);
     }
-    EXPECT_EQ(split(pictures, 0.3, seed).second.front().name, held.front().name)
+    EXPECT_EQ(split(samples, 0.3, seed).second.front().name, held.front().name)
         << "the same for the same seed";
     drawn.insert(names);
   }
   EXPECT_GT(drawn.size(), 1u);
-  EXPECT_EQ(split(pictures, 0.0, 1).second.size(), 4u) << "at least one group";
-  EXPECT_EQ(split(pictures, 1.0, 1).first.size(), 4u);
+  EXPECT_EQ(split(samples, 0.0, 1).second.size(), 4u) << "at least one group";
+  EXPECT_EQ(split(samples, 1.0, 1).first.size(), 4u);
   EXPECT_THROW(split({wall(), wall()}, 0.5, 1), std::invalid_argument);
 }
 
-}  // namespace window_ingress::evaluation::labelled_picture_test
+}  // namespace window_ingress::evaluation::labelled_image_test

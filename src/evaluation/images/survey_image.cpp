@@ -1,7 +1,7 @@
-#include "evaluation/images/survey_picture.hpp"
+#include "evaluation/images/survey_image.hpp"
 
 #include "simulation/camera/camera_sensor.hpp"
-#include "simulation/camera/reference_picture.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace window_ingress::evaluation {
@@ -39,19 +39,19 @@ std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, con
   return truth;
 }
 
-SurveyPicture takePicture(const simulation::Scenario& scenario, std::uint32_t seed, const ViewRange& range,
-                          bool with_reference) {
+SurveyImage takeImage(const simulation::Scenario& scenario, std::uint32_t seed, const ViewRange& range,
+                      bool with_reference) {
   const simulation::Scene scene = simulation::buildScene(scenario);
-  SurveyPicture picture;
-  picture.seed = seed;
-  picture.camera = scenario.camera.model();
-  const SurveyView view = drawView(scenario, scene, picture.camera, range, seed);
-  picture.distance_m = view.distance_m;
-  picture.off_axis_rad = view.off_axis_rad;
-  picture.truth = *surveyTruth(scenario, scene, picture.camera, view.motion);
-  picture.image = expose(scenario, scene, view.motion, seed);
-  if (with_reference) picture.reference = simulation::referencePicture(scenario, &picture.reference_corners);
-  return picture;
+  SurveyImage sample;
+  sample.seed = seed;
+  sample.camera = scenario.camera.model();
+  const SurveyView view = drawView(scenario, scene, sample.camera, range, seed);
+  sample.distance_m = view.distance_m;
+  sample.off_axis_rad = view.off_axis_rad;
+  sample.truth = *surveyTruth(scenario, scene, sample.camera, view.motion);
+  sample.image = expose(scenario, scene, view.motion, seed);
+  if (with_reference) sample.reference = simulation::referenceImage(scenario, &sample.reference_corners);
+  return sample;
 }
 
 }  // namespace window_ingress::evaluation

@@ -27,7 +27,7 @@ std::optional<SurveyTruth> surveyTruth(const simulation::Scenario& scenario, con
                                        const simulation::CameraMotion& motion);
 
 /// One image with all that is known about it.
-struct SurveyPicture {
+struct SurveyImage {
   std::string scenario;  ///< name of its file, without folder and ending
   std::uint32_t seed = 0;
   double distance_m = 0.0, off_axis_rad = 0.0;
@@ -41,7 +41,7 @@ struct SurveyPicture {
 /// Draws an image of the scenario as its camera delivers it, exposure and white balance settled.
 /// \param scenario loaded with the same seed
 /// \throws as `drawView` and `simulation::CameraSensor`
-SurveyPicture takePicture(const simulation::Scenario& scenario, std::uint32_t seed, const ViewRange& range,
-                          bool with_reference);
+SurveyImage takeImage(const simulation::Scenario& scenario, std::uint32_t seed, const ViewRange& range,
+                      bool with_reference);
 
 }  // namespace window_ingress::evaluation

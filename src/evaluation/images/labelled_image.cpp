@@ -1,4 +1,4 @@
-#include "evaluation/images/labelled_picture.hpp"
+#include "evaluation/images/labelled_image.hpp"
 
 #include <algorithm>
 #include <array>
@@ -117,82 +117,82 @@ std::string DetectionCounts::text() const {
          rate("precision", precision(), found, found + wrong);
 }
 
-DetectionCounts countDetections(const std::vector<LabelledPicture>& pictures,
+DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
                                 const detection::DetectorParams& params,
                                 const detection::ReferenceAppearance* reference) {
   detection::WindowDetector detector(params);
   if (reference) detector.setReference(*reference);
   DetectionCounts counts;
-  for (const LabelledPicture& picture : pictures) {
-    const auto window = detector.detect(picture.image, 0.0, picture.camera ? &*picture.camera : nullptr);
+  for (const LabelledImage& sample : samples) {
+    const auto window = detector.detect(sample.image, 0.0, sample.camera ? &*sample.camera : nullptr);
     double best = 0.0;
     if (window)
-      for (const auto& target : picture.targets)
+      for (const auto& target : sample.targets)
         best = std::max(best, geometry::intersectionOverUnion(window->corners, target));
     const bool hit = best >= DetectionCounts::kSameIou;
     counts.found += hit;
     counts.overlap += hit ? best : 0.0;
-    counts.missed += !picture.targets.empty() && !hit;
+    counts.missed += !sample.targets.empty() && !hit;
     counts.wrong += window && !hit;
   }
   return counts;
 }
 
-std::vector<LabelledPicture> readLabelled(const std::string& csv_file, const std::string& folder) {
+std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::string& folder) {
   std::ifstream input(csv_file);
   std::string line;
   if (!std::getline(input, line)) throw TableError(csv_file + ": cannot be read, or is empty");
   Annotations annotations(csv_file, line);
   for (int number = 2; std::getline(input, line); ++number)
     if (!line.empty()) annotations.read(line, number);
-  std::vector<LabelledPicture> pictures;
+  std::vector<LabelledImage> samples;
   for (const auto& [file, targets] : annotations.targets()) {
     const std::string path = (std::filesystem::path(folder) / file).string();
-    LabelledPicture picture{file, groupOf(file),
-                            cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), targets,
-                            std::nullopt};
-    if (picture.image.empty())
-      throw TableError(path + ": cannot be read as a picture; " + csv_file + " names it");
-    pictures.push_back(picture);
+    LabelledImage sample{file, groupOf(file),
+                         cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), targets,
+                         std::nullopt};
+    if (sample.image.empty())
+      throw TableError(path + ": cannot be read as an image; " + csv_file + " names it");
+    samples.push_back(sample);
   }
-  if (pictures.empty()) throw TableError(csv_file + ": no picture in it");
-  return pictures;
+  if (samples.empty()) throw TableError(csv_file + ": no image in it");
+  return samples;
 }
 
-std::optional<LabelledPicture> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
-                                        const geometry::PinholeCamera& camera,
-                                        const geometry::OpeningSize& opening) {
-  LabelledPicture picture;
-  picture.image = image;
-  picture.camera = camera;
+std::optional<LabelledImage> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
+                                      const geometry::PinholeCamera& camera,
+                                      const geometry::OpeningSize& opening) {
+  LabelledImage sample;
+  sample.image = image;
+  sample.camera = camera;
   const auto quad = geometry::projectOpening(camera, T_camera_window, opening);
-  if (!quad || geometry::signedArea(*quad) <= 0.0) return picture;  // behind, or seen from behind
+  if (!quad || geometry::signedArea(*quad) <= 0.0) return sample;  // behind, or seen from behind
   const auto inside = [&](const Eigen::Vector2d& corner) { return camera.contains(corner); };
   const auto corners = std::count_if(quad->begin(), quad->end(), inside);
-  if (corners == 4) picture.targets.push_back(*quad);
+  if (corners == 4) sample.targets.push_back(*quad);
   const cv::Rect2d frame(0.0, 0.0, image.cols, image.rows);
   cv::Rect2d box((*quad)[0].x(), (*quad)[0].y(), 0.0, 0.0);
   for (const auto& corner : *quad) box |= cv::Rect2d(corner.x(), corner.y(), 1e-6, 1e-6);
   if (corners < 4 && (frame & box).area() > 0.0) return std::nullopt;
-  return picture;
+  return sample;
 }
 
-std::pair<std::vector<LabelledPicture>, std::vector<LabelledPicture>> split(
-    const std::vector<LabelledPicture>& pictures, double held_out, std::uint32_t seed) {
+std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> split(
+    const std::vector<LabelledImage>& samples, double held_out, std::uint32_t seed) {
   std::set<std::string> names;
-  for (const auto& picture : pictures) names.insert(picture.group);
+  for (const auto& sample : samples) names.insert(sample.group);
   if (names.size() < 2)
     throw std::invalid_argument(
-        "the pictures are all of one group (one second of a bag, one video): none can be held out");
+        "the images are all of one group (one second of a bag, one video): none can be held out");
   std::vector<std::string> groups(names.begin(), names.end());
   std::mt19937 random(seed);
   for (std::size_t i = groups.size() - 1; i > 0; --i) std::swap(groups[i], groups[random() % (i + 1)]);
   const auto wanted = static_cast<std::size_t>(std::lround(held_out * static_cast<double>(groups.size())));
   const std::size_t count = std::clamp<std::size_t>(wanted, 1, groups.size() - 1);
   const std::set<std::string> chosen(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(count));
-  std::pair<std::vector<LabelledPicture>, std::vector<LabelledPicture>> parts;
-  for (const auto& picture : pictures)
-    (chosen.count(picture.group) > 0 ? parts.second : parts.first).push_back(picture);
+  std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> parts;
+  for (const auto& sample : samples)
+    (chosen.count(sample.group) > 0 ? parts.second : parts.first).push_back(sample);
   return parts;
 }
 

@@ -1,4 +1,4 @@
-#include "pictures.hpp"
+#include "any_image.hpp"
 
 #include <array>
 #include <boost/make_shared.hpp>

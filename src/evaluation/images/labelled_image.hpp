@@ -16,7 +16,7 @@
 namespace window_ingress::evaluation {
 
 /// An image, and where the opening is in it.
-struct LabelledPicture {
+struct LabelledImage {
   std::string name;   ///< for people
   std::string group;  ///< images that look alike, such as neighbours in a video, are of one group
   cv::Mat image;      ///< CV_8UC1 or CV_8UC3
@@ -41,7 +41,7 @@ struct DetectionCounts {
   std::string text() const;
 };
 
-DetectionCounts countDetections(const std::vector<LabelledPicture>& pictures,
+DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
                                 const detection::DetectorParams& params,
                                 const detection::ReferenceAppearance* reference);
 
@@ -49,16 +49,16 @@ DetectionCounts countDetections(const std::vector<LabelledPicture>& pictures,
 /// target, without numbers: no target in that image. Labels that begin with "pose_only_" are left out.
 /// \param folder where the images are
 /// \throws TableError that says what is wrong, and in which line
-std::vector<LabelledPicture> readLabelled(const std::string& csv_file, const std::string& folder);
+std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::string& folder);
 
-/// A picture of a window whose pose is known. Nothing if the picture shows only a part of it.
-std::optional<LabelledPicture> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
-                                        const geometry::PinholeCamera& camera,
-                                        const geometry::OpeningSize& opening);
+/// An image of a window whose pose is known. Nothing if the image shows only a part of it.
+std::optional<LabelledImage> labelled(const cv::Mat& image, const Eigen::Isometry3d& T_camera_window,
+                                      const geometry::PinholeCamera& camera,
+                                      const geometry::OpeningSize& opening);
 
 /// By groups, drawn by the seed: (the rest, `held_out` of the groups, at least one). \throws
 /// std::invalid_argument if there are fewer than two groups
-std::pair<std::vector<LabelledPicture>, std::vector<LabelledPicture>> split(
-    const std::vector<LabelledPicture>& pictures, double held_out, std::uint32_t seed);
+std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> split(
+    const std::vector<LabelledImage>& samples, double held_out, std::uint32_t seed);
 
 }  // namespace window_ingress::evaluation
