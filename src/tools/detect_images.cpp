@@ -16,9 +16,9 @@
 #include "command_line.hpp"
 #include "evaluation/images/detection_table.hpp"
 #include "params_file.hpp"
+#include "window_finder.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
-#include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/yaw_text.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
@@ -162,48 +162,7 @@ Job prepare(const Options& o) {
   return job;
 }
 
-/// Looks for the window in each image by itself, or follows it from image to image.
-class Finder {
- public:
-  Finder(const Job& job, const Options& o) : frame_sec_(1.0 / o.rate_hz) {
-    if (o.track)
-      tracker_.emplace(job.params);
-    else
-      detector_.emplace(job.params);
-    if (job.reference && tracker_) tracker_->setReference(*job.reference);
-    if (job.reference && detector_) detector_->setReference(*job.reference);
-  }
-
-  std::optional<detection::WindowObservation> find(const cv::Mat& image,
-                                                   const geometry::PinholeCamera* camera) {
-    if (detector_) return detector_->detect(image, 0.0, camera);
-    detection::TrackInput input;
-    input.image = image;
-    input.stamp_sec = frame_sec_ * static_cast<double>(++frames_);
-    input.camera = camera;
-    return tracker_->update(input);
-  }
-
-  void skip() { ++frames_; }
-  const detection::DetectionTrace& trace() const {
-    return detector_ ? detector_->trace() : tracker_->trace();
-  }
-
-  std::string columns() const { return tracker_ ? ",target_id,visible_sides" : ""; }
-  std::string values(const evaluation::DetectionRow& row) const {
-    if (!tracker_) return "";
-    if (!row.window) return ",,";
-    return "," + std::to_string(row.window->target_id) + "," + std::to_string(row.window->visibleSides());
-  }
-
- private:
-  double frame_sec_;
-  long frames_ = 0;
-  std::optional<detection::WindowDetector> detector_;
-  std::optional<detection::WindowTracker> tracker_;
-};
-
-evaluation::DetectionRow process(const cv::Mat& image, const Job& job, Finder& finder) {
+evaluation::DetectionRow process(const cv::Mat& image, const Job& job, tools::WindowFinder& finder) {
   evaluation::DetectionRow row;
   const bool fits = job.camera && job.camera->width == image.cols && job.camera->height == image.rows;
   const auto start = Clock::now();
@@ -222,7 +181,7 @@ evaluation::DetectionRow process(const cv::Mat& image, const Job& job, Finder& f
   return row;
 }
 
-void writeOverlay(const std::string& file, const cv::Mat& image, const Finder& finder,
+void writeOverlay(const std::string& file, const cv::Mat& image, const tools::WindowFinder& finder,
                   const evaluation::DetectionRow& row, const std::string& folder) {
   cv::Mat canvas;
   detection::drawDetection(image, finder.trace(), row.window ? &*row.window : nullptr, canvas,
@@ -252,7 +211,7 @@ void finish(std::ofstream& output, const std::string& file) {
 int run(const Options& options) {
   const std::vector<std::string> images = listImages(options.inputs);
   const Job job = prepare(options);
-  Finder finder(job, options);
+  tools::WindowFinder finder(job.params, job.reference, options.track ? options.rate_hz : 0.0);
   std::ofstream output = opened(options.output, evaluation::detectionColumns() + finder.columns());
   std::ofstream candidates;
   if (!options.candidates.empty()) candidates = opened(options.candidates, evaluation::candidateColumns());

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -19,49 +18,25 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "evaluation/flights/campaign.hpp"
-#include "evaluation/flights/closed_loop_flight.hpp"
-#include "evaluation/flights/flight_draws.hpp"
 #include "evaluation/flights/flight_log.hpp"
-#include "evaluation/flights/flight_picture.hpp"
-#include "evaluation/flights/flight_table.hpp"
+#include "fly_job.hpp"
+#include "fly_results.hpp"
 #ifdef WINDOW_INGRESS_WITH_ROS
 #include "adapters/bags/flight_bag.hpp"
 #endif
 
 namespace {
 
-namespace options = boost::program_options;
-namespace fs = std::filesystem;
 using namespace window_ingress;
-using tools::makeFolder;
+using tools::FlyJob;
+using tools::FlyResults;
 using tools::UsageError;
 using Observer = std::unique_ptr<evaluation::FlightObserver>;
 
-struct Job {
-  simulation::Scenario scenario(std::uint32_t seed) const {
-    const auto draw = draws.find(seed);
-    return simulation::loadScenario(scenario_file, seed,
-                                    draw == draws.end() ? simulation::Quantiles() : draw->second);
-  }
-
-  bool holdsFlights() const { return fs::exists(output_folder + "/flights.csv"); }
-
-  std::string scenario_file, params_file, draws_file, output_folder, log_folder, failures_folder;
-  std::vector<std::string> join_folders;
-  std::vector<std::uint32_t> seeds;
-  evaluation::FlightDraws draws;
-  int jobs = 1;
-  bool resumes = false, with_timing = false;
-  evaluation::FlightParams params;
-};
-
 #ifdef WINDOW_INGRESS_WITH_ROS
 Observer bagRecorder(const std::string& file) { return std::make_unique<adapters::FlightBag>(file); }
-constexpr bool kCanRecordBags = true;
 #else
 Observer bagRecorder(const std::string&) { return nullptr; }
-constexpr bool kCanRecordBags = false;
 #endif
 
 /// Ctrl-C. The second one ends the program at once.
@@ -81,112 +56,8 @@ void stopAt(int signal) {
 
 struct Stopped {};
 
-options::options_description describe() {
-  options::options_description description(
-      "Usage: fly --scenario FILE.yaml --output DIR [OPTION...]\n"
-      "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
-      "flights "
-      "under way end (--resume goes on with the others); 2: wrong usage");
-  auto add = description.add_options();
-  add("help", "print this text");
-  add("scenario", options::value<std::string>(), "scenario file, e.g. config/scenarios/nominal.yaml");
-  add("output", options::value<std::string>(), "folder for the results; made if missing");
-  add("seeds", options::value<std::string>()->default_value("1"), "A..B, a flight each");
-  add("draws", options::value<std::string>(),
-      "csv file in place of --seeds: a row a flight, its seed and where in its range each named key lies, 0 "
-      "to 1");
-  add("resume", "goes on with the flights in DIR: same scenario, parameters and build, or it is refused");
-  add("overwrite", "replaces the flights in DIR");
-  add("jobs", options::value<int>()->default_value(1), "flights at the same time");
-  add("shard", options::value<std::string>(), "I/N: only every N-th seed, from the I-th on (1 to N)");
-  add("join", options::value<std::vector<std::string>>()->multitoken(),
-      "flies nothing: joins the folders of several shards into one");
-  add("params", options::value<std::string>(), tools::kParamsHelp);
-  add("no-pictures",
-      "draws none: the window is seen as by a detector that never errs. Many times faster; measures what "
-      "comes "
-      "behind the detector, not the whole");
-  add("keep-failures", "for each flight that did not pass, a bag and a picture in DIR/failures");
-  add("timing", "where the time went, as a table, at the end");
-  add("log", options::value<std::string>(), "folder for a csv of every step of each flight");
-  return description;
-}
-
-std::string required(const options::variables_map& given, const char* name) {
-  if (given.count(name) == 0) throw UsageError(std::string("--") + name + " is missing; see --help");
-  return given[name].as<std::string>();
-}
-
-std::vector<std::uint32_t> seedsOf(const options::variables_map& given,
-                                   const evaluation::FlightDraws& draws) {
-  if (!draws.empty()) {
-    std::vector<std::uint32_t> seeds;
-    for (const auto& [seed, quantiles] : draws) seeds.push_back(seed);
-    return seeds;
-  }
-  const std::string text = given["seeds"].as<std::string>();
-  auto seeds = evaluation::parseSeeds(text);
-  if (!seeds) throw UsageError("--seeds " + text + ": give A..B with A <= B, e.g. 1..20");
-  if (given.count("shard") == 0) return *seeds;
-  const std::string shard_text = given["shard"].as<std::string>();
-  const auto shard = evaluation::shardOf(*seeds, shard_text);
-  if (!shard) throw UsageError("--shard " + shard_text + ": give I/N with I from 1 to N, e.g. 1/4");
-  return *shard;
-}
-
-// Flights that somebody has waited for are not lost to a folder given twice.
-void checkOutput(const options::variables_map& given, const Job& job) {
-  const bool overwrites = given.count("overwrite") != 0;
-  if (job.resumes && overwrites) throw UsageError("--resume and --overwrite: give one of them");
-  if (job.holdsFlights() && !job.resumes && !overwrites)
-    throw UsageError(
-        job.output_folder +
-        " holds the flights of an earlier campaign: --resume goes on with it, --overwrite replaces "
-        "it, or give another folder");
-}
-
-Job parse(int argc, char** argv, const options::options_description& description) {
-  options::variables_map given;
-  options::store(options::parse_command_line(argc, argv, description), given);
-  Job job;
-  if (given.count("help") != 0) {
-    std::cout << description;
-    return job;
-  }
-  job.scenario_file = required(given, "scenario");
-  job.output_folder = required(given, "output");
-  job.resumes = given.count("resume") != 0;
-  checkOutput(given, job);
-  if (given.count("draws") != 0)
-    job.draws = evaluation::readDraws(job.draws_file = given["draws"].as<std::string>());
-  job.seeds = seedsOf(given, job.draws);
-  job.jobs = given["jobs"].as<int>();
-  if (job.jobs < 1 || job.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
-  job.with_timing = given.count("timing") != 0;
-  if (given.count("join") != 0) job.join_folders = given["join"].as<std::vector<std::string>>();
-  if (given.count("params") != 0)
-    job.params = evaluation::readFlightParams(job.params_file = given["params"].as<std::string>());
-  if (given.count("no-pictures") != 0) job.params.without_images = true;
-  for (const auto seed : job.seeds) job.scenario(seed);
-  makeFolder(job.output_folder);
-  if (given.count("log") != 0) makeFolder(job.log_folder = given["log"].as<std::string>());
-  if (given.count("keep-failures") == 0) return job;
-  if (job.params.without_images)
-    throw UsageError("--keep-failures: there are no images to keep with --no-pictures");
-  if (!kCanRecordBags)
-    throw UsageError(
-        "--keep-failures: this fly was built without ROS and cannot write bags; run scripts/build");
-  makeFolder(job.failures_folder = job.output_folder + "/failures");
-  return job;
-}
-
-evaluation::WallOutline outlineOf(const simulation::Scenario& scenario) {
-  return {scenario.window.width_m, scenario.window.height_m,
-          scenario.window.frame_depth_m + scenario.house.wall_thickness_m};
-}
-
-evaluation::FlightResult flyLogged(const Job& job, const simulation::Scenario& scenario, std::uint32_t seed,
-                                   evaluation::FlightTiming& timing) {
+evaluation::FlightResult flyLogged(const FlyJob& job, const simulation::Scenario& scenario,
+                                   std::uint32_t seed, evaluation::FlightTiming& timing) {
   if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params, {}, &timing);
   evaluation::FlightLog log;
   auto result = evaluation::flyOnce(scenario, seed, job.params, {&log}, &timing);
@@ -198,7 +69,7 @@ evaluation::FlightResult flyLogged(const Job& job, const simulation::Scenario& s
 }
 
 // A flight is the same to the bit when flown again: only those that failed are recorded.
-void recordAgain(const Job& job, const simulation::Scenario& scenario,
+void recordAgain(const FlyJob& job, const simulation::Scenario& scenario,
                  const evaluation::FlightResult& flight) {
   const std::string name = job.failures_folder + "/flight_" + std::to_string(flight.seed);
   const Observer bag = bagRecorder(name + ".bag");
@@ -207,72 +78,18 @@ void recordAgain(const Job& job, const simulation::Scenario& scenario,
   if (evaluation::csvRow(again) != evaluation::csvRow(flight))
     throw std::runtime_error("seed " + std::to_string(flight.seed) +
                              ": flown again for its bag, it ended otherwise; flights must repeat");
-  const cv::Mat image = strip.draw(flight, outlineOf(scenario));
+  const cv::Mat image = strip.draw(flight, tools::outlineOf(scenario));
   if (image.empty() || !cv::imwrite(name + ".png", image))
     throw std::runtime_error(name + ".png: cannot write");
 }
 
-evaluation::FlightResult fly(const Job& job, std::uint32_t seed, evaluation::FlightTiming& timing) {
+evaluation::FlightResult fly(const FlyJob& job, std::uint32_t seed, evaluation::FlightTiming& timing) {
   const auto scenario = job.scenario(seed);
   auto flight = flyLogged(job, scenario, seed, timing);
   const bool failed = flight.outcome != simulation::Outcome::kPassed;
   if (failed && !job.failures_folder.empty()) recordAgain(job, scenario, flight);
   return flight;
 }
-
-/// The files that grow while flights come in, and those drawn at the end.
-class Results {
- public:
-  explicit Results(const Job& job)
-      : job_(job), rows_(job.output_folder + "/flights.csv"), tracks_(job.output_folder + "/tracks.csv") {
-    for (const char* of_the_whole : {"/summary.json", "/tracks.png"})
-      fs::remove(job.output_folder + of_the_whole);
-    rows_ << evaluation::csvHeader() << "\n";
-    tracks_ << evaluation::trackHeader() << "\n";
-  }
-  void add(const evaluation::FlightResult& flight) {
-    rows_ << evaluation::csvRow(flight) << "\n" << std::flush;
-    tracks_ << evaluation::trackRows(flight) << std::flush;
-    check(rows_ && tracks_);
-    passed_ += flight.outcome == simulation::Outcome::kPassed ? 1 : 0;
-  }
-  int passed() const { return passed_; }
-  void finish() {
-    rows_.close();
-    tracks_.close();
-    check(rows_ && tracks_);
-    // Of the numbers as they stand in the table: joined shards give the same bytes.
-    const auto flights = evaluation::readFlights(job_.output_folder);
-    std::ofstream summary(job_.output_folder + "/summary.json");
-    summary << evaluation::toJson(evaluation::summarise(flights), factsOf(flights));
-    summary.close();
-    const auto scenario = job_.scenario(seedOf(flights));
-    const std::string title =
-        fs::path(job_.scenario_file).stem().string() + ", " + std::to_string(flights.size()) + " flights";
-    const bool drawn = cv::imwrite(job_.output_folder + "/tracks.png",
-                                   evaluation::drawTracks(flights, outlineOf(scenario), title));
-    check(summary && drawn);
-  }
-
- private:
-  void check(bool written) const {
-    if (!written) throw std::runtime_error(job_.output_folder + ": cannot write; is the disk full?");
-  }
-  evaluation::CampaignFacts factsOf(const std::vector<evaluation::FlightResult>& flights) const {
-    std::vector<std::uint32_t> seeds;
-    for (const auto& flight : flights) seeds.push_back(flight.seed);
-    return {job_.scenario_file, evaluation::seedsText(seeds), job_.draws_file,
-            job_.params_file,   !job_.params.without_images,  WINDOW_INGRESS_VERSION};
-  }
-  // Of a flight whose scenario stands for all in the image; there may be none in a shard.
-  std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
-    return flights.empty() ? 1u : flights.front().seed;
-  }
-
-  const Job& job_;
-  std::ofstream rows_, tracks_;
-  int passed_ = 0;
-};
 
 void printProgress(int done, int total, int passed, double seconds) {
   const double a_minute = 60.0 * done / std::max(1e-3, seconds);
@@ -288,7 +105,7 @@ void printTiming(const evaluation::FlightTiming& timing) {
 }
 
 // The last of the flights there is flown again: that it ends as it did shows that the others would.
-std::vector<evaluation::FlightResult> flownBefore(const Job& job) {
+std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   if (!job.resumes || !job.holdsFlights()) return {};
   auto flights = evaluation::readFlights(job.output_folder);
   for (const auto& flight : flights)
@@ -315,7 +132,7 @@ std::vector<std::uint32_t> without(std::vector<std::uint32_t> seeds,
 }
 
 // \return how many were flown
-int flyJob(const Job& job, const std::vector<std::uint32_t>& seeds, Results& results) {
+int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResults& results) {
   std::mutex mutex;
   evaluation::FlightTiming all;
   const auto flyTimed = [&](std::uint32_t seed) {
@@ -343,20 +160,20 @@ int flyJob(const Job& job, const std::vector<std::uint32_t>& seeds, Results& res
   return flown;
 }
 
-int join(const Job& job) {
+int join(const FlyJob& job) {
   const auto flights = evaluation::joinFlights(job.join_folders);
-  Results results(job);
+  FlyResults results(job);
   for (const auto& flight : flights) results.add(flight);
   results.finish();
   return 0;
 }
 
-int run(const Job& job) {
+int run(const FlyJob& job) {
   if (!job.join_folders.empty()) return join(job);
   const auto before = flownBefore(job);
   stopAt(SIGINT);
   stopAt(SIGTERM);
-  Results results(job);
+  FlyResults results(job);
   for (const auto& flight : before) results.add(flight);
   const std::size_t flown = before.size() + flyJob(job, without(job.seeds, before), results);
   results.finish();
@@ -371,7 +188,7 @@ int run(const Job& job) {
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
   return tools::runTool("fly", [&] {
-    const Job job = parse(argc, argv, describe());
+    const FlyJob job = tools::parseFly(argc, argv, tools::describeFly());
     return job.scenario_file.empty() ? 0 : run(job);
   });
 }
