@@ -1,0 +1,136 @@
+#include "detection/target_choice.hpp"
+
+#include <algorithm>
+
+#include "detection/quads.hpp"
+#include "window_ingress/detection/window_detector.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+constexpr int kRefinementTries = 6;
+constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
+constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
+constexpr int kFewestSeen =
+    3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
+constexpr double kAlignedShiftPx = 0.8;  ///< and from where the wall round a hole was aligned, to count
+constexpr double kAlignedStray = 0.025;  ///< as `kAlignedStrayPx`, of borders found by the frame [mean sides]
+
+// Correlation of the next best place.
+double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& rivals) {
+  const Sameness same(target.quad);
+  double best = 0.0;
+  for (const ScoredCandidate& other : rivals)
+    if (other.located && !same.sameWindow(other.quad)) best = std::max(best, other.correlation.value_or(0.0));
+  return best;
+}
+
+}  // namespace
+
+double TargetChoice::leastScore(const ScoredCandidate& rival) const {
+  if (rival.correlation) return params_.min_correlation;
+  return rival.appearance ? params_.min_score_reference : params_.min_score;
+}
+
+std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& rival) const {
+  if (rival.correlation && rival.located) return reference_.objectionTo(rival.match);
+  if (rival.appearance)
+    if (const auto refused = reference_.objectionTo(*rival.appearance)) return refused;
+  if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
+  if (const double least = leastScore(rival); rival.score < least)
+    return Rejection{RejectReason::kScore, rival.score, least};
+  return std::nullopt;
+}
+
+std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival, const View& view,
+                                                   double& inliers) const {
+  BorderStart start;
+  start.quad = rival.quad;
+  start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search_factor_ + 1.0;
+  if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
+  if (!rival.correlation) return refinement_.run(view.image, start, view.camera, &inliers);
+  start.max_stray_px = kAlignedStrayPx;
+  if (reference_.frameless()) start.max_shift_px = kAlignedShiftPx;
+  return refinement_.run(view.image, start, view.camera, &inliers);
+}
+
+// The surroundings alone fit where a wall was closed, too.
+bool TargetChoice::showsOpening(const RefinedBorders& fitted, const View& view) {
+  return fitted.seen >= kFewestSeen &&
+         (!reference_.frameless() || reference_.showsOpening(view.image, fitted.corners, view.camera));
+}
+
+// Borders that do not lie where the surroundings fit are those of something before them: fitted anew there.
+// Without a camera nothing keeps the surroundings from shearing, and the borders are left.
+std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
+                                                           RefinedBorders& fitted) {
+  const auto ring = reference_.surroundingsOf(fitted.corners, view.image, view.camera);
+  if (!ring) return std::nullopt;
+  if (auto fault = reference_.objectionTo(ring->match)) return fault;
+  const double stray_px = std::max(kAlignedStrayPx, kAlignedStray * meanSide(ring->quad));
+  if (!view.camera || furthestCorner(ring->quad, fitted.corners) <= stray_px) return std::nullopt;
+  ScoredCandidate aligned = rival;
+  aligned.quad = ring->quad;
+  aligned.located = true;
+  aligned.correlation = ring->match.correlation;
+  double inliers = 0.0;
+  if (const auto anew = refine(aligned, view, inliers)) fitted = *anew;
+  return std::nullopt;
+}
+
+// The best to which there is no objection and whose borders can be fitted.
+std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidate>& rivals, int search_factor,
+                                                      const View& view) {
+  search_factor_ = search_factor;
+  sortByRank(rivals);
+  std::optional<WindowObservation> window;
+  int tries = 0;
+  for (const ScoredCandidate& rival : rivals) {
+    if (const auto fault = objection(rival)) {
+      record(rival, fault->reason, fault->value, fault->limit);
+    } else if (window) {
+      record(rival, RejectReason::kOutscored, rival.score, window->score);
+    } else if (++tries > kRefinementTries) {
+      record(rival, RejectReason::kBudget, tries, kRefinementTries);
+    } else {
+      double inliers = 0.0;
+      auto fitted = refine(rival, view, inliers);
+      if (!fitted) {
+        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
+        continue;
+      }
+      if (rival.correlation && !showsOpening(*fitted, view)) {
+        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
+        continue;
+      }
+      auto fault = rival.correlation ? std::nullopt : judgeSurroundingsOf(rival, view, *fitted);
+      if (!fault) fault = reference_.objectionTo(*fitted, view.image, view.camera);
+      if (fault) {
+        record(rival, fault->reason, fault->value, fault->limit);
+        continue;
+      }
+      record(rival, RejectReason::kNone, rival.score, leastScore(rival));
+      window = observationOf(trace_.candidates.back(), *fitted, view.stamp_sec);
+      window->runner_up = runnerUp(rival, rivals);
+      trace_.target = static_cast<int>(trace_.candidates.size()) - 1;
+      trace_.candidates.back().quad = fitted->corners;
+    }
+  }
+  return window;
+}
+
+WindowObservation observationOf(const CandidateTrace& candidate, const RefinedBorders& borders,
+                                double stamp_sec) {
+  WindowObservation window;
+  window.stamp_sec = stamp_sec;
+  window.corners = borders.corners;
+  window.corner_covariance = borders.corner_covariance;
+  window.edges = borders.edges;
+  window.score = candidate.score;
+  window.has_appearance = candidate.has_appearance;
+  window.bhattacharyya = candidate.bhattacharyya;
+  window.correlation = candidate.correlation;
+  return window;
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "detection/candidates/candidate.hpp"
+#include "detection/reference/reference_judge.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
+#include "window_ingress/detection/detection_trace.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// Which of the scored candidates is the target: the best to which there is no objection and whose borders
+/// can be fitted. Notes in the trace what becomes of each.
+class TargetChoice {
+ public:
+  /// \param reference, trace outlive this
+  TargetChoice(const DetectorParams& params, ReferenceJudge& reference, DetectionTrace& trace)
+      : params_(params), reference_(reference), trace_(trace) {}
+
+  struct View {
+    const cv::Mat& image;
+    double stamp_sec;
+    const geometry::PinholeCamera* camera;  ///< may be null
+  };
+  /// \param rivals are sorted here \param search_factor pixels of the image a pixel of the search level
+  std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& rivals, int search_factor,
+                                          const View& view);
+
+ private:
+  std::optional<Rejection> objection(const ScoredCandidate& rival) const;
+  std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const View& view, double& inliers) const;
+  bool showsOpening(const RefinedBorders& fitted, const View& view);
+  std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
+                                               RefinedBorders& fitted);
+  double leastScore(const ScoredCandidate& rival) const;
+  void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
+    trace_.candidates.push_back(traceOf(rival, reason, value, limit));
+  }
+
+  DetectorParams params_;
+  ReferenceJudge& reference_;
+  DetectionTrace& trace_;
+  BorderRefinement refinement_;
+  int search_factor_ = 1;
+};
+
+}  // namespace window_ingress::detection
