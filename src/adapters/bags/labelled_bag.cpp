@@ -1,15 +1,14 @@
 #include "adapters/bags/labelled_bag.hpp"
 
-#include <geometry_msgs/PoseStamped.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 
 #include <cmath>
 #include <functional>
-#include <map>
 #include <optional>
 
+#include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_from_msg.hpp"
 
@@ -33,15 +32,6 @@ void forEachImage(const rosbag::Bag& bag, const std::string& topic, int every,
     }
     if (!decoded.image.empty() && !each(header, decoded.image)) return;
   }
-}
-
-std::map<ros::Time, Eigen::Isometry3d> truthOf(const rosbag::Bag& bag, const std::string& topic) {
-  std::map<ros::Time, Eigen::Isometry3d> truth;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic)))
-    if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>())
-      if (const auto T_camera_window = fromMsg(pose->pose))
-        truth[pose->header.stamp] = *T_camera_window.value;
-  return truth;
 }
 
 geometry::PinholeCamera cameraOf(const rosbag::Bag& bag, const std::string& topic) {
@@ -75,7 +65,7 @@ auto readingBag(const rosbag::Bag& bag, const Work& work) {
 std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, const BagTopics& topics,
                                                       const geometry::OpeningSize& opening, int every) {
   return readingBag(bag, [&] {
-    const auto truth = truthOf(bag, topics.truth);
+    const auto truth = recordedTruth(bag, topics.truth);
     const geometry::PinholeCamera camera = cameraOf(bag, topics.camera_info);
     std::vector<evaluation::LabelledImage> images;
     forEachImage(bag, topics.image, every, [&](const std_msgs::Header& header, const cv::Mat& image) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <ros/time.h>
+#include <rosbag/bag.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
+#include <map>
 #include <string>
 
 #include "adapters/conversions/msg_conversion.hpp"
@@ -21,5 +24,9 @@ class RecordedTransforms {
  private:
   tf2::BufferCore buffer_;
 };
+
+/// T_camera_window by the stamps of the images, as a topic of true poses has it. What is not finite is left
+/// out.
+std::map<ros::Time, Eigen::Isometry3d> recordedTruth(const rosbag::Bag& bag, const std::string& topic);
 
 }  // namespace window_ingress::adapters

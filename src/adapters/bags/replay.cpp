@@ -1,23 +1,22 @@
 #include "adapters/bags/replay.hpp"
 
-#include <geometry_msgs/PoseStamped.h>
 #include <rosbag/exceptions.h>
 #include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <deque>
 #include <map>
 #include <new>
 #include <stdexcept>
 
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay_facts.hpp"
+#include "adapters/bags/waiting_images.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/images/reference_source.hpp"
+#include "adapters/sources/diagnostics.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -27,13 +26,6 @@ namespace window_ingress::adapters {
 namespace {
 
 constexpr double kMaxAttitudeGapSec = 0.02;
-constexpr std::size_t kMaxWaiting = 30;    // images that wait for odometry as new as themselves
-constexpr double kAttitudeWaitSec = 0.05;  // they wait as long for the attitude, in time of the bag
-
-double nowMs() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 class Replay {
  public:
@@ -42,6 +34,7 @@ class Replay {
       : params_(params),
         each_(each),
         jumped_(jumped),
+        waiting_(params.with_pose && !params.topics.odom.empty(), !params.topics.imu.empty()),
         perception_(params.detector, params.interior),
         tracker_(params.pose, params.filter, params.tracker) {
     if (params.reference) perception_.setReference(*params.reference);
@@ -50,16 +43,11 @@ class Replay {
   void prepare(const rosbag::Bag& bag);
   void take(const rosbag::MessageInstance& message);
   ReplaySummary finish() {
-    while (!waiting_.empty()) processFirst();
+    processAll();
     return summary_;
   }
 
  private:
-  struct Waiting {
-    std_msgs::Header header;
-    std::function<DecodedImage()> decode;
-  };
-
   void takeImage(const std_msgs::Header& header, std::function<DecodedImage()> decode);
   void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec);
   void takeImu(const sensor_msgs::Imu& message);
@@ -68,8 +56,8 @@ class Replay {
   void forgetAll();
   void count(const ReplayedFrame& frame);
   void processComplete();
-  bool isComplete(const Waiting& image) const;
-  void processFirst();
+  void processAll();
+  void process(const WaitingImages::Image& waiting);
   detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
                                 const Converted<geometry::PinholeCamera>& camera);
   void locate(ReplayedFrame& frame, const std::string& camera_frame);
@@ -84,6 +72,7 @@ class Replay {
   const ReplayParams& params_;
   const std::function<void(const ReplayedFrame&)>& each_;
   const std::function<void(const std::string&)>& jumped_;
+  WaitingImages waiting_;
   perception::WindowPerception perception_;
   estimation::PoseBuffer attitude_, odometry_;
   estimation::SenderClock odometry_clock_;
@@ -91,10 +80,9 @@ class Replay {
   Converted<geometry::PinholeCamera> camera_;
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
-  std::deque<Waiting> waiting_;
   std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the image before
   double expected_as_of_sec_ = -1.0;
-  double odometry_sec_ = -1.0, attitude_sec_ = -1.0, newest_sec_ = -1.0;
+  double newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
 
@@ -105,10 +93,7 @@ void Replay::prepare(const rosbag::Bag& bag) {
     if (const auto info = infos.begin()->instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/tf_static")))
     if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>()) transforms_.take(*transforms);
-  if (params_.topics.truth.empty()) return;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(params_.topics.truth)))
-    if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>())
-      if (const auto pose = fromMsg(truth->pose)) truth_[truth->header.stamp] = *pose.value;
+  if (!params_.topics.truth.empty()) truth_ = recordedTruth(bag, params_.topics.truth);
 }
 
 void Replay::take(const rosbag::MessageInstance& message) {
@@ -131,21 +116,16 @@ void Replay::take(const rosbag::MessageInstance& message) {
 void Replay::takeImage(const std_msgs::Header& header, std::function<DecodedImage()> decode) {
   if (!stampSec(header.stamp)) return refuse("image", "header.stamp is zero or not normalised");
   noticeJump(header.stamp);
-  waiting_.push_back({header, std::move(decode)});
-  if (waiting_.size() > kMaxWaiting) processFirst();
+  waiting_.add({header, std::move(decode)});
   processComplete();
 }
 
-// An image waits for odometry as new as itself; for attitude not for ever, which may have stopped.
-bool Replay::isComplete(const Waiting& image) const {
-  const double sec = image.header.stamp.toSec();
-  const bool awaits_odometry = params_.with_pose && !params_.topics.odom.empty();
-  const bool awaits_attitude = !params_.topics.imu.empty() && newest_sec_ < sec + kAttitudeWaitSec;
-  return !(awaits_odometry && odometry_sec_ < sec) && !(awaits_attitude && attitude_sec_ < sec);
+void Replay::processComplete() {
+  while (const auto image = waiting_.takeComplete(newest_sec_)) process(*image);
 }
 
-void Replay::processComplete() {
-  while (!waiting_.empty() && isComplete(waiting_.front())) processFirst();
+void Replay::processAll() {
+  while (const auto image = waiting_.take()) process(*image);
 }
 
 void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
@@ -156,7 +136,7 @@ void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec)
   odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
   tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
                        vehicle.value->velocity_odom_mps);
-  odometry_sec_ = vehicle.value->stamp_sec;
+  waiting_.noteOdometry(vehicle.value->stamp_sec);
   processComplete();
 }
 
@@ -171,7 +151,7 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   noticeJump(message.header.stamp);
   tracker_.addAttitude(*stamp_sec, *attitude.value);
   attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
-  attitude_sec_ = *stamp_sec;
+  waiting_.noteAttitude(*stamp_sec);
   processComplete();
 }
 
@@ -181,7 +161,7 @@ void Replay::noticeJump(const ros::Time& stamp) {
     newest_sec_ = std::max(newest_sec_, sec);
     return;
   }
-  while (!waiting_.empty()) processFirst();
+  processAll();
   forgetAll();
   newest_sec_ = sec;
   ++summary_.jumps;
@@ -199,7 +179,7 @@ void Replay::forgetAll() {
   odometry_.clear();
   odometry_clock_.clear();
   expected_.reset();
-  odometry_sec_ = attitude_sec_ = -1.0;
+  waiting_.clear();
 }
 
 Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
@@ -211,9 +191,7 @@ Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) c
   return transforms_.between(params_.frames.base, camera_frame);
 }
 
-void Replay::processFirst() {
-  const Waiting waiting = std::move(waiting_.front());
-  waiting_.pop_front();
+void Replay::process(const WaitingImages::Image& waiting) {
   const DecodedImage decoded = waiting.decode();
   if (!decoded.reason.empty()) return refuse("image", decoded.reason);
   ReplayedFrame frame;
@@ -225,15 +203,15 @@ void Replay::processFirst() {
   frame.has_odometry =
       odometry_.at(frame.stamp.toSec(), estimation::TargetEstimator::kMaxPoseGapSec).has_value();
   frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
-  const double begun_ms = nowMs();
+  const double begun_ms = 1e3 * steadyNowSec();
   frame.row.window = perception_.update(inputOf(decoded.image, waiting.header, camera));
   frame.perception = &perception_;
   frame.tracker = &tracker_;
-  frame.detector_ms = nowMs() - begun_ms;
+  frame.detector_ms = 1e3 * steadyNowSec() - begun_ms;
   if (!frame.row.window) frame.row.reject_reason = detection::toString(perception_.trace().outcome);
   expected_.reset();
   if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
-  frame.pose_ms = nowMs() - begun_ms - frame.detector_ms;
+  frame.pose_ms = 1e3 * steadyNowSec() - begun_ms - frame.detector_ms;
   count(frame);
   const auto truth = truth_.find(waiting.header.stamp);
   if (truth != truth_.end()) frame.truth = truth->second;
