@@ -1,11 +1,5 @@
 #include "adapters/nodes/pose_node.hpp"
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-
-#include <cstdio>
-
-#include "adapters/markers/marker_sketch.hpp"
-#include "adapters/markers/markers.hpp"
 #include "adapters/sources/attitude_source.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
@@ -38,11 +32,9 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       tracker_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_),
-      facade_(nh, pnh, diagnostics_, tracker_, tf_, vehicle_.frames.odom) {
-  pose_publisher_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1, params_.lockstep);
-  covariance_publisher_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
-  polygon_publisher_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
-  marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+      facade_(nh, pnh, diagnostics_, tracker_, tf_, vehicle_.frames.odom),
+      publisher_(nh, params_.lockstep, vehicle_.frames.odom,
+                 params_.publish_tf ? params_.window_frame : std::string()) {
   const int queue = queueFor(params_.lockstep, 10);
   window_subscriber_ = subscribeGuarded<window_ingress::WindowDetection>(
       nh, "window", 1, diagnostics_, [this](const auto& message) { receiveWindow(message); });
@@ -61,9 +53,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     tf_attitude_.emplace(tf_, vehicle_.frames.odom, vehicle_.frames.base);
     diagnostics_.add("attitude", [this] { return tf_attitude_->health(); });
   }
-  if (!params_.publish_tf)
-    diagnostics_.addOutput("window_pose",
-                           {pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_});
+  if (!params_.publish_tf) diagnostics_.addOutput("window_pose", publisher_.topics());
   diagnostics_.add("camera mounting", [this] { return mountingHealth(); });
   diagnostics_.add("frames check", [this] { return framesHealth(tracker_.frames()); });
   diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset(), odom_clock_); });
@@ -189,9 +179,8 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.filtered.reason = unused.reason;
   out.checks = toMsg(verified);
   consistency_ = verified.consistency;
-  publish(out);
-  if (state) publishFiltered(out, *state);
-  facade_.publish(message.header.stamp, marker_publisher_);
+  publisher_.publish(out, state);
+  facade_.publish(message.header.stamp, publisher_.markers());
 }
 
 // Fills in what this image shows. Returns why it did not contribute to what is filtered; no reason if it did.
@@ -241,35 +230,6 @@ Converted<Eigen::Isometry3d> PoseNode::mounting(const std::string& camera_frame)
   return mountingOf(tf_, vehicle_.frames.base, camera_frame);
 }
 
-void PoseNode::publish(const window_ingress::WindowPose& message) {
-  pose_publisher_.publish(message);
-  if (message.image.reject == window_ingress::ImagePose::OK) {
-    geometry_msgs::PoseWithCovarianceStamped stamped;
-    stamped.header = message.header;
-    stamped.pose = message.image.pose;
-    covariance_publisher_.publish(stamped);
-    const auto T_camera_window = fromMsg(message.image.pose.pose);
-    if (T_camera_window)
-      polygon_publisher_.publish(openingPolygon(*T_camera_window.value,
-                                                {message.size.width, message.size.height},
-                                                message.header.stamp, message.header.frame_id));
-  }
-}
-
-void PoseNode::publishFiltered(const window_ingress::WindowPose& message,
-                               const estimation::FilteredWindow& window) {
-  if (marker_publisher_.getNumSubscribers() > 0)
-    marker_publisher_.publish(
-        windowMarkers(window, windowLabel(message), message.header.stamp, vehicle_.frames.odom));
-  if (!params_.publish_tf) return;
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = message.header.stamp;
-  transform.header.frame_id = vehicle_.frames.odom;
-  transform.child_frame_id = params_.window_frame;
-  transform.transform = toTransformMsg(window.T_odom_window);
-  tf_broadcaster_.sendTransform(transform);
-}
-
 void PoseNode::restartIfClockJumpedBack() {
   if (!clock_.jumpedBack(ros::Time::now().toSec())) return;
   ROS_WARN("the clock jumped back: odometry, transforms and filter forgotten");
@@ -284,7 +244,7 @@ void PoseNode::forget() {
   pending_.reset();
   tracker_.reset();
   consistency_ = estimation::Consistency();
-  marker_publisher_.publish(allGone(ros::Time::now(), vehicle_.frames.odom));
+  publisher_.clear(ros::Time::now());
   facade_.tellAnew(ros::Time::now());
 }
 

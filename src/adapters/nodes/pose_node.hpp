@@ -5,7 +5,6 @@
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 #include <window_ingress/WindowDetection.h>
 #include <window_ingress/WindowPose.h>
@@ -17,6 +16,7 @@
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/nodes/facade_link.hpp"
 #include "adapters/nodes/pose_health.hpp"
+#include "adapters/nodes/pose_publisher.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/camera_source.hpp"
 #include "adapters/sources/diagnostics.hpp"
@@ -52,9 +52,6 @@ class PoseNode : public Node {
     std::string reason;
   };
   Refusal estimate(const window_ingress::WindowDetection& message, window_ingress::WindowPose& out);
-  void publish(const window_ingress::WindowPose& message);
-  void publishFiltered(const window_ingress::WindowPose& message, const estimation::FilteredWindow& window);
-
   Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   bool reset(Trigger::Request& request, Trigger::Response& response);
   void forget();
@@ -87,9 +84,8 @@ class PoseNode : public Node {
   std::optional<TfAttitude> tf_attitude_;
   tf2_ros::TransformListener tf_listener_;
   FacadeLink facade_;
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  PosePublisher publisher_;
   ros::Subscriber window_subscriber_, odom_subscriber_, imu_subscriber_;
-  ros::Publisher pose_publisher_, covariance_publisher_, polygon_publisher_, marker_publisher_;
   ros::ServiceServer reset_;
   ros::SteadyTimer timer_;
 };
