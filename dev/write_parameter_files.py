@@ -195,6 +195,14 @@ def doc_row(struct, visit):
     return f"| `{visit[1]}` | {unit[1] if unit else '-' if kind in ('double', 'int') else ''} | {default} | {allowed} | {meaning[:1].upper() + meaning[1:]} |"
 
 
+def doc_rows(structs, struct):
+    for visit in struct.visits:
+        if visit[0] == "inline":
+            yield from doc_rows(structs, find(structs, struct.space, visit[1]))
+        elif visit[0] != "list":
+            yield doc_row(struct, visit)
+
+
 def doc_tables(structs, kind):
     """Section name -> rows, of every struct that a scenario file may hold."""
     struct = find(structs, "simulation", kind)
@@ -204,7 +212,7 @@ def doc_tables(structs, kind):
         inner = re.sub(r"std::vector<(\w+)>", r"\1", struct.members[visit[2]][0])
         if inner != "ColourParams":
             rows = find(structs, "simulation", inner)
-            yield visit[1], [doc_row(rows, row) for row in rows.visits if row[0] != "list"]
+            yield visit[1], list(doc_rows(structs, rows))
             yield from doc_tables(structs, inner)
 
 

@@ -84,7 +84,7 @@ simulation::Scenario anyWindow(std::uint32_t seed, bool is_open) {
   house.wall = anyColour(random);
   house.wall_thickness_m = random.uniform(0.1, 0.35);
   house.texture_seed = random.uniformInt(1, 1000000);
-  house.sun_azimuth_rad = random.uniform(-1.2, 1.2);
+  house.daylight.sun_azimuth_rad = random.uniform(-1.2, 1.2);
   house.room_depth_m = random.uniform(2.0, 6.0);
   house.room_light = random.uniform(0.3, 0.9);
   house.room_texture = oneOf(random, {"plaster", "brick", "siding", "stone"});

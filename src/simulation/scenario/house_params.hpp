@@ -4,11 +4,12 @@
 #include <string>
 
 #include "simulation/scenario/colour_params.hpp"
+#include "simulation/scenario/light_params.hpp"
 #include "simulation/scenario/window_params.hpp"
 
 namespace window_ingress::simulation {
 
-/// The house around the window, the room behind it, the light.
+/// The house around the window, and the room behind it.
 struct HouseParams {
   std::string wall_texture = "plaster";  ///< what the front wall is made of
   ColourParams wall{226, 214, 190};      ///< of the front wall
@@ -22,15 +23,8 @@ struct HouseParams {
   ColourParams room{205, 200, 180};      ///< of the room's walls
   std::string furniture = "some";        ///< in the room, none of it in the way
   bool back_window = false;              ///< a glazed window in the room's back wall, and daylight behind it
-  double sun_azimuth_rad = 0.6;  ///< where the sun stands, from the outward normal towards the left; beyond
-                                 ///< pi/2: behind the house [rad]
-  double sun_elevation_rad = 0.85;    ///< how high the sun stands [rad]
-  double sun = 0.5;                   ///< brightness that the sun adds to a face square to it
-  double ambient = 0.55;              ///< brightness of a face in shadow
-  double sky = 1.0;                   ///< brightness of the sky itself
-  ColourParams light{255, 255, 255};  ///< of the light outdoors
-  double fog_m = 0.0;                 ///< distance at which 5 % of all contrast is left; 0: no fog [m]
-  int texture_seed = 1;               ///< seed of the patterns on all surfaces
+  LightParams daylight;                  ///< its keys stand among those of the house
+  int texture_seed = 1;                  ///< seed of the patterns on all surfaces
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field.choice("wall_texture", self.wall_texture, {"plaster", "brick", "siding", "stone", "paint"});
@@ -44,13 +38,7 @@ struct HouseParams {
     field.group("room", self.room);
     field.choice("furniture", self.furniture, {"none", "some", "full"});
     field("back_window", self.back_window);
-    field("sun_azimuth_rad", self.sun_azimuth_rad, -3.15, 3.15);
-    field("sun_elevation_rad", self.sun_elevation_rad, 0.0, 1.5);
-    field("sun", self.sun, 0.0, 1.5);
-    field("ambient", self.ambient, 0.0, 1.5);
-    field("sky", self.sky, 0.0, 1.5);
-    field.group("light", self.light);
-    field("fog_m", self.fog_m, 0.0, 10000.0);
+    LightParams::visit(self.daylight, field);
     field("texture_seed", self.texture_seed, 0, 1000000);
   }
 };

@@ -40,7 +40,7 @@ Scenario asPhotographed(const Scenario& scenario) {
   expected.window.present = true;
   expected.window.closed_by = "none";
   expected.window.dirt = 0.0;
-  expected.house.fog_m = 0.0;
+  expected.house.daylight.fog_m = 0.0;
   auto& posters = expected.posters;
   posters.erase(std::remove_if(posters.begin(), posters.end(),
                                [&](const PosterParams& poster) { return reachesInto(poster, scenario); }),

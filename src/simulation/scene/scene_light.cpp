@@ -13,9 +13,9 @@ constexpr double kPaneTransmission = 0.85;
 Vector3d factors(const ColourParams& colour) { return Vector3d(colour.r, colour.g, colour.b) / 255.0; }
 
 Vector3d towardsSun(const HouseParams& house) {
-  const double level = std::cos(house.sun_elevation_rad);
-  return {-level * std::cos(house.sun_azimuth_rad), level * std::sin(house.sun_azimuth_rad),
-          std::sin(house.sun_elevation_rad)};
+  const double level = std::cos(house.daylight.sun_elevation_rad);
+  return {-level * std::cos(house.daylight.sun_azimuth_rad), level * std::sin(house.daylight.sun_azimuth_rad),
+          std::sin(house.daylight.sun_elevation_rad)};
 }
 
 // The ground before the house, when the sun stands behind it.
@@ -62,8 +62,8 @@ double eavesShadow(const Scenario& scenario, double x_m) {
 
 Lighting daylight(const Scenario& scenario) {
   const HouseParams& house = scenario.house;
-  Lighting light{towardsSun(house), house.sun, house.ambient};
-  light.sun_colour = light.soft_colour = factors(house.light);
+  Lighting light{towardsSun(house), house.daylight.sun, house.daylight.ambient};
+  light.sun_colour = light.soft_colour = factors(house.daylight.light);
   if (light.towards_sun.x() > kGrazing) {
     light.region = houseShadow(scenario, light.towards_sun);
     light.shadow = true;
@@ -84,9 +84,9 @@ Lighting revealLight(const Scenario& scenario, const Rectangle& opening, double 
 
 Lighting roomLight(const Scenario& scenario) {
   const double level = scenario.house.room_light;
-  Lighting light{towardsSun(scenario.house), scenario.house.sun, 0.75 * level,
+  Lighting light{towardsSun(scenario.house), scenario.house.daylight.sun, 0.75 * level,
                  Vector3d(-0.8, 0.25, 0.55).normalized(), 0.5 * level};
-  light.sun_colour = factors(scenario.house.light);
+  light.sun_colour = factors(scenario.house.daylight.light);
   light.region = sunInRoom(scenario, light.towards_sun);
   if (light.region.empty()) return light.inShadow();
   if (light.towards_sun.x() > 0.0 || !scenario.window.isOpen()) light.sun *= kPaneTransmission;
@@ -94,16 +94,17 @@ Lighting roomLight(const Scenario& scenario) {
 }
 
 Lighting skyLight(const Scenario& scenario) {
-  Lighting light{Vector3d::UnitZ(), 0.0, scenario.house.sky};
-  light.soft_colour = factors(scenario.house.light);
+  Lighting light{Vector3d::UnitZ(), 0.0, scenario.house.daylight.sky};
+  light.soft_colour = factors(scenario.house.daylight.light);
   return light;
 }
 
 std::optional<Fog> fogOf(const Scenario& scenario) {
   const HouseParams& house = scenario.house;
-  if (house.fog_m <= 0.0) return std::nullopt;
-  const Vector3d white = Vector3d(0.80, 0.82, 0.84) * house.sky;
-  return Fog{white.cwiseProduct(factors(house.light)).cwiseMin(1.0), -std::log(0.05) / house.fog_m};
+  if (house.daylight.fog_m <= 0.0) return std::nullopt;
+  const Vector3d white = Vector3d(0.80, 0.82, 0.84) * house.daylight.sky;
+  return Fog{white.cwiseProduct(factors(house.daylight.light)).cwiseMin(1.0),
+             -std::log(0.05) / house.daylight.fog_m};
 }
 
 }  // namespace window_ingress::simulation

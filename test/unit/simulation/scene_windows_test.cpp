@@ -54,8 +54,8 @@ TEST(SceneIsClosed, NothingShinesThroughWallFrameRevealOrRoom) {
   for (int view = 0; view < 9; ++view) {
     Scenario scenario = manyWindows();
     scenario.window.frame_width_m = view % 3 == 0 ? 0.0 : 0.07;
-    scenario.house.sun_azimuth_rad = random.uniform(-1.2, 1.2);
-    scenario.house.sun_elevation_rad = random.uniform(0.2, 1.2);
+    scenario.house.daylight.sun_azimuth_rad = random.uniform(-1.2, 1.2);
+    scenario.house.daylight.sun_elevation_rad = random.uniform(0.2, 1.2);
     const double distance_m = random.uniform(0.5, 2.0), bearing_rad = random.uniform(-0.5, 0.5);
     const Vector3d from(-distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad),
                         random.uniform(-0.3, 0.3));
@@ -97,8 +97,8 @@ TEST(BareHole, IsSeenWhereTheOpeningIsTold) {
   scenario.window.reveal = {0, 0, 0};
   scenario.house.wall = {255, 255, 255};
   scenario.house.wall_texture = "paint";
-  scenario.house.room_light = scenario.house.sun = 0.0;
-  scenario.house.ambient = 0.9;
+  scenario.house.room_light = scenario.house.daylight.sun = 0.0;
+  scenario.house.daylight.ambient = 0.9;
   const Scene scene = buildScene(scenario);
   const auto camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2);
   Renderer renderer(scene, camera);

@@ -126,7 +126,7 @@ TEST(ShippedScenarios, TheReferenceShowsTheOpenTargetWhateverIsThereByNow) {
   Scenario absent = open, closed = open, foggy = open;
   absent.window.present = false;
   closed.window.closed_by = "board";
-  foggy.house.fog_m = 8.0;
+  foggy.house.daylight.fog_m = 8.0;
   for (const Scenario& scenario : {absent, closed, foggy})
     EXPECT_EQ(cv::norm(expected, World(scenario, 4).referenceImage(nullptr), cv::NORM_INF), 0.0);
 }

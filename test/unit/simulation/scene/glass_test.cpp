@@ -24,7 +24,7 @@ Scenario glazed(const std::string& closed_by = "glass") {
 
 Scenario glazedBeforeBlackRoom() {
   Scenario scenario = glazed();
-  scenario.house.room_light = scenario.house.sun = 0.0;
+  scenario.house.room_light = scenario.house.daylight.sun = 0.0;
   scenario.window.reveal = {0, 0, 0};
   return scenario;
 }
@@ -135,7 +135,7 @@ TEST(ClearPane, ChangesNothingOutsideOfItself) {
 TEST(ClearPane, LooksTheSameMultisampledInRowsAndInFog) {
   Scenario scenario = glazed();
   scenario.decoys.emplace_back().closed_by = "glass";
-  scenario.house.fog_m = 30.0;
+  scenario.house.daylight.fog_m = 30.0;
   const Scene scene = buildScene(scenario);
   const auto camera = geometry::PinholeCamera::fromFieldOfView(320, 240, 1.2);
   const auto pose = views::lookAt({-2.5, 1.5, 0.0}, {0, 1.0, 0});

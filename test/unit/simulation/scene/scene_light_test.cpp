@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 Scenario sunFrom(double azimuth_rad, double elevation_rad) {
   Scenario scenario;
-  scenario.house.sun_azimuth_rad = azimuth_rad;
-  scenario.house.sun_elevation_rad = elevation_rad;
+  scenario.house.daylight.sun_azimuth_rad = azimuth_rad;
+  scenario.house.daylight.sun_elevation_rad = elevation_rad;
   scenario.house.eaves_m = 6.0;  // no shadow of the eaves on the window
   return scenario;
 }
@@ -106,7 +106,7 @@ TEST(Fog, IsThinNearTheCamera) {
   Scenario scenario;
   const Eigen::Vector3d eye(-12.0, 0.0, 0.0), lawn(-10.5, 0.0, -scenario.windowCentreHeight());
   const auto greenness = [&](double fog_m) {
-    scenario.house.fog_m = fog_m;
+    scenario.house.daylight.fog_m = fog_m;
     const cv::Mat image = views::photograph(buildScene(scenario), views::lookAt(eye, lawn), 0.3);
     const cv::Scalar mean = cv::mean(image);
     return mean[1] - 0.5 * (mean[0] + mean[2]);
@@ -126,7 +126,7 @@ TEST(Fog, TakesContrastWithDistanceButNotInTheRoom) {
     return std::abs(frame - wall);
   };
   const double clear = contrast(4.0);
-  scenario.house.fog_m = 10.0;
+  scenario.house.daylight.fog_m = 10.0;
   EXPECT_NEAR(contrast(4.0) / clear, std::exp(std::log(0.05) * 0.4), 0.04);
   EXPECT_NEAR(contrast(1.5) / clear, std::exp(std::log(0.05) * 0.15), 0.04);
   const double inside = views::greyAt(buildScene(scenario), {-0.5, 0, 0}, {5.2, -0.5, 0.3});
