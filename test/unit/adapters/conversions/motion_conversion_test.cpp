@@ -7,7 +7,7 @@
 
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::adapters::msg_conversion_test {
+namespace window_ingress::adapters::motion_conversion_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -157,4 +157,4 @@ TEST(Setpoint, RefusesUnknownFramesAndBadNumbers) {
   EXPECT_FALSE(fromMsg(message, kFrames, level));
 }
 
-}  // namespace window_ingress::adapters::msg_conversion_test
+}  // namespace window_ingress::adapters::motion_conversion_test
