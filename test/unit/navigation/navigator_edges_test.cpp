@@ -196,7 +196,7 @@ NavigatorOutput interruptedAt(const Eigen::Vector3d& place, int step) {
   return mission.output;
 }
 
-TEST(NavigatorEdges, BehindThePlaneACommitIsResumedWithoutPictures) {
+TEST(NavigatorEdges, BehindThePlaneACommitIsResumedWithoutImages) {
   const auto output = interruptedAt({0.0, 0.0, 1.5}, 31);
   EXPECT_EQ(output.state, State::kPassed) << output.reason;
 }

@@ -235,7 +235,7 @@ TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
   EXPECT_GT(pacer.pace(wish, axes, situationAt({0, 0.27, 0}, 1.95, false)).y(), 0.2);
 }
 
-TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewPictures) {
+TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewImages) {
   NavigatorParams params = test::withoutGlass();
   const auto rateWith = [&](double image_period_sec) {
     Search search(params);
@@ -364,7 +364,7 @@ TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
   }
 }
 
-TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyThePicturesAreMissing) {
+TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyTheImagesAreMissing) {
   for (const auto from : {State::kAlign, State::kApproach, State::kSearch}) {
     MissionState memory;
     memory.trusted = test::targetAtOrigin(0.0);
