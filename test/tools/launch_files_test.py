@@ -148,7 +148,7 @@ def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, ve
     launch = (ROOT / "launch/px4.launch", "window_size:=1.2,1.0", f"config:={tmp_path}/drone.yaml")
     assert "the vehicle's size is not said: in the file of config:=" in refusal(*launch)
     done = run("roslaunch", "--nodes", *launch, "fly:=false")
-    assert done.returncode == 0 and "warning: no reference picture" in done.stderr
+    assert done.returncode == 0 and "warning: no reference image" in done.stderr
 
 
 def test_what_a_launch_file_would_refuse_is_refused_by_hand_too(tmp_path):
