@@ -103,10 +103,6 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     params.vehicle.response_sec = observer.response().responseSec();
     params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
     params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
-    // What keeps its place goes by the positions as they are reported, while the velocity is what seems wrong.
-    if (memory.place_odom_m && monitor.odometry().isOffFromTheBeginning())
-      *memory.place_odom_m += monitor.odometry().shiftM() - memory.odometry_shift_m;
-    memory.odometry_shift_m = monitor.odometry().shiftM();
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
     memory.odometry_bias_known = monitor.odometry().isBiasKnown();

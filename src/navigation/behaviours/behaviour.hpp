@@ -38,7 +38,6 @@ struct MissionState {
   double odometry_drift_m_per_sqrt_sec = 0.0;   ///< of its position beside its velocity, as measured
   bool odometry_bias_known = false;             ///< it has been watched for long enough to know of one
   std::optional<Eigen::Vector3d> home_odom_m;   ///< where the mission began
-  Eigen::Vector3d odometry_shift_m = Eigen::Vector3d::Zero();  ///< what was taken off its positions so far
   std::optional<double> keeping_since_sec;      ///< a place is wanted
   std::optional<Eigen::Vector3d> place_odom_m;  ///< to be kept: where the vehicle stands, has stood
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for

@@ -15,7 +15,6 @@ constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
-constexpr double kClearlyOffMps = 0.1;  // more than positions wander in a second
 constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
 constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
 
@@ -174,30 +173,20 @@ Eigen::Vector3d ContinuousOdometry::middleMps(Axes axes) const {
   return geometry::componentwiseMedian(pieces_mps);
 }
 
-Eigen::Vector3d ContinuousOdometry::meanMps(Pieces::const_iterator from, Pieces::const_iterator to) const {
+Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
+  if (pieces_.size() < kLatePieces) return usual_.*axes_;
   const Eigen::Vector3d sum_mps =
-      std::accumulate(from, to, Eigen::Vector3d(0, 0, 0),
+      std::accumulate(pieces_.end() - kLatePieces, pieces_.end(), Eigen::Vector3d(0, 0, 0),
                       [&](const Eigen::Vector3d& sum, const Difference& piece) -> Eigen::Vector3d {
                         return sum + piece.*axes_;
                       });
-  return sum_mps / static_cast<double>(to - from);
-}
-
-Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
-  return pieces_.size() < kLatePieces ? usual_.*axes_ : meanMps(pieces_.end() - kLatePieces, pieces_.end());
+  return sum_mps / kLatePieces;
 }
 
 double ContinuousOdometry::unexplainedMps() const {
   const double late_mps = (latePiecesMps() - usual_.*axes_).norm();
   if (isBiasKnown() || pieces_.size() < kFirstPieces) return late_mps;
   return std::max(late_mps, middleMps(axes_).norm());
-}
-
-bool ContinuousOdometry::isOffFromTheBeginning() const {
-  if (isBiasKnown() || pieces_.size() < kFirstPieces) return false;
-  const Eigen::Vector3d first_mps = meanMps(pieces_.begin(), pieces_.begin() + kFirstPieces);
-  const double first = first_mps.norm();
-  return first > kClearlyOffMps && first < kMaxBiasMps && latePiecesMps().norm() < kMaxBiasMps;
 }
 
 Eigen::Vector3d ContinuousOdometry::unbiased(const VehicleState& smooth) const {

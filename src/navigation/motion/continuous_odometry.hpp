@@ -48,11 +48,6 @@ class ContinuousOdometry {
   /// What of it the known bias does not explain [m/s]; before one is known, over all the time so far, if that
   /// is more.
   double unexplainedMps() const;
-  /// The velocity has been off since the first second, as an estimator's bias is and a slide of the position
-  /// is not; whether it is one is not known yet. What keeps its place by `smooth` drifts meanwhile.
-  bool isOffFromTheBeginning() const;
-  /// What was taken off the positions so far [m], axes of `smooth`.
-  const Eigen::Vector3d& shiftM() const { return shift_m_; }
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return drift_m_per_sqrt_sec_; }
   bool isBiasKnown() const { return pieces_.size() == kPieces; }
@@ -83,11 +78,8 @@ class ContinuousOdometry {
   VehicleState inSmooth(const VehicleState& odometry) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
-  using Pieces = std::deque<Difference>;
   using Axes = Eigen::Vector3d Difference::*;
   Eigen::Vector3d middleMps(Axes axes) const;
-  /// Mean of some of them, in the axes in which they are more even.
-  Eigen::Vector3d meanMps(Pieces::const_iterator from, Pieces::const_iterator to) const;
   Eigen::Vector3d latePiecesMps() const;
   void judgePieces();
   Eigen::Vector3d steadyMps(const Eigen::Matrix3d& R_smooth_base) const;
@@ -105,7 +97,7 @@ class ContinuousOdometry {
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  ///< of the frame, so far
   std::optional<Sample> piece_;                        ///< where the present piece of the way began
-  Pieces pieces_;                                      ///< the latest
+  std::deque<Difference> pieces_;                      ///< the latest
   Difference usual_;                                   ///< middle value of them; zero until it is known
   Axes axes_ = &Difference::base_mps;                          ///< in which they are more even
   double drift_m_per_sqrt_sec_ = 0.0;

@@ -164,28 +164,6 @@ TEST_F(NavigatorSteps, GoesThroughTheStatesAsTheInputSays) {
   EXPECT_LE(output.setpoint.velocity_odom_mps.norm(), params_.hold.speed_mps) << "keeps its place";
 }
 
-// As of an estimator whose velocity is off in the body: it drifts, told to stand.
-TEST_F(NavigatorSteps, AVelocityThatIsOffDoesNotCarryTheSearchAway) {
-  const Eigen::Vector3d bias_base_mps(0.2, -0.1, 0.0);
-  Navigator navigator(params_);
-  Eigen::Vector3d position = kFar, reported_mps = Eigen::Vector3d::Zero();
-  double yaw_rad = 0.0, furthest_m = 0.0;
-  const auto step = [&] {
-    auto input = inputAt(position, now_ += kStep, false);
-    input.vehicle = test::vehicleAt(position, now_, yaw_rad);
-    input.vehicle->velocity_odom_mps = reported_mps;
-    const Setpoint told = navigator.step(input, now_).setpoint;
-    reported_mps += 0.1 * (told.velocity_odom_mps - reported_mps);
-    yaw_rad += told.yaw_rate_radps * kStep;
-    position += kStep * (reported_mps - geometry::yawRotation(yaw_rad) * bias_base_mps);
-    furthest_m = std::max(furthest_m, (position - kFar).norm());
-  };
-  start(navigator, kFar);
-  for (int i = 0; i < 450; ++i) step();
-  EXPECT_EQ(navigator.state(), State::kSearch);
-  EXPECT_LT(furthest_m, 0.8);
-}
-
 TEST_F(NavigatorSteps, AWindowOnceFlownAtIsNotExchangedForAnother) {
   Navigator navigator(params_);
   start(navigator, kFar);

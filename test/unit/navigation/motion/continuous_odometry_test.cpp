@@ -218,24 +218,6 @@ TEST(ContinuousOdometry, WhatWasOffFromTheBeginningStaysUnexplainedUntilABiasIsK
   EXPECT_GT(continuous.unexplainedMps(), 0.2);
 }
 
-TEST(ContinuousOdometry, AVelocityThatIsOffFromTheBeginningIsToldFromASlide) {
-  for (const bool is_biased : {false, true}) {
-    Curve curve;
-    if (is_biased) curve.bias_base = {0.15, -0.2, 0.0};
-    ContinuousOdometry continuous;
-    for (int i = 0; i < 200; ++i) {
-      if (!is_biased && i > 40) curve.shift.y() += 0.25 * kStep;
-      continuous.add(curve.step());
-      if (i > 35) {
-        EXPECT_EQ(continuous.isOffFromTheBeginning(), is_biased) << i;
-      }
-    }
-    for (int i = 0; i < 100; ++i) continuous.add(curve.step());
-    EXPECT_TRUE(continuous.isBiasKnown());
-    EXPECT_FALSE(continuous.isOffFromTheBeginning()) << "it is known by now";
-  }
-}
-
 TEST(ContinuousOdometry, HowItsPositionWalksBesideItsVelocityIsMeasured) {
   for (const double walk_m_per_sqrt_sec : {0.0, 0.03, 0.07}) {
     double sum = 0.0;
