@@ -42,7 +42,7 @@ po::options_description describe(Options& o) {
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
       ("needs-window-size", po::value(&o.needs_window_size),
-       "true: refused if nobody says it, nor the vehicle's size; a missing reference is said")     //
+       "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing reference")  //
       ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                  //
       ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")  //
       ("launch-folder", po::value(&o.launch_folder),
@@ -127,7 +127,7 @@ bool saysOpening(const configuration::Overlay& overlay) {
   return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
 }
 
-// A drone does not fly by the size of somebody else's window, nor by that of somebody else's vehicle.
+// A drone does not fly by the size of somebody else's window, nor, unsaid, by that of somebody else's vehicle.
 void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) {
   if (o.needs_window_size != "true") return;
   const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
@@ -135,11 +135,14 @@ void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) 
     throw UsageError(
         "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
-  if (o.fly == "true" && !says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"}))
-    throw UsageError(
-        "the vehicle's size is not said: in the file of config:= vehicle: {half_length_m: L, half_width_m: "
-        "W, "
-        "half_height_m: H}, half of the box around it, propellers included [m]; measure it");
+  if (o.fly != "true" || says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
+  const auto& vehicle = overlay.vehicle;
+  std::ostringstream text;
+  text << "the vehicle's size is not said: it flies as one of " << 2.0 * vehicle.half_length_m << " x "
+       << 2.0 * vehicle.half_width_m << " x " << 2.0 * vehicle.half_height_m
+       << " m; measure it, propellers included, and say in the file of config:= vehicle: {half_length_m: L, "
+          "half_width_m: W, half_height_m: H}";
+  warn(text.str());
 }
 
 void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
