@@ -207,8 +207,9 @@ int check(const Options& o) {
   checkSpeeds(overlay);
   checkSizesAreSaid(o, overlay);
   checkNavigator(file, overlay.ingress_navigator.navigator);
-  const bool is_asked_by_hand = o.fly.empty() && saysOpening(overlay);
-  if (o.fly == "true" || is_asked_by_hand) checkFits(overlay.vehicle, overlay.homography_pose.pose);
+  const bool says_both = saysOpening(overlay) && (says(overlay, "vehicle/", {"half_width_m"}) ||
+                                                  says(overlay, "vehicle/", {"half_height_m"}));
+  if (o.fly == "true" || (o.fly.empty() && says_both)) checkFits(overlay.vehicle, overlay.homography_pose.pose);
   checkCameraPose(given(o.camera_pose));
   std::cout << file;
   return 0;
