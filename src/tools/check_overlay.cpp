@@ -41,8 +41,10 @@ po::options_description describe(Options& o) {
       ("reference", po::value(&o.reference), "image of the target")                                      //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
-      ("needs-window-size", po::value(&o.needs_window_size),
-       "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing reference")  //
+      (
+          "needs-window-size", po::value(&o.needs_window_size),
+          "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
+          "reference")                                                                             //
       ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                  //
       ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")  //
       ("launch-folder", po::value(&o.launch_folder),
@@ -127,7 +129,8 @@ bool saysOpening(const configuration::Overlay& overlay) {
   return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
 }
 
-// A drone does not fly by the size of somebody else's window, nor, unsaid, by that of somebody else's vehicle.
+// A drone does not fly by the size of somebody else's window, nor, unsaid, by that of somebody else's
+// vehicle.
 void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) {
   if (o.needs_window_size != "true") return;
   const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
@@ -135,7 +138,8 @@ void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) 
     throw UsageError(
         "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
-  if (o.fly != "true" || says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
+  if (o.fly != "true" || says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"}))
+    return;
   const auto& vehicle = overlay.vehicle;
   std::ostringstream text;
   text << "the vehicle's size is not said: it flies as one of " << 2.0 * vehicle.half_length_m << " x "
@@ -209,7 +213,8 @@ int check(const Options& o) {
   checkNavigator(file, overlay.ingress_navigator.navigator);
   const bool says_both = saysOpening(overlay) && (says(overlay, "vehicle/", {"half_width_m"}) ||
                                                   says(overlay, "vehicle/", {"half_height_m"}));
-  if (o.fly == "true" || (o.fly.empty() && says_both)) checkFits(overlay.vehicle, overlay.homography_pose.pose);
+  if (o.fly == "true" || (o.fly.empty() && says_both))
+    checkFits(overlay.vehicle, overlay.homography_pose.pose);
   checkCameraPose(given(o.camera_pose));
   std::cout << file;
   return 0;

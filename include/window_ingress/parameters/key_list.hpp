@@ -38,7 +38,8 @@ std::vector<std::string> keysOf(const Params& params) {
 }
 
 /// What to say behind "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?", or where
-/// nothing is like it the few keys that could stand there, or nothing. \param path that nobody reads \param known all that somebody reads
+/// nothing is like it the few keys that could stand there, or nothing. \param path that nobody reads \param
+/// known all that somebody reads
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known);
 
 }  // namespace window_ingress::parameters

@@ -1,8 +1,7 @@
-#include "adapters/conversions/msg_conversion.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

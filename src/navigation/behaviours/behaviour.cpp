@@ -162,8 +162,9 @@ Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEst
   if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
   const double left =
       std::sqrt(std::max(0.0, std::pow(params.limits.speed_mps, 2) - velocity_window.squaredNorm()));
-  const double ahead_mps = std::max(0.0, relative.velocity_window_mps.x()) +
-                           aheadMps((velocity_window - relative.velocity_window_mps).tail<2>().norm(), params);
+  const double ahead_mps =
+      std::max(0.0, relative.velocity_window_mps.x()) +
+      aheadMps((velocity_window - relative.velocity_window_mps).tail<2>().norm(), params);
   velocity_window.x() = std::clamp(std::min(forward_mps, ahead_mps), -left, left);
   return R_odom_window * velocity_window;
 }

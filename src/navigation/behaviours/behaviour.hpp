@@ -32,7 +32,7 @@ struct MissionState {
   double pending_yaw_rad = 0.0;                             ///< told already, not turned yet
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
-  double gusts_watched_sec = 0.0;               ///< over this time
+  double gusts_watched_sec = 0.0;                           ///< over this time
   double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
   double odometry_unexplained_mps = 0.0;        ///< what of it is no steady bias of the velocity
   double odometry_drift_m_per_sqrt_sec = 0.0;   ///< of its position beside its velocity, as measured

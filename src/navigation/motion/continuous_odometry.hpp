@@ -99,7 +99,7 @@ class ContinuousOdometry {
   std::optional<Sample> piece_;                        ///< where the present piece of the way began
   std::deque<Difference> pieces_;                      ///< the latest
   Difference usual_;                                   ///< middle value of them; zero until it is known
-  Axes axes_ = &Difference::base_mps;                          ///< in which they are more even
+  Axes axes_ = &Difference::base_mps;                  ///< in which they are more even
   double drift_m_per_sqrt_sec_ = 0.0;
 };
 

@@ -1,10 +1,9 @@
-#include "adapters/conversions/msg_conversion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
+#include "adapters/conversions/msg_conversion.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters::motion_conversion_test {
