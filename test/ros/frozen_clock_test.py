@@ -27,13 +27,18 @@ class SimulatedClock:
         self._publisher = rospy.Publisher("/clock", Clock, queue_size=1)
         self.now = start
         self.running = True
+        self._moving = threading.Lock()
         self._over = threading.Event()
         threading.Thread(target=self._run, daemon=True).start()
+
+    def leap(self, seconds):
+        with self._moving:
+            self.now += seconds
 
     def _run(self):
         while not self._over.wait(TICK_S):
             if self.running:
-                self.now += TICK_S
+                self.leap(TICK_S)
                 self._publisher.publish(Clock(rospy.Time.from_sec(self.now)))
 
     def stop(self):
@@ -76,7 +81,7 @@ class FrozenClockTest(unittest.TestCase):
         self.assertTrue(all(speed(s) == 0.0 for s in setpoints.since(frozen)))
         self.expect_zeros_of_the_guard(guarded, frozen)
 
-        clock.now -= 51.0
+        clock.leap(-51.0)
         clock.running = True
         states.wait(lambda s: s.state_name == "ABORTED", "the mission aborted when the clock jumped back")
         clock.stop()
