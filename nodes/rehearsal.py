@@ -74,9 +74,8 @@ class Rehearsal:
     def _step(self):
         try:
             self._publish()
-        except rospy.ROSException:
-            if not rospy.is_shutdown():  # the topics may be closed already
-                raise
+        except rospy.ROSException:  # at the end the topics are closed before the node knows that it ends
+            self._timer.shutdown()
 
     def _publish(self):
         now = rospy.Time.now()
