@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what replay_bag found: usage plot_replay.py FRAMES.csv PICTURE.png"""
+"""Draws what replay_bag found: usage plot_replay.py FRAMES.csv IMAGE.png"""
 import csv
 import math
 import sys

@@ -7,8 +7,16 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "window_ingress/parameters/key_list.hpp"
+
 namespace window_ingress::parameters {
 namespace {
+
+std::vector<std::string> namesOf(const std::vector<NamedField>& fields) {
+  std::vector<std::string> names;
+  for (const NamedField& field : fields) names.push_back(field.name);
+  return names;
+}
 
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> parts;
@@ -65,9 +73,10 @@ void assign(const std::vector<NamedField>& fields, const std::string& assignment
   const std::size_t sign = assignment.find('=');
   const std::string name = assignment.substr(0, sign);
   const NamedField* field = find(fields, name);
-  if (!field || sign == std::string::npos)
+  if (sign == std::string::npos)
     throw std::invalid_argument("'" + assignment + "': needs NAME=VALUE with the name of a number, like " +
                                 (fields.empty() ? "none" : fields.front().name));
+  if (!field) throw std::invalid_argument(name + ": unknown name" + didYouMean(name, namesOf(fields)));
   const double value = number(assignment.substr(sign + 1));
   RangeCheck check;
   check(name, value, field->minimum, field->maximum);

@@ -32,6 +32,12 @@ void YamlMapping::fail(const YAML::Node& at, const std::string& text) const {
   throw YamlError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
 }
 
+std::vector<std::string> YamlMapping::asked() const {
+  std::vector<std::string> paths;
+  for (const auto& key : asked_) paths.push_back(path_ + key);
+  return paths;
+}
+
 void YamlMapping::refuseUnknownKeys(const std::function<std::string(const std::string&)>& advice) const {
   for (const auto& entry : mapping_) {
     const auto key = entry.first.as<std::string>();

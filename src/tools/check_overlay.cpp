@@ -41,10 +41,9 @@ po::options_description describe(Options& o) {
       ("reference", po::value(&o.reference), "image of the target")                                      //
       ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
-      (
-          "needs-window-size", po::value(&o.needs_window_size),
-          "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
-          "reference")                                                                             //
+      ("needs-window-size", po::value(&o.needs_window_size),
+       "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
+       "reference")                                                                                //
       ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                  //
       ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")  //
       ("launch-folder", po::value(&o.launch_folder),

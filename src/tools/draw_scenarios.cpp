@@ -30,7 +30,7 @@ struct Job {
 
 options::options_description describe() {
   options::options_description description(
-      "Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
+      "Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...\n\nOptions");
   auto add = description.add_options();
   add("help", "print this text");
   add("output", options::value<std::string>(), "the sheet");

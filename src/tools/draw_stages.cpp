@@ -34,7 +34,7 @@ struct Subject {
 
 options::options_description describe(Job& job) {
   options::options_description description(
-      "Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | PICTURE");
+      "Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE\n\nOptions");
   description.add_options()("help", "print this text")                                                  //
       ("output", options::value(&job.output), "the sheet")                                              //
       ("scenario", options::value(&job.scenario), "scenario file; the view is from its start")          //

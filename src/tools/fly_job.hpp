@@ -46,7 +46,7 @@ inline options::options_description describeFly() {
   options::options_description description(
       "Usage: fly --scenario FILE.yaml --output DIR [OPTION...]\n"
       "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
-      "flights under way end (--resume goes on with the others); 2: wrong usage");
+      "flights under way end (--resume goes on with the others); 2: wrong usage\n\nOptions");
   auto add = description.add_options();
   add("help", "print this text");
   add("scenario", options::value<std::string>(), "scenario file, e.g. config/scenarios/nominal.yaml");

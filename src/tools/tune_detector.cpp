@@ -50,7 +50,7 @@ options::options_description describe(Job& job) {
       std::string("Usage: tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
                   "SOURCE: an image, a folder of images, a bag, or a topic "
                   "of images (begins with '/').\n") +
-      kKeys + ".\n");
+      kKeys + "\n\nOptions");
   description.add_options()("help", "print this text")      //
       ("source", options::value(&job.source), "see above")  //
       ("output", options::value(&job.output),

@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace window_ingress::parameters {
 
@@ -24,6 +25,8 @@ class YamlMapping {
   /// The value of a key, not defined if there is none; the key is known from now on.
   YAML::Node find(const std::string& name);
   [[noreturn]] void fail(const YAML::Node& at, const std::string& text) const;
+  /// The paths of all keys that were asked for.
+  std::vector<std::string> asked() const;
   /// \throws YamlError for the first key that nobody has asked for. \param advice what to put behind, by its
   /// path
   void refuseUnknownKeys(const std::function<std::string(const std::string&)>& advice) const;

@@ -7,6 +7,7 @@
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
+#include "window_ingress/parameters/key_list.hpp"
 #include "window_ingress/parameters/yaml.hpp"
 #include "window_ingress/parameters/yaml_mapping.hpp"
 
@@ -162,7 +163,9 @@ std::vector<ScenarioReader::ListOption> ScenarioReader::descendAll(const std::st
 }
 
 void ScenarioReader::refuseUnknownKeys() const {
-  impl_->mapping.refuseUnknownKeys([](const std::string&) { return "; see doc/scenarios.md"; });
+  impl_->mapping.refuseUnknownKeys([this](const std::string& path) {
+    return parameters::didYouMean(path, impl_->mapping.asked()) + "; see doc/scenarios.md";
+  });
 }
 
 namespace {

@@ -208,7 +208,9 @@ TEST_F(ScenarioFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_NE(error("start:\n  distance_m: .nan\n").find("not within"), std::string::npos);
   EXPECT_NE(error("start:\n  distance_m: [.nan, 2]\n").find("not within"), std::string::npos);
   EXPECT_NE(error("camera: {width_px: 1.5}").find("must be a whole number"), std::string::npos);
-  EXPECT_NE(error("start:\n  distanse_m: 4\n").find(":2: start/distanse_m: unknown key"), std::string::npos);
+  EXPECT_NE(error("start:\n  distanse_m: 4\n")
+                .find(":2: start/distanse_m: unknown key; did you mean 'distance_m'?"),
+            std::string::npos);
   EXPECT_NE(error("decoys:\n  - {y_m: 1}\n  - {colour: 1}\n").find(":3: decoys[1]/colour: unknown key"),
             std::string::npos);
   EXPECT_NE(error("decoys: 3\n").find("must be a list"), std::string::npos);
