@@ -1,5 +1,6 @@
 /// Draws the stages of the detector on one image, as the paper's figures 1 and 2, on one sheet.
 #include <boost/program_options.hpp>
+#include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -70,7 +71,8 @@ Subject photograph(const Job& job) {
 
 Subject read(const Job& job) {
   Subject subject;
-  subject.image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (std::filesystem::exists(job.image))  // OpenCV warns by itself of a file that is not there
+    subject.image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (subject.image.empty()) throw UsageError(job.image + ": cannot be read as an image");
   return subject;
 }
