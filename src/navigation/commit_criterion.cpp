@@ -76,6 +76,14 @@ double remaining(const RelativeState& relative, const NavigatorParams& params) {
   return std::exp(-params.align.lateral_gain_hz * std::max(0.0, steering_sec));
 }
 
+/// At the plane, if what the velocity has beside what steering asks of it goes on: on the axis if the vehicle
+/// closes in on it as fast as it is steered, off it if something keeps it there.
+Eigen::Vector3d settled(const RelativeState& relative, const NavigatorParams& params) {
+  const Eigen::Vector3d offset = coastedOffset(relative, params);
+  const Eigen::Vector3d kept = offset + relative.velocity_window_mps / params.align.lateral_gain_hz;
+  return kept + remaining(relative, params) * (offset - kept);
+}
+
 /// For so long a velocity that nobody expects carries the vehicle past the axis: until it is answered, and
 /// steered away.
 double carriedSec(const NavigatorParams& params) {
@@ -157,6 +165,10 @@ CommitCriterion evaluateCommitCriterion(const CommitCriterionInput& input, const
   const double odometry_m = missByOdometry(input.odometry_mps, params);
   criterion.miss_lateral_m = left * offset.y() + lateral_m + odometry_m;
   criterion.miss_vertical_m = left * offset.z() + vertical_m + odometry_m;
+
+  const Eigen::Vector3d settled_m = settled(relative, params).cwiseAbs();
+  criterion.settled_lateral_m = settled_m.y();
+  criterion.settled_vertical_m = settled_m.z();
 
   const double before_line_m = std::max(0.0, relative.distance() - criterion.commit_distance_m);
   criterion.funnel_m = params.approach.funnel_slope * before_line_m;

@@ -47,6 +47,10 @@ struct CommitCriterion {
   /// estimate, odometry's drift on the blind way, and gusts.
   double miss_lateral_m = 0.0;
   double miss_vertical_m = 0.0;
+  /// Offset at the plane without chance, if what the vehicle's velocity has beside what steering asks of it
+  /// goes on.
+  double settled_lateral_m = 0.0;
+  double settled_vertical_m = 0.0;
   double commit_distance_m = 0.0;
   double funnel_m = 0.0;   ///< by how much the funnel is wider than the clearance at this distance
   double fullness = 0.0;   ///< offset as it is and its spread, over the funnel's half width; 1 at its wall

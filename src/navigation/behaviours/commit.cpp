@@ -16,12 +16,19 @@ constexpr double kStoppedMps = 0.15;
 constexpr double kReserve = 2.0;     // of the way to stop, to turn back from beyond the point of no return
 constexpr double kLeftOfExit = 0.4;  // of the way to where it stops: near enough
 
-/// The predicted miss exceeds the clearance by half of the margin that was kept: less is no reason to turn
-/// back.
+/// The predicted miss, or where the vehicle settles without chance, exceeds the clearance by half of the
+/// margin that was kept: less is no reason to turn back.
 bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
   const double given_m = params.vehicle.margin_m / 2.0;
-  return criterion.miss_lateral_m > criterion.clearance_lateral_m + given_m ||
-         criterion.miss_vertical_m > criterion.clearance_vertical_m + given_m;
+  return std::max(criterion.miss_lateral_m, criterion.settled_lateral_m) >
+             criterion.clearance_lateral_m + given_m ||
+         std::max(criterion.miss_vertical_m, criterion.settled_vertical_m) >
+             criterion.clearance_vertical_m + given_m;
+}
+
+std::string carriedOff(const CommitCriterion& criterion) {
+  return formatted("carried off the axis, at the plane by %.2f m to the side and %.2f m up or down",
+                   criterion.settled_lateral_m, criterion.settled_vertical_m);
 }
 
 /// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
@@ -86,7 +93,7 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
 void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const {
   if (isBroken(criterion, *params_)) {
     decision.event = Event::kContractUnmet;
-    decision.reason = "turning back: " + criterion.unmet;
+    decision.reason = "turning back: " + (criterion.unmet.empty() ? carriedOff(criterion) : criterion.unmet);
   } else if (disagreements_ >= kDisagreementsToTurnBack) {
     decision.event = Event::kContractUnmet;
     decision.reason =

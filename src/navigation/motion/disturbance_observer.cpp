@@ -1,11 +1,14 @@
 #include "navigation/motion/disturbance_observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace window_ingress::navigation {
 namespace {
 
 constexpr double kStrongestGustMps = 3.0;
+// At most: in gusts a vehicle that steers against them seems to answer slowly, and would not feel them.
+constexpr double kMaxSmoothingSec = 0.3;
 constexpr double kUsualGustMps = 0.06;
 constexpr double kStoodSec = 1.0;    // as if it had stood without wind for so long before
 constexpr double kEnoughM2ps = 0.2;  // a second of acceleration to 0.8 m/s
@@ -101,7 +104,7 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
   const double to_come_mps = (commanded_mps - model_mps).norm();
   const Eigen::Vector3d gust_mps =
       shortened(clipped(surprise_mps, kStrongestGustMps), kModelError * to_come_mps);
-  gust_mps_ += share(dt_sec, response_.responseSec()) * (gust_mps - gust_mps_);
+  gust_mps_ += share(dt_sec, std::min(response_.responseSec(), kMaxSmoothingSec)) * (gust_mps - gust_mps_);
   const double keep = 1.0 - share(dt_sec, kGustMemorySec);
   gusts_m2ps_ = keep * gusts_m2ps_ + dt_sec * gust_mps_ * gust_mps_.transpose();
   watched_sec_ = keep * watched_sec_ + dt_sec;

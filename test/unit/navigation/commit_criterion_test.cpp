@@ -160,4 +160,17 @@ TEST(CommitCriterion, AnOffsetCountsTheLessTheFurtherTheVehicleCanSteerItAway) {
   EXPECT_GT(criterionOf(at(1.5, 0.2, 0.0)).miss_lateral_m, 0.05);
 }
 
+TEST(CommitCriterion, SettlesOffTheAxisWhereTheVelocityDoesNotFollowWhatSteeringAsks) {
+  const NavigatorParams params;
+  const auto settledAt = [](double lateral_m, double across_mps) {
+    RelativeState relative = at(1.6, lateral_m);
+    relative.velocity_window_mps = {0.9, across_mps, 0.0};
+    return criterionOf(relative).settled_lateral_m;
+  };
+  EXPECT_LT(settledAt(0.1, -0.1 * params.align.lateral_gain_hz), 0.06) << "steered onto the axis";
+  EXPECT_GT(settledAt(0.05, 0.25), 0.2) << "carried off it";
+  EXPECT_DOUBLE_EQ(settledAt(-0.05, -0.25), settledAt(0.05, 0.25));
+  EXPECT_NEAR(settledAt(0.2, 0.0), 0.2, 1e-12) << "kept where it is";
+}
+
 }  // namespace window_ingress::navigation::commit_criterion_test

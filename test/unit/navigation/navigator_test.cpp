@@ -200,6 +200,20 @@ TEST_F(NavigatorSteps, TurnsBackFromACommitWhenTheWindowIsSeenElsewhere) {
   EXPECT_LE(output.setpoint.velocity_odom_mps.x(), 0.0);
 }
 
+TEST_F(NavigatorSteps, TurnsBackFromACommitWhenItIsCarriedOffTheAxisAgainstWhatItIsTold) {
+  Navigator navigator(params_);
+  start(navigator, kFar);
+  NavigatorOutput output = walk(navigator, kFar, kLine);
+  ASSERT_EQ(output.state, State::kCommit);
+  for (int i = 0; i < 30 && output.state == State::kCommit; ++i) {
+    now_ += kStep;
+    auto input = inputAt(kLine, now_);
+    input.vehicle->velocity_odom_mps.y() = 0.6;  // as fast as the wind carries it, whatever it is told
+    output = navigator.step(input, now_);
+  }
+  EXPECT_EQ(output.state, State::kBackOff) << output.reason;
+}
+
 TEST_F(NavigatorSteps, AClockThatJumpsAheadHoldsAndGoesOn) {
   Navigator navigator(params_);
   start(navigator, kFar);

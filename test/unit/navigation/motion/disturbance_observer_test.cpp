@@ -150,4 +150,17 @@ TEST(DisturbanceObserver, FeelsGustsWhileItIsToldToSteerAgainstThem) {
   EXPECT_GT(lateralGustOf(2.0 * kGustMps), 1.5 * lateralGustOf(kGustMps));
 }
 
+TEST(DisturbanceObserver, FeelsAGustAsStronglyWhereTheVehicleSeemsToAnswerSlowly) {
+  constexpr double kStep = 0.03, kGustMps = 0.3;
+  const auto lateralGustWith = [&](double response_sec) {
+    VehicleParams vehicle;
+    vehicle.response_sec = response_sec;
+    DisturbanceObserver observer(vehicle, ApproachParams());
+    for (double t = 0.0; t < 6.0; t += kStep)
+      observer.update({0.8, kGustMps * std::sin(4.0 * t), 0.0}, {0.8, 0.0, 0.0}, kStep);
+    return std::sqrt(observer.gusts()(1, 1));
+  };
+  EXPECT_GT(lateralGustWith(0.9), 0.9 * lateralGustWith(0.3));
+}
+
 }  // namespace window_ingress::navigation::disturbance_observer_test
