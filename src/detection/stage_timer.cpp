@@ -1,6 +1,5 @@
 #include "window_ingress/detection/stage_timer.hpp"
 
-#include <algorithm>
 
 namespace window_ingress::detection {
 
@@ -19,10 +18,6 @@ void StageTimer::done(Stage stage) {
   const double now_sec = clock_();
   sec_[static_cast<int>(stage)] += now_sec - last_sec_;
   last_sec_ = now_sec;
-}
-
-Stage StageTimer::slowest() const {
-  return static_cast<Stage>(std::max_element(sec_.begin(), sec_.end()) - sec_.begin());
 }
 
 }  // namespace window_ingress::detection

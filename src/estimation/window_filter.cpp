@@ -284,13 +284,6 @@ std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
   return self.stateAt(age_sec);
 }
 
-std::optional<geometry::Quadrilateral> WindowFilter::predictedCorners(
-    double now_sec, const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) const {
-  if (!state(now_sec) || !geometry::isValidPose(T_odom_camera)) return std::nullopt;
-  const WindowState& window = impl_->believed().state();
-  return geometry::projectOpening(camera, window.T_camera_window(T_odom_camera), window.opening());
-}
-
 void WindowFilter::reset() { impl_->reset(); }
 void WindowFilter::forgetPlaces() { impl_->forgetPlaces(); }
 

@@ -45,8 +45,6 @@ void absorb(KnownWindow& window, const KnownWindow& twin) {
 
 }  // namespace
 
-void FacadeMap::reset() { *this = FacadeMap(params_); }
-
 double FacadeMap::squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const {
   const double since_sec = std::abs(stamp_sec - window.last_seen_sec);
   return squaresBetween(window.place, place,

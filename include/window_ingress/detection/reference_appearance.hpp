@@ -55,10 +55,6 @@ class ReferenceAppearance {
   std::optional<AppearanceMatch> compare(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                          const AppearanceParams& params) const;
 
-  /// `distance` of the match alone.
-  std::optional<double> distance(const cv::Mat& image, const geometry::Quadrilateral& opening,
-                                 const AppearanceParams& params) const;
-
   static constexpr double kMaxDrift = 0.3;  ///< of `adapt`, Bhattacharyya distance
 
   /// Moves what the target is taken to look like towards this view of it, while a track is certain. Never

@@ -30,7 +30,6 @@ class StageTimer {
   void begin();            ///< a new image
   void done(Stage stage);  ///< all time since the last call was spent in this stage
   double milliseconds(Stage stage) const { return 1e3 * sec_[static_cast<int>(stage)]; }
-  Stage slowest() const;
 
  private:
   Clock clock_;

@@ -62,7 +62,6 @@ class WindowTracker {
 
   void setParams(const DetectorParams& params);  ///< \throws std::invalid_argument, and keeps the old ones
   void setReference(const ReferenceAppearance& reference);  ///< the next frame is searched
-  void clearReference();
   /// Forgets the track, not the reference. Happens by itself when time jumps back, when images are further
   /// apart than `TrackParams::max_gap_sec`, or when size or calibration of the image change.
   void reset();

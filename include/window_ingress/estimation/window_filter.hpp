@@ -75,12 +75,6 @@ class WindowFilter {
   /// with, or what was found since; nothing if neither is there.
   std::optional<SizeEstimate> sizeOf(const detection::WindowObservation& window) const;
 
-  /// Where the window should be in an image taken now; nothing without a state or if it is not wholly in
-  /// front.
-  std::optional<geometry::Quadrilateral> predictedCorners(double now_sec,
-                                                          const geometry::PinholeCamera& camera,
-                                                          const Eigen::Isometry3d& T_odom_camera) const;
-
   /// The state as of the last update, with its covariance grown by odometry drift until `now_sec`; nothing
   /// before the first update or after `max_age_sec` without one.
   std::optional<FilteredWindow> state(double now_sec) const;

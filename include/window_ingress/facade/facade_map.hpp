@@ -45,7 +45,6 @@ class FacadeMap {
  public:
   explicit FacadeMap(const FacadeParams& params) : params_(params) {}
 
-  void reset();
   /// Measured, and as large as the window looked for.
   static bool isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for);
   /// \param wall in which unknown windows are taken to lie

@@ -127,13 +127,6 @@ std::optional<AppearanceMatch> ReferenceAppearance::compare(const cv::Mat& image
   return match;
 }
 
-std::optional<double> ReferenceAppearance::distance(const cv::Mat& image, const Quadrilateral& opening,
-                                                    const AppearanceParams& params) const {
-  const auto match = compare(image, opening, params);
-  if (!match) return std::nullopt;
-  return match->distance;
-}
-
 bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& opening, double rate,
                                 const AppearanceParams& params) {
   const auto match = compare(image, opening, params);

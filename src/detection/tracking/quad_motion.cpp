@@ -95,13 +95,6 @@ QuadMotion::Row QuadMotion::slopeRow(int side, const Line& line) const {
   return row;
 }
 
-double QuadMotion::distance(int side, const Line& line) const {
-  double sum = 0.0;
-  for (const Row& row : {offsetRow(side, line), slopeRow(side, line)})
-    sum += row.rest * row.rest / (row.weights.dot(covariance_ * row.weights) + row.variance);
-  return sum;
-}
-
 void QuadMotion::correct(const Row& row) {
   const Vector8d spread = covariance_ * row.weights;
   const double variance = row.weights.dot(spread) + row.variance;

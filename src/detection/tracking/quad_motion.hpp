@@ -38,9 +38,7 @@ class QuadMotion {
   /// To the next image: through the homography of the turn in between, then at constant velocity.
   void predict(const Eigen::Matrix3d& turn, double elapsed_sec, const QuadSpread& spread);
 
-  /// The border of a side as seen. \return squared distance from the prediction in standard deviations, of
-  /// two degrees of freedom
-  double distance(int side, const Line& line) const;
+  /// The border of a side as seen.
   void correct(int side, const Line& line);
 
   /// After the corrections of an image: how fast it moves. \param elapsed_sec as in `predict`

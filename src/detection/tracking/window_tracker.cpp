@@ -173,13 +173,6 @@ void WindowTracker::setReference(const ReferenceAppearance& reference) {
   impl_->forget();
 }
 
-void WindowTracker::clearReference() {
-  impl_->reference.setReference(nullptr);
-  impl_->detector.clearReference();
-  impl_->appearance_gate.forget();
-  impl_->forget();
-}
-
 void WindowTracker::setWatch(StageTimer* watch) { impl_->detector.setWatch(watch); }
 
 void WindowTracker::reset() {

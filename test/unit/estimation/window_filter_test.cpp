@@ -250,17 +250,6 @@ TEST(WindowFilter, UsesAPartialViewByItsEdgesAndReadsNoCorner) {
   EXPECT_LT((after.T_odom_window.translation() - flight.T_world_window.translation()).norm(), 0.03);
 }
 
-TEST(WindowFilter, PredictsTheCornersOfTheNextImage) {
-  Flight flight(5);
-  for (int i = 0; i < 60; ++i) flight.step({-3.0, 0.02 * i, 1.5}, 1.0 + i / 30.0);
-  const auto T = Flight::cameraAt({-2.8, 1.2, 1.5}, -0.3);
-  const auto corners = flight.filter.predictedCorners(3.0, camera(), T);
-  const auto truth = geometry::projectOpening(camera(), T.inverse() * flight.T_world_window, kOpening);
-  ASSERT_TRUE(corners && truth);
-  for (int i = 0; i < 4; ++i) EXPECT_LT(((*corners)[i] - (*truth)[i]).norm(), 3.0);
-  EXPECT_FALSE(WindowFilter{FilterParams{}}.predictedCorners(3.0, camera(), T));
-}
-
 TEST(WindowFilter, TimeJumpsAndAgeResetIt) {
   Flight flight(6);
   EXPECT_FALSE(flight.filter.state(0.0));

@@ -23,9 +23,9 @@ cv::Mat window(const cv::Scalar& frame, const cv::Scalar& hole, double light = 1
 
 double distance(const cv::Mat& image, const geometry::Quadrilateral& quad = kOpening) {
   const ReferenceAppearance reference(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
-  const auto result = reference.distance(image, quad, AppearanceParams());
+  const auto result = reference.compare(image, quad, AppearanceParams());
   EXPECT_TRUE(result);
-  return result.value_or(-1.0);
+  return result ? result->distance : -1.0;
 }
 
 TEST(ReferenceAppearance, ItselfIsNear) {
@@ -76,15 +76,15 @@ TEST(ReferenceAppearance, NoAnswerForGreyTooFewPixelsAndBadQuads) {
   const ReferenceAppearance reference(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
   const AppearanceParams params;
   const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
-  EXPECT_FALSE(reference.distance(cv::Mat(240, 320, CV_8UC1, cv::Scalar(9)), kOpening, params));
-  EXPECT_FALSE(reference.distance(cv::Mat(), kOpening, params));
-  EXPECT_FALSE(reference.distance(image, test::rectangle(100, 80, 106, 86), params));
-  EXPECT_FALSE(reference.distance(image, test::rectangle(-900, -900, -800, -800), params));
+  EXPECT_FALSE(reference.compare(cv::Mat(240, 320, CV_8UC1, cv::Scalar(9)), kOpening, params));
+  EXPECT_FALSE(reference.compare(cv::Mat(), kOpening, params));
+  EXPECT_FALSE(reference.compare(image, test::rectangle(100, 80, 106, 86), params));
+  EXPECT_FALSE(reference.compare(image, test::rectangle(-900, -900, -800, -800), params));
   auto broken = kOpening;
   broken[1].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(reference.distance(image, broken, params));
+  EXPECT_FALSE(reference.compare(image, broken, params));
   const ReferenceAppearance grey(cv::Mat(240, 320, CV_8UC1, cv::Scalar(9)), kOpening);
-  EXPECT_FALSE(grey.distance(image, kOpening, params));
+  EXPECT_FALSE(grey.compare(image, kOpening, params));
 }
 
 // The target's frame, a little bluer.
@@ -120,11 +120,11 @@ TEST(ReferenceAppearance, AdaptsToTheLightButNeverFurtherThanAllowed) {
   ReferenceAppearance reference(window(kOrange, cv::Scalar(60, 55, 50)), kOpening);
   const cv::Mat view = evening();
   const AppearanceParams params;
-  const double before = *reference.distance(view, kOpening, params);
+  const double before = reference.compare(view, kOpening, params)->distance;
   EXPECT_EQ(reference.drift(), 0.0);
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(reference.adapt(view, kOpening, 0.1, params));
-  EXPECT_LT(*reference.distance(view, kOpening, params), 0.6 * before);
-  EXPECT_LT(*reference.distance(window(kOrange, cv::Scalar(60, 55, 50)), kOpening, params), 0.01)
+  EXPECT_LT(reference.compare(view, kOpening, params)->distance, 0.6 * before);
+  EXPECT_LT(reference.compare(window(kOrange, cv::Scalar(60, 55, 50)), kOpening, params)->distance, 0.01)
       << "the reference image stays valid";
   for (int i = 0; i < 200; ++i)
     reference.adapt(window(kOrange + i / 200.0 * (kBlue - kOrange), cv::Scalar(60, 55, 50)), kOpening, 0.3,
