@@ -26,6 +26,7 @@ constexpr double kShortestPx = 4.0;  ///< a side that can be fitted [px]
 constexpr double kFrontWithinPx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
 constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
 constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
+constexpr double kTurned = 2.5;           ///< of the reach, for the ends of a line that most of a side shows
 constexpr double kMaxInliers = 0.7;
 
 }  // namespace
@@ -89,13 +90,16 @@ class Side {
     chooseEdge(radius);
     memory_.fit.project(memory_.profiles, colour_);
     if (!fit({radius_px, 0.6 * radius_px, std::max(limits_.outlier_px, 0.35 * radius_px)})) return false;
-    if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > radius_px) return false;
+    if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > reachOf(radius_px)) return false;
     toFront();
     stray_px_ = stray();
     seen_ = stray_px_ <= start_.max_stray_px;
     fitted_ = seen_ && stray_px_ <= start_.max_shift_px;
     return fitted_;
   }
+
+  // A line that nearly all of the side shows may be turned further away from a start that was turned itself.
+  double reachOf(double radius_px) const { return inliers_ > kMaxInliers ? kTurned * radius_px : radius_px; }
 
   // Something that may be a border lies near the start, only that no line fits it.
   bool showsEdge() const {

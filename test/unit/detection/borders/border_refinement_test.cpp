@@ -108,6 +108,18 @@ TEST(BorderRefinement, ASideThatCannotBeFittedStaysWhereItStartedIfAsked) {
   EXPECT_LT(borders->edges[geometry::kTop].sigma_px, 0.1);
 }
 
+TEST(BorderRefinement, ASideThatWasLocatedTurnedIsFittedWhereItShows) {
+  test::DrawnWindow drawn;
+  drawn.opening = test::rectangle(100, 80, 230, 180);
+  for (const double turned_px : {2.0, 3.5, 4.5}) {
+    BorderStart start{drawn.opening, 2.5, 1.0};
+    start.quad[0].y() += turned_px, start.quad[1].y() -= turned_px;
+    const auto borders = BorderRefinement().run(drawn.draw(), start, nullptr);
+    ASSERT_TRUE(borders);
+    EXPECT_LT(test::worstCorner(borders->corners, drawn.opening), 0.15) << turned_px;
+  }
+}
+
 TEST(BorderRefinement, ABorderBeyondTheShiftIsSeenAndDoesNotMoveItsSide) {
   cv::Mat image(240, 320, CV_8UC1, cv::Scalar(170));
   const auto opening = test::rectangle(80, 60, 240, 180);

@@ -93,11 +93,11 @@ cv::Mat evening() { return window(cv::Scalar(75, 140, 205), cv::Scalar(60, 55, 5
 TEST(ReferenceAppearance, WholeImageCountsItsRimForTheFrame) {
   const cv::Mat image = window(kOrange, cv::Scalar(60, 55, 50));
   const ReferenceAppearance rim(image(cv::Rect(93, 73, 134, 104)), 0.05);
-  const auto own = rim.distance(image, kOpening, {}),
-             other = rim.distance(window(kBlue, cv::Scalar()), kOpening, {});
+  const auto own = rim.compare(image, kOpening, {}),
+             other = rim.compare(window(kBlue, cv::Scalar()), kOpening, {});
   ASSERT_TRUE(own && other);
-  EXPECT_LT(*own, 0.2);
-  EXPECT_GT(*other, 0.6);
+  EXPECT_LT(own->distance, 0.2);
+  EXPECT_GT(other->distance, 0.6);
 }
 
 TEST(ReferenceAppearance, LimitAndOddsFollowWhatElseIsInTheImage) {
