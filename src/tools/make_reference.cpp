@@ -49,6 +49,8 @@ options::options_description describe(Job& job) {
 
 int run(const Job& job) {
   if (job.image.empty()) throw UsageError("no image given; see --help");
+  if (std::error_code none; fs::equivalent(job.image, job.output, none))
+    throw UsageError("--output " + job.output + " is the photograph itself; give another name");
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   cv::Mat image;
   if (fs::exists(job.image)) image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);

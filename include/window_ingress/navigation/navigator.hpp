@@ -100,7 +100,7 @@ class Navigator {
   Reply abort(const std::string& why = "aborted by the operator");
   Reply reset();  ///< from any end state back to IDLE
   /// The operator says that the window flown at now is open; forgotten when it is given up. Refused where
-  /// none is. What was seen to be closed is left all the same.
+  /// nobody has asked: before a pane could be seen. What was seen to be closed is left all the same.
   Reply confirmOpening();
 
   NavigatorOutput step(const NavigatorInput& input, double now_sec);

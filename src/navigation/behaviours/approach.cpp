@@ -49,6 +49,9 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
   decision.reason = criterion.holds ? "on the window's normal" : criterion.unmet;
   if (!criterion.holds) memory.unmet = criterion.unmet;
   decision.event = judge(criterion, relative, situation, decision.reason);
+  memory.opening_asked = looks_ && criterion.opening_unverified;
+  if (!memory.opening_asked && !decision.event && isToBeAsked(criterion.unmet))
+    decision.reason = "on the window's normal, to ask at the line whether it is open";
   if (decision.event == Event::kCommitReached) {
     memory.committed = target;
     memory.committed_sec = situation.now_sec;

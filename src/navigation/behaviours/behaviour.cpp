@@ -41,7 +41,7 @@ double aheadMps(double across_mps, const NavigatorParams& params) {
 void MissionState::leaveWindow() {
   trusted.reset();
   window_odom_m.reset();
-  opening_confirmed = false;
+  opening_asked = opening_confirmed = false;
 }
 
 void MissionState::giveUpWindow(const TargetEstimate& window) {

@@ -43,6 +43,7 @@ struct MissionState {
   std::vector<Eigen::Vector3d> others_odom_m;   ///< windows that are not the one looked for
   std::vector<Eigen::Vector3d> left_odom_m;     ///< windows left for good: closed, or tried in vain
   std::vector<std::uint32_t> given_up;          ///< numbers of windows that were left, in that order
+  bool opening_asked = false;                   ///< the vehicle waits at the line for the operator's word
   bool opening_confirmed = false;               ///< the operator says that the window flown at is open
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
   int others = 0;            ///< how often one of these was flown at
