@@ -8,12 +8,13 @@
 namespace window_ingress::detection {
 namespace {
 
+using geometry::Quadrilateral;
+
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
-constexpr int kFewestSeen =
-    3;  ///< borders that show where the surroundings were aligned: a wall may be closed there
-constexpr double kAlignedShiftPx = 0.8;  ///< and from where the wall round a hole was aligned, to count
+constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
+constexpr double kAlignedShiftPx = 0.8;   ///< and from where the wall round a hole was aligned, to count
 constexpr double kAlignedStray = 0.025;  ///< as `kAlignedStrayPx`, of borders found by the frame [mean sides]
 
 // Correlation of the next best place.
@@ -32,8 +33,19 @@ double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   return rival.appearance ? params_.min_score_reference : params_.min_score;
 }
 
+// Once borders that were fitted well have shown a frame of another width, others show less.
+std::optional<Rejection> TargetChoice::otherFrameAt(const Quadrilateral& place) const {
+  for (const CandidateTrace& refused : trace_.candidates)
+    if (refused.reject == RejectReason::kOtherFrame && Sameness(refused.quad).samePlace(place))
+      return Rejection{refused.reject, refused.value, refused.limit};
+  return std::nullopt;
+}
+
 std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& rival) const {
-  if (rival.correlation && rival.located) return reference_.objectionTo(rival.match);
+  if (rival.located) {
+    if (const auto refused = otherFrameAt(rival.quad)) return refused;
+    if (rival.correlation) return reference_.objectionTo(rival.match, rival.appearance);
+  }
   if (rival.appearance)
     if (const auto refused = reference_.objectionTo(*rival.appearance)) return refused;
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};
@@ -54,19 +66,13 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 
-// The surroundings alone fit where a wall was closed, too.
-bool TargetChoice::showsOpening(const RefinedBorders& fitted, const View& view) {
-  return fitted.seen >= kFewestSeen &&
-         (!reference_.frameless() || reference_.showsOpening(view.image, fitted.corners, view.camera));
-}
-
 // Borders that do not lie where the surroundings fit are those of something before them: fitted anew there.
 // Without a camera nothing keeps the surroundings from shearing, and the borders are left.
 std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                            RefinedBorders& fitted) {
   const auto ring = reference_.surroundingsOf(fitted.corners, view.image, view.camera);
   if (!ring) return std::nullopt;
-  if (auto fault = reference_.objectionTo(ring->match)) return fault;
+  if (auto fault = reference_.objectionTo(ring->match, rival.appearance)) return fault;
   const double stray_px = std::max(kAlignedStrayPx, kAlignedStray * meanSide(ring->quad));
   if (!view.camera || furthestCorner(ring->quad, fitted.corners) <= stray_px) return std::nullopt;
   ScoredCandidate aligned = rival;
@@ -78,6 +84,22 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
   return std::nullopt;
 }
 
+// Where a wall was closed its surroundings fit, too, but no borders are seen.
+std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const View& view,
+                                           RefinedBorders& fitted) {
+  double inliers = 0.0;
+  const auto found = refine(rival, view, inliers);
+  const bool is_opening =
+      found && (!rival.correlation || (found->seen >= kFewestSeen &&
+                                       (!reference_.frameless() ||
+                                        reference_.showsOpening(view.image, found->corners, view.camera))));
+  if (!is_opening) return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
+  fitted = *found;
+  if (!rival.correlation)
+    if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
+  return reference_.objectionTo(fitted, view.image, view.camera);
+}
+
 // The best to which there is no objection and whose borders can be fitted.
 std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidate>& rivals, int search_factor,
                                                       const View& view) {
@@ -86,35 +108,21 @@ std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidat
   std::optional<WindowObservation> window;
   int tries = 0;
   for (const ScoredCandidate& rival : rivals) {
-    if (const auto fault = objection(rival)) {
+    auto fault = objection(rival);
+    if (!fault && window) fault = Rejection{RejectReason::kOutscored, rival.score, window->score};
+    if (!fault && ++tries > kRefinementTries)
+      fault = Rejection{RejectReason::kBudget, static_cast<double>(tries), kRefinementTries};
+    RefinedBorders fitted;
+    if (!fault) fault = fit(rival, view, fitted);
+    if (fault) {
       record(rival, fault->reason, fault->value, fault->limit);
-    } else if (window) {
-      record(rival, RejectReason::kOutscored, rival.score, window->score);
-    } else if (++tries > kRefinementTries) {
-      record(rival, RejectReason::kBudget, tries, kRefinementTries);
-    } else {
-      double inliers = 0.0;
-      auto fitted = refine(rival, view, inliers);
-      if (!fitted) {
-        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
-        continue;
-      }
-      if (rival.correlation && !showsOpening(*fitted, view)) {
-        record(rival, RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers);
-        continue;
-      }
-      auto fault = rival.correlation ? std::nullopt : judgeSurroundingsOf(rival, view, *fitted);
-      if (!fault) fault = reference_.objectionTo(*fitted, view.image, view.camera);
-      if (fault) {
-        record(rival, fault->reason, fault->value, fault->limit);
-        continue;
-      }
-      record(rival, RejectReason::kNone, rival.score, leastScore(rival));
-      window = observationOf(trace_.candidates.back(), *fitted, view.stamp_sec);
-      window->runner_up = runnerUp(rival, rivals);
-      trace_.target = static_cast<int>(trace_.candidates.size()) - 1;
-      trace_.candidates.back().quad = fitted->corners;
+      continue;
     }
+    record(rival, RejectReason::kNone, rival.score, leastScore(rival));
+    window = observationOf(trace_.candidates.back(), fitted, view.stamp_sec);
+    window->runner_up = runnerUp(rival, rivals);
+    trace_.target = static_cast<int>(trace_.candidates.size()) - 1;
+    trace_.candidates.back().quad = fitted.corners;
   }
   return window;
 }

@@ -33,8 +33,9 @@ class TargetChoice {
 
  private:
   std::optional<Rejection> objection(const ScoredCandidate& rival) const;
+  std::optional<Rejection> otherFrameAt(const geometry::Quadrilateral& place) const;
   std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const View& view, double& inliers) const;
-  bool showsOpening(const RefinedBorders& fitted, const View& view);
+  std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                RefinedBorders& fitted);
   double leastScore(const ScoredCandidate& rival) const;

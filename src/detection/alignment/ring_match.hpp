@@ -9,7 +9,7 @@ struct RingMatch {
   double seen = 0.0;  ///< part of the ring that lies in the image
   double faithful = 0.0;  ///< correlation of which only counts what has the contrast of the reference, too
   double contrast = 1.0;  ///< over the reference's; less through haze
-  double uncovered = 0.0, faithful_uncovered = 0.0;  ///< both without the third of the ring that fits worst
+  double faithful_uncovered = 0.0;  ///< the same without the third of the ring that fits worst
 };
 
 }  // namespace window_ingress::detection

@@ -25,8 +25,7 @@ RingMatch RingScore::of(RingView& view, double seen) {
   for (int n = 0; n < kCoverPasses; ++n) coverOutliers(view);
   shareOut(view);
   weighContrasts();
-  match.uncovered = uncovered(&Share::alike);
-  match.faithful_uncovered = uncovered(&Share::faithful);
+  match.faithful_uncovered = faithfulUncovered();
   return match;
 }
 
@@ -84,14 +83,14 @@ double RingScore::weighContrasts() {
 }
 
 // Without the segments that fit worst: something may stand before them.
-double RingScore::uncovered(double Share::*part) {
+double RingScore::faithfulUncovered() {
   std::sort(shares_.begin(), shares_.end(),
-            [part](const Share& a, const Share& b) { return a.*part * b.weight < b.*part * a.weight; });
+            [](const Share& a, const Share& b) { return a.faithful * b.weight < b.faithful * a.weight; });
   double covered = kMaxCovered * correlation_.most, sum = 0.0;
   for (const Share& share : shares_) {
     const double hidden = std::min(covered, share.weight);
     covered -= hidden;
-    sum += share.*part * (1.0 - hidden / share.weight);
+    sum += share.faithful * (1.0 - hidden / share.weight);
   }
   return sum / ((1.0 - kMaxCovered) * correlation_.most);
 }

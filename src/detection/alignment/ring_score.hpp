@@ -24,7 +24,7 @@ class RingScore {
   void shareOut(const RingView& view);
   double weighContrasts();
   void coverOutliers(RingView& view);
-  double uncovered(double Share::*part);
+  double faithfulUncovered();
 
   std::vector<Share> shares_;
   RingCorrelation correlation_;

@@ -19,8 +19,7 @@ constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the refe
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
 constexpr double kMaxThroughHaze =
-    0.45;                            ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
-constexpr double kUncovered = 0.88;  ///< where there is no frame
+    0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;  ///< of the mean colours there, relative to them; right ones have 0.2 to 1
 constexpr double kUnlocatedPart =
@@ -165,15 +164,18 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& matc
   return Rejection{RejectReason::kAppearance, match.distance, match.limit};
 }
 
-// Round a frame the correlation counts only as far as the contrasts are the reference's.
-std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match) const {
-  const bool bare = frameless();
-  const double value = bare ? match.correlation : match.faithful;
-  const double uncovered = bare ? match.uncovered : match.faithful_uncovered;
-  const double least = std::max(min_correlation_, bare ? 0.0 : kFaithful);
-  const double least_uncovered = std::max(min_correlation_, bare ? kUncovered : kFaithfulUncovered);
-  if (value >= least || uncovered >= least_uncovered) return std::nullopt;
-  return Rejection{RejectReason::kUnlike, value, least};
+// Round a frame the correlation counts only as far as the contrasts are the reference's; what is covered may
+// be left out. All of it counts where the frame's colours are the reference's, too.
+std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
+                                                     const std::optional<AppearanceMatch>& frame) const {
+  const auto below = [this](double value, double least) -> std::optional<Rejection> {
+    least = std::max(min_correlation_, least);
+    if (value >= least) return std::nullopt;
+    return Rejection{RejectReason::kUnlike, value, least};
+  };
+  if (frameless()) return below(match.correlation, 0.0);
+  const auto objection = below(match.faithful_uncovered, kFaithfulUncovered);
+  return objection && frame && frame->isLike() ? below(match.faithful, kFaithful) : objection;
 }
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const {

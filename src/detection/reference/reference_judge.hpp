@@ -53,7 +53,9 @@ class ReferenceJudge {
   std::optional<Rejection> objectionTo(const AppearanceMatch& match) const;
 
   /// Why what lies round a place is not what lies round the reference's opening.
-  std::optional<Rejection> objectionTo(const RingMatch& match) const;
+  /// \param frame its colours, where they can be compared
+  std::optional<Rejection> objectionTo(const RingMatch& match,
+                                       const std::optional<AppearanceMatch>& frame) const;
 
   /// Where what lies round a window that was found by its frame fits best; nothing where there is something
   /// else behind that frame, as behind a gate.

@@ -21,9 +21,8 @@ constexpr double kFrameSlack = 0.15;    ///< and the width of a frame by this pa
 constexpr double kSlopePx = 1e-3;       ///< step of numeric slopes [px]
 constexpr double kCornerSigmaPx = 0.3;  ///< least standard deviation of a corner, each way [px]
 constexpr double kAspectSigma =
-    0.03;  ///< of the logarithm of the aspect: how well the reference shows it, at best
-constexpr double kLeastAspectSigma = 0.01;  ///< the same, for a prior: its corners are good to a pixel or so
-constexpr double kFrameSigmaPx = 0.03;      ///< standard deviation of the width of a frame [px]
+    0.01;  ///< of the logarithm of the aspect: how well the reference shows it, at best
+constexpr double kFrameSigmaPx = 0.03;  ///< standard deviation of the width of a frame [px]
 
 constexpr double kShapeInward = 0.02, kShapeOutward = 0.36;  ///< of the profiles [mean sides of the opening]
 constexpr double kThinnest = 0.015, kWidest = 0.14;          ///< frame [mean sides of the opening]
@@ -133,7 +132,7 @@ void ReferenceShape::learn(const cv::Mat& image, const Quadrilateral& opening) {
 
 std::optional<OpeningAspect> ReferenceShape::aspect() const {
   if (!aspect_) return std::nullopt;
-  return OpeningAspect{aspect_->value, std::max(kLeastAspectSigma, aspect_->sigma / aspect_->value)};
+  return OpeningAspect{aspect_->value, std::max(kAspectSigma, aspect_->sigma / aspect_->value)};
 }
 
 std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
@@ -142,7 +141,7 @@ std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
   if (!aspect_ || !camera) return std::nullopt;
   RectangleMisfit misfit;
   misfit.aspect = aspect()->value;
-  misfit.log_aspect_sigma = std::max(kAspectSigma, aspect()->log_sigma);
+  misfit.log_aspect_sigma = aspect()->log_sigma;
   misfit.least_px = kCornerSigmaPx;
   const auto seen =
       misfit.of(undistorted(corners, camera->hasDistortion() ? camera : nullptr), covariance, *camera);

@@ -137,6 +137,8 @@ TEST(ReferenceShape, AnotherAspectIsAnotherWindow) {
   ASSERT_TRUE(off);
   EXPECT_GT(off->value, off->limit);
   EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), nullptr)) << "no camera, no perspective";
+  view.width_m = 1.1;
+  EXPECT_TRUE(shape.inAspect(view.opening(), spread(0.2), &camera_used)) << "a twelfth narrower";
 }
 
 TEST(ReferenceShape, AFramelessReferenceAsksForNoFrame) {
