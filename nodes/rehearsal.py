@@ -81,15 +81,15 @@ class Rehearsal:
         now = rospy.Time.now()
         with self._lock:
             dt, self._last_s = now.to_sec() - self._last_s, now.to_sec()
-            if self._commits() and not self._hand.is_seen(now.to_sec()):
+            if self._flies_unseen() and not self._hand.is_seen(now.to_sec()):
                 linear = self._setpoint.twist.linear
                 self._hand.carry([linear.x, linear.y, linear.z], max(0.0, min(dt, 0.1)))
             place, velocity, rotation = self._hand.at(now.to_sec())
         if self._odom is not None:
             self._tell(now, place, velocity, rotation)
 
-    def _commits(self):
-        return self._state is not None and self._state.state == IngressState.COMMIT
+    def _flies_unseen(self):
+        return self._state is not None and self._state.state in (IngressState.COMMIT, IngressState.BACK_OFF)
 
     def _tell(self, now, place, velocity, rotation):
         message, transform = Odometry(child_frame_id="base_link"), TransformStamped(child_frame_id="base_link")

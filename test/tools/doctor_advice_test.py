@@ -161,6 +161,13 @@ def test_a_cause_comes_first_and_what_follows_from_it_stands_below_it(doctor, ca
     assert lines[-1] == "1 finding(s) to mend, 4 follow from them"
 
 
+def test_after_the_end_of_a_mission_the_silence_is_no_finding(doctor, capsys):
+    said_by(doctor, setpoint_guard__cmd_vel_in=(2, "/cmd_vel_in is silent"), ingress_navigator__mission=(1, "ABORTED: the goal was cancelled"))
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
+    assert lines[0] == "WARN   ingress_navigator: mission: ABORTED: the goal was cancelled"
+    assert "/ingress_navigator/reset" in lines[1] and len(lines) == 3
+
+
 def test_a_symptom_with_nothing_wrong_before_it_is_a_finding(doctor, capsys):
     said_by(doctor, setpoint_guard__cmd_vel_in=(2, "/cmd_vel_in is silent"))
     assert "ERROR  setpoint_guard: cmd_vel_in: /cmd_vel_in is silent\n       mend: " in capsys.readouterr().out

@@ -181,7 +181,7 @@ def checked_elsewhere(command, _):
 
 def runs_a_tool(command, folder):
     """The very command, with the user's own files stood in for, fewer flights, and its output elsewhere."""
-    words = command.replace("1..20", "1..1").replace("my_photos/", "doc/detection.png").split()
+    words = command.replace("1..20", "1..1").replace("out/demo/detection.png", "doc/detection.png").split()
     words = [str(folder / word) if word.startswith("out/") else word for word in words]
     done = run(*words)
     assert done.returncode == 0, f"{words}\n{done.stderr}"
