@@ -1,5 +1,6 @@
 #include "window_ingress/parameters/yaml_mapping.hpp"
 
+#include <algorithm>
 #include <ios>
 #include <utility>
 
@@ -29,7 +30,7 @@ YAML::Node YamlMapping::find(const std::string& name) {
 }
 
 void YamlMapping::fail(const YAML::Node& at, const std::string& text) const {
-  throw YamlError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + text);
+  throw YamlError(file_ + ":" + std::to_string(std::max(0, at.Mark().line) + 1) + ": " + text);
 }
 
 std::vector<std::string> YamlMapping::asked() const {

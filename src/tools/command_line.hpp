@@ -78,6 +78,22 @@ int runTool(const char* name, const Body& body) {
   }
 }
 
+/// The arguments by their names, whole ones: --seed is not taken for --seeds. Throws boost's errors.
+inline boost::program_options::variables_map parsed(
+    int argc, char** argv, const boost::program_options::options_description& description,
+    const boost::program_options::positional_options_description& positional = {}) {
+  namespace options = boost::program_options;
+  namespace style = options::command_line_style;
+  options::variables_map given;
+  options::store(options::command_line_parser(argc, argv)
+                     .options(description)
+                     .positional(positional)
+                     .style(style::default_style & ~style::allow_guessing)
+                     .run(),
+                 given);
+  return given;
+}
+
 /// The same, with the arguments taken apart first.
 /// \param describe binds an `Options` to their description, which --help prints
 /// \param positional options that need no name
@@ -88,12 +104,7 @@ int runTool(const char* name, int argc, char** argv,
   return runTool(name, [&] {
     Options options;
     const auto description = describe(options);
-    boost::program_options::variables_map given;
-    boost::program_options::store(boost::program_options::command_line_parser(argc, argv)
-                                      .options(description)
-                                      .positional(positional)
-                                      .run(),
-                                  given);
+    auto given = parsed(argc, argv, description, positional);
     boost::program_options::notify(given);
     if (given.count("help") == 0) return body(options);
     std::cout << description;

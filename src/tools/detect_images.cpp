@@ -79,7 +79,7 @@ Options parse(int argc, char** argv) {
   positional.add("input", -1);
   po::variables_map values;
   try {
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
+    values = tools::parsed(argc, argv, all, positional);
     po::notify(values);
   } catch (const po::error& error) {
     throw UsageError(std::string(error.what()) + "; see --help");

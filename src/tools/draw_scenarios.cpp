@@ -48,8 +48,7 @@ options::options_description describe() {
 Job parse(int argc, char** argv, const options::options_description& description) {
   options::positional_options_description rest;
   rest.add("scenario", -1);
-  options::variables_map given;
-  options::store(options::command_line_parser(argc, argv).options(description).positional(rest).run(), given);
+  const auto given = tools::parsed(argc, argv, description, rest);
   Job job;
   if (given.count("help") != 0) {
     std::cout << description;

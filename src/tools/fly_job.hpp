@@ -105,8 +105,7 @@ inline void checkOutput(const options::variables_map& given, const FlyJob& job) 
 }
 
 inline FlyJob parseFly(int argc, char** argv, const options::options_description& description) {
-  options::variables_map given;
-  options::store(options::parse_command_line(argc, argv, description), given);
+  const auto given = parsed(argc, argv, description);
   FlyJob job;
   if (given.count("help") != 0) {
     std::cout << description;

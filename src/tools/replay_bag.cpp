@@ -58,7 +58,7 @@ Options parse(int argc, char** argv) {
       ("truth", po::value(&o.topics.truth), "PoseStamped with the true T_camera_window, by stamp");
   po::variables_map values;
   try {
-    po::store(po::command_line_parser(argc, argv).options(named).run(), values);
+    values = tools::parsed(argc, argv, named);
     if (values.count("help") > 0) {
       std::cout << named << std::endl;
       std::exit(0);
