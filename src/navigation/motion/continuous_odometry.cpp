@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/median.hpp"
@@ -15,6 +16,10 @@ constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
+constexpr double kToldM2 = 0.02;  // of differences that a window was seen beside, squared: enough to judge by
+constexpr double kWindowMovesAlong = 0.3;  // of the difference, if it is the position that errs
+constexpr double kMostOfVelocityMps = 0.5, kSlideSec = 0.25;  // for so long more is no error of a velocity
+constexpr double kSightingSec = 0.2;       // that two sightings are off the length of a piece
 constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
 constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
 
@@ -125,15 +130,49 @@ void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
 // Of an estimator's velocity that is always off by the same.
 void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
+  differences_.push_back({smooth.stamp_sec, unshifted_m, way_m_});
+  while (differences_.front().stamp_sec < smooth.stamp_sec - kSecond) differences_.pop_front();
   if (!piece_) piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
   const double piece_sec = smooth.stamp_sec - piece_->stamp_sec;
   if (piece_sec < kPieceSec) return;
   const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
   const Eigen::Vector3d differs_mps = unexplained_m / piece_sec;
   pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
+  compareWithWindow(pieces_.back());
   if (pieces_.size() > kPieces) pieces_.pop_front();
+  judgeVelocity();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
   if (isBiasKnown()) judgePieces();
+}
+
+void ContinuousOdometry::see(double stamp_sec, const Eigen::Vector3d& window_odom_m) {
+  for (auto sample = differences_.rbegin(); sample != differences_.rend(); ++sample)
+    if (sample->stamp_sec <= stamp_sec) {
+      sighting_ =
+          Sighting{stamp_sec, T_smooth_axes_.linear() * window_odom_m, sample->position_m - sample->way_m};
+      return;
+    }
+}
+
+void ContinuousOdometry::compareWithWindow(Difference& difference) {
+  const std::optional<Sighting> before = std::exchange(piece_sighting_, sighting_);
+  if (!before || std::abs(sighting_->stamp_sec - before->stamp_sec - kPieceSec) > kSightingSec) return;
+  const Eigen::Vector2d differs_m = (sighting_->differs_m - before->differs_m).head<2>();
+  const Eigen::Vector2d moved_m = (sighting_->window_m - before->window_m).head<2>();
+  if (std::max(differs_m.norm(), moved_m.norm()) > kMostOfVelocityMps * kPieceSec)
+    return;  // a jump, or another window
+  difference.told_m2 = differs_m.squaredNorm();
+  difference.with_window_m2 = differs_m.dot(moved_m);
+}
+
+// While no window is seen, what was found holds.
+void ContinuousOdometry::judgeVelocity() {
+  double told_m2 = 0.0, with_window_m2 = 0.0;
+  for (const Difference& piece : pieces_) {
+    told_m2 += piece.told_m2;
+    with_window_m2 += piece.with_window_m2;
+  }
+  if (told_m2 > kToldM2) is_velocity_worse_ = with_window_m2 < kWindowMovesAlong * told_m2;
 }
 
 void ContinuousOdometry::judgePieces() {
@@ -156,9 +195,20 @@ void ContinuousOdometry::judgePieces() {
 }
 
 // Axes of `smooth`.
-Eigen::Vector3d ContinuousOdometry::steadyMps(const Eigen::Matrix3d& R_smooth_base) const {
+Eigen::Vector3d ContinuousOdometry::usualMps(const Eigen::Matrix3d& R_smooth_base) const {
   return axes_ == &Difference::smooth_mps ? usual_.smooth_mps
                                           : Eigen::Vector3d(R_smooth_base * usual_.base_mps);
+}
+
+// A velocity that errs errs otherwise within seconds.
+Eigen::Vector3d ContinuousOdometry::steadyMps(const Eigen::Matrix3d& R_smooth_base) const {
+  if (is_velocity_worse_ && !differences_.empty()) {
+    const Sample &first = differences_.front(), &last = differences_.back();
+    const double passed_sec = last.stamp_sec - first.stamp_sec;
+    if (passed_sec > kPieceSec)
+      return (last.position_m - first.position_m - last.way_m + first.way_m) / passed_sec;
+  }
+  return usualMps(R_smooth_base);
 }
 
 Eigen::Vector3d ContinuousOdometry::biasMps() const {
@@ -184,14 +234,16 @@ Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
 }
 
 double ContinuousOdometry::unexplainedMps() const {
+  if (is_velocity_worse_ && isBiasKnown()) return 0.0;
   const double late_mps = (latePiecesMps() - usual_.*axes_).norm();
   if (isBiasKnown() || pieces_.size() < kFirstPieces) return late_mps;
   return std::max(late_mps, middleMps(axes_).norm());
 }
 
 Eigen::Vector3d ContinuousOdometry::unbiased(const VehicleState& smooth) const {
-  if ((usual_.*axes_).norm() < kNoticeableMps) return smooth.velocity_odom_mps;
-  return smooth.velocity_odom_mps + steadyMps(uprightOf(smooth));
+  const Eigen::Vector3d steady_mps = steadyMps(uprightOf(smooth));
+  if (steady_mps.norm() < kNoticeableMps) return smooth.velocity_odom_mps;
+  return smooth.velocity_odom_mps + steady_mps;
 }
 
 void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
@@ -199,14 +251,29 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
   second_.push_back(
       {smooth.stamp_sec, position_m, way_m_});  // the only one after a gap: what was flown is not known
   while (second_.front().stamp_sec < smooth.stamp_sec - kSecond) second_.pop_front();
-  const Sample& first = second_.front();
-  const Eigen::Vector3d steady_m = steadyMps(uprightOf(smooth)) * (smooth.stamp_sec - first.stamp_sec);
-  const Eigen::Vector3d unexplained_m = (position_m - first.position_m) - (way_m_ - first.way_m) - steady_m;
-  if (unexplained_m.norm() < kUnexplainedM) return;
+  const Eigen::Vector3d usual_mps = usualMps(uprightOf(smooth));
+  const auto unexplainedSince = [&](const Sample& first) -> Eigen::Vector3d {
+    return (position_m - first.position_m) - (way_m_ - first.way_m) -
+           usual_mps * (smooth.stamp_sec - first.stamp_sec);
+  };
+  Eigen::Vector3d unexplained_m = unexplainedSince(second_.front());
+  double most_m = kUnexplainedM;
+  if (is_velocity_worse_) {  // the position is believed but for a jump, and for what no velocity is off by
+    unexplained_m = unexplainedSince(second_[std::max<std::size_t>(second_.size(), 2) - 2]);
+    if (unexplained_m.norm() < kUnexplainedM) {
+      const auto first = std::find_if(second_.begin(), second_.end(), [&](const Sample& sample) {
+        return sample.stamp_sec >= smooth.stamp_sec - kSlideSec;
+      });
+      unexplained_m = unexplainedSince(*first);
+      most_m = kMostOfVelocityMps * kSlideSec;
+    }
+  }
+  if (unexplained_m.norm() < most_m) return;
   is_erring_ = true;
   T_smooth_axes_.translation() -= unexplained_m;
   smooth.T_odom_base.translation() -= unexplained_m;
   shift_m_ -= unexplained_m;
+  if (is_velocity_worse_) differences_.clear();
   second_.clear();
   second_.push_back({smooth.stamp_sec, smooth.T_odom_base.translation(), way_m_});
 }

@@ -16,7 +16,10 @@ namespace window_ingress::navigation {
 ///
 /// A steady difference of the velocity (an estimator's bias) is no slide: the middle value of the last
 /// seconds is taken off. It is fixed in the body in the long run, and stays as it was in the world for the
-/// first seconds after a turn: what has been more even of late counts. A heading that turns faster than any
+/// first seconds after a turn: what has been more even of late counts. Where a window is seen, it tells which
+/// of the two errs: what the position slides by, the window is seen to slide by in odom. If it stays, the
+/// velocity errs, the position is believed, and of the velocity what it was off by of late is taken off.
+/// A heading that turns faster than any
 /// vehicle is corrected by the turn; whether the axes of the positions have turned along (the estimator was
 /// reset) or not (its attitude alone is wrong) the next motion shows.
 class ContinuousOdometry {
@@ -29,6 +32,8 @@ class ContinuousOdometry {
   /// sample.
   std::optional<VehicleState> add(const VehicleState& odometry);
   void reset() { *this = ContinuousOdometry(); }
+  /// A window that stands, at its place in odom as of that time; of the same one, if it moves by little.
+  void see(double stamp_sec, const Eigen::Vector3d& window_odom_m);
 
   /// From odom as it was at that time into `smooth`, for what is known from beside the vehicle: the vehicle's
   /// reported pose becomes its pose there. The places in a message belong to its stamp.
@@ -51,12 +56,21 @@ class ContinuousOdometry {
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return drift_m_per_sqrt_sec_; }
   bool isBiasKnown() const { return pieces_.size() == kPieces; }
+  /// Whether the window has shown that the position is right where the two differ.
+  bool isVelocityWorse() const { return is_velocity_worse_; }
 
  private:
   static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
   /// What position and velocity differ by, as of one piece of the way or as usual.
   struct Difference {
     Eigen::Vector3d base_mps = Eigen::Vector3d::Zero(), smooth_mps = Eigen::Vector3d::Zero();
+    double told_m2 = 0.0;         ///< its square, over the ground, where a window was seen meanwhile
+    double with_window_m2 = 0.0;  ///< its product with how that window moved
+  };
+  struct Sighting {
+    double stamp_sec;
+    Eigen::Vector3d window_m;   ///< in the axes of smooth, from where odometry has its origin
+    Eigen::Vector3d differs_m;  ///< position less integrated velocity as of then
   };
   struct Sample {
     double stamp_sec;
@@ -78,10 +92,13 @@ class ContinuousOdometry {
   VehicleState inSmooth(const VehicleState& odometry) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
+  void compareWithWindow(Difference& difference);
+  void judgeVelocity();
   using Axes = Eigen::Vector3d Difference::*;
   Eigen::Vector3d middleMps(Axes axes) const;
   Eigen::Vector3d latePiecesMps() const;
   void judgePieces();
+  Eigen::Vector3d usualMps(const Eigen::Matrix3d& R_smooth_base) const;
   Eigen::Vector3d steadyMps(const Eigen::Matrix3d& R_smooth_base) const;
   void shiftIfUnexplained(VehicleState& smooth);
   void noteFrame();
@@ -94,9 +111,12 @@ class ContinuousOdometry {
   std::optional<Turn> turn_;
   double heading_error_rad_ = 0.0;
   bool is_erring_ = false;  ///< the two frames differ
+  bool is_velocity_worse_ = false;
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  ///< of the frame, so far
   std::optional<Sample> piece_;                        ///< where the present piece of the way began
+  std::deque<Sample> differences_;                     ///< of the last second, positions without shifts
+  std::optional<Sighting> sighting_, piece_sighting_;  ///< the latest; that of when the piece began
   std::deque<Difference> pieces_;                      ///< the latest
   Difference usual_;                                   ///< middle value of them; zero until it is known
   Axes axes_ = &Difference::base_mps;                  ///< in which they are more even

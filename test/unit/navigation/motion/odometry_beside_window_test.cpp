@@ -1,0 +1,90 @@
+// Which of the two errs where position and velocity differ: the window tells, as long as it is seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "navigation/motion/continuous_odometry.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation::odometry_beside_window_test {
+
+constexpr double kStep = 1.0 / 30.0;
+const Eigen::Vector3d kWindow(6.0, 1.0, 1.5);
+
+/// A vehicle that flies ahead at 0.8 m/s; what its odometry's position and velocity are off by along y.
+struct Flight {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double time = 10.0, shift_m = 0.0, bias_mps = 0.0;
+
+  VehicleState step() {
+    time += kStep;
+    position.x() += 0.8 * kStep;
+    VehicleState odometry;
+    odometry.stamp_sec = time;
+    odometry.T_odom_base = geometry::makePose(Eigen::Matrix3d::Identity(), position + shift());
+    odometry.velocity_odom_mps = Eigen::Vector3d(0.8, bias_mps, 0.0);
+    return odometry;
+  }
+  Eigen::Vector3d shift() const { return {0.0, shift_m, 0.0}; }
+};
+
+// PX4 by satellites: its velocity wanders by 0.2 m/s within seconds, its position by centimetres.
+TEST(OdometryBesideWindow, WhereTheWindowStaysThePositionIsBelieved) {
+  for (const bool seen : {true, false}) {
+    Flight flight;
+    ContinuousOdometry continuous;
+    double left_y_m = 0.0, worst_m = 0.0;
+    for (int i = 0; i < 900; ++i) {  // blind for longer than eight seconds
+      const bool blind = i >= 300;
+      flight.bias_mps = 0.2 * std::sin(0.7 * flight.time);
+      const VehicleState odometry = flight.step();
+      if (seen && !blind) continuous.see(flight.time - 0.05, kWindow);
+      const auto smooth = continuous.add(odometry);
+      ASSERT_TRUE(smooth);
+      const double y_m = smooth->T_odom_base.translation().y();
+      if (!blind) left_y_m = y_m;
+      worst_m = std::max(worst_m, std::abs(y_m - left_y_m));
+    }
+    EXPECT_EQ(continuous.isVelocityWorse(), seen);
+    if (seen)
+      EXPECT_LT(worst_m, 0.01);
+    else
+      EXPECT_GT(worst_m, 0.1);  // as if the position had slid
+  }
+}
+
+TEST(OdometryBesideWindow, WhereTheWindowSlidesAlongThePositionErrs) {
+  Flight flight;
+  ContinuousOdometry continuous;
+  for (int i = 0; i < 300; ++i) {
+    flight.shift_m = 0.3 * std::sin(0.7 * flight.time);
+    const VehicleState odometry = flight.step();
+    continuous.see(flight.time - 0.05, kWindow + flight.shift());
+    const auto smooth = continuous.add(odometry);
+    ASSERT_TRUE(smooth);
+    EXPECT_FALSE(continuous.isVelocityWorse());
+  }
+}
+
+TEST(OdometryBesideWindow, AJumpIsTakenOffAllTheSame) {
+  Flight flight;
+  ContinuousOdometry continuous;
+  double before_y_m = 0.0;
+  for (int i = 0; i < 315; ++i) {
+    flight.bias_mps = 0.2 * std::sin(0.7 * flight.time);
+    if (i >= 300) flight.shift_m = 1.0;
+    const VehicleState odometry = flight.step();
+    if (i < 300) continuous.see(flight.time - 0.05, kWindow);
+    const auto smooth = continuous.add(odometry);
+    ASSERT_TRUE(smooth);
+    const double y_m = smooth->T_odom_base.translation().y();
+    if (i < 300)
+      before_y_m = y_m;
+    else
+      EXPECT_NEAR(y_m, before_y_m, 0.02);
+  }
+  EXPECT_TRUE(continuous.isVelocityWorse());
+}
+
+}  // namespace window_ingress::navigation::odometry_beside_window_test
