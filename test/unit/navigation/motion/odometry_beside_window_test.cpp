@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "navigation/motion/continuous_odometry.hpp"
+#include "navigation/motion/input_monitor.hpp"
+#include "navigation_samples.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation::odometry_beside_window_test {
@@ -85,6 +87,19 @@ TEST(OdometryBesideWindow, AJumpIsTakenOffAllTheSame) {
       EXPECT_NEAR(y_m, before_y_m, 0.02);
   }
   EXPECT_TRUE(continuous.isVelocityWorse());
+}
+
+TEST(OdometryBesideWindow, TheMonitorTellsItOfTheWindow) {
+  Flight flight;
+  InputMonitor monitor{InputParams()};
+  for (int i = 0; i < 200; ++i) {
+    flight.bias_mps = 0.2 * std::sin(0.7 * flight.time);
+    const VehicleState odometry = flight.step();
+    NavigatorInput input = test::inputAt(Eigen::Vector3d::Zero(), flight.time);
+    input.vehicle = odometry;
+    monitor.judge(input, flight.time);
+  }
+  EXPECT_TRUE(monitor.odometry().isVelocityWorse());
 }
 
 }  // namespace window_ingress::navigation::odometry_beside_window_test
