@@ -104,6 +104,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     params.vehicle.climb_response_sec = observer.climbResponse().responseSec();
     params.vehicle.braking_mps2 = std::min(told_braking_mps2, observer.response().accelerationMps2());
     memory.odometry_disagreement_mps = monitor.odometry().disagreementMps();
+    memory.odometry_shift_m = monitor.odometry().shiftM();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
     memory.odometry_bias_known = monitor.odometry().isBiasKnown();
     memory.odometry_drift_m_per_sqrt_sec = monitor.odometry().driftMPerSqrtSec();

@@ -34,6 +34,7 @@ struct MissionState {
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   double gusts_watched_sec = 0.0;                           ///< over this time
   double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
+  double odometry_shift_m = 0.0;                ///< by which its positions were set right so far
   double odometry_unexplained_mps = 0.0;        ///< what of it is no steady bias of the velocity
   double odometry_drift_m_per_sqrt_sec = 0.0;   ///< of its position beside its velocity, as measured
   bool odometry_bias_known = false;             ///< it has been watched for long enough to know of one

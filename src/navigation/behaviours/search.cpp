@@ -9,7 +9,8 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr int kMaxOthers = 8;
-}
+constexpr double kMaxShiftToClimbM = 0.3;  // where the place is less certain, there may be eaves above it
+}  // namespace
 
 void Search::enter(bool may_climb) {
   *this = Search(*params_);
@@ -83,7 +84,8 @@ void Search::countTurn(double heading_rad, MissionState& memory) {
   turned_rad_ = 0.0;
   ++turns_;
   memory.forgetWindow();
-  if (may_climb_) height_m_ = *height_m_ + params_->search.height_step_m;
+  if (may_climb_ && memory.odometry_shift_m < kMaxShiftToClimbM)
+    height_m_ = *height_m_ + params_->search.height_step_m;
 }
 
 }  // namespace window_ingress::navigation

@@ -50,6 +50,8 @@ class ContinuousOdometry {
   /// What position and velocity differ by, over the latest two seconds [m/s]: a bias of the velocity, an
   /// error of the position, or axes that are not those of the other.
   double disagreementMps() const { return latePiecesMps().norm(); }
+  /// By how much positions were set right so far, level [m]: the vehicle may stand as far from its place.
+  double shiftM() const { return shift_m_.head<2>().norm(); }
   /// What of it the known bias does not explain [m/s]; before one is known, over all the time so far, if that
   /// is more.
   double unexplainedMps() const;

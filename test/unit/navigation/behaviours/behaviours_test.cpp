@@ -47,6 +47,20 @@ TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
   EXPECT_NEAR(height, 1.5 + (params.search.turns - 1) * params.search.height_step_m, 0.1);
 }
 
+TEST(SearchBehaviour, DoesNotClimbWhereItsPlaceIsUncertain) {
+  MissionState memory;
+  memory.odometry_shift_m = 0.5;
+  const NavigatorParams params = test::withoutGlass();
+  Search search(params);
+  search.enter(true);
+  double yaw = 0.0;
+  for (Decision decision; !decision.event;) {
+    decision = search.step(situationAt({-4, 1, 1.5}, 0.0, false, yaw), memory);
+    EXPECT_EQ(decision.wish.velocity_odom_mps.z(), 0.0);
+    yaw = geometry::wrapAngle(yaw + 0.03 * decision.wish.yaw_rate_radps);
+  }
+}
+
 TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
   MissionState memory;
   NavigatorParams params = test::withoutGlass();
