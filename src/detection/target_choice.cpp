@@ -14,6 +14,7 @@ constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
+constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
 constexpr double kAlignedShiftPx = 0.8;   ///< and from where the wall round a hole was aligned, to count
 constexpr double kAlignedStray = 0.025;  ///< as `kAlignedStrayPx`, of borders found by the frame [mean sides]
 
@@ -31,6 +32,12 @@ double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate
 double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   if (rival.correlation) return params_.min_correlation;
   return rival.appearance ? params_.min_score_reference : params_.min_score;
+}
+
+// What was aligned, or is no window by its geometry, must show its borders.
+int TargetChoice::fewestSeen(const ScoredCandidate& rival) const {
+  if (rival.correlation) return kFewestSeen;
+  return rival.doubtful ? kAllSeen : 0;
 }
 
 // Once borders that were fitted well have shown a frame of another width, others show less.
@@ -89,15 +96,14 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
                                            RefinedBorders& fitted) {
   double inliers = 0.0;
   const auto found = refine(rival, view, inliers);
-  const bool is_opening =
-      found && (!rival.correlation || (found->seen >= kFewestSeen &&
-                                       (!reference_.frameless() ||
-                                        reference_.showsOpening(view.image, found->corners, view.camera))));
+  const bool is_opening = found && found->seen >= fewestSeen(rival) &&
+                          (!rival.correlation || !reference_.frameless() ||
+                           reference_.showsOpening(view.image, found->corners, view.camera));
   if (!is_opening) return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
   fitted = *found;
   if (!rival.correlation)
     if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
-  return reference_.objectionTo(fitted, view.image, view.camera);
+  return reference_.objectionTo(fitted, view.image, view.camera, rival.doubtful);
 }
 
 // The best to which there is no objection and whose borders can be fitted.

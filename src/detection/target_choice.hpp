@@ -38,6 +38,7 @@ class TargetChoice {
   std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                RefinedBorders& fitted);
+  int fewestSeen(const ScoredCandidate& rival) const;
   double leastScore(const ScoredCandidate& rival) const;
   void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
     trace_.candidates.push_back(traceOf(rival, reason, value, limit));

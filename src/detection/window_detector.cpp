@@ -38,7 +38,10 @@ struct WindowDetector::Impl {
                                          const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> judgeFrames(const cv::Mat& image, double stamp_sec,
                                                const geometry::PinholeCamera* camera);
+  std::optional<WindowObservation> judgeFrameAlone(const cv::Mat& image, double stamp_sec,
+                                                   const geometry::PinholeCamera* camera);
   void searchOnColours();
+  void gatherAll();
   std::optional<WindowObservation> judgeSurroundings(const cv::Mat& image, double stamp_sec,
                                                      const geometry::PinholeCamera* camera);
   CandidateSearch search;
@@ -58,12 +61,29 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
-    const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
+// What is a window by its geometry, and what may be one.
+void WindowDetector::Impl::gatherAll() {
   rivals = search.kept();
   rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
   const auto& open = search.open();
   rivals.insert(rivals.end(), open.begin(), open.end());
+}
+
+// Where neither geometry nor surroundings tell: what lies behind a gate is not what the reference shows
+// there, and breaks its edges.
+std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(
+    const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
+  gatherAll();
+  if (!reference.judgeFrames(image, camera, rivals)) return std::nullopt;
+  for (ScoredCandidate& rival : rivals)
+    if (!rival.located || !rival.appearance) rival.verdict.reject = RejectReason::kDuplicate;
+  done(watch, Stage::kReference);
+  return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
+}
+
+std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
+    const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
+  gatherAll();
   if (!reference.judgeSurroundings(image, camera, rivals)) return std::nullopt;
   done(watch, Stage::kReference);
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
@@ -144,6 +164,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     impl_->searchOnColours();
     window = impl_->judge(image, stamp_sec, camera);
   }
+  if (!window && !impl_->reference.frameless()) window = impl_->judgeFrameAlone(image, stamp_sec, camera);
   explain(impl_->trace);
   return window;
 }

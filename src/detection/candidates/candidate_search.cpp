@@ -132,6 +132,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::open() {
     if (gates_.shape(rival.candidate, level_size_)) continue;
     rival.quad = inFullImage(rival.candidate.seen, factor_);
     rival.score = kDoubtfulScore;
+    rival.doubtful = true;
     open_.push_back(rival);
   }
   return open_;
@@ -143,6 +144,7 @@ void CandidateSearch::doubt(ScoredCandidate rival, const Rejection& rejection) {
     return;
   rival.candidate.solidity = 1.0;
   rival.score = kDoubtfulScore;
+  rival.doubtful = true;
   if (!is_dented || !gates_.shape(rival.candidate, level_size_)) doubtful_.push_back(rival);
 }
 

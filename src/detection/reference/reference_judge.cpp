@@ -208,10 +208,11 @@ bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrila
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
-                                                     const geometry::PinholeCamera* camera) {
-  if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, camera))
+                                                     const geometry::PinholeCamera* camera,
+                                                     bool by_frame_alone) {
+  if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera))
     return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
-  if (const auto off = shape_.inFrame(image, fitted.corners, camera))
+  if (const auto off = shape_.inFrame(image, fitted.corners, camera, by_frame_alone))
     return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
   return std::nullopt;
 }

@@ -67,9 +67,10 @@ class ReferenceJudge {
   bool showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
                     const geometry::PinholeCamera* camera);
 
-  /// Why fitted borders cannot be the reference's, if they cannot.
+  /// Why fitted borders cannot be the reference's, if they cannot. \param by_frame_alone its width must be
+  /// seen
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
-                                       const geometry::PinholeCamera* camera);
+                                       const geometry::PinholeCamera* camera, bool by_frame_alone);
 
  private:
   bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "detection/quads.hpp"
 #include "window_ingress/geometry/unit_square.hpp"
@@ -17,6 +18,7 @@ using geometry::PinholeCamera;
 using geometry::Quadrilateral;
 
 constexpr double kMaxSigmas = 3.0;      ///< by which a shape may differ from the reference's
+constexpr double kMaxFactor = 2.0;      ///< by which its aspect may differ where the camera is unknown
 constexpr double kFrameSlack = 0.15;    ///< and the width of a frame by this part besides
 constexpr double kSlopePx = 1e-3;       ///< step of numeric slopes [px]
 constexpr double kCornerSigmaPx = 0.3;  ///< least standard deviation of a corner, each way [px]
@@ -30,7 +32,7 @@ constexpr double kBlur_px = 3.0;                             ///< nearer to the 
 constexpr double kSurroundFrom = 2.1, kSurroundTo = 2.6;     ///< where the wall is, in widths of the frame
 constexpr double kCoreFrom = 0.2, kCoreTo = 0.9;             ///< and the frame's own colour
 constexpr float kMinFrameContrast = 20.0F;                   ///< of frame and wall [grey levels]
-constexpr std::size_t kFewestSides = 3;
+constexpr int kFewestSides = 3;
 constexpr double kScatter = 0.1;                               ///< of the difference of the middle two widths
 constexpr double kFocalLengths[] = {0.5, 0.7, 1.0, 1.4, 2.0};  ///< in longer sides of the image
 
@@ -45,6 +47,18 @@ Eigen::Matrix3d sightOf(const Quadrilateral& ideal, const PinholeCamera& camera)
 double aspectOf(const Quadrilateral& ideal, const PinholeCamera& camera) {
   const Eigen::Matrix3d map = sightOf(ideal, camera);
   return map.col(0).norm() / map.col(1).norm();
+}
+
+// By cameras of all likely focal lengths.
+std::array<double, std::size(kFocalLengths)> likelyAspects(const Quadrilateral& quad, const cv::Size& image) {
+  std::array<double, std::size(kFocalLengths)> aspects{};
+  PinholeCamera camera;
+  camera.cx = 0.5 * (image.width - 1), camera.cy = 0.5 * (image.height - 1);
+  for (std::size_t i = 0; i < aspects.size(); ++i) {
+    camera.fx = camera.fy = kFocalLengths[i] * std::max(image.width, image.height);
+    aspects[i] = aspectOf(quad, camera);
+  }
+  return aspects;
 }
 
 // What is 0 of a rectangle of this aspect from anywhere: the logarithm of the aspect over it, and the cosine
@@ -109,14 +123,9 @@ std::optional<double> RectangleMisfit::of(const Quadrilateral& ideal,
 void ReferenceShape::learn(const cv::Mat& image, const Quadrilateral& opening) {
   forget();
   if (image.empty() || !geometry::isFinite(opening) || !geometry::isConvex(opening)) return;
-  double least = 1e9, most = 0.0;
-  for (double focal : kFocalLengths) {
-    PinholeCamera camera;
-    camera.fx = camera.fy = focal * std::max(image.cols, image.rows);
-    camera.cx = 0.5 * (image.cols - 1), camera.cy = 0.5 * (image.rows - 1);
-    const double aspect = aspectOf(opening, camera);
-    least = std::min(least, aspect), most = std::max(most, aspect);
-  }
+  const auto aspects = likelyAspects(opening, image.size());
+  const auto [least_at, most_at] = std::minmax_element(aspects.begin(), aspects.end());
+  const double least = *least_at, most = *most_at;
   if (!(most > 0.0 && most < 1e9)) return;
   aspect_ = Measured{std::sqrt(least * most), 0.5 * (most - least)};
   seen_aspect_ = geometry::aspectRatio(opening);
@@ -136,9 +145,15 @@ std::optional<OpeningAspect> ReferenceShape::aspect() const {
 }
 
 std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
-    const Quadrilateral& corners, const std::array<Eigen::Matrix2d, 4>& covariance,
+    const Quadrilateral& corners, const std::array<Eigen::Matrix2d, 4>& covariance, const cv::Size& image,
     const PinholeCamera* camera) const {
-  if (!aspect_ || !camera) return std::nullopt;
+  if (!aspect_) return std::nullopt;
+  if (!camera) {
+    double off = 1e9;
+    for (double aspect : likelyAspects(corners, image))
+      off = std::min(off, std::max(aspect / aspect_->value, aspect_->value / aspect));
+    return off > kMaxFactor ? std::optional(Difference{off, kMaxFactor}) : std::nullopt;
+  }
   RectangleMisfit misfit;
   misfit.aspect = aspect()->value;
   misfit.log_aspect_sigma = aspect()->log_sigma;
@@ -164,15 +179,20 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
     const double width = paintedWidth(sides_[i], frame_[i]);
     if (width > 0.0) ratios_.push_back(width / frame_[i]), widths += frame_[i];
   }
-  if (ratios_.size() < kFewestSides) return std::nullopt;
+  if (static_cast<int>(ratios_.size()) < kFewestSides) return std::nullopt;
   return middleOf(ratios_, kFrameSigmaPx * static_cast<double>(ratios_.size()) / (widths * meanSide(ideal)));
 }
 
 std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat& image,
                                                                   const Quadrilateral& corners,
-                                                                  const PinholeCamera* camera) {
+                                                                  const PinholeCamera* camera,
+                                                                  bool must_show) {
   const auto seen = frameRatio(image, corners, camera);
-  if (!seen) return std::nullopt;
+  if (!seen) {
+    const auto shown = std::count_if(frame_.begin(), frame_.end(), [](double width) { return width > 0.0; });
+    return must_show && shown >= kFewestSides ? std::optional(Difference{0.0, 1.0 - kFrameSlack})
+                                              : std::nullopt;
+  }
   const double spread = kFrameSlack + kMaxSigmas * seen->sigma;
   if (std::abs(seen->value - 1.0) <= spread) return std::nullopt;
   return Difference{seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};

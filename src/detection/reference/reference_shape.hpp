@@ -51,14 +51,16 @@ class ReferenceShape {
     double value, limit;
   };
 
-  /// \param corners fitted, pixels of the image as it came; \param camera without one nothing is told
+  /// \param corners fitted, pixels of the image as it came; \param camera null: unknown, as in `learn`; only
+  /// coarsely told then
   std::optional<Difference> inAspect(const geometry::Quadrilateral& corners,
-                                     const std::array<Eigen::Matrix2d, 4>& covariance,
+                                     const std::array<Eigen::Matrix2d, 4>& covariance, const cv::Size& image,
                                      const geometry::PinholeCamera* camera) const;
 
   /// Middle of the four sides' widths, each over the reference's: one side may be hidden, or have a sill.
+  /// \param must_show a frame whose width cannot be seen is another, too, if the reference shows it
   std::optional<Difference> inFrame(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                    const geometry::PinholeCamera* camera);
+                                    const geometry::PinholeCamera* camera, bool must_show = false);
 
   /// The ratio itself.
   std::optional<Measured> frameRatio(const cv::Mat& image, const geometry::Quadrilateral& corners,

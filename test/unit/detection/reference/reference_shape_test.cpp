@@ -14,6 +14,7 @@ using Covariances = std::array<Eigen::Matrix2d, 4>;
 using geometry::Quadrilateral;
 
 geometry::PinholeCamera camera() { return geometry::PinholeCamera::fromFieldOfView(640, 480, 1.2); }
+const cv::Size kImage(640, 480);
 
 Covariances spread(double sigma_px) {
   Covariances covariance;
@@ -110,7 +111,7 @@ TEST(ReferenceShape, TheTargetIsOfItsShapeFromAnywhere) {
   for (int i = 0; i < 30; ++i) {
     const View view = randomView(random);
     const auto camera_used = camera();
-    EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), &camera_used)) << i;
+    EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), kImage, &camera_used)) << i;
     const auto off = shape.inFrame(view.draw(), view.opening(), &camera_used);
     EXPECT_FALSE(off) << i << ": " << (off ? off->value : 0.0);
   }
@@ -128,17 +129,37 @@ TEST(ReferenceShape, AWiderFrameAndAThinnerOneAreOthers) {
   }
 }
 
+TEST(ReferenceShape, AFrameThatDoesNotShowIsAnotherOnlyWhereItMust) {
+  ReferenceShape shape = learned();
+  View view;
+  EXPECT_FALSE(shape.inFrame(view.draw(), view.opening(), nullptr, true));
+  view.frame_m = 0.0;
+  EXPECT_FALSE(shape.inFrame(view.draw(), view.opening(), nullptr));
+  EXPECT_TRUE(shape.inFrame(view.draw(), view.opening(), nullptr, true));
+}
+
 TEST(ReferenceShape, AnotherAspectIsAnotherWindow) {
   ReferenceShape shape = learned();
   View view;
   view.width_m = 0.7;
   const auto camera_used = camera();
-  const auto off = shape.inAspect(view.opening(), spread(0.2), &camera_used);
+  const auto off = shape.inAspect(view.opening(), spread(0.2), kImage, &camera_used);
   ASSERT_TRUE(off);
   EXPECT_GT(off->value, off->limit);
-  EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), nullptr)) << "no camera, no perspective";
   view.width_m = 1.1;
-  EXPECT_TRUE(shape.inAspect(view.opening(), spread(0.2), &camera_used)) << "a twelfth narrower";
+  EXPECT_TRUE(shape.inAspect(view.opening(), spread(0.2), kImage, &camera_used)) << "a twelfth narrower";
+}
+
+TEST(ReferenceShape, AnUnknownCameraTellsAspectsApartThatAreFarOff) {
+  ReferenceShape shape = learned();
+  View view;
+  view.width_m = 0.7;
+  EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), kImage, nullptr));
+  view.width_m = 0.5;
+  EXPECT_TRUE(shape.inAspect(view.opening(), spread(0.2), kImage, nullptr)) << "a slot";
+  std::mt19937 random(6);
+  for (int i = 0; i < 30; ++i)
+    EXPECT_FALSE(shape.inAspect(randomView(random).opening(), spread(0.2), kImage, nullptr)) << i;
 }
 
 TEST(ReferenceShape, AFramelessReferenceAsksForNoFrame) {
@@ -153,11 +174,11 @@ TEST(ReferenceShape, NothingToldWithoutAReferenceOrSense) {
   ReferenceShape shape;
   const auto camera_used = camera();
   const View view;
-  EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), &camera_used));
+  EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), kImage, &camera_used));
   EXPECT_FALSE(shape.inFrame(view.draw(), view.opening(), &camera_used));
   shape.learn(cv::Mat(), view.opening());
   shape.learn(view.draw(), test::rectangle(7, 7, 7, 7));
-  EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), &camera_used));
+  EXPECT_FALSE(shape.inAspect(view.opening(), spread(0.2), kImage, &camera_used));
   shape = learned();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(shape.inFrame(view.draw(), test::rectangle(nan, 0, 5, 5), nullptr));
