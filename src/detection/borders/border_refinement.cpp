@@ -98,8 +98,11 @@ class Side {
     return fitted_;
   }
 
-  // A line that nearly all of the side shows may be turned further away from a start that was turned itself.
-  double reachOf(double radius_px) const { return inliers_ > kMaxInliers ? kTurned * radius_px : radius_px; }
+  // A start that was located may be turned itself: a line that nearly all of the side shows may be, too.
+  double reachOf(double radius_px) const {
+    return located() && inliers_ > kMaxInliers ? kTurned * radius_px : radius_px;
+  }
+  bool located() const { return start_.fallback_sigma_px > 0.0; }
 
   // Something that may be a border lies near the start, only that no line fits it.
   bool showsEdge() const {
@@ -112,9 +115,8 @@ class Side {
   // A start that was located says where the front edge is, any other one but what is beside it.
   void toFront() {
     const double from = border_.line.at(border_.middle());
-    const bool located = start_.fallback_sigma_px > 0.0;
     const double near = kFrontWithinPx, wide = kLocatedWithinPx;
-    memory_.fit.toFront({located ? -wide - from : -near, located ? wide - from : near, nullptr, nullptr},
+    memory_.fit.toFront({located() ? -wide - from : -near, located() ? wide - from : near, nullptr, nullptr},
                         border_);
   }
 
