@@ -138,7 +138,8 @@ class BlockedOutputTest(unittest.TestCase):
         support.wait_for(lambda: start().success, "a mission that starts", UP_WITHIN_S)
         self.states.wait(lambda s: s.state_name == "APPROACH", "APPROACH", UP_WITHIN_S, begin=0.0)
         output.stop()
-        asking = threading.Thread(target=lambda: [confirm() for _ in range(lines)], daemon=True)
+        # Refused, both, and for another reason than the call before: each is said.
+        asking = threading.Thread(target=lambda: [call() for call in (confirm, start) * (lines // 2)], daemon=True)
         asking.start()
         asking.join(5.0)
         self.assertFalse(asking.is_alive(), "the navigator waits for its output")
