@@ -243,7 +243,7 @@ Reply Navigator::confirmOpening() {
   auto& self = *impl_;
   if (!self.isFlownAt() || !self.memory.trusted)
     return {false, std::string("no window is flown at: ") + toString(self.state)};
-  if (!self.memory.opening_asked)
+  if (!self.memory.opening_asked && !self.memory.opening_confirmed)
     return {false, "not asked yet: the vehicle asks where it waits at the line"};
   self.memory.opening_confirmed = true;
   return {true, "confirmed: the window flown at is open, without glass"};

@@ -49,8 +49,10 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
   decision.reason = criterion.holds ? "on the window's normal" : criterion.unmet;
   if (!criterion.holds) memory.unmet = criterion.unmet;
   decision.event = judge(criterion, relative, situation, decision.reason);
-  memory.opening_asked = looks_ && criterion.opening_unverified;
-  if (!memory.opening_asked && !decision.event && isToBeAsked(criterion.unmet))
+  const bool is_to_be_asked = isToBeAsked(target, memory, params_->commit);
+  memory.opening_asked = looks_ && is_to_be_asked;
+  const bool only_that = criterion.unmet == whyNotEntered(target, memory, params_->commit);
+  if (is_to_be_asked && !looks_ && only_that && !decision.event)
     decision.reason = "on the window's normal, to ask at the line whether it is open";
   if (decision.event == Event::kCommitReached) {
     memory.committed = target;

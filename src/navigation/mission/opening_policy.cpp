@@ -11,8 +11,6 @@ bool isSeenOpen(const TargetEstimate& target) { return target.openness.openness 
 
 namespace {
 
-const std::string kQuestion = "is it open? ~confirm_opening says yes; ";
-
 /// What has yet to be known before anybody flies in; empty if nothing has.
 std::string doubtAbout(const TargetEstimate& target, const CommitParams& params) {
   if (!isSeenOpen(target) && params.unverified_opening != "allow")
@@ -36,11 +34,13 @@ std::string whyNotEntered(const TargetEstimate& target, const MissionState& memo
   const std::string closed = whyClosed(target);
   if (!closed.empty() || memory.opening_confirmed) return closed;
   const std::string doubt = doubtAbout(target, params);
-  const bool asks = !doubt.empty() && asksAbout(target, params);
-  return asks ? kQuestion + doubt : doubt;
+  return isToBeAsked(target, memory, params) ? "is it open? ~confirm_opening says yes; " + doubt : doubt;
 }
 
-bool isToBeAsked(const std::string& why_not_entered) { return why_not_entered.rfind(kQuestion, 0) == 0; }
+bool isToBeAsked(const TargetEstimate& target, const MissionState& memory, const CommitParams& params) {
+  return !memory.opening_confirmed && whyClosed(target).empty() && !doubtAbout(target, params).empty() &&
+         asksAbout(target, params);
+}
 
 double waitAtLineSec(const TargetEstimate& target, const CommitParams& params) {
   return asksAbout(target, params) ? params.ask_sec : params.look_sec;

@@ -20,8 +20,8 @@ std::string whyClosed(const TargetEstimate& target);
 std::string whyNotEntered(const TargetEstimate& target, const MissionState& memory,
                           const CommitParams& params);
 
-/// Such a reason that only the operator's word is missing.
-bool isToBeAsked(const std::string& why_not_entered);
+/// Whether the operator's word would let it in.
+bool isToBeAsked(const TargetEstimate& target, const MissionState& memory, const CommitParams& params);
 
 /// How long to wait at the commit line: for the operator's answer, or for what is to be seen [s].
 double waitAtLineSec(const TargetEstimate& target, const CommitParams& params);
