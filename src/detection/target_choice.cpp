@@ -18,6 +18,9 @@ constexpr int kAllSeen = 4;               ///< and where only the frame tells th
 constexpr double kAlignedShiftPx = 0.8;   ///< and from where the wall round a hole was aligned, to count
 constexpr double kAlignedStray = 0.025;  ///< as `kAlignedStrayPx`, of borders found by the frame [mean sides]
 
+// Neither its geometry nor its surroundings have told that it is a window.
+bool isByFrameAlone(const ScoredCandidate& rival) { return rival.doubtful && !rival.correlation; }
+
 // Correlation of the next best place.
 double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& rivals) {
   const Sameness same(target.quad);
@@ -37,7 +40,7 @@ double TargetChoice::leastScore(const ScoredCandidate& rival) const {
 // What was aligned, or is no window by its geometry, must show its borders.
 int TargetChoice::fewestSeen(const ScoredCandidate& rival) const {
   if (rival.correlation) return kFewestSeen;
-  return rival.doubtful ? kAllSeen : 0;
+  return isByFrameAlone(rival) ? kAllSeen : 0;
 }
 
 // Once borders that were fitted well have shown a frame of another width, others show less.
@@ -103,7 +106,7 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
   fitted = *found;
   if (!rival.correlation)
     if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
-  return reference_.objectionTo(fitted, view.image, view.camera, rival.doubtful);
+  return reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival));
 }
 
 // The best to which there is no objection and whose borders can be fitted.
