@@ -73,6 +73,8 @@ const char* toString(CandidateSource source) {
   switch (source) {
     case CandidateSource::kContour:
       return "contour";
+    case CandidateSource::kBlob:
+      return "blob";
     case CandidateSource::kSegments:
       return "segments";
     case CandidateSource::kReference:

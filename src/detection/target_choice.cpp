@@ -12,6 +12,8 @@ using geometry::Quadrilateral;
 
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
+constexpr double kSearchRadius = 1.5;     ///< likewise, of what the search found [px of its level]
+constexpr double kBlobRadius = 3.0;       ///< and where that is a blob's outline
 constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
 constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
@@ -68,7 +70,9 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
                                                    double& inliers) const {
   BorderStart start;
   start.quad = rival.quad;
-  start.radius_px = rival.located ? kLocatedRadiusPx : 1.5 * search_factor_ + 1.0;
+  const bool is_blob = rival.candidate.source == CandidateSource::kBlob;
+  start.radius_px =
+      rival.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
   if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
   if (!rival.correlation) return refinement_.run(view.image, start, view.camera, &inliers);
   start.max_stray_px = kAlignedStrayPx;

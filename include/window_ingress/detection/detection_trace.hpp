@@ -40,7 +40,8 @@ const char* toString(RejectReason reason);
 
 /// Where a candidate came from.
 enum class CandidateSource {
-  kContour,   ///< a closed contour
+  kContour,   ///< a closed contour of edges
+  kBlob,      ///< the outline of a region of another colour than what surrounds it
   kSegments,  ///< four straight segments that meet
   kReference  ///< borders located beside a candidate, by the colours of the reference
 };

@@ -11,7 +11,7 @@
 
 namespace window_ingress::detection {
 
-/// What the edge map says about one side of a candidate.
+/// What edges, or the outline of a blob, say about one side of a candidate.
 struct SideSupport {
   double fraction = 0.0;   ///< part of the side that runs along edge pixels of its direction
   double contrast = 0.0;   ///< mean gradient under it [grey levels a pixel]

@@ -14,11 +14,21 @@ using geometry::Quadrilateral;
 
 constexpr double kDoubtfulScore = 0.5;
 constexpr std::size_t kMaxDoubtful = 200;
-constexpr int kPaintLevels[] = {6, 10, 15, 22, 30};  ///< of the masks, over `kUnpainted`
+constexpr double kColourContrast = 16.0;  ///< of blobs in the image of colours alone [grey levels]
+constexpr double kPaintContrast = 8.0;    ///< and in that of one paint
 
 Quadrilateral inFullImage(const Quadrilateral& quad, int factor) {
   return {toFullImage(quad[0], factor), toFullImage(quad[1], factor), toFullImage(quad[2], factor),
           toFullImage(quad[3], factor)};
+}
+
+// What the outline of a blob has shown may be more than the edges show.
+void addEdges(const std::array<SideSupport, 4>& edges, std::array<SideSupport, 4>& sides) {
+  for (int i = 0; i < 4; ++i) {
+    sides[i].fraction = std::max(sides[i].fraction, edges[i].fraction);
+    sides[i].contrast = std::max(sides[i].contrast, edges[i].contrast);
+    sides[i].overshoot = edges[i].overshoot;
+  }
 }
 
 }  // namespace
@@ -56,12 +66,12 @@ void CandidateSearch::look(const cv::Mat& level) {
   outlines_.rejected.clear();
   outlines_.contours = 0;
   outlines_.budget_exceeded = false;
-  outline(straight_);
+  outline(straight_, CandidateSource::kContour);
   done(watch_, Stage::kOutlines);
 }
 
-void CandidateSearch::outline(const cv::Mat& mask) {
-  const auto& found = contours_.run(closing_.run(mask), closing_.radiusPx(level_size_));
+void CandidateSearch::outline(const cv::Mat& mask, CandidateSource source) {
+  const auto& found = contours_.run(closing_.run(mask), closing_.radiusPx(level_size_), source);
   outlines_.contours += found.contours;
   outlines_.budget_exceeded = outlines_.budget_exceeded || found.budget_exceeded;
   for (CandidateTrace rejected : found.rejected) {
@@ -74,6 +84,15 @@ void CandidateSearch::outline(const cv::Mat& mask) {
   }
 }
 
+void CandidateSearch::outlineBlobs(const cv::Mat& level, double contrast) {
+  for (int channel = 0; channel < level.channels(); ++channel) {
+    blobs_.take(level, channel);
+    for (const auto sign : {BlobMasks::Sign::kAbove, BlobMasks::Sign::kBelow})
+      outline(blobs_.run(sign, contrast), CandidateSource::kBlob);
+  }
+  done(watch_, Stage::kOutlines);
+}
+
 const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
   kept_.clear();
@@ -81,6 +100,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace
   if (colours.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(colours);
+  outlineBlobs(colours, kColourContrast);
   return combine(SegmentQuads::kThorough, trace);
 }
 
@@ -92,11 +112,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::runOnPaint(const Eigen::Vec
   if (painted.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(painted);
-  for (int level : kPaintLevels) {
-    cv::compare(painted, Preprocess::kUnpainted + level, straight_, cv::CMP_GT);
-    outline(straight_);
-  }
-  done(watch_, Stage::kOutlines);
+  outlineBlobs(painted, kPaintContrast);
   return combine(SegmentQuads::kThorough, trace);
 }
 
@@ -156,7 +172,7 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
     for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
     auto rejection = gates_.shape(candidate, level_size_);
     if (!rejection) {
-      candidate.sides = measureSides(*map_, lens_, candidate.quad);
+      addEdges(measureSides(*map_, lens_, candidate.quad), candidate.sides);
       rejection = gates_.support(candidate);
     }
     rival.quad = inFullImage(candidate.seen, factor_);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "detection/candidates/blob_masks.hpp"
 #include "detection/candidates/candidate.hpp"
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/canny_edges.hpp"
@@ -38,8 +39,8 @@ class CandidateSearch {
   /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
   const std::vector<ScoredCandidate>& runOnColours(DetectionTrace& trace);
 
-  /// Likewise, by one paint: for thin or blurred frames of a known colour, of which masks at several levels
-  /// are outlined, too. \param paint see `RingMeans::paint`
+  /// Likewise, by one paint: for thin or blurred frames of a known colour. \param paint see
+  /// `RingMeans::paint`
   const std::vector<ScoredCandidate>& runOnPaint(const Eigen::Vector3f& paint, DetectionTrace& trace);
 
   /// What the last call returned.
@@ -59,7 +60,8 @@ class CandidateSearch {
 
  private:
   void look(const cv::Mat& level);
-  void outline(const cv::Mat& mask);
+  void outline(const cv::Mat& mask, CandidateSource source);
+  void outlineBlobs(const cv::Mat& level, double contrast);
   const std::vector<ScoredCandidate>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
   void doubt(ScoredCandidate rival, const Rejection& rejection);
   void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
@@ -71,6 +73,7 @@ class CandidateSearch {
   LevelCamera lens_;
   EdgeChains runs_;
   HoughSegments lines_;
+  BlobMasks blobs_;
   Closing closing_;
   ContourPolygons contours_;
   SegmentQuads segment_quads_;

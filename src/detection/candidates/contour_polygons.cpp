@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "detection/candidates/side_support.hpp"
 #include "detection/quads.hpp"
 
 namespace window_ingress::detection {
@@ -109,16 +110,20 @@ void ContourPolygons::look(const std::vector<cv::Point>& outline, double min_per
   if (!quad && hull_.size() <= 200) quad = quadRoundHull(hull_, lines_);
   const double excess = quad ? geometry::signedArea(*quad) / hull_area - 1.0 : 1.0;
   if (excess > kHullExcess) {
-    result_.rejected.push_back({boundingQuad(outline), CandidateSource::kContour, RejectReason::kCorners,
+    result_.rejected.push_back({boundingQuad(outline), source_, RejectReason::kCorners,
                                 static_cast<double>(polygon_.size()), 4.0, 0.0, false, 0.0, 0.0, 0.0});
     return;
   }
+  candidate.source = source_;
+  if (source_ == CandidateSource::kBlob) candidate.sides = outlinedSides(*quad, outline);
   candidate.closure = kClosure;
   candidate.quad = candidate.seen = grown(*quad, grow_px);
   result_.candidates.push_back(candidate);
 }
 
-const ContourPolygons::Result& ContourPolygons::run(const cv::Mat& closed, double dilation_px) {
+const ContourPolygons::Result& ContourPolygons::run(const cv::Mat& closed, double dilation_px,
+                                                    CandidateSource source) {
+  source_ = source;
   result_.candidates.clear();
   result_.rejected.clear();
   cv::findContours(closed, outlines_, tree_, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);

@@ -45,13 +45,16 @@ class ContourPolygons {
 
   /// \param closed CV_8UC1, edges after closing; not changed
   /// \param dilation_px what the closing added on each side of an edge; taken off again
+  /// \param source what is outlined: edges, or blobs
   /// Valid until the next call.
-  const Result& run(const cv::Mat& closed, double dilation_px);
+  const Result& run(const cv::Mat& closed, double dilation_px,
+                    CandidateSource source = CandidateSource::kContour);
 
  private:
   void look(const std::vector<cv::Point>& outline, double min_perimeter_px, double grow_px);
 
   ContourPolygonsParams params_;
+  CandidateSource source_ = CandidateSource::kContour;
   std::vector<std::vector<cv::Point>> outlines_;
   std::vector<cv::Vec4i> tree_;
   std::vector<cv::Point> hull_, polygon_;

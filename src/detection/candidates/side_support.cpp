@@ -1,6 +1,7 @@
 #include "detection/candidates/side_support.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 #include "detection/quads.hpp"
@@ -14,6 +15,11 @@ constexpr double kTolerancePx = 2.0;  ///< distance of an edge pixel from the si
 constexpr double kDirection_rad = 0.35;  ///< angle between its gradient and the side's normal [rad]
 constexpr double kBeyond = 0.2;    ///< stretch beyond each corner that is looked at, in lengths of the side
 constexpr double kCornerPx = 3.0;  ///< a rounded corner ends this far out on the search level
+
+constexpr double kOutlinePx = 1.5;      ///< distance of an outline from a side that it runs along [px]
+constexpr int kParts = 16;              ///< of a side that are told apart, at most one a pixel
+constexpr double kOutlinedWorth = 0.9;  ///< of a side that an outline runs along, beside straight edges
+constexpr double kBlobContrast = 4.0;   ///< of such a side, at least [grey levels a pixel]
 
 /// The edges, and the lens that bends them.
 struct Level {
@@ -102,7 +108,49 @@ SideSupport measureSide(const Level& level, const Vector2d& a, const Vector2d& b
   return support;
 }
 
+// The parts of one side that an outline runs along.
+class OutlinedSide {
+ public:
+  OutlinedSide(const Vector2d& a, const Vector2d& b)
+      : start_(a),
+        length_((b - a).norm()),
+        along_((b - a) / length_),
+        parts_(std::clamp(static_cast<int>(length_), 1, kParts)) {}
+
+  void see(const Vector2d& point) {
+    const Vector2d from_start = point - start_;
+    const double t = along_.dot(from_start) / length_;
+    if (t >= 0.0 && t < 1.0 && std::abs(cross(along_, from_start)) <= kOutlinePx)
+      seen_.set(static_cast<std::size_t>(t * parts_));
+  }
+  SideSupport support() const {
+    return {kOutlinedWorth * static_cast<double>(seen_.count()) / parts_, kBlobContrast, 0.0};
+  }
+
+ private:
+  Vector2d start_;
+  double length_;
+  Vector2d along_;
+  int parts_;
+  std::bitset<kParts> seen_;
+};
+
 }  // namespace
+
+std::array<SideSupport, 4> outlinedSides(const geometry::Quadrilateral& quad,
+                                         const std::vector<cv::Point>& outline) {
+  std::array<OutlinedSide, 4> sides = {OutlinedSide(quad[0], quad[1]), OutlinedSide(quad[1], quad[2]),
+                                       OutlinedSide(quad[2], quad[3]), OutlinedSide(quad[3], quad[0])};
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const cv::Point from = outline[k], way = outline[(k + 1) % outline.size()] - from;
+    const int steps = std::max(std::abs(way.x), std::abs(way.y));
+    for (int s = 0; s < steps; ++s)
+      for (OutlinedSide& side : sides)
+        side.see({from.x + static_cast<double>(way.x) * s / steps,
+                  from.y + static_cast<double>(way.y) * s / steps});
+  }
+  return {sides[0].support(), sides[1].support(), sides[2].support(), sides[3].support()};
+}
 
 std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelCamera& lens,
                                         const geometry::Quadrilateral& quad) {

@@ -87,6 +87,21 @@ TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
   EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
 }
 
+TEST(CandidateSearch, ABlobIsFoundWhereItsEdgesAreTooSoft) {
+  const auto opening = test::rectangle(220, 160, 420, 320);
+  cv::Mat image(480, 640, CV_8UC3, cv::Scalar::all(128)), hole(image.size(), CV_8UC1, cv::Scalar(0));
+  test::fillQuad(hole, opening, cv::Scalar(255));
+  cv::add(image, cv::Scalar(-30, 0, 30), image, hole);
+  cv::GaussianBlur(image, image, cv::Size(), 8.0);
+  test::addNoise(image, 2.0, 5);
+  CandidateSearch search{DetectorParams()};
+  DetectionTrace trace;
+  EXPECT_TRUE(search.run(image, nullptr, trace).empty()) << "the image is too easy for this test";
+  const auto& rivals = search.runOnColours(trace);
+  ASSERT_TRUE(holds(rivals, opening, 12.0));
+  EXPECT_EQ(rivals[0].candidate.source, CandidateSource::kBlob);
+}
+
 // A thin, blurred frame of one paint before bright and dark patches, in dim light that differs from place to
 // place.
 cv::Mat thinPaintInPatchyLight(const geometry::Quadrilateral& opening, const cv::Scalar& paint) {

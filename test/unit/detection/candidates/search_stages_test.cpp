@@ -3,9 +3,11 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "detection/candidates/blob_masks.hpp"
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/contour_polygons.hpp"
 #include "detection/candidates/preprocess.hpp"
+#include "detection/candidates/side_support.hpp"
 #include "drawn_window.hpp"
 
 namespace window_ingress::detection::search_stages_test {
@@ -86,6 +88,33 @@ TEST(ContourPolygons, TakesOffWhatTheClosingAdded) {
   ASSERT_EQ(result.candidates.size(), 2u);
   for (const Candidate& candidate : result.candidates)
     EXPECT_LT(test::worstCorner(candidate.quad, truth), 1.1) << "inner and outer outline are the same edge";
+}
+
+TEST(BlobMasks, StandOutFromWhatSurroundsThemWhateverTheLight) {
+  cv::Mat level(240, 320, CV_8UC1);
+  for (int x = 0; x < level.cols; ++x) level.col(x).setTo(60 + x / 4);
+  const cv::Rect above(40, 60, 30, 40), below(230, 100, 40, 30);
+  level(above) += 30;
+  level(below) -= 30;
+  BlobMasks blobs;
+  blobs.take(level, 0);
+  for (const auto& [sign, blob] :
+       {std::pair(BlobMasks::Sign::kAbove, above), {BlobMasks::Sign::kBelow, below}}) {
+    cv::Mat mask = blobs.run(sign, 12.0).clone();
+    EXPECT_GT(cv::countNonZero(mask(blob)), 0.9 * blob.area());
+    mask(cv::Rect(blob.x - 2, blob.y - 2, blob.width + 4, blob.height + 4)).setTo(0);
+    EXPECT_LT(cv::countNonZero(mask), 0.01 * mask.total());
+  }
+}
+
+TEST(SideSupport, AnOutlineSupportsTheSidesItRunsAlong) {
+  const auto quad = test::rectangle(50, 40, 150, 100);
+  const std::vector<cv::Point> outline = {{50, 40}, {150, 40}, {150, 100}, {100, 100}, {100, 70}, {51, 70}};
+  const auto sides = outlinedSides(quad, outline);
+  EXPECT_GT(sides[0].fraction, 0.85) << "top";
+  EXPECT_GT(sides[1].fraction, 0.85) << "right";
+  EXPECT_NEAR(sides[2].fraction, 0.45, 0.08) << "half of the bottom";
+  EXPECT_NEAR(sides[3].fraction, 0.45, 0.08) << "half of the left";
 }
 
 TEST(ContourPolygons, ACircleHasNoFourCorners) {
