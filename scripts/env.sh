@@ -6,9 +6,12 @@ build_core=$root/build/core
 # catkin needs the system's python3: another one first on PATH fails with "No module named catkin_pkg".
 export PATH="/usr/bin:$PATH"
 
-# ROS setup files read variables that may be unset.
+# source_if_there SETUP_FILE [--extend]: --extend keeps the workspace that is sourced already. ROS setup files read
+# variables that may be unset.
 source_if_there() {
-  if [ -f "$1" ]; then set +u; source "$1"; set -u; fi
+  local setup_file=$1
+  shift
+  if [ -f "$setup_file" ]; then set +u; source "$setup_file" "$@"; set -u; fi
 }
 
 # For a master of one's own.

@@ -168,3 +168,14 @@ def test_what_takes_long_says_how_long(tmp_path, tool, arguments, what):
         said = process.stderr.readline()
         process.kill()
     assert re.fullmatch(rf"{tool}: \d+ of {what}, \d+ s left\n", said), said
+
+
+def test_run_keeps_a_workspace_that_is_sourced(tmp_path):
+    messages = tmp_path / "devel/lib/python3/dist-packages"
+    messages.mkdir(parents=True)
+    (tmp_path / "devel/.catkin").write_text(f"{tmp_path}/src")
+    sourced = {**os.environ, "CMAKE_PREFIX_PATH": f"{tmp_path}/devel", "PYTHONPATH": str(messages), "ROS_PACKAGE_PATH": f"{tmp_path}/src"}
+    done = run(SCRIPTS / "run", "env", env=sourced)
+    for name in ("CMAKE_PREFIX_PATH", "PYTHONPATH", "ROS_PACKAGE_PATH"):
+        paths = next(line for line in done.stdout.splitlines() if line.startswith(name + "=")).split("=", 1)[1].split(":")
+        assert sourced[name] in paths and len(paths) > 1, name
