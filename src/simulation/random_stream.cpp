@@ -34,4 +34,9 @@ double RandomStream::normal(double sigma) {
   return sigma * radius * std::cos(uniform(0.0, 2.0 * M_PI));
 }
 
+Eigen::Vector3d RandomStream::normals(double sigma) {
+  const double x = normal(sigma), y = normal(sigma), z = normal(sigma);
+  return {x, y, z};
+}
+
 }  // namespace window_ingress::simulation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -16,6 +17,7 @@ class RandomStream {
   double uniform(double low, double high);  ///< in [low, high)
   int uniformInt(int low, int high);        ///< in low .. high, both included
   double normal(double sigma = 1.0);        ///< zero mean
+  Eigen::Vector3d normals(double sigma);    ///< three of them
   std::uint64_t bits();
 
  private:

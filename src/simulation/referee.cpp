@@ -13,21 +13,8 @@ constexpr double kAirborneGap_m = 0.05;
 }  // namespace
 
 const char* toString(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kRunning:
-      return "RUNNING";
-    case Outcome::kPassed:
-      return "PASSED";
-    case Outcome::kCollision:
-      return "COLLISION";
-    case Outcome::kFalseIngress:
-      return "FALSE_INGRESS";
-    case Outcome::kAborted:
-      return "ABORTED";
-    case Outcome::kTimeout:
-      return "TIMEOUT";
-  }
-  return "UNKNOWN";
+  constexpr const char* kNames[] = {"RUNNING", "PASSED", "COLLISION", "FALSE_INGRESS", "ABORTED", "TIMEOUT"};
+  return kNames[static_cast<std::size_t>(outcome)];
 }
 
 Referee::Referee(const Course& course) : course_(course) {}

@@ -67,7 +67,6 @@ class Referee {
   const std::optional<Crossing>& crossing() const { return crossing_; }
   bool touched() const { return !contact_.empty(); }
   const std::string& contact() const { return contact_; }  ///< name of what was touched first, or empty
-  double contactTimeSec() const { return contact_time_sec_; }
   bool stoodBehind() const { return stood_behind_; }
   /// Smallest gap between the vehicle's box and the borders of the opening while the box was between them,
   /// negative if it cut into them; nothing if it never was [m].

@@ -1,15 +1,8 @@
 #include "simulation/world.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
-#include "simulation/camera/camera_sensor.hpp"
 #include "simulation/camera/reference_image.hpp"
-#include "simulation/scene/scene.hpp"
-#include "simulation/sensors/faults.hpp"
-#include "simulation/vehicle/followed_vehicle.hpp"
-#include "simulation/vehicle/sway.hpp"
-#include "simulation/vehicle/wind.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
@@ -64,228 +57,153 @@ std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams&
 
 }  // namespace
 
-struct World::Impl {
-  Impl(const Scenario& given, std::uint32_t seed_of_all, Images images)
-      : scenario(checked(given)),
-        seed(seed_of_all),
-        scene(buildScene(scenario)),
-        model(modelOf(scenario.camera)),
-        T_base_camera(scenario.camera.T_base_camera()),
-        T_odom_window(scenario.T_odom_window()),
-        sway(scenario.sway, T_odom_window.linear()),
-        camera(images == Images::kDrawn ? makeCamera(scene, scenario.camera, seed) : nullptr),
-        wind(scenario.wind, wallOf(scenario, scene), scenario.vehicle.half_length_m, seed),
-        quadrotor(scenario.vehicle, scenario.startPoseInOdom(),
-                  T_odom_window.linear() * wind.steadyAt(scenario.startPoseInWindow().translation())),
-        odometry(scenario.odometry, seed),
-        imu(scenario.imu, seed),
-        followed(scenario.startPoseInOdom()),
-        faults(scenario.faults),
-        commands({RandomStream(seed, "cmd_vel garbage")}),
-        shutter(scenario.camera.rate_hz),
-        transport(scenario.camera, seed),
-        exposures(scenario.camera.latency_sec),
-        referee(courseOf(scenario, scene)) {}
-
-  bool external() const { return scenario.vehicle.profile == "external"; }
-  const VehicleTruth& truth() const { return external() ? followed.truth() : quadrotor.truth(); }
-  VehicleTruth besideHouse() const { return sway.besideHouse(truth(), time_sec); }
-
-  // The referee believes no velocity that a vehicle reports of itself.
-  VehicleTruth judged() const {
-    VehicleTruth judged = truth();
-    if (external()) judged.velocity_odom_mps = followed.flownVelocity();
-    return sway.besideHouse(judged, time_sec);
-  }
-  const FaultParams* acting(const char* unit) const { return faults.acting(unit, time_sec); }
-
-  void move() {
-    obey();
-    const Eigen::Matrix3d& turn = T_odom_window.linear();
-    const VehicleTruth beside = besideHouse();
-    const Air air = wind.step(kStepSec, T_odom_window.inverse() * beside.T_odom_base.translation(),
-                              turn.transpose() * beside.velocity_odom_mps);
-    const Eigen::Vector3d estimate = odometry.drift().linear().transpose() * odometry.velocityEstimate();
-    quadrotor.step(kStepSec, {turn * air.wind_mps, turn * air.push_mps2}, estimate);
-  }
-
-  void sense() {
-    if (!external()) {
-      odometry.update(time_sec, truth());
-      imu.update(time_sec, truth(), quadrotor.specificForceBase(), odometry.drift());
-    }
-    if (shutter.due(time_sec)) expose();
-    referee.update(time_sec, judged());
-    if (referee.touched() && !external() && !quadrotor.crashed()) quadrotor.crash(restHeight());
-  }
-
-  void expose() {
-    const Exposure exposure{exposure_count++, time_sec, truth(), besideHouse(), Exposure::Spoilt::kNot};
-    if (const auto arrival_sec = transport.arrivalOf(time_sec)) exposures.pushUntil(*arrival_sec, exposure);
-  }
-
-  // In odom, where z = 0 is the ground.
-  double restHeight() const {
-    const double centre_m = T_odom_window.translation().z();
-    const Eigen::Vector3d position = T_odom_window.inverse() * besideHouse().T_odom_base.translation();
-    return centre_m + topBelow(scene.obstacles, position, scene.ground_z_m) + scenario.vehicle.half_height_m;
-  }
-
-  // What the sensors deliver by now sets out on its way out of the world.
-  void deliver() {
-    while (auto sample = odometry.take(time_sec)) {
-      sample->T_odom_base.translation() += faults.slideAt(time_sec);
-      odometry_line.put(time_sec, *sample, acting("odom"));
-      transforms.put(time_sec, *sample, acting("tf"));
-    }
-    while (const auto sample = imu.take(time_sec)) imu_line.put(time_sec, *sample, acting("imu"));
-    while (const auto exposure = exposures.take(time_sec)) {
-      calibrations.put(time_sec, {exposure->stamp_sec, model}, acting("camera_info"));
-      images.put(time_sec, *exposure, acting("image"));
-    }
-  }
-
-  void obey() {
-    while (const auto command = commands.take(time_sec, acting("cmd_vel"))) {
-      VelocityCommand true_axes = *command;
-      true_axes.velocity_odom_mps = odometry.drift().linear().transpose() * command->velocity_odom_mps;
-      quadrotor.command(true_axes);
-    }
-  }
-
-  Eigen::Isometry3d cameraInWindow(const Exposure& exposure) const {
-    const VehicleTruth beside = sway.besideHouse(exposure.truth, exposure.stamp_sec);
-    return T_odom_window.inverse() * beside.T_odom_base * T_base_camera;
-  }
-
-  Scenario scenario;
-  std::uint32_t seed;
-  Scene scene;
-  geometry::PinholeCamera model;
-  Eigen::Isometry3d T_base_camera, T_odom_window;  ///< the house at its resting place
-  Sway sway;
-  std::unique_ptr<CameraSensor> camera;  ///< null: no images
-  Wind wind;
-  Quadrotor quadrotor;
-  OdometrySensor odometry;
-  ImuSensor imu;
-  FollowedVehicle followed;
-  FaultPlan faults;
-  CommandLine commands;
-  OdometryLine odometry_line, transforms;
-  ImuLine imu_line;
-  CalibrationLine calibrations;
-  ImageLine images;
-  ClockLine clock;
-  Periodic shutter;
-  CameraTransport transport;
-  DelayLine<Exposure> exposures;
-  Referee referee;
-  long steps = 0;
-  std::uint64_t exposure_count = 0;
-  double time_sec = 0.0;
-};
-
 World::World(const Scenario& scenario, std::uint32_t seed, Images images)
-    : impl_(std::make_unique<Impl>(scenario, seed, images)) {}
+    : scenario_(checked(scenario)),
+      seed_(seed),
+      scene_(buildScene(scenario_)),
+      model_(modelOf(scenario_.camera)),
+      T_base_camera_(scenario_.camera.T_base_camera()),
+      T_odom_window_(scenario_.T_odom_window()),
+      sway_(scenario_.sway, T_odom_window_.linear()),
+      camera_(images == Images::kDrawn ? makeCamera(scene_, scenario_.camera, seed) : nullptr),
+      wind_(scenario_.wind, wallOf(scenario_, scene_), scenario_.vehicle.half_length_m, seed),
+      quadrotor_(scenario_.vehicle, scenario_.startPoseInOdom(),
+                 T_odom_window_.linear() * wind_.steadyAt(scenario_.startPoseInWindow().translation())),
+      odometry_(scenario_.odometry, seed),
+      imu_(scenario_.imu, seed),
+      followed_(scenario_.startPoseInOdom()),
+      faults_(scenario_.faults),
+      commands_({RandomStream(seed, "cmd_vel garbage")}),
+      shutter_(scenario_.camera.rate_hz),
+      transport_(scenario_.camera, seed),
+      exposures_(scenario_.camera.latency_sec),
+      referee_(courseOf(scenario_, scene_)) {}
 
-World::~World() = default;
+const VehicleTruth& World::truth() const { return external() ? followed_.truth() : quadrotor_.truth(); }
+
+VehicleTruth World::besideHouse() const { return sway_.besideHouse(truth(), time_sec_); }
+
+// The referee believes no velocity that a vehicle reports of itself.
+VehicleTruth World::judged() const {
+  VehicleTruth judged = truth();
+  if (external()) judged.velocity_odom_mps = followed_.flownVelocity();
+  return sway_.besideHouse(judged, time_sec_);
+}
+
+void World::move() {
+  obey();
+  const Eigen::Matrix3d& turn = T_odom_window_.linear();
+  const VehicleTruth beside = besideHouse();
+  const Air air = wind_.step(kStepSec, T_odom_window_.inverse() * beside.T_odom_base.translation(),
+                             turn.transpose() * beside.velocity_odom_mps);
+  const Eigen::Vector3d estimate = odometry_.drift().linear().transpose() * odometry_.velocityEstimate();
+  quadrotor_.step(kStepSec, {turn * air.wind_mps, turn * air.push_mps2}, estimate);
+}
+
+void World::sense() {
+  if (!external()) {
+    odometry_.update(time_sec_, truth());
+    imu_.update(time_sec_, truth(), quadrotor_.specificForceBase(), odometry_.drift());
+  }
+  if (shutter_.due(time_sec_)) expose();
+  referee_.update(time_sec_, judged());
+  if (referee_.touched() && !external() && !quadrotor_.crashed()) quadrotor_.crash(restHeight());
+}
+
+void World::expose() {
+  const Exposure exposure{exposure_count_++, time_sec_, truth(), besideHouse(), Exposure::Spoilt::kNot};
+  if (const auto arrival_sec = transport_.arrivalOf(time_sec_)) exposures_.pushUntil(*arrival_sec, exposure);
+}
+
+// In odom, where z = 0 is the ground.
+double World::restHeight() const {
+  const double centre_m = T_odom_window_.translation().z();
+  const Eigen::Vector3d position = T_odom_window_.inverse() * besideHouse().T_odom_base.translation();
+  return centre_m + topBelow(scene_.obstacles, position, scene_.ground_z_m) + scenario_.vehicle.half_height_m;
+}
+
+// What the sensors deliver by now sets out on its way out of the world.
+void World::deliver() {
+  while (auto sample = odometry_.take(time_sec_)) {
+    sample->T_odom_base.translation() += faults_.slideAt(time_sec_);
+    odometry_line_.put(time_sec_, *sample, acting("odom"));
+    transforms_.put(time_sec_, *sample, acting("tf"));
+  }
+  while (const auto sample = imu_.take(time_sec_)) imu_line_.put(time_sec_, *sample, acting("imu"));
+  while (const auto exposure = exposures_.take(time_sec_)) {
+    calibrations_.put(time_sec_, {exposure->stamp_sec, model_}, acting("camera_info"));
+    images_.put(time_sec_, *exposure, acting("image"));
+  }
+}
+
+void World::obey() {
+  while (const auto command = commands_.take(time_sec_, acting("cmd_vel"))) {
+    VelocityCommand true_axes = *command;
+    true_axes.velocity_odom_mps = odometry_.drift().linear().transpose() * command->velocity_odom_mps;
+    quadrotor_.command(true_axes);
+  }
+}
+
+Eigen::Isometry3d World::cameraInWindow(const Exposure& exposure) const {
+  const VehicleTruth beside = sway_.besideHouse(exposure.truth, exposure.stamp_sec);
+  return T_odom_window_.inverse() * beside.T_odom_base * T_base_camera_;
+}
 
 void World::advance() {
-  if (!impl_->external()) impl_->move();
-  impl_->time_sec = static_cast<double>(++impl_->steps) * kStepSec;
-  if (impl_->external()) impl_->followed.moveTo(impl_->time_sec);
-  impl_->sense();
-  impl_->deliver();
+  if (!external()) move();
+  time_sec_ = static_cast<double>(++steps_) * kStepSec;
+  if (external()) followed_.moveTo(time_sec_);
+  sense();
+  deliver();
 }
 
 void World::command(const VelocityCommand& command) {
-  impl_->commands.put(impl_->time_sec, command, impl_->acting("cmd_vel"));
-  impl_->obey();
+  commands_.put(time_sec_, command, acting("cmd_vel"));
+  obey();
 }
 
-void World::follow(const VehicleTruth& truth, double stamp_sec) { impl_->followed.follow(truth, stamp_sec); }
-
 void World::inject(FaultParams fault) {
-  fault.at_sec = impl_->time_sec;
-  if (impl_->external()) {
+  fault.at_sec = time_sec_;
+  if (external()) {
     const std::string why_not = whyNotBesideExternalVehicle(fault);
     if (!why_not.empty()) throw ScenarioError("fault: " + why_not);
   }
-  impl_->faults.inject(fault);
+  faults_.inject(fault);
 }
-
-double World::timeSec() const { return impl_->time_sec; }
-
-const VehicleTruth& World::truth() const { return impl_->truth(); }
 
 std::optional<CameraFrame> World::takeFrame() {
   const auto exposure = takeExposure();
   return exposure ? std::optional<CameraFrame>(draw(*exposure)) : std::nullopt;
 }
 
-std::optional<Exposure> World::takeExposure() {
-  return impl_->images.take(impl_->time_sec, impl_->acting("image"));
-}
-
 CameraFrame World::draw(const Exposure& exposure) {
   CameraFrame frame;
   frame.stamp_sec = exposure.stamp_sec;
   frame.truth = exposure.truth;
-  frame.T_camera_window = impl_->cameraInWindow(exposure).inverse();
-  if (!impl_->camera) return frame;
-  const auto motion = CameraMotion::of(exposure.shown, impl_->T_odom_window, impl_->T_base_camera);
-  frame.image = impl_->camera->expose(motion, exposure.index, exposure.stamp_sec);
-  spoil(frame.image, exposure, impl_->seed);
+  frame.T_camera_window = cameraInWindow(exposure).inverse();
+  if (!camera_) return frame;
+  const auto motion = CameraMotion::of(exposure.shown, T_odom_window_, T_base_camera_);
+  frame.image = camera_->expose(motion, exposure.index, exposure.stamp_sec);
+  spoil(frame.image, exposure, seed_);
   return frame;
 }
 
-std::optional<OdometrySample> World::takeOdometry() {
-  return impl_->odometry_line.take(impl_->time_sec, impl_->acting("odom"));
-}
-
-std::optional<ImuSample> World::takeImu() {
-  return impl_->imu_line.take(impl_->time_sec, impl_->acting("imu"));
-}
-
-std::optional<CalibrationSample> World::takeCalibration() {
-  return impl_->calibrations.take(impl_->time_sec, impl_->acting("camera_info"));
-}
-
-std::optional<OdometrySample> World::takeTransform() {
-  return impl_->transforms.take(impl_->time_sec, impl_->acting("tf"));
-}
-
 std::optional<double> World::readClock() {
-  const FaultParams* fault = impl_->acting("clock");
-  impl_->clock.put(impl_->time_sec, impl_->time_sec, fault);
+  const FaultParams* fault = acting("clock");
+  clock_.put(time_sec_, time_sec_, fault);
   std::optional<double> reading;
-  while (const auto later = impl_->clock.take(impl_->time_sec, fault)) reading = later;
+  while (const auto later = clock_.take(time_sec_, fault)) reading = later;
   return reading;
 }
 
-const geometry::PinholeCamera& World::camera() const { return impl_->model; }
-
-Eigen::Isometry3d World::T_base_camera() const { return impl_->scenario.camera.toldT_base_camera(); }
-
 Eigen::Isometry3d World::T_odom_window() const {
-  Eigen::Isometry3d now = impl_->T_odom_window;
-  now.translation() += impl_->sway.offsetOdom(impl_->time_sec);
+  Eigen::Isometry3d now = T_odom_window_;
+  now.translation() += sway_.offsetOdom(time_sec_);
   return now;
 }
 
-Eigen::Isometry3d World::odometryDrift() const { return impl_->odometry.drift(); }
-
-geometry::OpeningSize World::opening() const { return impl_->scenario.opening(); }
-
-Eigen::Vector3d World::vehicleHalfExtents() const { return impl_->scenario.vehicle.halfExtents(); }
-
-const Scenario& World::scenario() const { return impl_->scenario; }
-
-const Referee& World::referee() const { return impl_->referee; }
-
 cv::Mat World::referenceImage(geometry::Quadrilateral* corners) const {
-  return simulation::referenceImage(impl_->scenario, corners);
+  return simulation::referenceImage(scenario_, corners);
 }
 
 }  // namespace window_ingress::simulation

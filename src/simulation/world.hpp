@@ -5,13 +5,19 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "simulation/camera/camera_sensor.hpp"
 #include "simulation/referee.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "simulation/scene/scene.hpp"
+#include "simulation/schedule.hpp"
 #include "simulation/sensors/faults.hpp"
 #include "simulation/sensors/imu_sensor.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
+#include "simulation/vehicle/followed_vehicle.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
+#include "simulation/vehicle/sway.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
+#include "simulation/vehicle/wind.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -41,7 +47,6 @@ class World {
   /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software
   /// renderer.
   World(const Scenario& scenario, std::uint32_t seed, Images images = Images::kDrawn);
-  ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -55,41 +60,81 @@ class World {
   /// For `vehicle: external`: the vehicle is there at that time; until then, `advance` moves it evenly.
   /// How fast it is, the referee sees by its places; the twist only blurs images.
   /// \param stamp_sec after the time of the call before; the first one also says where it has been so far
-  void follow(const VehicleTruth& truth, double stamp_sec);
+  void follow(const VehicleTruth& truth, double stamp_sec) { followed_.follow(truth, stamp_sec); }
 
-  double timeSec() const;
+  double timeSec() const { return time_sec_; }
   const VehicleTruth& truth() const;
   std::optional<CameraFrame> takeFrame();
   /// The same in two steps, for whoever cannot draw every image in time.
-  std::optional<Exposure> takeExposure();
+  std::optional<Exposure> takeExposure() { return images_.take(time_sec_, acting("image")); }
   CameraFrame draw(const Exposure& exposure);
-  std::optional<OdometrySample> takeOdometry();
-  std::optional<ImuSample> takeImu();
+  std::optional<OdometrySample> takeOdometry() { return odometry_line_.take(time_sec_, acting("odom")); }
+  std::optional<ImuSample> takeImu() { return imu_line_.take(time_sec_, acting("imu")); }
   /// What camera_info says: one sample an image, however the image fares. May be spoilt, see `validate`.
-  std::optional<CalibrationSample> takeCalibration();
+  std::optional<CalibrationSample> takeCalibration() {
+    return calibrations_.take(time_sec_, acting("camera_info"));
+  }
   /// The odometry as the source of the transform odom -> base_link.
-  std::optional<OdometrySample> takeTransform();
+  std::optional<OdometrySample> takeTransform() { return transforms_.take(time_sec_, acting("tf")); }
   /// What a clock says that is asked now, or nothing.
   std::optional<double> readClock();
 
   /// From now on. \throws ScenarioError if there can be no such fault
   void inject(FaultParams fault);
 
-  const geometry::PinholeCamera& camera() const;
-  Eigen::Isometry3d T_base_camera() const;
+  const geometry::PinholeCamera& camera() const { return model_; }
+  Eigen::Isometry3d T_base_camera() const { return scenario_.camera.toldT_base_camera(); }
   Eigen::Isometry3d T_odom_window() const;  ///< truth, of the target: the opening's front inner border
   /// Where the odometry's frame has drifted to: `p_reported = drift * p_true`.
-  Eigen::Isometry3d odometryDrift() const;
-  geometry::OpeningSize opening() const;
-  Eigen::Vector3d vehicleHalfExtents() const;  ///< of the body's box [m]
-  const Scenario& scenario() const;
-  const Referee& referee() const;
+  Eigen::Isometry3d odometryDrift() const { return odometry_.drift(); }
+  geometry::OpeningSize opening() const { return scenario_.opening(); }
+  Eigen::Vector3d vehicleHalfExtents() const {
+    return scenario_.vehicle.halfExtents();
+  }  ///< of the body's box [m]
+  const Scenario& scenario() const { return scenario_; }
+  const Referee& referee() const { return referee_; }
   /// As `simulation::referenceImage` of the scenario.
   cv::Mat referenceImage(geometry::Quadrilateral* corners) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  bool external() const { return scenario_.vehicle.profile == "external"; }
+  const FaultParams* acting(const char* unit) const { return faults_.acting(unit, time_sec_); }
+  VehicleTruth besideHouse() const;
+  VehicleTruth judged() const;
+  void move();
+  void sense();
+  void expose();
+  double restHeight() const;
+  void deliver();
+  void obey();
+  Eigen::Isometry3d cameraInWindow(const Exposure& exposure) const;
+
+  Scenario scenario_;
+  std::uint32_t seed_;
+  Scene scene_;
+  geometry::PinholeCamera model_;
+  Eigen::Isometry3d T_base_camera_, T_odom_window_;  ///< the house at its resting place
+  Sway sway_;
+  std::unique_ptr<CameraSensor> camera_;  ///< null: no images
+  Wind wind_;
+  Quadrotor quadrotor_;
+  OdometrySensor odometry_;
+  ImuSensor imu_;
+  FollowedVehicle followed_;
+  FaultPlan faults_;
+  CommandLine commands_;
+  OdometryLine odometry_line_, transforms_;
+  ImuLine imu_line_;
+  CalibrationLine calibrations_;
+  ImageLine images_;
+  ClockLine clock_;
+  Periodic shutter_;
+  CameraTransport transport_;
+  DelayLine<Exposure> exposures_;
+  Referee referee_;
+  long steps_ = 0;
+  std::uint64_t exposure_count_ = 0;
+  double time_sec_ = 0.0;
 };
 
 }  // namespace window_ingress::simulation

@@ -2,12 +2,6 @@
 
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <vector>
-
-#include "simulation/camera/camera_noise.hpp"
-#include "simulation/camera/exposure_control.hpp"
-#include "simulation/camera/lens.hpp"
-#include "simulation/scene/shutter.hpp"
 
 namespace window_ingress::simulation {
 namespace {
@@ -38,56 +32,37 @@ void applyGains(const cv::Vec3d& gains, cv::Mat& image) {
 
 }  // namespace
 
-struct CameraSensor::Impl {
-  Impl(const Scene& scene, const CameraParams& given, std::uint32_t seed)
-      : params(given),
-        lens(given.model()),
-        shutter(given.exposure_sec, given.readout_sec),
-        control(given),
-        noise(given, lens.size(), seed) {
-    if (lens.planes().size() > 1 && given.readout_sec > 0.0)
-      throw std::invalid_argument("camera/readout_sec: must be 0 with a lens that needs several planes");
-    for (const IdealPlane& plane : lens.planes())
-      renderers.push_back(std::make_unique<Renderer>(scene, plane.camera, antialiasingOf(given)));
-  }
-
-  void takeIdeal(const CameraMotion& motion) {
-    const auto& planes = lens.planes();
-    if (planes.size() == 1) {
-      shutter.take(*renderers[0], planes[0].camera, motion, ideal);
-      return;
-    }
-    ideal.create(lens.idealSize(), CV_8UC3);
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      shutter.take(*renderers[i], planes[i].camera, motion.turned(planes[i].R_plane_camera), face);
-      face.copyTo(ideal(planes[i].part));
-    }
-  }
-
-  CameraParams params;
-  Lens lens;
-  std::vector<std::unique_ptr<Renderer>> renderers;  // one a plane of the lens
-  Shutter shutter;
-  ExposureControl control;
-  CameraNoise noise;
-  cv::Mat ideal, face, image;
-};
-
 CameraSensor::CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed)
-    : impl_(std::make_unique<Impl>(scene, params, seed)) {}
+    : blur_px_(params.blur_px),
+      lens_(params.model()),
+      shutter_(params.exposure_sec, params.readout_sec),
+      control_(params),
+      noise_(params, lens_.size(), seed) {
+  if (lens_.planes().size() > 1 && params.readout_sec > 0.0)
+    throw std::invalid_argument("camera/readout_sec: must be 0 with a lens that needs several planes");
+  for (const IdealPlane& plane : lens_.planes())
+    renderers_.push_back(std::make_unique<Renderer>(scene, plane.camera, antialiasingOf(params)));
+}
 
-CameraSensor::~CameraSensor() = default;
+void CameraSensor::takeIdeal(const CameraMotion& motion) {
+  const auto& planes = lens_.planes();
+  if (planes.size() == 1) return shutter_.take(*renderers_[0], planes[0].camera, motion, ideal_);
+  ideal_.create(lens_.idealSize(), CV_8UC3);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    shutter_.take(*renderers_[i], planes[i].camera, motion.turned(planes[i].R_plane_camera), face_);
+    face_.copyTo(ideal_(planes[i].part));
+  }
+}
 
 cv::Mat CameraSensor::expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec) {
-  Impl& own = *impl_;
-  own.takeIdeal(motion);
-  own.lens.distort(own.ideal, own.image);
-  if (own.params.blur_px > 0.0) cv::GaussianBlur(own.image, own.image, cv::Size(), own.params.blur_px);
-  const cv::Vec3d gains = own.control.gainsAt(stamp_sec);
-  if (own.control.automatic()) own.control.observe(meanOf(own.image));
-  applyGains(gains, own.image);
-  own.noise.addTo(own.image, index);
-  return own.image;
+  takeIdeal(motion);
+  lens_.distort(ideal_, image_);
+  if (blur_px_ > 0.0) cv::GaussianBlur(image_, image_, cv::Size(), blur_px_);
+  const cv::Vec3d gains = control_.gainsAt(stamp_sec);
+  if (control_.automatic()) control_.observe(meanOf(image_));
+  applyGains(gains, image_);
+  noise_.addTo(image_, index);
+  return image_;
 }
 
 CameraTransport::CameraTransport(const CameraParams& params, std::uint32_t seed)

@@ -4,8 +4,13 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "simulation/camera/camera_motion.hpp"
+#include "simulation/camera/camera_noise.hpp"
+#include "simulation/camera/exposure_control.hpp"
+#include "simulation/camera/lens.hpp"
+#include "simulation/camera/shutter.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/camera_params.hpp"
 #include "simulation/scene/scene.hpp"
@@ -18,15 +23,21 @@ class CameraSensor {
  public:
   /// \throws as `Renderer`, `Lens` and `CameraParams::model`
   CameraSensor(const Scene& scene, const CameraParams& params, std::uint32_t seed);
-  ~CameraSensor();
 
   /// The image number `index` of the flight; the noise depends on seed and index alone, automatic gains on
   /// the images exposed before. The image is valid until the next call.
   cv::Mat expose(const CameraMotion& motion, std::uint64_t index, double stamp_sec);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void takeIdeal(const CameraMotion& motion);
+
+  double blur_px_;
+  Lens lens_;
+  std::vector<std::unique_ptr<Renderer>> renderers_;  ///< one a plane of the lens
+  Shutter shutter_;
+  ExposureControl control_;
+  CameraNoise noise_;
+  cv::Mat ideal_, face_, image_;
 };
 
 /// When images arrive, and which ones do not.

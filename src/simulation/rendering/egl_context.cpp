@@ -1,10 +1,11 @@
 #include "simulation/rendering/egl_context.hpp"
 
+#include "window_ingress/text/text.hpp"
+
 #define EGL_NO_X11  // some systems' headers include X11 without it
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -12,8 +13,7 @@ namespace window_ingress::simulation {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%x", static_cast<unsigned>(eglGetError()));
+  const std::string code = formatted("0x%x", static_cast<unsigned>(eglGetError()));
   throw std::runtime_error("EGL " + what + " (" + code +
                            "); are libegl-mesa0 and libgl1-mesa-dri installed?");
 }

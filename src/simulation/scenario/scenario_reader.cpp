@@ -1,8 +1,7 @@
-#include "simulation/scenario/scenario_reader.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "simulation/random_stream.hpp"
 #include "simulation/scenario/scenario.hpp"
@@ -17,15 +16,71 @@ using parameters::YamlError;
 using parameters::YamlMapping;
 using parameters::YamlReader;
 
-struct ScenarioReader::Impl {
-  YamlMapping mapping;
-  std::uint32_t seed;
-  Draws& draws;
+namespace {
+
+/// Where within its range a key's value is to lie; and which of these keys there were.
+struct Draws {
+  const Quantiles& quantiles;
+  std::set<std::string> used = {};
+};
+
+/// Visitor that fills a scenario from a yaml mapping. Beyond `parameters::YamlReader` it takes a range `[min,
+/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. \throws parameters::YamlError
+/// with file, line and key
+class ScenarioReader {
+ public:
+  ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
+                 std::uint32_t seed, Draws& draws)
+      : mapping_(file, mapping, path), seed_(seed), draws_(draws) {}
+
+  template <typename Params>
+  void fill(Params& params) {
+    Params::visit(params, *this);
+    mapping_.refuseUnknownKeys([this](const std::string& path) {
+      return parameters::didYouMean(path, mapping_.asked()) + "; see doc/scenarios.md";
+    });
+  }
+
+  template <typename Number>
+  void operator()(const std::string& name, Number& value, double minimum, double maximum) {
+    readDrawn(name, value, [&](const YAML::Node& node, Number& number) {
+      if (!node.IsSequence()) return readOne(name, node, number, minimum, maximum);
+      number = draw(mapping_.path() + name, readRange<Number>(name, node, minimum, maximum));
+    });
+  }
+  template <typename Value>
+  void operator()(const std::string& name, Value& value) {
+    readDrawn(name, value, [&](const YAML::Node& node, Value& one) { readOne(name, node, one); });
+  }
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed) {
+    readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
+      YamlReader(mapping_.file(), name, node).choice(name, word, allowed);
+    });
+  }
+  template <typename Params>
+  void group(const std::string& name, Params& params) {
+    readDrawn(name, params, [&](const YAML::Node& node, Params& group) { below(name, node).fill(group); });
+  }
+  template <typename Params>
+  void list(const std::string& name, std::vector<Params>& items) {
+    readDrawn(name, items, [&](const YAML::Node& node, std::vector<Params>& listed) {
+      if (!node.IsSequence()) mapping_.fail(node, name + ": must be a list, or [] for none");
+      listed.clear();
+      for (std::size_t i = 0; i < node.size(); ++i)
+        below(name + "[" + std::to_string(i) + "]", node[i]).fill(listed.emplace_back());
+    });
+  }
+
+ private:
+  ScenarioReader below(const std::string& name, const YAML::Node& node) const {
+    return {mapping_.file(), node, mapping_.path() + name + "/", seed_, draws_};
+  }
 
   std::optional<double> quantileOf(const std::string& path) const {
-    const auto given = draws.quantiles.find(path);
-    if (given != draws.quantiles.end()) draws.used.insert(path);
-    return given == draws.quantiles.end() ? std::nullopt : std::optional(std::clamp(given->second, 0.0, 1.0));
+    const auto given = draws_.quantiles.find(path);
+    if (given == draws_.quantiles.end()) return std::nullopt;
+    draws_.used.insert(path);
+    return std::clamp(given->second, 0.0, 1.0);
   }
 
   // What may stand there: the items of `{one_of: [...]}`, or the value itself.
@@ -33,142 +88,67 @@ struct ScenarioReader::Impl {
     if (!node.IsMap() || node.size() != 1 || !node["one_of"].IsDefined()) return {node};
     const YAML::Node items = node["one_of"];
     if (!items.IsSequence() || items.size() == 0)
-      mapping.fail(node, name + ": one_of must be a list of at least one value");
+      mapping_.fail(node, name + ": one_of must be a list of at least one value");
     return {items.begin(), items.end()};
   }
 
   std::size_t drawOption(const std::string& name, std::size_t count) const {
     const double size = static_cast<double>(count);
-    if (const auto quantile = quantileOf(mapping.path() + name))
+    if (const auto quantile = quantileOf(mapping_.path() + name))
       return static_cast<std::size_t>(std::min(*quantile * size, size - 1.0));
     return static_cast<std::size_t>(
-        RandomStream(seed, mapping.path() + name + " option").uniformInt(0, static_cast<int>(count) - 1));
-  }
-
-  // Each option with true for the drawn one; none where the key is missing.
-  std::vector<std::pair<YAML::Node, bool>> findOptions(const std::string& name) {
-    const YAML::Node node = mapping.find(name);
-    std::vector<std::pair<YAML::Node, bool>> found;
-    if (!node.IsDefined()) return found;
-    const auto options = optionsOf(name, node);
-    const std::size_t drawn = drawOption(name, options.size());
-    for (std::size_t i = 0; i < options.size(); ++i) found.emplace_back(options[i], i == drawn);
-    return found;
+        RandomStream(seed_, mapping_.path() + name + " option").uniformInt(0, static_cast<int>(count) - 1));
   }
 
   // All options are read, so that a bad one is an error whatever the seed.
   template <typename Value, typename Read>
   void readDrawn(const std::string& name, Value& value, const Read& read) {
+    const YAML::Node node = mapping_.find(name);
+    if (!node.IsDefined()) return;
+    const auto options = optionsOf(name, node);
+    const std::size_t drawn = drawOption(name, options.size());
     const Value before = value;
-    for (const auto& [node, drawn] : findOptions(name)) {
+    for (std::size_t i = 0; i < options.size(); ++i) {
       Value candidate = before;
-      read(node, candidate);
-      if (drawn) value = candidate;
+      read(options[i], candidate);
+      if (i == drawn) value = candidate;
     }
   }
 
   // One value through the reader of all parameter files, for the same checks and words.
   template <typename Value, typename... Limits>
   void readOne(const std::string& name, const YAML::Node& node, Value& value, Limits... limits) const {
-    YamlReader reader(mapping.file(), name, node);
+    YamlReader reader(mapping_.file(), name, node);
     reader(name, value, limits...);
   }
 
   template <typename Number>
   std::pair<Number, Number> readRange(const std::string& name, const YAML::Node& node, double minimum,
                                       double maximum) const {
-    if (node.size() != 2) mapping.fail(node, name + ": a range must have two ends, [min, max]");
+    if (node.size() != 2) mapping_.fail(node, name + ": a range must have two ends, [min, max]");
     std::pair<Number, Number> range{};
     readOne(name, node[0], range.first, minimum, maximum);
     readOne(name, node[1], range.second, minimum, maximum);
     if (range.first > range.second)
-      mapping.fail(node, name + ": the range's first end is the greater one; swap them");
+      mapping_.fail(node, name + ": the range's first end is the greater one; swap them");
     return range;
   }
 
   double draw(const std::string& path, std::pair<double, double> range) const {
     if (const auto quantile = quantileOf(path)) return range.first + *quantile * (range.second - range.first);
-    return RandomStream(seed, path).uniform(range.first, range.second);
+    return RandomStream(seed_, path).uniform(range.first, range.second);
   }
   int draw(const std::string& path, std::pair<int, int> range) const {
     if (const auto quantile = quantileOf(path))
       return std::min(range.second,
                       range.first + static_cast<int>(*quantile * (range.second - range.first + 1)));
-    return RandomStream(seed, path).uniformInt(range.first, range.second);
+    return RandomStream(seed_, path).uniformInt(range.first, range.second);
   }
 
-  template <typename Number>
-  void readNumber(const std::string& name, Number& value, double minimum, double maximum) {
-    readDrawn(name, value, [&](const YAML::Node& node, Number& number) {
-      if (!node.IsSequence()) return readOne(name, node, number, minimum, maximum);
-      number = draw(mapping.path() + name, readRange<Number>(name, node, minimum, maximum));
-    });
-  }
+  YamlMapping mapping_;
+  std::uint32_t seed_;
+  Draws& draws_;
 };
-
-ScenarioReader::ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
-                               std::uint32_t seed, Draws& draws)
-    : impl_(new Impl{YamlMapping(file, mapping, path), seed, draws}) {}
-
-ScenarioReader::~ScenarioReader() = default;
-
-void ScenarioReader::operator()(const std::string& name, double& value, double minimum, double maximum) {
-  impl_->readNumber(name, value, minimum, maximum);
-}
-
-void ScenarioReader::operator()(const std::string& name, int& value, double minimum, double maximum) {
-  impl_->readNumber(name, value, minimum, maximum);
-}
-
-void ScenarioReader::operator()(const std::string& name, bool& value) {
-  impl_->readDrawn(name, value,
-                   [&](const YAML::Node& node, bool& flag) { impl_->readOne(name, node, flag); });
-}
-
-void ScenarioReader::operator()(const std::string& name, std::string& value) {
-  impl_->readDrawn(name, value,
-                   [&](const YAML::Node& node, std::string& text) { impl_->readOne(name, node, text); });
-}
-
-void ScenarioReader::choice(const std::string& name, std::string& value,
-                            const std::vector<std::string>& allowed) {
-  impl_->readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
-    YamlReader(impl_->mapping.file(), name, node).choice(name, word, allowed);
-  });
-}
-
-std::vector<ScenarioReader::MappingOption> ScenarioReader::descend(const std::string& name) {
-  std::vector<MappingOption> options;
-  const std::string path = impl_->mapping.path() + name + "/";
-  for (const auto& [node, drawn] : impl_->findOptions(name))
-    options.push_back(
-        {std::make_unique<ScenarioReader>(impl_->mapping.file(), node, path, impl_->seed, impl_->draws),
-         drawn});
-  return options;
-}
-
-std::vector<ScenarioReader::ListOption> ScenarioReader::descendAll(const std::string& name) {
-  std::vector<ListOption> options;
-  for (const auto& [node, drawn] : impl_->findOptions(name)) {
-    if (!node.IsSequence()) impl_->mapping.fail(node, name + ": must be a list, or [] for none");
-    ListOption& option = options.emplace_back();
-    option.drawn = drawn;
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      const std::string path = impl_->mapping.path() + name + "[" + std::to_string(i) + "]/";
-      option.readers.push_back(
-          std::make_unique<ScenarioReader>(impl_->mapping.file(), node[i], path, impl_->seed, impl_->draws));
-    }
-  }
-  return options;
-}
-
-void ScenarioReader::refuseUnknownKeys() const {
-  impl_->mapping.refuseUnknownKeys([this](const std::string& path) {
-    return parameters::didYouMean(path, impl_->mapping.asked()) + "; see doc/scenarios.md";
-  });
-}
-
-namespace {
 
 YAML::Node spelledOut(const YAML::Node& vehicle) {
   if (!vehicle.IsScalar()) return vehicle;

@@ -1,8 +1,6 @@
 #include "simulation/scene/glazing.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 
 #include "simulation/surfaces/faces.hpp"

@@ -9,14 +9,9 @@ ImuSensor::ImuSensor(const ImuParams& params, std::uint32_t seed)
       random_(seed, "imu"),
       periodic_(params.rate_hz),
       delay_(params.latency_sec),
-      tilt_rad_(noise(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))) {
+      tilt_rad_(random_.normals(params.attitude_noise_rad).cwiseProduct(Eigen::Vector3d(1, 1, 0))) {
   RandomStream bias(seed, "imu bias");
   for (int axis = 0; axis < 3; ++axis) gyro_bias_radps_[axis] = bias.normal(params.gyro_bias_radps);
-}
-
-Eigen::Vector3d ImuSensor::noise(double sigma) {
-  const double x = random_.normal(sigma), y = random_.normal(sigma), z = random_.normal(sigma);
-  return {x, y, z};
 }
 
 void ImuSensor::update(double now_sec, const VehicleTruth& truth,
@@ -25,7 +20,7 @@ void ImuSensor::update(double now_sec, const VehicleTruth& truth,
   if (!periodic_.due(now_sec)) return;
   const double correlation_sec = std::max(params_.attitude_correlation_sec, 1e-6);
   const double kept = std::exp(-1.0 / (params_.rate_hz * correlation_sec));
-  const Eigen::Vector3d fresh = noise(params_.attitude_noise_rad * std::sqrt(1.0 - kept * kept));
+  const Eigen::Vector3d fresh = random_.normals(params_.attitude_noise_rad * std::sqrt(1.0 - kept * kept));
   tilt_rad_ = kept * tilt_rad_ + Eigen::Vector3d(fresh.x(), fresh.y(), 0.0);
 
   ImuSample sample;
@@ -37,8 +32,9 @@ void ImuSensor::update(double now_sec, const VehicleTruth& truth,
     attitude = attitude * Eigen::AngleAxisd(tilt.norm(), tilt.normalized()).toRotationMatrix();
   sample.R_odom_base = Eigen::Quaterniond(attitude).normalized();
   sample.angular_velocity_base_radps =
-      truth.angular_velocity_base_radps + gyro_bias_radps_ + noise(params_.gyro_noise_radps);
-  sample.specific_force_base_mps2 = specific_force_base_mps2 + noise(params_.accelerometer_noise_mps2);
+      truth.angular_velocity_base_radps + gyro_bias_radps_ + random_.normals(params_.gyro_noise_radps);
+  sample.specific_force_base_mps2 =
+      specific_force_base_mps2 + random_.normals(params_.accelerometer_noise_mps2);
   delay_.push(now_sec, sample);
 }
 

@@ -32,8 +32,6 @@ class ImuSensor {
   std::optional<ImuSample> take(double now_sec) { return delay_.take(now_sec); }
 
  private:
-  Eigen::Vector3d noise(double sigma);
-
   ImuParams params_;
   RandomStream random_;
   Periodic periodic_;

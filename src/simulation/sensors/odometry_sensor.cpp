@@ -86,21 +86,15 @@ void OdometrySensor::deliver(double now_sec, const OdometrySample& sample) {
   delivery_.pushUntil(arrival_sec, sample);
 }
 
-Eigen::Vector3d OdometrySensor::noise(double sigma) {
-  const double x = noise_random_.normal(sigma), y = noise_random_.normal(sigma),
-               z = noise_random_.normal(sigma);
-  return {x, y, z};
-}
-
 OdometrySample OdometrySensor::measure(double now_sec, const VehicleTruth& truth) {
   OdometrySample sample;
   sample.stamp_sec = now_sec + params_.stamp_offset_sec;
   sample.T_odom_base = drift_ * truth.T_odom_base;
   sample.T_odom_base.translation() +=
-      wander_m_ + horizontalTimes(flow_factor_, noise(params_.position_noise_m));
-  const Eigen::Vector3d tilt = noise(params_.attitude_noise_rad);
+      wander_m_ + horizontalTimes(flow_factor_, noise_random_.normals(params_.position_noise_m));
+  const Eigen::Vector3d tilt = noise_random_.normals(params_.attitude_noise_rad);
   if (tilt.norm() > 0.0) sample.T_odom_base.rotate(Eigen::AngleAxisd(tilt.norm(), tilt.normalized()));
-  velocity_noise_mps_ = horizontalTimes(flow_factor_, noise(params_.velocity_noise_mps));
+  velocity_noise_mps_ = horizontalTimes(flow_factor_, noise_random_.normals(params_.velocity_noise_mps));
   const Eigen::Vector3d bias_mps =
       geometry::yawRotation(geometry::yawOf(sample.T_odom_base.linear())) * velocity_bias_base_mps_;
   own_bias_mps_ = params_.own_bias_part * bias_mps;

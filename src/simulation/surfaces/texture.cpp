@@ -1,7 +1,6 @@
 #include "simulation/surfaces/texture.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "simulation/surfaces/texture_patterns.hpp"

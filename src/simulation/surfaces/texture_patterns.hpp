@@ -17,7 +17,7 @@ cv::Mat noise(cv::RNG& random, std::initializer_list<std::pair<int, double>> oct
 cv::Mat tinted(const cv::Mat& grey, const cv::Scalar& tint);
 cv::Mat roughened(cv::RNG& random, const cv::Mat& image, double amplitude);
 
-// --- surfaces that tile (texture_surfaces.cpp)
+// --- surfaces that tile
 /// Rows of stones with joints between; each stone has a shade of its own, every other row is shifted by half.
 cv::Mat courses(cv::RNG& random, int columns, int rows, double joint_px, double spread,
                 const cv::Scalar& stone, const cv::Scalar& joint);
@@ -26,7 +26,7 @@ cv::Mat siding(cv::RNG& random);
 cv::Mat louvres(cv::RNG& random);
 cv::Mat wood(cv::RNG& random);
 
-// --- pictures (texture_pictures.cpp)
+// --- pictures
 cv::Mat glass(cv::RNG& random);
 cv::Mat curtain(cv::RNG& random);
 cv::Mat poster(cv::RNG& random);

@@ -1,4 +1,4 @@
-#include "simulation/scene/shutter.hpp"
+#include "simulation/camera/shutter.hpp"
 
 #include <algorithm>
 #include <cmath>
