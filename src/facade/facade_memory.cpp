@@ -1,7 +1,6 @@
 #include "window_ingress/facade/facade_memory.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 #include <tuple>
 
@@ -180,10 +179,8 @@ Answer FacadeMemory::selectNear(const Eigen::Vector3d& point_odom_m) {
     if (nearest == nullptr || rank(window) < rank(*nearest)) nearest = &window;
   }
   if (nearest != nullptr) return select(nearest->id);
-  char text[120];
-  std::snprintf(text, sizeof text, "no window is known within %.1f m of (%.1f, %.1f, %.1f)", kMaxClickM,
-                point_odom_m.x(), point_odom_m.y(), point_odom_m.z());
-  return {false, text};
+  return {false, formatted("no window is known within %.1f m of (%.1f, %.1f, %.1f)", kMaxClickM,
+                           point_odom_m.x(), point_odom_m.y(), point_odom_m.z())};
 }
 
 void FacadeMemory::giveUp(const std::vector<std::uint32_t>& ids, bool next_one) {

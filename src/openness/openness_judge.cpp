@@ -56,15 +56,8 @@ bool passesReveal(const Eigen::Vector2d& place, const Eigen::Vector3d& eye_windo
 }  // namespace
 
 const char* toString(Openness openness) {
-  switch (openness) {
-    case Openness::kUnknown:
-      return "UNKNOWN";
-    case Openness::kOpen:
-      return "OPEN";
-    case Openness::kClosed:
-      return "CLOSED";
-  }
-  return "UNKNOWN";
+  constexpr const char* kNames[] = {"UNKNOWN", "OPEN", "CLOSED"};
+  return kNames[static_cast<std::size_t>(openness)];
 }
 
 OpennessJudge::OpennessJudge(const OpennessParams& params, const geometry::OpeningSize& needed)

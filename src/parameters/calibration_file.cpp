@@ -1,33 +1,22 @@
 #include "window_ingress/parameters/calibration_file.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <ios>
-#include <stdexcept>
 #include <vector>
 
-#include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/parameters/yaml_mapping.hpp"
 
 namespace window_ingress::parameters {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const std::string& text) {
-  throw std::runtime_error(file + ": " + text);
+  throw YamlError(file + ": " + text);
 }
 
 YAML::Node load(const std::string& file) {
-  try {
-    const YAML::Node root = YAML::LoadFile(file);
-    if (!root.IsMap()) refuse(file, "is no camera calibration: not a yaml mapping");
-    return root;
-  } catch (const YAML::BadFile&) {
-    refuse(file, "cannot be read; does it exist?");
-  } catch (const std::ios_base::failure&) {
-    refuse(file, "cannot be read; a folder?");
-  } catch (const YAML::Exception& error) {
-    refuse(file, "line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
-  }
+  const YAML::Node root = loadYaml(file);
+  if (!root.IsMap()) refuse(file, "is no camera calibration: not a yaml mapping");
+  return root;
 }
 
 std::vector<double> numbers(const YAML::Node& root, const std::string& key, const std::string& file) {

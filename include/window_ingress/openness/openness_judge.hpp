@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <deque>
-#include <string>
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/geometry/opening.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "window_ingress/openness/openness_params.hpp"
 #include "window_ingress/openness/plane_parallax.hpp"

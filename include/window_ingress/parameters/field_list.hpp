@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "window_ingress/parameters/fields.hpp"

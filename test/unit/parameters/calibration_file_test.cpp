@@ -65,7 +65,7 @@ TEST(CalibrationFile, RefusesWithFileAndReason) {
   expectRefused("/nowhere/camera.yaml", "cannot be read");
   expectRefused("/", "cannot be read");
   expectRefused(written(""), "not a yaml mapping");
-  expectRefused(written("image_width: [1"), "line");
+  expectRefused(written("image_width: [1"), "not valid yaml");
   expectRefused(written(replaced(kGood, "image_width: 640", "image_width: wide")), "image_width");
   expectRefused(
       written(replaced(kGood, "[554, 0, 319.5, 0, 553, 239.5, 0, 0, 1]", "[0, 0, 0, 0, 0, 0, 0, 0, 0]")),
