@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/csv.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 
@@ -28,7 +29,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `count` finite numbers with commas between. \throws UsageError that names the option
+/// `count` finite numbers with commas between, any number of them for 0. \throws UsageError that names the
+/// option
 inline std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
   std::vector<double> values;
   bool good = true;
@@ -38,9 +40,20 @@ inline std::vector<double> numbers(const std::string& option, const std::string&
     values.push_back(std::strtod(part.c_str(), &end));
     good = good && !part.empty() && *end == '\0' && std::isfinite(values.back());
   }
-  if (!good || values.size() != count)
-    throw UsageError(option + ": '" + text + "' is not " + std::to_string(count) +
-                     " numbers with commas between");
+  const bool as_many = count == 0 ? !values.empty() : values.size() == count;
+  if (!good || !as_many)
+    throw UsageError(option + ": '" + text + "' is not " + (count == 0 ? "" : std::to_string(count) + " ") +
+                     "numbers with commas between");
+  return values;
+}
+
+/// Any number of them, each between two bounds. \throws UsageError
+inline std::vector<double> numbersWithin(const std::string& option, const std::string& text, double least,
+                                         double most) {
+  const std::vector<double> values = numbers(option, text, 0);
+  for (const double value : values)
+    if (value < least || value > most)
+      throw UsageError(option + formatted(": needs numbers from %g to %g", least, most));
   return values;
 }
 
@@ -105,10 +118,12 @@ int runTool(const char* name, int argc, char** argv,
     Options options;
     const auto description = describe(options);
     auto given = parsed(argc, argv, description, positional);
+    if (given.count("help") > 0) {
+      std::cout << description;
+      return 0;
+    }
     boost::program_options::notify(given);
-    if (given.count("help") == 0) return body(options);
-    std::cout << description;
-    return 0;
+    return body(options);
   });
 }
 

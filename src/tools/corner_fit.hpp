@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 
@@ -57,21 +57,17 @@ inline CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners
   double on_edge = 0.0;
   const auto borders =
       detection::BorderRefinement().run(image, {*clicked, radius_px * scale}, nullptr, &on_edge);
-  char text[160];
-  std::snprintf(text, sizeof text, "only %.0f %% of one side lie on a straight edge near it",
-                100.0 * on_edge);
-  if (on_edge < kMinOnEdge) return noFit(text);
+  if (on_edge < kMinOnEdge)
+    return noFit(formatted("only %.0f %% of one side lie on a straight edge near it", 100.0 * on_edge));
   if (!borders) return noFit("the straight edge near one side leads away from its corners");
   const double most_px = std::min(kMaxMovedPx * scale, kMaxMovedPart * shortestSide(*clicked));
   CornerFit fit{{}, "moved by the fit:"};
   for (std::size_t side = 0; side < 4; ++side) {
     const double moved_px = sideMovedPx(*clicked, borders->corners, side);
-    std::snprintf(text, sizeof text,
-                  "the %s side would move by %.1f px, more than %.1f: is it on the inner edge?", kSides[side],
-                  moved_px, most_px);
-    if (!(moved_px <= most_px)) return noFit(text);
-    std::snprintf(text, sizeof text, "%s %s %.1f px", side == 0 ? "" : ",", kSides[side], moved_px);
-    fit.said += text;
+    if (!(moved_px <= most_px))
+      return noFit(formatted("the %s side would move by %.1f px, more than %.1f: is it on the inner edge?",
+                             kSides[side], moved_px, most_px));
+    fit.said += formatted("%s %s %.1f px", side == 0 ? "" : ",", kSides[side], moved_px);
   }
   for (const auto& corner : borders->corners) fit.corners.insert(fit.corners.end(), {corner.x(), corner.y()});
   return fit;

@@ -3,26 +3,24 @@
 #include <boost/program_options.hpp>
 #include <cctype>
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
-#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "command_line.hpp"
+#include "evaluation/csv.hpp"
 #include "evaluation/images/detection_table.hpp"
+#include "evaluation/output_file.hpp"
 #include "params_file.hpp"
+#include "progress.hpp"
 #include "window_finder.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/yaw_text.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
@@ -33,12 +31,6 @@ using tools::UsageError;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// The input is fine, the work failed: one line, exit code 1.
-class JobError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Options {
   std::vector<std::string> inputs;
@@ -53,46 +45,34 @@ struct Job {
   std::optional<geometry::PinholeCamera> camera;
   std::optional<detection::ReferenceAppearance> reference;
   std::optional<estimation::WindowPoseEstimator> estimator;
-  std::string overlay;
 };
 
-Options parse(int argc, char** argv) {
-  Options o;
-  po::options_description named(
+po::options_description describe(Options& o) {
+  po::options_description description(
       "Usage: detect_images --output OUT.csv [options] FILE_OR_DIR...\n"
       "Finds the window in each image and writes one csv row an image, in the order given.\n"
       "Exit code: 0 done, 1 some image could not be read, 2 wrong usage or unreadable input.\n\nOptions");
-  named.add_options()("help,h", "this text")                                                              //
-      ("output,o", po::value(&o.output), "csv file to write")                                             //
-      ("camera", po::value(&o.camera), "calibration, yaml of camera_info_manager")                        //
-      ("reference", po::value(&o.reference), "image of the target with its frame")                        //
-      ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
-      ("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses")     //
-      ("params", po::value(&o.params), tools::kParamsHelp)                                                //
-      ("track", po::bool_switch(&o.track), "the images are a sequence: follow the window through it")     //
-      ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: images a second")          //
-      ("candidates", po::value(&o.candidates), "csv file of every candidate and what became of it")       //
-      ("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
-  po::options_description all;
-  all.add(named).add_options()("input", po::value(&o.inputs), "");
-  po::positional_options_description positional;
-  positional.add("input", -1);
-  po::variables_map values;
-  try {
-    values = tools::parsed(argc, argv, all, positional);
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw UsageError(std::string(error.what()) + "; see --help");
-  }
-  if (values.count("help")) {
-    std::cout << named << std::endl;
-    std::exit(0);
-  }
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("input", po::value(&o.inputs), "images, or folders of them; needs no name");
+  add("output,o", po::value(&o.output), "csv file to write");
+  add("camera", po::value(&o.camera), "calibration, yaml of camera_info_manager");
+  add("reference", po::value(&o.reference), "image of the target with its frame");
+  add("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it");
+  add("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses");
+  add("params", po::value(&o.params), tools::kParamsHelp);
+  add("track", po::bool_switch(&o.track), "the images are a sequence: follow the window through it");
+  add("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: images a second");
+  add("candidates", po::value(&o.candidates), "csv file of every candidate and what became of it");
+  add("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
+  return description;
+}
+
+void check(const Options& o) {
   if (o.output.empty()) throw UsageError("--output is missing; see --help");
   if (o.inputs.empty()) throw UsageError("no image given; see --help");
   if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0)) throw UsageError("--rate: needs images a second, above 0");
   if (!o.corners.empty() && o.reference.empty()) throw UsageError("--reference-corners needs --reference");
-  return o;
 }
 
 bool looksLikeImage(const fs::path& path) {
@@ -157,8 +137,7 @@ Job prepare(const Options& o) {
     params.opening_width_m = size[0], params.opening_height_m = size[1];
     if (job.camera) job.estimator.emplace(params);
   }
-  job.overlay = o.overlay;
-  if (!o.overlay.empty()) fs::create_directories(o.overlay);
+  if (!o.overlay.empty()) tools::makeFolder(o.overlay);
   return job;
 }
 
@@ -189,74 +168,55 @@ void writeOverlay(const std::string& file, const cv::Mat& image, const tools::Wi
   if (row.pose && row.window)
     detection::drawYaw(canvas, *row.window,
                        geometry::yawText(row.pose->yaw_rad, row.pose->yaw_sigma_rad, row.pose->sign_trusted));
-  const fs::path target = fs::path(folder) / (fs::path(file).filename().string() + ".png");
-  if (!cv::imwrite(target.string(), canvas))
-    throw JobError(target.string() + ": cannot be written; is the disk full?");
+  evaluation::writeImage(fs::path(folder) / (fs::path(file).filename().string() + ".png"), canvas);
 }
 
-std::ofstream opened(const std::string& file, const std::string& header) {
+void begin(evaluation::OutputFile& output, const std::string& file, const std::string& header) {
   const fs::path folder = fs::path(file).parent_path();
-  if (!folder.empty()) fs::create_directories(folder);
-  std::ofstream output(file);
-  if (!output) throw UsageError(file + ": cannot be written");
+  if (!folder.empty()) tools::makeFolder(folder.string());
+  output.open(file);
   output << "file," << header << "\n";
-  return output;
 }
 
-void finish(std::ofstream& output, const std::string& file) {
-  output.flush();
-  if (!output) throw JobError(file + ": writing failed; is the disk full?");
-}
-
-int run(const Options& options) {
-  const std::vector<std::string> images = listImages(options.inputs);
-  const Job job = prepare(options);
-  tools::WindowFinder finder(job.params, job.reference, options.track ? options.rate_hz : 0.0);
-  std::ofstream output = opened(options.output, evaluation::detectionColumns() + finder.columns());
-  std::ofstream candidates;
-  if (!options.candidates.empty()) candidates = opened(options.candidates, evaluation::candidateColumns());
+int run(const Options& o) {
+  check(o);
+  const std::vector<std::string> images = listImages(o.inputs);
+  const Job job = prepare(o);
+  tools::WindowFinder finder(job.params, job.reference, o.track ? o.rate_hz : 0.0);
+  evaluation::OutputFile output, candidates;
+  begin(output, o.output, evaluation::detectionColumns() + finder.columns());
+  if (!o.candidates.empty()) begin(candidates, o.candidates, evaluation::candidateColumns());
   int unreadable = 0, found = 0;
-  auto next_report = Clock::now() + std::chrono::seconds(5);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const cv::Mat image = readImage(images[i]);
+  tools::Progress progress("detect_images", "images", images.size());
+  for (const std::string& file : images) {
+    const cv::Mat image = readImage(file);
     evaluation::DetectionRow row;
     if (image.empty()) {
       ++unreadable;
       finder.skip();
       row.reject_reason = "unreadable";
-      std::cerr << "detect_images: " << images[i] << ": cannot be read as an image; skipped" << std::endl;
+      std::cerr << "detect_images: " << file << ": cannot be read as an image; skipped" << std::endl;
     } else {
       row = process(image, job, finder);
       found += row.window.has_value();
       if (candidates.is_open())
-        candidates << evaluation::candidateRows(evaluation::csvField(images[i]), finder.trace());
-      if (!job.overlay.empty()) writeOverlay(images[i], image, finder, row, job.overlay);
+        candidates << evaluation::candidateRows(evaluation::csvField(file), finder.trace());
+      if (!o.overlay.empty()) writeOverlay(file, image, finder, row, o.overlay);
     }
-    output << evaluation::csvField(images[i]) << "," << evaluation::detectionValues(row) << finder.values(row)
+    output << evaluation::csvField(file) << "," << evaluation::detectionValues(row) << finder.values(row)
            << "\n";
-    if (Clock::now() < next_report) continue;
-    next_report += std::chrono::seconds(5);
-    std::cerr << "detect_images: " << i + 1 << " of " << images.size() << " images" << std::endl;
+    progress.passed();
   }
-  finish(output, options.output);
-  if (candidates.is_open()) finish(candidates, options.candidates);
-  std::cout << "a window in " << found << " of " << images.size() << " images; see " << options.output
-            << (job.overlay.empty() ? "" : " and " + job.overlay) << std::endl;
+  output.finish();
+  if (candidates.is_open()) candidates.finish();
+  std::cout << "a window in " << found << " of " << images.size() << " images; see " << o.output
+            << (o.overlay.empty() ? "" : " and " + o.overlay) << std::endl;
   return unreadable ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto fail = [](const std::exception& error, int code) {
-    std::cerr << "detect_images: " << error.what() << std::endl;
-    return code;
-  };
-  try {
-    return run(parse(argc, argv));
-  } catch (const JobError& error) {
-    return fail(error, 1);
-  } catch (const std::exception& error) {
-    return fail(error, 2);
-  }
+  return tools::runTool("detect_images", argc, argv, describe, run,
+                        po::positional_options_description().add("input", -1));
 }

@@ -4,12 +4,13 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "command_line.hpp"
 #include "evaluation/images/stage_sheet.hpp"
-#include "simulation/world.hpp"
+#include "evaluation/output_file.hpp"
+#include "scenario_view.hpp"
+#include "simulation/camera/reference_image.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
@@ -18,14 +19,13 @@ namespace options = boost::program_options;
 using namespace window_ingress;
 using tools::UsageError;
 
-constexpr double kSettling_sec = 0.4;  // until the camera has seen the scene
-constexpr int kQuality = 75;           // of a jpg
+constexpr int kQuality = 75;  // of a jpg
 
 struct Job {
   std::string scenario, image, output, params;
   std::uint32_t seed = 1;
   int cell_width_px = 480;
-  double distance_m = 0.0, off_axis_rad = 0.0;  // 0 m: as the scenario has it
+  tools::ViewOptions view;
 };
 
 struct Subject {
@@ -36,35 +36,24 @@ struct Subject {
 options::options_description describe(Job& job) {
   options::options_description description(
       "Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE\n\nOptions");
-  description.add_options()("help", "print this text")                                                  //
-      ("output", options::value(&job.output), "the sheet")                                              //
-      ("scenario", options::value(&job.scenario), "scenario file; the view is from its start")          //
-      ("seed", options::value(&job.seed)->default_value(1), "of the scenario")                          //
-      ("distance", options::value(&job.distance_m), "instead of the start's [m]")                       //
-      ("off-axis", options::value(&job.off_axis_rad), "with --distance: instead of the start's [rad]")  //
-      ("image", options::value(&job.image), "an image instead of a scenario; without a reference")      //
-      ("params", options::value(&job.params), tools::kParamsHelp)                                       //
-      ("width", options::value(&job.cell_width_px)->default_value(480), "of each picture on the sheet [px]");
+  auto add = description.add_options();
+  add("help,h", "this text");
+  add("output,o", options::value(&job.output), "the sheet");
+  add("scenario", options::value(&job.scenario), "scenario file; the view is from its start");
+  add("seed", options::value(&job.seed)->default_value(job.seed), "of the scenario");
+  add("image", options::value(&job.image), "an image instead of a scenario; without a reference");
+  add("params", options::value(&job.params), tools::kParamsHelp);
+  add("width", options::value(&job.cell_width_px)->default_value(job.cell_width_px),
+      "of each picture on the sheet [px]");
+  job.view.describe(description);
   return description;
 }
 
-// From the start, but looking at the window.
 Subject photograph(const Job& job) {
-  auto scenario = simulation::loadScenario(job.scenario, job.seed);
-  scenario.start.heading_rad = 0.0;
-  if (job.distance_m > 0.0) {
-    scenario.start.distance_m = job.distance_m;
-    scenario.start.off_axis_rad = job.off_axis_rad;
-    scenario.start.height_offset_m = 0.0;
-  }
-  simulation::World world(scenario, job.seed);
-  Subject subject;
-  while (subject.image.empty() || world.timeSec() < kSettling_sec) {
-    world.advance();
-    if (const auto frame = world.takeFrame()) subject.image = frame->image.clone();
-  }
+  const auto scenario = simulation::loadScenario(job.scenario, job.seed);
+  Subject subject{tools::photograph(scenario, job.seed, job.view), std::nullopt};
   geometry::Quadrilateral corners;
-  const cv::Mat image = world.referenceImage(&corners);
+  const cv::Mat image = simulation::referenceImage(scenario, &corners);
   subject.reference.emplace(image, corners);
   return subject;
 }
@@ -81,14 +70,12 @@ int run(const Job& job) {
   if (job.output.empty()) throw UsageError("--output is missing; see --help");
   if (job.scenario.empty() == job.image.empty())
     throw UsageError("give either a scenario or an image; see --help");
-  if (!(job.distance_m >= 0.0)) throw UsageError("--distance: needs metres, above 0");
-  if (job.off_axis_rad != 0.0 && job.distance_m == 0.0) throw UsageError("--off-axis needs --distance");
+  job.view.check();
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const Subject subject = job.image.empty() ? photograph(job) : read(job);
   const cv::Mat sheet = evaluation::stageSheet(
       subject.image, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);
-  if (!cv::imwrite(job.output, sheet, {cv::IMWRITE_JPEG_QUALITY, kQuality}))
-    throw std::runtime_error(job.output + ": cannot write");
+  evaluation::writeImage(job.output, sheet, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   return 0;
 }
 

@@ -7,12 +7,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <iostream>
 #include <memory>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -58,13 +55,12 @@ struct Stopped {};
 
 evaluation::FlightResult flyLogged(const FlyJob& job, const simulation::Scenario& scenario,
                                    std::uint32_t seed, evaluation::FlightTiming& timing) {
-  if (job.log_folder.empty()) return evaluation::flyOnce(scenario, seed, job.params, {}, &timing);
+  if (job.asked.log.empty()) return evaluation::flyOnce(scenario, seed, job.params, {}, &timing);
   evaluation::FlightLog log;
   auto result = evaluation::flyOnce(scenario, seed, job.params, {&log}, &timing);
-  const std::string name = job.log_folder + "/flight_" + std::to_string(seed) + ".csv";
-  std::ofstream file(name);
+  evaluation::OutputFile file(job.asked.log + "/flight_" + std::to_string(seed) + ".csv");
   evaluation::writeCsv(log, file);
-  if (!file.flush()) throw std::runtime_error(name + ": cannot be written; is the disk full?");
+  file.finish();
   return result;
 }
 
@@ -78,9 +74,7 @@ void recordAgain(const FlyJob& job, const simulation::Scenario& scenario,
   if (evaluation::csvRow(again) != evaluation::csvRow(flight))
     throw std::runtime_error("seed " + std::to_string(flight.seed) +
                              ": flown again for its bag, it ended otherwise; flights must repeat");
-  const cv::Mat image = strip.draw(flight, tools::outlineOf(scenario));
-  if (image.empty() || !cv::imwrite(name + ".png", image))
-    throw std::runtime_error(name + ".png: cannot write");
+  evaluation::writeImage(name + ".png", strip.draw(flight, tools::outlineOf(scenario)));
 }
 
 evaluation::FlightResult fly(const FlyJob& job, std::uint32_t seed, evaluation::FlightTiming& timing) {
@@ -106,11 +100,12 @@ void printTiming(const evaluation::FlightTiming& timing) {
 
 // The last of the flights there is flown again: that it ends as it did shows that the others would.
 std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
-  if (!job.resumes || !job.holdsFlights()) return {};
-  auto flights = evaluation::readFlights(job.output_folder);
+  const std::string& folder = job.asked.output;
+  if (!job.asked.resume || !job.holdsFlights()) return {};
+  auto flights = evaluation::readFlights(folder);
   for (const auto& flight : flights)
     if (std::find(job.seeds.begin(), job.seeds.end(), flight.seed) == job.seeds.end())
-      throw UsageError("--resume: " + job.output_folder + " holds seed " + std::to_string(flight.seed) +
+      throw UsageError("--resume: " + folder + " holds seed " + std::to_string(flight.seed) +
                        ", which is not among those asked for");
   if (flights.empty()) return flights;
   const std::uint32_t seed = flights.back().seed;
@@ -119,7 +114,7 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   const auto again = evaluation::flyOnce(job.scenario(seed), seed, job.params, {});
   if (evaluation::csvRow(again) != evaluation::csvRow(flights.back()))
     throw UsageError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +
-                     job.output_folder + "/flights.csv: another scenario, other parameters or another build");
+                     folder + "/flights.csv: another scenario, other parameters or another build");
   flights.back() = again;
   return flights;
 }
@@ -153,23 +148,24 @@ int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResult
     printProgress(done, total, results.passed() - passed_before, spent.count());
   };
   try {
-    evaluation::flyAll(seeds, job.jobs, flyTimed, report);
+    evaluation::flyAll(seeds, job.asked.jobs, flyTimed, report);
   } catch (const Stopped&) {
   }
-  if (job.with_timing) printTiming(all);
+  if (job.asked.timing) printTiming(all);
   return flown;
 }
 
 int join(const FlyJob& job) {
-  const auto flights = evaluation::joinFlights(job.join_folders);
+  const auto flights = evaluation::joinFlights(job.asked.join);
   FlyResults results(job);
   for (const auto& flight : flights) results.add(flight);
   results.finish();
   return 0;
 }
 
-int run(const FlyJob& job) {
-  if (!job.join_folders.empty()) return join(job);
+int run(const tools::FlyOptions& asked) {
+  const FlyJob job = tools::jobOf(asked);
+  if (!asked.join.empty()) return join(job);
   const auto before = flownBefore(job);
   stopAt(SIGINT);
   stopAt(SIGTERM);
@@ -187,8 +183,5 @@ int run(const FlyJob& job) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return tools::runTool("fly", [&] {
-    const FlyJob job = tools::parseFly(argc, argv, tools::describeFly());
-    return job.scenario_file.empty() ? 0 : run(job);
-  });
+  return tools::runTool("fly", argc, argv, tools::describeFly, run);
 }

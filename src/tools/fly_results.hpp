@@ -2,14 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "evaluation/flights/flight_picture.hpp"
 #include "evaluation/flights/flight_table.hpp"
+#include "evaluation/output_file.hpp"
 #include "fly_job.hpp"
 
 namespace window_ingress::tools {
@@ -23,45 +21,45 @@ inline evaluation::WallOutline outlineOf(const simulation::Scenario& scenario) {
 class FlyResults {
  public:
   explicit FlyResults(const FlyJob& job)
-      : job_(job), rows_(job.output_folder + "/flights.csv"), tracks_(job.output_folder + "/tracks.csv") {
-    for (const char* of_the_whole : {"/summary.json", "/tracks.png"})
-      std::filesystem::remove(job.output_folder + of_the_whole);
+      : job_(job),
+        folder_(job.asked.output),
+        rows_(folder_ / "flights.csv"),
+        tracks_(folder_ / "tracks.csv") {
+    for (const char* of_the_whole : {"summary.json", "tracks.png"})
+      std::filesystem::remove(folder_ / of_the_whole);
     rows_ << evaluation::csvHeader() << "\n";
     tracks_ << evaluation::trackHeader() << "\n";
   }
   void add(const evaluation::FlightResult& flight) {
     rows_ << evaluation::csvRow(flight) << "\n" << std::flush;
-    tracks_ << evaluation::trackRows(flight) << std::flush;
-    check(rows_ && tracks_);
+    tracks_ << evaluation::trackRows(flight);
+    rows_.check();
+    tracks_.finish();
     passed_ += flight.outcome == simulation::Outcome::kPassed ? 1 : 0;
   }
   int passed() const { return passed_; }
   void finish() {
-    rows_.close();
-    tracks_.close();
-    check(rows_ && tracks_);
+    rows_.finish();
+    tracks_.finish();
     // Of the numbers as they stand in the table: joined shards give the same bytes.
-    const auto flights = evaluation::readFlights(job_.output_folder);
-    std::ofstream summary(job_.output_folder + "/summary.json");
+    const auto flights = evaluation::readFlights(folder_.string());
+    evaluation::OutputFile summary(folder_ / "summary.json");
     summary << evaluation::toJson(evaluation::summarise(flights), factsOf(flights));
-    summary.close();
+    summary.finish();
     const auto scenario = job_.scenario(seedOf(flights));
-    const std::string title = std::filesystem::path(job_.scenario_file).stem().string() + ", " +
+    const std::string title = std::filesystem::path(job_.asked.scenario).stem().string() + ", " +
                               std::to_string(flights.size()) + " flights";
-    const bool drawn = cv::imwrite(job_.output_folder + "/tracks.png",
-                                   evaluation::drawTracks(flights, outlineOf(scenario), title));
-    check(summary && drawn);
+    evaluation::writeImage(folder_ / "tracks.png",
+                           evaluation::drawTracks(flights, outlineOf(scenario), title));
   }
 
  private:
-  void check(bool written) const {
-    if (!written) throw std::runtime_error(job_.output_folder + ": cannot write; is the disk full?");
-  }
   evaluation::CampaignFacts factsOf(const std::vector<evaluation::FlightResult>& flights) const {
     std::vector<std::uint32_t> seeds;
     for (const auto& flight : flights) seeds.push_back(flight.seed);
-    return {job_.scenario_file, evaluation::seedsText(seeds), job_.draws_file,
-            job_.params_file,   !job_.params.without_images,  WINDOW_INGRESS_VERSION};
+    const FlyOptions& o = job_.asked;
+    return {o.scenario,     evaluation::seedsText(seeds), o.draws, o.params,
+            !o.no_pictures, WINDOW_INGRESS_VERSION};
   }
   // Of a flight whose scenario stands for all in the image; there may be none in a shard.
   std::uint32_t seedOf(const std::vector<evaluation::FlightResult>& flights) const {
@@ -69,7 +67,8 @@ class FlyResults {
   }
 
   const FlyJob& job_;
-  std::ofstream rows_, tracks_;
+  const std::filesystem::path folder_;
+  evaluation::OutputFile rows_, tracks_;
   int passed_ = 0;
 };
 

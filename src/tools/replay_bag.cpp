@@ -4,7 +4,6 @@
 
 #include <boost/program_options.hpp>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -36,13 +35,12 @@ struct Options {
   adapters::ReferenceParams reference;
 };
 
-Options parse(int argc, char** argv) {
-  Options o;
-  po::options_description named(
+po::options_description describe(Options& o) {
+  po::options_description description(
       "Usage: replay_bag --bag FILE.bag --output DIR [options]\n"
       "Runs detector, pose and filter over a bag; writes DIR/frames.csv,\n"
       "details.csv, latency.csv, replay.png, and all of it as one page: report.html.\n\nOptions");
-  named.add_options()("help,h", "this text")                                         //
+  description.add_options()("help,h", "this text")                                   //
       ("bag", po::value(&o.bag)->required(), "bag to read")                          //
       ("output,o", po::value(&o.output)->required(), "folder to write into")         //
       ("image", po::value(&o.topics.image), "topic; else the only one of its type")  //
@@ -56,17 +54,10 @@ Options parse(int argc, char** argv) {
        "W,H: inner size of the opening [m]; without it, here or in --params, no poses")  //
       ("params", po::value(&o.params), tools::kParamsHelp)                               //
       ("truth", po::value(&o.topics.truth), "PoseStamped with the true T_camera_window, by stamp");
-  po::variables_map values;
-  try {
-    values = tools::parsed(argc, argv, named);
-    if (values.count("help") > 0) {
-      std::cout << named << std::endl;
-      std::exit(0);
-    }
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw UsageError(std::string(error.what()) + "; see --help");
-  }
+  return description;
+}
+
+Options checked(Options o) {
   if (!o.corners.empty() && o.reference.picture.empty())
     throw UsageError("--reference-corners needs --reference");
   if (!o.topics.truth.empty() && o.size.empty()) throw UsageError("--truth needs --window-size");
@@ -176,6 +167,6 @@ int run(const Options& options, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return tools::runTool("replay_bag",
-                        [&] { return run(parse(argc, argv), adapters::commandLine(argc, argv)); });
+  const auto body = [&](const Options& o) { return run(checked(o), adapters::commandLine(argc, argv)); };
+  return tools::runTool("replay_bag", argc, argv, describe, body);
 }

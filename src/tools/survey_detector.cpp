@@ -3,19 +3,17 @@
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/images/survey_folder.hpp"
+#include "evaluation/output_file.hpp"
 #include "progress.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
@@ -68,27 +66,23 @@ po::options_description describe(Options& o) {
   return description;
 }
 
-void checkDistances(const std::string& option, const std::vector<double>& distances) {
-  for (const double distance : distances)
-    if (distance < 0.3 || distance > 100.0) throw UsageError(option + ": needs distances of 0.3 to 100 m");
+std::vector<double> risingDistances(const std::string& option, const std::string& text) {
+  const std::vector<double> distances = tools::numbersWithin(option, text, 0.3, 100.0);
   if (!std::is_sorted(distances.begin(), distances.end()))
     throw UsageError(option + ": needs rising distances");
+  return distances;
 }
 
 std::vector<double> fixedDistances(const Options& o) {
-  if (o.at.empty()) return {};
-  const auto commas = static_cast<std::size_t>(std::count(o.at.begin(), o.at.end(), ','));
-  const std::vector<double> distances = tools::numbers("--at", o.at, commas + 1);
-  checkDistances("--at", distances);
-  return distances;
+  return o.at.empty() ? std::vector<double>() : risingDistances("--at", o.at);
 }
 
 // Of the i-th frame.
 evaluation::ViewRange rangeOf(const Options& o, int i) {
   if (!(o.off_axis_deg >= 0.0 && o.off_axis_deg < 85.0))
     throw UsageError("--off-axis: needs 0 to 85 degrees");
-  const std::vector<double> fixed = fixedDistances(o), range_m = tools::numbers("--distance", o.distance, 2);
-  checkDistances("--distance", range_m);
+  const std::vector<double> fixed = fixedDistances(o), range_m = risingDistances("--distance", o.distance);
+  if (range_m.size() != 2) throw UsageError("--distance: needs two distances");
   evaluation::ViewRange range;
   range.nearest_m = fixed.empty() ? range_m[0] : fixed[i % fixed.size()];
   range.farthest_m = fixed.empty() ? range_m[1] : range.nearest_m;
@@ -130,10 +124,10 @@ class Survey {
   }
 
   void finish() {
-    std::ofstream summary(fs::path(options_.output) / "summary.csv");
+    evaluation::OutputFile summary(fs::path(options_.output) / "summary.csv");
     summary << table_.csv();
-    if (!frames_.flush() || !summary.flush())
-      throw std::runtime_error(options_.output + ": cannot be written; is the disk full?");
+    summary.finish();
+    frames_.finish();
     std::cout << table_.markdown();
   }
 
@@ -156,8 +150,7 @@ class Survey {
     if (sample.truth.present) cv::polylines(canvas, corners, true, cv::Scalar::all(255));
     const fs::path file = fs::path(options_.overlay) / (sample.scenario + "_" + std::to_string(sample.seed) +
                                                         "_" + evaluation::toString(result.verdict) + ".png");
-    if (!cv::imwrite(file.string(), canvas))
-      throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    evaluation::writeImage(file, canvas);
   }
 
   static detection::DetectorParams paramsOf(const Options& o) {
@@ -166,7 +159,7 @@ class Survey {
 
   Options options_;
   detection::WindowDetector detector_;
-  std::ofstream frames_;
+  evaluation::OutputFile frames_;
   evaluation::SurveyTable table_;
 };
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <chrono>
-#include <fstream>
-#include <iostream>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
+#include "evaluation/output_file.hpp"
 #include "evaluation/poses/filter_survey.hpp"
 #include "evaluation/statistics.hpp"
 #include "progress.hpp"
@@ -102,7 +101,7 @@ int survey(const Options& o) {
   check(o);
   const auto filter = configuration::readOverlay(o.params).homography_pose.filter;
   tools::makeFolder(o.output);
-  std::ofstream table(o.output + "/filter.csv");
+  evaluation::OutputFile table(o.output + "/filter.csv");
   table << "run,time_s,flown_m,x_m,y_m,trusted,nees,position_error_m,yaw_error_deg,yaw_sigma_deg,relative_"
            "yaw_deg,"
            "filtered_yaw_deg,single_yaw_deg,width_error,width_sigma,apparent_width_m,nis\n";
@@ -136,7 +135,7 @@ int survey(const Options& o) {
   std::printf("whole approaches  | %4d | %.2f (%.2f .. %.2f)\n", trusted_runs,
               nees / std::max(trusted_runs, 1), band.low, band.high);
   std::printf("%.0f us an image, simulation included\n", 1e6 * seconds / images);
-  if (!table.flush()) throw std::runtime_error(o.output + "/filter.csv: cannot be written");
+  table.finish();
   return 0;
 }
 

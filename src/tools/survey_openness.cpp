@@ -2,15 +2,14 @@
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
 #include "evaluation/openness/openness_survey.hpp"
+#include "evaluation/output_file.hpp"
 #include "progress.hpp"
 #include "simulation/random_stream.hpp"
 #include "window_ingress/configuration/overlay.hpp"
@@ -142,7 +141,8 @@ class Survey {
     take(result);
   }
   int finish() {
-    if (!csv_.flush()) throw std::runtime_error(options_.output + ": cannot be written; is the disk full?");
+    csv_.finish();
+    if (!options_.trace.empty()) trace_.finish();
     std::cout << table_.markdown() << "called open though it is not: " << table_.falseOpen() << std::endl;
     return table_.falseOpen() > 0 ? 1 : 0;
   }
@@ -158,11 +158,9 @@ class Survey {
   evaluation::OpennessStep tracer(std::uint32_t seed) {
     if (options_.trace.empty()) return {};
     return [this, seed](double plane_m, const openness::OpennessVerdict& v) {
-      char text[400];
-      std::snprintf(text, sizeof text, "%u,%.3f,%s,%.3f,%.3f,%.3f,\"%s\"", seed, plane_m,
-                    openness::toString(v.openness), v.log_odds, v.depth_behind_m, v.open_share,
-                    v.reason.c_str());
-      lines_.push_back(text);
+      lines_.push_back(formatted("%u,%.3f,%s,%.3f,%.3f,%.3f,\"%s\"", seed, plane_m,
+                                 openness::toString(v.openness), v.log_odds, v.depth_behind_m, v.open_share,
+                                 v.reason.c_str()));
     };
   }
 
@@ -170,7 +168,7 @@ class Survey {
   openness::InteriorKltParams follower_;
   openness::OpennessParams params_;
   evaluation::OpennessTable table_;
-  std::ofstream csv_, trace_;
+  evaluation::OutputFile csv_, trace_;
   std::vector<std::string> lines_;
   tools::Progress progress_{"survey_openness", "approaches", approaches(options_)};
 };

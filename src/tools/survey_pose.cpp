@@ -1,7 +1,6 @@
 /// Measures the pose from one image against the truth and beside OpenCV; see --help.
 #include <boost/program_options.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <random>
@@ -10,6 +9,7 @@
 
 #include "command_line.hpp"
 #include "evaluation/images/survey_folder.hpp"
+#include "evaluation/output_file.hpp"
 #include "evaluation/poses/pose_chain.hpp"
 #include "evaluation/poses/pose_survey.hpp"
 #include "window_ingress/configuration/overlay.hpp"
@@ -60,16 +60,6 @@ po::options_description describe(Options& o) {
   return description;
 }
 
-std::vector<double> numbersOf(const std::string& option, const std::string& text, double least, double most) {
-  const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
-  const std::vector<double> values = tools::numbers(option, text, commas + 1);
-  for (const double value : values)
-    if (value < least || value > most)
-      throw UsageError(option + ": needs numbers from " + std::to_string(least) + " to " +
-                       std::to_string(most));
-  return values;
-}
-
 evaluation::PoseSurveySetup setupOf(const Options& o) {
   evaluation::PoseSurveySetup setup = evaluation::usualSetup();
   if (!o.camera.empty()) setup.camera = parameters::readCalibrationFile(o.camera);
@@ -84,12 +74,11 @@ evaluation::PoseSurveySetup setupOf(const Options& o) {
 int surveyNoise(const Options& o) {
   if (o.draws < 1) throw UsageError("--draws: needs 1 at least");
   const auto setup = setupOf(o);
-  const auto distances = numbersOf("--at", o.distances, 0.3, 100.0);
-  const auto yaws = numbersOf("--yaw", o.yaws, 0.0, 80.0);
-  const auto noises = numbersOf("--noise", o.noises, 0.001, 10.0);
+  const auto distances = tools::numbersWithin("--at", o.distances, 0.3, 100.0);
+  const auto yaws = tools::numbersWithin("--yaw", o.yaws, 0.0, 80.0);
+  const auto noises = tools::numbersWithin("--noise", o.noises, 0.001, 10.0);
   tools::makeFolder(o.output);
-  const fs::path file = fs::path(o.output) / "cells.csv";
-  std::ofstream table(file);
+  evaluation::OutputFile table(fs::path(o.output) / "cells.csv");
   table << evaluation::poseSurveyColumns() << "\n";
   std::vector<evaluation::PoseCellResult> results;
   std::uint32_t seed = o.seed;
@@ -105,7 +94,7 @@ int surveyNoise(const Options& o) {
       }
     std::cerr << "survey_pose: " << results.size() << " cells" << std::endl;
   }
-  if (!table.flush()) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+  table.finish();
   std::cout << evaluation::poseSurveyTable(results) << "\n" << evaluation::poseSurveySummary(results);
   return 0;
 }
@@ -166,11 +155,10 @@ int surveyImages(const Options& o) {
     folder.readTable();
     for (int i = 0; i < folder.size(); ++i) chain.look(folder.load(i));
   }
-  const fs::path file = fs::path(o.output) / "pictures.csv";
-  std::ofstream table(file);
+  evaluation::OutputFile table(fs::path(o.output) / "pictures.csv");
   table << evaluation::poseChainColumns() << "\n";
   for (const auto& result : chain.results) table << evaluation::poseChainRow(result) << "\n";
-  if (!table.flush()) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+  table.finish();
   std::cout << evaluation::poseChainTable(chain.results);
   return 0;
 }

@@ -2,10 +2,8 @@
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +11,7 @@
 #include "evaluation/images/survey_flight.hpp"
 #include "evaluation/images/survey_image.hpp"
 #include "evaluation/images/track_survey.hpp"
+#include "evaluation/output_file.hpp"
 #include "progress.hpp"
 #include "simulation/camera/camera_sensor.hpp"
 #include "simulation/camera/reference_image.hpp"
@@ -83,9 +82,10 @@ class Attitude {
 
  private:
   Eigen::Matrix3d draw(double sigma_rad) {
-    const double x = random_.normal(sigma_rad), y = random_.normal(sigma_rad), z = random_.normal(sigma_rad);
-    return (Eigen::AngleAxisd(x, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(y, Eigen::Vector3d::UnitY()) *
-            Eigen::AngleAxisd(z, Eigen::Vector3d::UnitZ()))
+    const Eigen::Vector3d turn = random_.normals(sigma_rad);
+    return (Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX()) *
+            Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()))
         .toRotationMatrix();
   }
   simulation::RandomStream random_;
@@ -161,7 +161,7 @@ int run(const Options& o) {
   tools::Progress progress("survey_tracker", "flights", o.scenarios.size() * o.flights);
   for (const std::string& file : o.scenarios) {
     const std::string name = fs::path(file).stem().string();
-    std::ofstream table(fs::path(o.output) / (name + ".csv"));
+    evaluation::OutputFile table(fs::path(o.output) / (name + ".csv"));
     table << evaluation::trackColumns() << "\n";
     evaluation::TrackSummary summary;
     for (int i = 0; i < o.flights; ++i, progress.passed())
@@ -169,7 +169,7 @@ int run(const Options& o) {
         table << evaluation::trackRow(result) << "\n";
         summary.add(result);
       });
-    if (!table.flush()) throw std::runtime_error(o.output + ": cannot be written; is the disk full?");
+    table.finish();
     std::cout << summary.markdown(name) << std::flush;
   }
   return 0;

@@ -1,9 +1,7 @@
 /// Trackbars over the detector's stages, on images, a bag or a live camera; saves the yaml that nodes and
 /// tools load. See
 /// --help.
-#include <algorithm>
 #include <boost/program_options.hpp>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <opencv2/highgui.hpp>

@@ -1,7 +1,6 @@
 /// What tune_detector turns its trackbars at.
 #pragma once
 
-#include <cstdio>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "evaluation/images/stage_sheet.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 
@@ -40,10 +40,7 @@ class Bench {
     const auto window = detector_.detect(image, 0.0);
     milliseconds_ = 1e3 * (adapters::steadyNowSec() - begun_sec);
     found_ = window.has_value();
-    char text[120];
-    std::snprintf(text, sizeof text, window ? "window, score %.2f" : "no window",
-                  window ? window->score : 0.0);
-    std::string line = text;
+    std::string line = window ? formatted("window, score %.2f", window->score) : "no window";
     if (window && window->has_appearance)
       line += ", distance " + std::to_string(window->bhattacharyya).substr(0, 4);
     if (!window) line += ": " + detector_.trace().detail;
@@ -64,14 +61,11 @@ class Bench {
 
  private:
   std::string times() const {
-    char text[80];
-    std::snprintf(text, sizeof text, "%.1f ms", milliseconds_);
-    std::string line = text;
+    std::string line = formatted("%.1f ms", milliseconds_);
     for (int i = 0; i < detection::kStages; ++i) {
       const auto stage = static_cast<detection::Stage>(i);
       if (watch_.milliseconds(stage) < 0.05) continue;
-      std::snprintf(text, sizeof text, ", %s %.1f", detection::toString(stage), watch_.milliseconds(stage));
-      line += text;
+      line += formatted(", %s %.1f", detection::toString(stage), watch_.milliseconds(stage));
     }
     return line;
   }

@@ -1,11 +1,10 @@
 #include "adapters/bags/detection_strip.hpp"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "adapters/bags/replay_tables.hpp"
+#include "evaluation/csv.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/yaw_text.hpp"
 #include "window_ingress/text/text.hpp"
@@ -52,10 +51,10 @@ void DetectionStrip::add(const ReplayedFrame& frame) {
   cv::Mat small;
   cv::resize(canvas_, small, {}, scale, scale, cv::INTER_AREA);
   const std::string file = named(seen_);
-  if (!cv::imwrite((folder_ / file).string(), small, {cv::IMWRITE_JPEG_QUALITY, kQuality}))
-    throw std::runtime_error((folder_ / file).string() + ": cannot be written");
+  evaluation::writeImage(folder_ / file, small, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   list_ << exactText(frame.stamp) << "," << file << "," << why << ","
-        << evaluation::csvField(captionOf(frame)) << std::endl;
+        << evaluation::csvField(captionOf(frame)) << "\n";
+  list_.finish();
 }
 
 }  // namespace window_ingress::adapters

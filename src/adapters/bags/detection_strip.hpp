@@ -2,11 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
-#include <string>
 
 #include "adapters/bags/replay.hpp"
+#include "evaluation/output_file.hpp"
 
 namespace window_ingress::adapters {
 
@@ -27,7 +26,7 @@ class DetectionStrip {
   const char* whyShown(const ReplayedFrame& frame);
 
   std::filesystem::path folder_;
-  std::ofstream list_;
+  evaluation::OutputFile list_;
   std::size_t step_;
   std::size_t seen_ = 0;
   int changes_ = 0;

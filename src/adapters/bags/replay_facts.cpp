@@ -2,9 +2,7 @@
 
 #include <rosbag/view.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "adapters/bags/replay_tables.hpp"
 
@@ -72,9 +70,9 @@ void writeFacts(const std::filesystem::path& folder, const std::string& command,
   if (params.with_pose) facts["window_size_m"] = {params.pose.opening_width_m, params.pose.opening_height_m};
   facts["has_reference"] = params.reference.has_value();
   facts["counts"] = countsOf(summary);
-  std::ofstream file(folder / "replay.json");
-  file << facts.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
-  if (!file) throw std::runtime_error((folder / "replay.json").string() + ": cannot be written");
+  evaluation::OutputFile file(folder / "replay.json");
+  file << facts.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+  file.finish();
 }
 
 std::string commandLine(int argc, char** argv) {

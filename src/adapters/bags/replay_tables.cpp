@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "evaluation/csv.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -52,8 +52,7 @@ std::string opennessValues(const openness::OpennessVerdict& verdict) {
 
 std::string poseDetails(const std::optional<estimation::WindowPoseEstimate>& pose) {
   if (!pose) return std::string(kPoseDetails, ',');
-  std::string values = "," + formatted("%.6f", pose->yaw_rad) + "," + formatted("%.6f", pose->sigma_u_rad);
-  values += pose->sign_trusted ? ",1" : ",0";
+  std::string values = formatted(",%.6f,%.6f,%d", pose->yaw_rad, pose->sigma_u_rad, pose->sign_trusted);
   for (const double value :
        {pose->euler.theta_rad, pose->euler.phi_rad, pose->euler.psi_rad, pose->opening_width_m,
         pose->opening_height_m, pose->left_side_px, pose->right_side_px})
@@ -63,7 +62,7 @@ std::string poseDetails(const std::optional<estimation::WindowPoseEstimate>& pos
 
 std::string filterDetails(const std::optional<estimation::FilteredWindow>& filtered) {
   if (!filtered) return std::string(kFilterDetails, ',');
-  std::string values = "," + formatted("%.3f", filtered->age_sec) + (filtered->sign_trusted ? ",1" : ",0");
+  std::string values = formatted(",%.3f,%d", filtered->age_sec, filtered->sign_trusted);
   for (const double value :
        {filtered->hypothesis_weight, filtered->size.size.width_m, filtered->size.size.height_m})
     values += "," + formatted("%.6f", value);
@@ -73,12 +72,6 @@ std::string filterDetails(const std::optional<estimation::FilteredWindow>& filte
 /// The time that an image took is not of the bag: its column stays empty.
 std::string withoutMilliseconds(const std::string& values) { return values.substr(0, values.rfind(',') + 1); }
 
-std::ofstream opened(const std::filesystem::path& file) {
-  std::ofstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
-  return stream;
-}
-
 }  // namespace
 
 std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stamp.sec, stamp.nsec); }
@@ -86,9 +79,9 @@ std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stam
 ReplayTables::ReplayTables(const std::filesystem::path& folder, const ReplayParams& params)
     : params_(params),
       has_truth_(!params.topics.truth.empty()),
-      frames_(opened(folder / "frames.csv")),
-      details_(opened(folder / "details.csv")),
-      latency_(opened(folder / "latency.csv")) {
+      frames_(folder / "frames.csv"),
+      details_(folder / "details.csv"),
+      latency_(folder / "latency.csv") {
   frames_ << "stamp," << evaluation::detectionColumns() << kFilteredColumns
           << (has_truth_ ? kTruthColumns : "") << kOpennessColumns << "\n";
   details_ << kDetailColumns;
@@ -104,15 +97,11 @@ void ReplayTables::add(const ReplayedFrame& frame) {
            << frame.has_attitude << "," << (frame.row.window ? frame.row.window->visibleSides() : 0)
            << poseDetails(frame.row.pose) << filterDetails(frame.filtered) << ","
            << evaluation::csvField(frame.why_not_filtered) << "\n";
-  latency_ << stamp << "," << formatted("%.3f", frame.detector_ms) << "," << formatted("%.3f", frame.pose_ms)
-           << "\n";
+  latency_ << stamp << formatted(",%.3f,%.3f\n", frame.detector_ms, frame.pose_ms);
 }
 
 void ReplayTables::close() {
-  for (std::ofstream* file : {&frames_, &details_, &latency_}) {
-    file->close();
-    if (!*file) throw std::runtime_error("frames.csv and others: writing failed; is the disk full?");
-  }
+  for (evaluation::OutputFile* file : {&frames_, &details_, &latency_}) file->finish();
 }
 
 std::string ReplayTables::compare(const ReplayedFrame& frame) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "adapters/bags/replay.hpp"
 #include "evaluation/images/truth_comparison.hpp"
+#include "evaluation/output_file.hpp"
 
 namespace window_ingress::adapters {
 
@@ -29,7 +29,7 @@ class ReplayTables {
 
   const ReplayParams& params_;
   bool has_truth_;
-  std::ofstream frames_, details_, latency_;
+  evaluation::OutputFile frames_, details_, latency_;
   evaluation::TruthSummary summary_;
 };
 

@@ -1,21 +1,16 @@
-/// The files of a campaign: flights.csv and tracks.csv, written and read back, so that shards can be joined.
+/// The files of a campaign: flights.csv and tracks.csv, written and read back, so that shards can be joined;
+/// and the one that says what to fly.
 #pragma once
 
-#include <istream>
-#include <ostream>
-#include <stdexcept>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "evaluation/flights/flight_summary.hpp"
+#include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::evaluation {
-
-/// A table that cannot be read: `what()` is one line "file:line: what is wrong".
-class TableError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Header of flights.csv, without the end of the line.
 std::string csvHeader();
@@ -32,5 +27,12 @@ std::vector<FlightResult> readFlights(const std::string& folder);
 
 /// Flights of several folders in the order of their seeds. \throws TableError, also for a seed found twice
 std::vector<FlightResult> joinFlights(const std::vector<std::string>& folders);
+
+/// Flights to be flown of one scenario: by seed, where within its range each named key lies.
+using FlightDraws = std::map<std::uint32_t, simulation::Quantiles>;
+
+/// A csv file with a header `seed,KEY,...` (paths of keys with a range, as in `simulation::Quantiles`) and a
+/// row a flight. \throws TableError that names file and line
+FlightDraws readDraws(const std::string& file);
 
 }  // namespace window_ingress::evaluation

@@ -1,34 +1,20 @@
 #include "evaluation/flights/flight_timing.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
 
-constexpr Stage kAll[kStages] = {Stage::kPhysics, Stage::kImage,     Stage::kDetector,
-                                 Stage::kPose,    Stage::kNavigator, Stage::kOther};
+constexpr const char* kNames[kStages] = {
+    "physics, sensors, referee", "image: rendering, camera", "detector", "pose and filter", "navigator",
+    "start, recording, the rest"};
 
 }  // namespace
 
-const char* toString(Stage stage) {
-  switch (stage) {
-    case Stage::kPhysics:
-      return "physics, sensors, referee";
-    case Stage::kImage:
-      return "image: rendering, camera";
-    case Stage::kDetector:
-      return "detector";
-    case Stage::kPose:
-      return "pose and filter";
-    case Stage::kNavigator:
-      return "navigator";
-    case Stage::kOther:
-      return "start, recording, the rest";
-  }
-  return "unknown";
-}
+const char* toString(Stage stage) { return kNames[static_cast<std::size_t>(stage)]; }
 
 void FlightTiming::lap(Stage stage) {
   const auto now = Clock::now();
@@ -47,16 +33,12 @@ double FlightTiming::totalSec() const { return std::accumulate(spent_sec_.begin(
 std::string FlightTiming::table() const {
   const double total_sec = std::max(totalSec(), 1e-9);
   const double frames = static_cast<double>(std::max(frames_, 1L));
-  char row[120];
   std::string text = "| stage | ms a frame | share |\n|---|---|---|\n";
-  for (const Stage stage : kAll) {
-    std::snprintf(row, sizeof row, "| %s | %.2f | %.0f %% |\n", toString(stage),
-                  1e3 * spentSec(stage) / frames, 100.0 * spentSec(stage) / total_sec);
-    text += row;
-  }
-  std::snprintf(row, sizeof row, "| all | %.2f | %.2f times real time |\n", 1e3 * total_sec / frames,
-                simulated_sec_ / total_sec);
-  return text + row;
+  for (std::size_t i = 0; i < kStages; ++i)
+    text += formatted("| %s | %.2f | %.0f %% |\n", kNames[i], 1e3 * spent_sec_[i] / frames,
+                      100.0 * spent_sec_[i] / total_sec);
+  return text + formatted("| all | %.2f | %.2f times real time |\n", 1e3 * total_sec / frames,
+                          simulated_sec_ / total_sec);
 }
 
 }  // namespace window_ingress::evaluation

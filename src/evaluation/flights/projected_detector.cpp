@@ -1,7 +1,6 @@
 #include "evaluation/flights/projected_detector.hpp"
 
 #include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "evaluation/poses/noisy_borders.hpp"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "window_ingress/geometry/quadrilateral.hpp"

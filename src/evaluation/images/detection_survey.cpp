@@ -1,9 +1,8 @@
 #include "evaluation/images/detection_survey.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "evaluation/csv.hpp"
 #include "evaluation/images/detection_table.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
@@ -15,13 +14,6 @@ namespace {
 using geometry::Quadrilateral;
 
 constexpr double kOnTargetIou = 0.5, kOnBorderIou = 0.8;
-
-std::string corners(const Quadrilateral& quad) {
-  std::string text;
-  for (const Eigen::Vector2d& corner : quad)
-    text += "," + formatted("%.4f", corner.x()) + "," + formatted("%.4f", corner.y());
-  return text;
-}
 
 // Of the candidates that lie on the true border, the one that got farthest.
 std::string fateOfTrueCandidate(const detection::DetectionTrace& trace, const Quadrilateral& truth) {
@@ -80,27 +72,24 @@ SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::
 }
 
 std::string surveyColumns() {
-  std::string text = "scenario,seed,distance_m,off_axis_deg,verdict,score,bhattacharyya,worst_corner_px";
-  for (const char* quad : {"found", "true"})
-    for (int i = 1; i <= 4; ++i)
-      for (const char* axis : {"x", "y"}) text += std::string(",") + quad + "_" + axis + std::to_string(i);
-  return text + ",outcome,true_candidate,milliseconds";
+  const std::string text =
+      "scenario,seed,distance_m,off_axis_deg,verdict,score,bhattacharyya,worst_corner_px";
+  return text + csvCornerColumns("found") + csvCornerColumns("true") + ",outcome,true_candidate,milliseconds";
 }
 
 std::string surveyRow(const SurveyResult& result) {
   const auto& window = result.window;
-  std::string text = result.scenario + "," + std::to_string(result.seed) + "," +
-                     formatted("%.3f", result.distance_m) + "," +
-                     formatted("%.2f", result.off_axis_rad * geometry::kDegreesPerRad) + "," +
-                     toString(result.verdict) + ",";
+  std::string text =
+      result.scenario + formatted(",%u,%.3f,%.2f,%s,", result.seed, result.distance_m,
+                                  result.off_axis_rad * geometry::kDegreesPerRad, toString(result.verdict));
   if (window) text += formatted("%.4f", window->score);
   text += ",";
   if (window && window->has_appearance) text += formatted("%.4f", window->bhattacharyya);
   text += ",";
   if (window && result.truth.present)
     text += formatted("%.3f", worstCornerDistance(window->corners, result.truth.inner));
-  text += window ? corners(window->corners) : ",,,,,,,,";
-  text += corners(result.truth.inner);
+  text += window ? csvCorners(window->corners, "%.4f") : ",,,,,,,,";
+  text += csvCorners(result.truth.inner, "%.4f");
   return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +
          formatted("%.3f", result.milliseconds);
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "evaluation/csv.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
@@ -15,25 +16,20 @@ using detection::CandidateTrace;
 
 std::string windowValues(const std::optional<detection::WindowObservation>& window) {
   if (!window) return "0,,,,,,,,,,";
-  std::string text = "1," + formatted("%.4f", window->score) + ",";
+  std::string text = formatted("1,%.4f,", window->score);
   if (window->has_appearance) text += formatted("%.4f", window->bhattacharyya);
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector2d& corner = window->corners[i];
-    text += window->corner_visible[i]
-                ? "," + formatted("%.3f", corner.x()) + "," + formatted("%.3f", corner.y())
-                : ",,";
+    text += window->corner_visible[i] ? formatted(",%.3f,%.3f", corner.x(), corner.y()) : ",,";
   }
   return text;
 }
 
 std::string candidateValues(const CandidateTrace& candidate) {
-  std::string text = std::string(",") + toString(candidate.source) + "," + toString(candidate.reject) + "," +
-                     formatted("%.4g", candidate.value) + "," + formatted("%.4g", candidate.limit) + "," +
-                     formatted("%.4f", candidate.score) + ",";
+  std::string text = formatted(",%s,%s,%.4g,%.4g,%.4f,", toString(candidate.source),
+                               toString(candidate.reject), candidate.value, candidate.limit, candidate.score);
   if (candidate.has_appearance) text += formatted("%.4f", candidate.bhattacharyya);
-  for (const Eigen::Vector2d& corner : candidate.quad)
-    text += "," + formatted("%.3f", corner.x()) + "," + formatted("%.3f", corner.y());
-  return text;
+  return text + csvCorners(candidate.quad, "%.3f");
 }
 
 // From 1; equals as they come.
@@ -54,7 +50,7 @@ std::string poseValues(const std::optional<estimation::WindowPoseEstimate>& pose
   for (double value : {q.x(), q.y(), q.z(), q.w()}) text += formatted("%.9f", value) + ",";
   for (double value : {t.x(), t.y(), t.z()}) text += formatted("%.6f", value) + ",";
   const double odds = pose->alternative ? std::exp(-pose->log_likelihood_ratio) : 0.0;
-  return text + formatted("%.6f", pose->yaw_sigma_rad) + "," + formatted("%.4g", odds);
+  return text + formatted("%.6f,%.4g", pose->yaw_sigma_rad, odds);
 }
 
 }  // namespace
@@ -87,13 +83,6 @@ std::string candidateRows(const std::string& first, const detection::DetectionTr
                           (all[i].proposal > 0.0 ? std::to_string(proposed[i]) : "") +
                           candidateValues(all[i]) + "\n";
   return std::accumulate(lines.begin(), lines.end(), std::string());
-}
-
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 }  // namespace window_ingress::evaluation

@@ -36,7 +36,4 @@ std::string candidateColumns();
 /// A line a candidate, by rank, each starting with `first` and a comma, and ended.
 std::string candidateRows(const std::string& first, const detection::DetectionTrace& trace);
 
-/// A text as one csv field: in quotes if it holds a comma, a quote or a line end.
-std::string csvField(const std::string& text);
-
 }  // namespace window_ingress::evaluation

@@ -1,20 +1,16 @@
 #include "evaluation/images/labelled_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/csv.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/text/text.hpp"
@@ -24,20 +20,6 @@ namespace {
 
 constexpr double kOverlapPart = 0.05;  // of the merit: a whole image more counts for more
 
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else if (c != '\r')
-      cells.back() += c;
-  }
-  return cells;
-}
-
 // A video's neighbours differ in their last digit.
 std::string groupOf(const std::string& file) {
   std::string stem = std::filesystem::path(file).stem().string();
@@ -45,47 +27,47 @@ std::string groupOf(const std::string& file) {
   return stem;
 }
 
+/// Where the columns of an annotation are.
 class Annotations {
  public:
-  Annotations(const std::string& file, const std::string& header) : file_(file) {
-    const auto names = cellsOf(header);
-    for (std::size_t i = 0; i < names.size(); ++i) column_[names[i]] = i;
+  explicit Annotations(const std::string& file) : rows_(file) {
+    for (std::size_t i = 0; i < rows_.columns().size(); ++i) column_[rows_.columns()[i]] = i;
     for (const char* needed : {"file", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"})
-      if (column_.count(needed) == 0) throw TableError(file + ":1: no column '" + needed + "'");
+      if (column_.count(needed) == 0) rows_.fail("no column '" + std::string(needed) + "'");
   }
 
-  void read(const std::string& text, int line) {
-    const auto cells = cellsOf(text);
-    const auto cell = [&](const std::string& name) {
-      const auto at = column_.find(name);
-      return at == column_.end() || at->second >= cells.size() ? std::string() : cells[at->second];
-    };
-    if (cell("label").rfind("pose_only_", 0) == 0) return;
-    auto& targets = targets_[cell("file")];
-    if (cell("x1").empty()) return;
-    geometry::Quadrilateral quad;
-    for (int i = 0; i < 4; ++i)
-      quad[i] = {number(cell("x" + std::to_string(i + 1)), line),
-                 number(cell("y" + std::to_string(i + 1)), line)};
-    const auto canonical = geometry::canonical(quad);
-    if (!canonical)
-      throw TableError(file_ + ":" + std::to_string(line) + ": the corners are no convex quadrilateral");
-    targets.push_back(*canonical);
+  /// By file.
+  std::map<std::string, std::vector<geometry::Quadrilateral>> targets() {
+    std::map<std::string, std::vector<geometry::Quadrilateral>> targets;
+    while (rows_.next())
+      if (!rows_.line().empty() && cell("label").rfind("pose_only_", 0) != 0) {
+        auto& of_file = targets[cell("file")];
+        if (!cell("x1").empty()) of_file.push_back(corners());
+      }
+    return targets;
   }
-
-  const std::map<std::string, std::vector<geometry::Quadrilateral>>& targets() const { return targets_; }
 
  private:
-  double number(const std::string& text, int line) const {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(value))
-      throw TableError(file_ + ":" + std::to_string(line) + ": '" + text + "' is no number");
+  std::string cell(const std::string& name) const {
+    const auto at = column_.find(name);
+    return at == column_.end() ? std::string() : rows_.text(at->second);
+  }
+  double number(const std::string& name) const {
+    const double value = rows_.number(column_.at(name));
+    if (!std::isfinite(value)) rows_.fail("'" + cell(name) + "' is no number");
     return value;
   }
-  std::string file_;
+  geometry::Quadrilateral corners() const {
+    geometry::Quadrilateral quad;
+    for (int i = 0; i < 4; ++i)
+      quad[i] = {number("x" + std::to_string(i + 1)), number("y" + std::to_string(i + 1))};
+    const auto canonical = geometry::canonical(quad);
+    if (!canonical) rows_.fail("the corners are no convex quadrilateral");
+    return *canonical;
+  }
+
+  CsvReader rows_;
   std::map<std::string, std::size_t> column_;
-  std::map<std::string, std::vector<geometry::Quadrilateral>> targets_;
 };
 
 std::string rate(const char* name, double value, int part, int all) {
@@ -139,14 +121,8 @@ DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
 }
 
 std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::string& folder) {
-  std::ifstream input(csv_file);
-  std::string line;
-  if (!std::getline(input, line)) throw TableError(csv_file + ": cannot be read, or is empty");
-  Annotations annotations(csv_file, line);
-  for (int number = 2; std::getline(input, line); ++number)
-    if (!line.empty()) annotations.read(line, number);
   std::vector<LabelledImage> samples;
-  for (const auto& [file, targets] : annotations.targets()) {
+  for (const auto& [file, targets] : Annotations(csv_file).targets()) {
     const std::string path = (std::filesystem::path(folder) / file).string();
     LabelledImage sample{file, groupOf(file),
                          cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), targets,
@@ -183,7 +159,8 @@ std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> split(
   for (const auto& sample : samples) names.insert(sample.group);
   if (names.size() < 2)
     throw std::invalid_argument(
-        "the images are all of one group (one second of a bag; names that differ in their last digit only, as of "
+        "the images are all of one group (one second of a bag; names that differ in their last digit only, "
+        "as of "
         "one video): none can be held out; label images of two places at least");
   std::vector<std::string> groups(names.begin(), names.end());
   std::mt19937 random(seed);

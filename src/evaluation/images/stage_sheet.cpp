@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detection/candidates/candidate_search.hpp"
+#include "evaluation/images/contact_sheet.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/text_overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
@@ -17,51 +18,9 @@ namespace {
 using detection::DetectorParams;
 using geometry::Quadrilateral;
 
-constexpr int kSheetColumns = 3, kGap_px = 6, kSmallest_px = 64;
+constexpr int kSheetColumns = 3, kSmallest_px = 64;
 constexpr double kBackground = 0.35;  ///< brightness of the image behind what was found in it
-const cv::Scalar kGreen(60, 230, 60), kOrange(60, 170, 255), kBlue(255, 190, 90), kWhite(255, 255, 255);
-
-cv::Mat coloured(const cv::Mat& image) {
-  cv::Mat result;
-  if (image.channels() == 1)
-    cv::cvtColor(image, result, cv::COLOR_GRAY2BGR);
-  else
-    result = image.clone();
-  return result;
-}
-
-/// Collects the images, all in one size, each with a line of text below.
-class Sheet {
- public:
-  Sheet(const cv::Size& image, int cell_width_px)
-      : cell_(cell_width_px, cell_width_px * image.height / image.width) {}
-
-  void add(const cv::Mat& image, const std::string& caption) {
-    cv::Mat cell;
-    cv::resize(coloured(image), cell, cell_, 0, 0,
-               image.cols > cell_.width ? cv::INTER_AREA : cv::INTER_LINEAR);
-    const int text_px = std::max(16, cell_.width / 22);
-    cv::copyMakeBorder(cell, cell, kGap_px, text_px, kGap_px, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
-    cv::putText(cell, caption, {kGap_px + 2, cell.rows - text_px / 4}, cv::FONT_HERSHEY_SIMPLEX,
-                cell_.width / 1050.0, kWhite, 1, cv::LINE_AA);
-    cells_.push_back(cell);
-  }
-
-  cv::Mat draw() const {
-    const cv::Size size = cells_.front().size();
-    const int rows = (static_cast<int>(cells_.size()) + kSheetColumns - 1) / kSheetColumns;
-    cv::Mat sheet(rows * size.height + kGap_px, kSheetColumns * size.width + kGap_px, CV_8UC3,
-                  cv::Scalar::all(24));
-    for (int i = 0; i < static_cast<int>(cells_.size()); ++i)
-      cells_[i].copyTo(
-          sheet(cv::Rect({i % kSheetColumns * size.width, i / kSheetColumns * size.height}, size)));
-    return sheet;
-  }
-
- private:
-  cv::Size cell_;
-  std::vector<cv::Mat> cells_;
-};
+const cv::Scalar kGreen(60, 230, 60), kOrange(60, 170, 255), kBlue(255, 190, 90);
 
 /// The level the search runs on, enlarged so that lines of one pixel remain fine.
 struct Canvas {
@@ -133,7 +92,7 @@ cv::Mat drawPassed(const cv::Mat& image, const detection::DetectionTrace& trace,
 }
 
 void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const detection::EdgeMap& map,
-              const DetectorParams& params, Sheet& sheet) {
+              const DetectorParams& params, ContactSheet& sheet) {
   detection::EdgeDetector plain(params.edges);
   sheet.add(image, cv::format("input, %d x %d", image.cols, image.rows));
   sheet.add(plain.run(image).edges, "P3 edges without preprocessing");
@@ -141,7 +100,7 @@ void addEdges(const cv::Mat& image, const detection::SearchLevel& level, const d
             cv::format("P2, P3 edges of the search level, %d x %d", level.image.cols, level.image.rows));
 }
 
-void addStages(const cv::Mat& image, const DetectorParams& params, Sheet& sheet) {
+void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet& sheet) {
   detection::Preprocess preprocess(params.preprocess);
   detection::EdgeDetector edges(params.edges);
   detection::EdgeChains runs;
@@ -179,7 +138,7 @@ void drawTarget(const detection::WindowObservation& window, cv::Mat& canvas) {
 }
 
 void addResult(const cv::Mat& image, const DetectorParams& params,
-               const detection::ReferenceAppearance* reference, Sheet& sheet) {
+               const detection::ReferenceAppearance* reference, ContactSheet& sheet) {
   detection::WindowDetector detector(params);
   if (reference) detector.setReference(*reference);
   const auto window = detector.detect(image, 0.0);
@@ -205,7 +164,7 @@ cv::Mat stageSheet(const cv::Mat& image, const DetectorParams& params,
     throw std::invalid_argument(
         "an image of 8 bits, grey or colour, with at least 64 pixels each way is needed");
   if (cell_width_px < kSmallest_px) throw std::invalid_argument("the pictures of the sheet are too small");
-  Sheet sheet(image.size(), cell_width_px);
+  ContactSheet sheet(kSheetColumns, cell_width_px);
   addStages(image, params, sheet);
   addResult(image, params, reference, sheet);
   return sheet.draw();

@@ -1,14 +1,12 @@
 #include "evaluation/images/survey_folder.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
-#include <stdexcept>
 
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/csv.hpp"
+#include "evaluation/output_file.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/text/text.hpp"
 
@@ -17,23 +15,16 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr int kNumbersBeforeCorners = 4, kQuads = 4;
-constexpr int kColumns = 1 + kNumbersBeforeCorners + 2 + 8 * kQuads;
+constexpr int kNumbersBeforeCorners = 4;
+const std::vector<int> kFast{cv::IMWRITE_PNG_COMPRESSION, 1};
 
 std::string columns() {
   std::string text = "scenario,seed,distance_m,off_axis_rad,present,has_outer,has_reference";
-  for (const char* quad : {"inner", "outer", "far", "reference"})
-    for (int i = 1; i <= 4; ++i)
-      for (const char* axis : {"x", "y"}) text += std::string(",") + quad + "_" + axis + std::to_string(i);
+  for (const char* quad : {"inner", "outer", "far", "reference"}) text += csvCornerColumns(quad);
   return text;
 }
 
-std::string numbers(const Quadrilateral& quad) {
-  std::string text;
-  for (const Eigen::Vector2d& corner : quad)
-    text += "," + formatted("%.9f", corner.x()) + "," + formatted("%.9f", corner.y());
-  return text;
-}
+std::string numbers(const Quadrilateral& quad) { return csvCorners(quad, "%.9f"); }
 
 Quadrilateral quadrilateral(const double* numbers) {
   Quadrilateral quad;
@@ -44,28 +35,17 @@ Quadrilateral quadrilateral(const double* numbers) {
 std::string rowOf(const SurveyImage& sample) {
   const SurveyTruth& truth = sample.truth;
   const Quadrilateral none = quadrilateral(std::array<double, 8>{}.data());
-  return sample.scenario + "," + std::to_string(sample.seed) + "," + formatted("%.6f", sample.distance_m) +
-         "," + formatted("%.6f", sample.off_axis_rad) + "," + (truth.present ? "1," : "0,") +
-         (truth.outer ? "1," : "0,") + (sample.reference.empty() ? "0" : "1") + numbers(truth.inner) +
-         numbers(truth.outer.value_or(none)) + numbers(truth.far) +
+  return sample.scenario +
+         formatted(",%u,%.6f,%.6f,%d,%d,%d", sample.seed, sample.distance_m, sample.off_axis_rad,
+                   truth.present, truth.outer.has_value(), !sample.reference.empty()) +
+         numbers(truth.inner) + numbers(truth.outer.value_or(none)) + numbers(truth.far) +
          numbers(sample.reference.empty() ? none : sample.reference_corners);
-}
-
-void writeImage(const std::string& file, const cv::Mat& image) {
-  if (!cv::imwrite(file, image, {cv::IMWRITE_PNG_COMPRESSION, 1}))
-    throw std::runtime_error(file + ": cannot be written; is the disk full?");
 }
 
 cv::Mat readImage(const std::string& file) {
   const cv::Mat image = cv::imread(file, cv::IMREAD_COLOR);
   if (image.empty()) throw TableError(file + ": cannot be read as an image");
   return image;
-}
-
-void writeText(const std::string& file, const std::string& text) {
-  std::ofstream output(file);
-  output << text;
-  if (!output.flush()) throw std::runtime_error(file + ": cannot be written; is the disk full?");
 }
 
 std::string calibrationOf(const geometry::PinholeCamera& camera) {
@@ -99,30 +79,24 @@ std::string SurveyFolder::fileOf(const SurveyImage& sample, const std::string& e
 }
 
 void SurveyFolder::add(const SurveyImage& sample) {
-  writeImage(fileOf(sample, ".png"), sample.image);
-  if (!sample.reference.empty()) writeImage(fileOf(sample, ".reference.png"), sample.reference);
-  writeText(fileOf(sample, ".camera.yaml"), calibrationOf(sample.camera));
+  writeImage(fileOf(sample, ".png"), sample.image, kFast);
+  if (!sample.reference.empty()) writeImage(fileOf(sample, ".reference.png"), sample.reference, kFast);
+  OutputFile calibration(fileOf(sample, ".camera.yaml"));
+  calibration << calibrationOf(sample.camera);
+  calibration.finish();
   rows_.push_back(rowOf(sample));
 }
 
 void SurveyFolder::writeTable() const {
-  std::string text = columns() + "\n";
-  for (const std::string& row : rows_) text += row + "\n";
-  writeText((std::filesystem::path(folder_) / "truth.csv").string(), text);
+  OutputFile table(std::filesystem::path(folder_) / "truth.csv");
+  table << columns() << "\n";
+  for (const std::string& row : rows_) table << row << "\n";
+  table.finish();
 }
 
 void SurveyFolder::readTable() {
-  const std::string file = (std::filesystem::path(folder_) / "truth.csv").string();
-  std::ifstream input(file);
-  std::string line;
-  if (!std::getline(input, line)) throw TableError(file + ": cannot be read, or empty");
-  if (line != columns())
-    throw TableError(file + ":1: other columns than expected; written by another version?");
-  while (std::getline(input, line)) {
-    if (std::count(line.begin(), line.end(), ',') != kColumns - 1)
-      throw TableError(file + ":" + std::to_string(rows_.size() + 2) + ": a field is missing");
-    rows_.push_back(line);
-  }
+  CsvReader rows((std::filesystem::path(folder_) / "truth.csv").string(), columns());
+  while (rows.nextWhole()) rows_.push_back(rows.line());
 }
 
 SurveyImage SurveyFolder::load(int i) const {

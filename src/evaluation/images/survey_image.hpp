@@ -4,7 +4,6 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "evaluation/images/survey_view.hpp"
 #include "simulation/scenario/scenario.hpp"

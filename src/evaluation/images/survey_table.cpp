@@ -30,9 +30,8 @@ std::string exactness(const std::string& name, const SurveySummary& s) {
       text += " | | | |";
       continue;
     }
-    text += " | " + formatted("%.3f", c.rms().x()) + ", " + formatted("%.3f", c.rms().y()) + " | " +
-            formatted("%+.3f", c.mean().x()) + ", " + formatted("%+.3f", c.mean().y()) + " | " +
-            formatted("%+.3f", c.outward()) + " | " + formatted("%.3f", c.median());
+    text += formatted(" | %.3f, %.3f | %+.3f, %+.3f | %+.3f | %.3f", c.rms().x(), c.rms().y(), c.mean().x(),
+                      c.mean().y(), c.outward(), c.median());
   }
   return text + " |\n";
 }

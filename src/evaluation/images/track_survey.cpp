@@ -94,15 +94,14 @@ std::string trackColumns() {
 }
 
 std::string trackRow(const TrackResult& result) {
-  std::string text = std::to_string(result.seed) + "," + std::to_string(result.frame) + "," +
-                     formatted("%.3f", result.plane_m) + "," + std::to_string(result.sides_in_view) + "," +
-                     toString(result.verdict) + "," + (result.searched ? "1," : "0,");
-  if (result.window)
-    text += std::to_string(result.window->target_id) + "," + std::to_string(result.window->visibleSides()) +
-            "," + formatted("%.4f", result.window->score) + "," + formatted("%.4f", result.error_px);
+  std::string text = formatted("%u,%d,%.3f,%d,%s,%d,", result.seed, result.frame, result.plane_m,
+                               result.sides_in_view, toString(result.verdict), result.searched);
+  if (const auto& window = result.window)
+    text += formatted("%u,%d,%.4f,%.4f", window->target_id, window->visibleSides(), window->score,
+                      result.error_px);
   else
     text += ",,,";
-  return text + "," + formatted("%.3f", result.milliseconds);
+  return text + formatted(",%.3f", result.milliseconds);
 }
 
 int TrackSummary::count(std::size_t range, TrackVerdict verdict) const {
@@ -143,14 +142,13 @@ std::string TrackSummary::markdown(const std::string& name) const {
     const Range& range = ranges_[i];
     text += "| " + name + " | " +
             (i == 0 ? "over " + formatted("%g m", kFrom_m[0])
-                    : formatted("%g", kFrom_m[i - 1]) + " to " + formatted("%g m", kFrom_m[i])) +
+                    : formatted("%g to %g m", kFrom_m[i - 1], kFrom_m[i])) +
             " | " + std::to_string(range.frames);
     for (const int count : range.counts)
       text += " | " + formatted("%.1f", 100.0 * count / std::max(1, range.frames));
     const bool has_corners = range.corners.frames() > 0;
-    text += has_corners ? " | " + formatted("%.3f", range.corners.rms().x()) + ", " +
-                              formatted("%.3f", range.corners.rms().y()) + " | " +
-                              formatted("%+.3f", range.corners.outward())
+    text += has_corners ? formatted(" | %.3f, %.3f | %+.3f", range.corners.rms().x(), range.corners.rms().y(),
+                                    range.corners.outward())
                         : " | | ";
     text +=
         " | " + (range.side_errors_px.empty() ? "" : formatted("%.3f", quantile(range.side_errors_px, 0.5)));

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "evaluation/images/track_survey.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/median.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -59,9 +59,7 @@ void TruthSummary::add(const TruthErrors& errors) {
 }
 
 std::string TruthSummary::text() const {
-  char line[800];
-  std::snprintf(
-      line, sizeof line,
+  return formatted(
       "%d images with truth, %d show the window whole\n"
       "found in %d of them (%.1f %%), something else taken for it in %d\n"
       "of the others: found in %d, something else taken for it in %d\n"
@@ -73,7 +71,6 @@ std::string TruthSummary::text() const {
       corners.median(), corners.worst(), corners.frames(),
       medianOrZero(yaw_errors_rad) * geometry::kDegreesPerRad, medianOrZero(distance_errors_m),
       yaw_errors_rad.size());
-  return line;
 }
 
 }  // namespace window_ingress::evaluation

@@ -1,6 +1,5 @@
 #include "evaluation/openness/openness_approach.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "evaluation/poses/noisy_borders.hpp"
@@ -16,11 +15,6 @@ constexpr double kSeen_px = 3.0;  // of each corner from the image's border
 
 const geometry::OpeningSize kNeeded{0.6, 0.34};
 
-Vector3d scattered(simulation::RandomStream& random, double sigma) {
-  const double x = random.normal(sigma), y = random.normal(sigma);
-  return {x, y, random.normal(sigma)};
-}
-
 }  // namespace
 
 OpennessApproach::OpennessApproach(const OpennessRange& range, const geometry::OpeningSize& opening,
@@ -31,13 +25,13 @@ OpennessApproach::OpennessApproach(const OpennessRange& range, const geometry::O
       random_(seed, "openness approach"),
       judge_(params, kNeeded) {
   window_error_ = geometry::makePose(geometry::yawRotation(random_.normal(range.window_error_rad)),
-                                     scattered(random_, range.window_error_m));
+                                     random_.normals(range.window_error_m));
   camera_turn_ = noisyTurn(range.attitude_bias_rad);
   for (double& bias : border_bias_px_) bias = random_.normal(range.border_bias_px);
 }
 
 Eigen::Isometry3d OpennessApproach::noisyTurn(double sigma_rad) {
-  const Vector3d turn = scattered(random_, sigma_rad);
+  const Vector3d turn = random_.normals(sigma_rad);
   const double angle = turn.norm();
   if (angle < 1e-12) return Eigen::Isometry3d::Identity();
   return Eigen::Isometry3d(Eigen::AngleAxisd(angle, turn / angle));
@@ -72,9 +66,9 @@ std::optional<detection::WindowObservation> OpennessApproach::look(const geometr
 
 void OpennessApproach::judge(const detection::WindowObservation& window,
                              const geometry::PinholeCamera& camera, int step) {
-  drift_m_ += scattered(random_, range_.drift_m_per_sqrt_sec / std::sqrt(range_.rate_hz));
+  drift_m_ += random_.normals(range_.drift_m_per_sqrt_sec / std::sqrt(range_.rate_hz));
   Eigen::Isometry3d T_odom_camera = motion(step).T_window_camera;
-  T_odom_camera.translation() += drift_m_ + scattered(random_, range_.position_noise_m);
+  T_odom_camera.translation() += drift_m_ + random_.normals(range_.position_noise_m);
   T_odom_camera = T_odom_camera * camera_turn_ * noisyTurn(range_.attitude_noise_rad);
   Eigen::Isometry3d T_odom_window = window_error_;
   T_odom_window.translation() += drift_m_;

@@ -7,14 +7,9 @@
 namespace window_ingress::evaluation {
 namespace {
 
-template <typename... Numbers>
-std::string text(const char* format, Numbers... numbers) {
-  return formatted(format, numbers...);
-}
-
 std::string rate(int count, int trials) {
   const Interval interval = wilson95(count, trials);
-  return text("%d (%.2f .. %.2f %%)", count, 100.0 * interval.low, 100.0 * interval.high);
+  return formatted("%d (%.2f .. %.2f %%)", count, 100.0 * interval.low, 100.0 * interval.high);
 }
 
 }  // namespace
@@ -44,8 +39,8 @@ std::string OpennessTable::markdown() const {
            " | " + rate(row.open, row.flights) + " | " + rate(row.closed, row.flights) + " | " +
            std::to_string(row.flights - row.open - row.closed) + " | " + std::to_string(row.ever_open) +
            " | " + std::to_string(row.ever_closed) + " | " +
-           (row.open_from_m.empty() ? "" : text("%.2f", quantile(row.open_from_m, 0.5))) + " | " +
-           text("%.3f", quantile(row.milliseconds, 0.5)) + " |\n";
+           (row.open_from_m.empty() ? "" : formatted("%.2f", quantile(row.open_from_m, 0.5))) + " | " +
+           formatted("%.3f", quantile(row.milliseconds, 0.5)) + " |\n";
   return out;
 }
 
@@ -62,10 +57,11 @@ std::string opennessColumns() {
 
 std::string opennessRow(const OpennessResult& result) {
   const auto& v = result.at_decision;
-  return result.kind + text(",%d,%.3f,%u,", result.is_open, result.room_m, result.seed) +
+  return result.kind + formatted(",%d,%.3f,%u,", result.is_open, result.room_m, result.seed) +
          openness::toString(v.openness) +
-         text(",%.3f,%.3f,%.3f,%.3f,%d,%d,%d,%d,%.3f,", v.log_odds, v.depth_behind_m, v.depth_sigma_m,
-              v.open_share, v.stretches, v.points, result.ever_open, result.ever_closed, result.open_from_m) +
+         formatted(",%.3f,%.3f,%.3f,%.3f,%d,%d,%d,%d,%.3f,", v.log_odds, v.depth_behind_m, v.depth_sigma_m,
+                   v.open_share, v.stretches, v.points, result.ever_open, result.ever_closed,
+                   result.open_from_m) +
          "\"" + v.reason + "\"";
 }
 

@@ -1,7 +1,5 @@
 #include "evaluation/poses/pose_chain.hpp"
 
-#include <cmath>
-
 #include "estimation/planar/relative_yaw.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"

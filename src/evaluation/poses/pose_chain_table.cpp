@@ -20,8 +20,7 @@ std::map<int, Group> byDistance(const std::vector<PoseChainResult>& results) {
   return groups;
 }
 
-template <typename Value>
-double rms(const std::vector<Value>& values) {
+double rms(const std::vector<double>& values) {
   double squares = 0.0;
   for (const double value : values) squares += value * value;
   return std::sqrt(squares / std::max<std::size_t>(1, values.size()));
@@ -52,12 +51,9 @@ std::string poseRow(int distance_m, const Group& group) {
     wrong += r->wrong_sign;
     trusted_wrong += r->wrong_sign && r->estimate->sign_trusted;
   }
-  return "| " + std::to_string(distance_m) + " | " + std::to_string(group.size()) + " | " +
-         std::to_string(detected) + " | " + std::to_string(yaw.size()) + formatted(" | %.4f", rms(yaw)) +
-         formatted(" | %.4f", medianMagnitude(yaw)) + formatted(" | %.3f", rms(lateral)) +
-         formatted(" | %.3f", rms(distance)) + formatted(" | %.2f", std::pow(rms(normalised), 2)) + " | " +
-         std::to_string(trusted) + " | " + std::to_string(wrong) + " | " + std::to_string(trusted_wrong) +
-         " |\n";
+  return formatted("| %d | %zu | %d | %zu | %.4f | %.4f | %.3f | %.3f | %.2f | %d | %d | %d |\n", distance_m,
+                   group.size(), detected, yaw.size(), rms(yaw), medianMagnitude(yaw), rms(lateral),
+                   rms(distance), std::pow(rms(normalised), 2), trusted, wrong, trusted_wrong);
 }
 
 std::string borderRow(int distance_m, int side, const Group& group) {
@@ -70,13 +66,10 @@ std::string borderRow(int distance_m, int side, const Group& group) {
     turn_sigmas.push_back(r->borders[side]->turn_sigmas);
   }
   if (offset.empty()) return "";
-  return "| " + std::to_string(distance_m) + " | " + kSides[side] + " | " + std::to_string(offset.size()) +
-         formatted(" | %.4f", rms(offset)) + formatted(" | %+.4f", mean(offset)) +
-         formatted(" | %.4f", medianMagnitude(offset)) + formatted(" | %.4f", rms(ends)) +
-         formatted(" | %.2f", std::pow(rms(offset_sigmas), 2)) +
-         formatted(" | %.2f", std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2)) +
-         formatted(" | %.2f", std::pow(rms(turn_sigmas), 2)) +
-         formatted(" | %.2f |\n", std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
+  return formatted("| %d | %s | %zu | %.4f | %+.4f | %.4f | %.4f | %.2f | %.2f | %.2f | %.2f |\n", distance_m,
+                   kSides[side], offset.size(), rms(offset), mean(offset), medianMagnitude(offset), rms(ends),
+                   std::pow(rms(offset_sigmas), 2), std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2),
+                   std::pow(rms(turn_sigmas), 2), std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
 }
 
 }  // namespace
@@ -95,25 +88,23 @@ std::string poseChainColumns() {
 std::string poseChainRow(const PoseChainResult& r) {
   std::string reject = r.reject;
   std::replace(reject.begin(), reject.end(), ',', ';');
-  std::string text = r.scenario + "," + std::to_string(r.seed) + formatted(",%.4f", r.distance_m) +
-                     formatted(",%.6f", r.true_yaw_rad) + formatted(",%.6f", r.true_yaw_from_sight_rad) +
-                     (r.detected ? ",1," : ",0,") + reject;
+  std::string text = r.scenario +
+                     formatted(",%u,%.4f,%.6f,%.6f,%d,", r.seed, r.distance_m, r.true_yaw_rad,
+                               r.true_yaw_from_sight_rad, r.detected) +
+                     reject;
   if (!r.estimate) {
     text += std::string(12, ',');
   } else {
     const auto& e = *r.estimate;
-    text += formatted(",%.7f", r.yaw_error_rad) + formatted(",%.6f", r.lateral_error_m) +
-            formatted(",%.6f", r.distance_error_m) + formatted(",%.7f", e.yaw_sigma_rad) +
-            formatted(",%.7f", e.sigma_u_rad) + formatted(",%.3f", e.log_likelihood_ratio) +
-            (e.sign_trusted ? ",1" : ",0") + (r.wrong_sign ? ",1" : ",0") +
-            formatted(",%.4f", e.best.reprojection_rms_px) + formatted(",%.3f", e.best.cost);
-    text += e.aspect ? formatted(",%.5f", e.aspect->ratio) + formatted(",%.5f", e.aspect->sigma)
-                     : std::string(",,");
+    text += formatted(",%.7f,%.6f,%.6f,%.7f,%.7f,%.3f,%d,%d,%.4f,%.3f", r.yaw_error_rad, r.lateral_error_m,
+                      r.distance_error_m, e.yaw_sigma_rad, e.sigma_u_rad, e.log_likelihood_ratio,
+                      e.sign_trusted, r.wrong_sign, e.best.reprojection_rms_px, e.best.cost);
+    text += e.aspect ? formatted(",%.5f,%.5f", e.aspect->ratio, e.aspect->sigma) : ",,";
   }
   for (const auto& border : r.borders)
-    text += border ? formatted(",%.4f", border->offset_px) + formatted(",%.4f", border->ends_px) +
-                         formatted(",%.3f", border->offset_sigmas) + formatted(",%.3f", border->turn_sigmas)
-                   : std::string(",,,,");
+    text += border ? formatted(",%.4f,%.4f,%.3f,%.3f", border->offset_px, border->ends_px,
+                               border->offset_sigmas, border->turn_sigmas)
+                   : ",,,,";
   return text;
 }
 

@@ -57,15 +57,8 @@ std::optional<Eigen::Isometry3d> byHomography(const std::vector<cv::Point2d>& im
 }  // namespace
 
 const char* toString(PeerMethod method) {
-  switch (method) {
-    case PeerMethod::kIterative:
-      return "iterative";
-    case PeerMethod::kIppe:
-      return "ippe";
-    case PeerMethod::kHomography:
-      return "homography";
-  }
-  return "unknown";
+  constexpr const char* kNames[kPeerMethods] = {"iterative", "ippe", "homography"};
+  return kNames[static_cast<std::size_t>(method)];
 }
 
 std::optional<Eigen::Isometry3d> poseByPeer(PeerMethod method, const geometry::Quadrilateral& corners,

@@ -34,18 +34,15 @@ std::string poseSurveyColumns() {
 
 std::string poseSurveyRow(const PoseCellResult& r) {
   std::string text =
-      formatted("%g", r.cell.distance_m) + formatted(",%g", r.cell.yaw_rad * geometry::kDegreesPerRad) +
-      formatted(",%g", r.cell.sample_sigma_px) + "," + std::to_string(r.draws) +
-      formatted(",%.6f", r.yaw_bound_rad * geometry::kDegreesPerRad) + formatted(",%.6f", r.lateral_bound_m) +
-      formatted(",%.6f", r.sigma_u_rad * geometry::kDegreesPerRad) + (r.signIsDecidable() ? ",1," : ",0,") +
-      std::to_string(r.trusted) + "," + std::to_string(r.trusted_wrong) +
-      formatted(",%.6f",
-                std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted)) * geometry::kDegreesPerRad) +
-      formatted(",%.4f", r.yaw_consistency);
+      formatted("%g,%g,%g,%d,%.6f,%.6f,%.6f,%d,%d,%d,%.6f,%.4f", r.cell.distance_m,
+                r.cell.yaw_rad * geometry::kDegreesPerRad, r.cell.sample_sigma_px, r.draws,
+                r.yaw_bound_rad * geometry::kDegreesPerRad, r.lateral_bound_m,
+                r.sigma_u_rad * geometry::kDegreesPerRad, r.signIsDecidable(), r.trusted, r.trusted_wrong,
+                std::sqrt(r.trusted_yaw_squares / std::max(1, r.trusted)) * geometry::kDegreesPerRad,
+                r.yaw_consistency);
   for (const MethodErrors& errors : r.methods)
-    text += formatted(",%.6f", errors.yawRms() * geometry::kDegreesPerRad) +
-            formatted(",%.6f", errors.lateralRms()) + "," + std::to_string(errors.wrong_signs) + "," +
-            std::to_string(errors.failed);
+    text += formatted(",%.6f,%.6f,%d,%d", errors.yawRms() * geometry::kDegreesPerRad, errors.lateralRms(),
+                      errors.wrong_signs, errors.failed);
   return text;
 }
 
@@ -56,12 +53,10 @@ std::string poseSurveyTable(const std::vector<PoseCellResult>& results) {
     text += " " + nameOfMethod(method) + " |", rule += "---|";
   text += "\n" + rule + "\n";
   for (const PoseCellResult& r : results) {
-    text += "| " + formatted("%g", r.cell.distance_m) +
-            formatted(" | %g", r.cell.yaw_rad * geometry::kDegreesPerRad) +
-            formatted(" | %g", r.cell.sample_sigma_px) +
-            formatted(" | %.3f", r.yaw_bound_rad * geometry::kDegreesPerRad) +
-            formatted(" | %.3f", r.sigma_u_rad * geometry::kDegreesPerRad) +
-            formatted(" | %.0f |", 100.0 * r.trusted / std::max(1, r.draws));
+    text += formatted("| %g | %g | %g | %.3f | %.3f | %.0f |", r.cell.distance_m,
+                      r.cell.yaw_rad * geometry::kDegreesPerRad, r.cell.sample_sigma_px,
+                      r.yaw_bound_rad * geometry::kDegreesPerRad, r.sigma_u_rad * geometry::kDegreesPerRad,
+                      100.0 * r.trusted / std::max(1, r.draws));
     for (int method = 0; method < kPoseMethods; ++method) text += formatted(" %.2f |", ratio(r, method));
     text += "\n";
   }
@@ -85,10 +80,10 @@ std::string poseSurveySummary(const std::vector<PoseCellResult>& results) {
       trusted, wrong, 100.0 * wrong / std::max(1, trusted), 100.0 * rate.low, 100.0 * rate.high);
   text += formatted("best or equal (0.5 %%) in %d of %zu cells\n", best, results.size());
   if (at != nullptr)
-    text += formatted("largest yaw RMSE / bound %.3f", worst) + " of " + std::to_string(decidable) +
-            " cells with sigma_u < yaw / 3, at " + formatted("%g m, ", at->cell.distance_m) +
-            formatted("%g deg, ", at->cell.yaw_rad * geometry::kDegreesPerRad) +
-            formatted("%g px\n", at->cell.sample_sigma_px);
+    text += formatted(
+        "largest yaw RMSE / bound %.3f of %d cells with sigma_u < yaw / 3, at %g m, %g deg, %g px\n", worst,
+        decidable, at->cell.distance_m, at->cell.yaw_rad * geometry::kDegreesPerRad,
+        at->cell.sample_sigma_px);
   return text;
 }
 

@@ -52,15 +52,10 @@ SyntheticApproach::SyntheticApproach(std::uint32_t seed, const ApproachScript& s
   T_base_camera_true_.linear() *= turned({0.0, random_.normal(errors.mounting_yaw_sigma_rad), 0.0});
   const Eigen::Vector3d place(random_.uniform(-5, 5), random_.uniform(-5, 5), 1.5);
   T_odom_world_ = geometry::makePose(geometry::yawRotation(random_.uniform(-M_PI, M_PI)), place);
-  attitude_bias_rad_ = normals(errors.attitude_bias_sigma_rad).head<2>();
+  attitude_bias_rad_ = random_.normals(errors.attitude_bias_sigma_rad).head<2>();
   for (int i = 0; i < 8; ++i) bias_px_(i) = random_.normal(errors.systematic_sigma_px);
   heading_rad_ = std::atan2(-position_m_.y(), -position_m_.x());
   look();
-}
-
-Eigen::Vector3d SyntheticApproach::normals(double sigma) {
-  const double x = random_.normal(sigma), y = random_.normal(sigma), z = random_.normal(sigma);
-  return {x, y, z};
 }
 
 Eigen::Isometry3d SyntheticApproach::T_window_base() const {
@@ -102,20 +97,20 @@ void SyntheticApproach::move(double dt_sec) {
 void SyntheticApproach::drift(double dt_sec, double moved_m) {
   const double kept = std::exp(-dt_sec / errors_.attitude_bias_time_sec);
   const double fresh = errors_.attitude_bias_sigma_rad * std::sqrt(1.0 - kept * kept);
-  attitude_bias_rad_ = kept * attitude_bias_rad_ + normals(fresh).head<2>();
+  attitude_bias_rad_ = kept * attitude_bias_rad_ + random_.normals(fresh).head<2>();
   const Eigen::Vector3d before = T_odom_world_ * position_m_;
   const double sigma = std::hypot(errors_.drift_m_per_sqrt_sec * std::sqrt(dt_sec),
                                   errors_.drift_m_per_sqrt_m * std::sqrt(moved_m));
   const double yaw = random_.normal(errors_.drift_rad_per_sqrt_sec * std::sqrt(dt_sec));
   T_odom_world_.linear() = geometry::yawRotation(yaw) * T_odom_world_.linear();
-  T_odom_world_.translation() = before + normals(sigma) - T_odom_world_.linear() * position_m_;
+  T_odom_world_.translation() = before + random_.normals(sigma) - T_odom_world_.linear() * position_m_;
 }
 
 Eigen::Isometry3d SyntheticApproach::reportedBase() {
   Eigen::Isometry3d T = T_odom_world_ * T_window_base();
   T.linear() *= turned({attitude_bias_rad_.x(), attitude_bias_rad_.y(), 0.0});
-  T.translation() += normals(errors_.odom_position_sigma_m);
-  T.linear() *= turned(normals(errors_.odom_attitude_sigma_rad));
+  T.translation() += random_.normals(errors_.odom_position_sigma_m);
+  T.linear() *= turned(random_.normals(errors_.odom_attitude_sigma_rad));
   if (faults_.mirrored_odometry) std::swap(T.translation().x(), T.translation().y());
   return T;
 }
@@ -124,7 +119,7 @@ void SyntheticApproach::reportOdometry(double stamp_sec) {
   Odometry sample;
   sample.stamp_sec = stamp_sec;
   sample.T_odom_base = reportedBase();
-  const Eigen::Vector3d velocity_odom = T_odom_world_.linear() * velocity_mps_ + normals(0.03);
+  const Eigen::Vector3d velocity_odom = T_odom_world_.linear() * velocity_mps_ + random_.normals(0.03);
   Eigen::Vector3d twist = sample.T_odom_base.linear().transpose() * velocity_odom;
   if (faults_.twist == "world") twist = velocity_odom;
   if (faults_.twist == "swapped") std::swap(twist.x(), twist.y());

@@ -75,7 +75,6 @@ class SyntheticApproach {
   void drift(double dt_sec, double moved_m);
   void reportOdometry(double stamp_sec);
   void look();
-  Eigen::Vector3d normals(double sigma);
   Eigen::Isometry3d T_window_base() const;
   Eigen::Isometry3d reportedBase();
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "evaluation/flights/flight_draws.hpp"
+#include "evaluation/csv.hpp"
 
 namespace window_ingress::evaluation::flight_table_test {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "evaluation/csv.hpp"
+
 namespace window_ingress::evaluation::detection_table_test {
 
 TEST(DetectionTable, RowsHaveAsManyFieldsAsTheHeader) {

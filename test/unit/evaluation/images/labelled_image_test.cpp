@@ -9,7 +9,7 @@
 #include <set>
 
 #include "drawn_window.hpp"
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/csv.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation::labelled_image_test {

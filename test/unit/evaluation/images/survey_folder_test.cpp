@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "evaluation/flights/flight_table.hpp"
+#include "evaluation/csv.hpp"
 
 namespace window_ingress::evaluation::survey_folder_test {
 

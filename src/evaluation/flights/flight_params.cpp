@@ -1,4 +1,4 @@
-#include "evaluation/flights/flight_facts.hpp"
+#include "evaluation/flights/flight_params.hpp"
 
 #include <cmath>
 

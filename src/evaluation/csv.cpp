@@ -1,0 +1,88 @@
+#include "evaluation/csv.hpp"
+
+#include <cstdlib>
+
+#include "window_ingress/text/text.hpp"
+
+namespace window_ingress::evaluation {
+namespace {
+
+std::vector<std::string> fieldsOf(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    const bool doubled = quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"';
+    if (doubled) ++i;
+    if (c == '"' && !doubled)
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      fields.emplace_back();
+    else if (c != '\r')
+      fields.back() += c;
+  }
+  return fields;
+}
+
+}  // namespace
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csvCorners(const geometry::Quadrilateral& corners, const char* pattern) {
+  std::string text;
+  for (const Eigen::Vector2d& corner : corners)
+    for (const double number : {corner.x(), corner.y()}) text += "," + formatted(pattern, number);
+  return text;
+}
+
+std::string csvCornerColumns(const std::string& name) {
+  std::string text;
+  for (int i = 1; i <= 4; ++i)
+    for (const char* axis : {"_x", "_y"}) text += "," + name + axis + std::to_string(i);
+  return text;
+}
+
+CsvReader::CsvReader(const std::string& file) : name_(file), file_(file) {
+  if (!std::getline(file_, line_)) throw TableError(file + ": cannot be read, or empty");
+  columns_ = fieldsOf(line_);
+}
+
+CsvReader::CsvReader(const std::string& file, const std::string& header) : CsvReader(file) {
+  if (line_ != header) fail("is not '" + header + "': written by another version?");
+}
+
+bool CsvReader::next() {
+  if (!std::getline(file_, line_)) return false;
+  ++number_;
+  fields_ = fieldsOf(line_);
+  return true;
+}
+
+bool CsvReader::nextWhole() {
+  if (!next()) return false;
+  if (fields_.size() != columns_.size()) fail("has not " + std::to_string(columns_.size()) + " fields");
+  return true;
+}
+
+std::string CsvReader::text(std::size_t column) const {
+  return column < fields_.size() ? fields_[column] : std::string();
+}
+
+double CsvReader::number(std::size_t column) const {
+  const std::string field = text(column);
+  char* end = nullptr;
+  const double value = std::strtod(field.c_str(), &end);
+  if (field.empty() || *end != '\0') fail("'" + field + "' is no number");
+  return value;
+}
+
+void CsvReader::fail(const std::string& what) const {
+  throw TableError(name_ + ":" + std::to_string(number_) + ": " + what);
+}
+
+}  // namespace window_ingress::evaluation

@@ -1,0 +1,42 @@
+#include "evaluation/images/contact_sheet.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace window_ingress::evaluation {
+namespace {
+
+constexpr int kGap_px = 6;
+
+}  // namespace
+
+cv::Mat coloured(const cv::Mat& image) {
+  cv::Mat result = image.clone();
+  if (image.channels() == 1) cv::cvtColor(image, result, cv::COLOR_GRAY2BGR);
+  return result;
+}
+
+void ContactSheet::add(const cv::Mat& image, const std::string& caption) {
+  cv::Mat cell;
+  cv::resize(coloured(image), cell, {width_px_, width_px_ * image.rows / image.cols}, 0, 0,
+             image.cols > width_px_ ? cv::INTER_AREA : cv::INTER_LINEAR);
+  const int text_px = std::max(16, width_px_ / 22);
+  cv::copyMakeBorder(cell, cell, kGap_px, text_px, kGap_px, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
+  cv::putText(cell, caption, {kGap_px + 2, cell.rows - text_px / 4}, cv::FONT_HERSHEY_SIMPLEX,
+              width_px_ / 1050.0, cv::Scalar::all(255), 1, cv::LINE_AA);
+  cells_.push_back(cell);
+}
+
+cv::Mat ContactSheet::draw() const {
+  const int count = static_cast<int>(cells_.size()), columns = std::min(columns_, count);
+  cv::Size size;
+  for (const cv::Mat& cell : cells_) size = {cell.cols, std::max(size.height, cell.rows)};
+  cv::Mat sheet((count + columns - 1) / columns * size.height + kGap_px, columns * size.width + kGap_px,
+                CV_8UC3, cv::Scalar::all(24));
+  for (int i = 0; i < count; ++i)
+    cells_[i].copyTo(
+        sheet(cv::Rect({i % columns * size.width, i / columns * size.height}, cells_[i].size())));
+  return sheet;
+}
+
+}  // namespace window_ingress::evaluation

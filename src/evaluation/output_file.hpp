@@ -1,0 +1,44 @@
+/// Files that are written to their end, or somebody hears of it.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <vector>
+
+namespace window_ingress::evaluation {
+
+[[noreturn]] inline void cannotBeWritten(const std::filesystem::path& file) {
+  throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+/// A text file. \throws std::runtime_error that names it if it cannot be made or finished
+class OutputFile : public std::ofstream {
+ public:
+  OutputFile() = default;
+  explicit OutputFile(const std::filesystem::path& file) { open(file); }
+
+  void open(const std::filesystem::path& file) {
+    std::ofstream::open(file_ = file);
+    check();
+  }
+  void check() const {
+    if (!*this) cannotBeWritten(file_);
+  }
+  void finish() {
+    flush();
+    check();
+  }
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// An image, in the format that the name says. \throws std::runtime_error that names it
+inline void writeImage(const std::filesystem::path& file, const cv::Mat& image,
+                       const std::vector<int>& how = {}) {
+  if (image.empty() || !cv::imwrite(file.string(), image, how)) cannotBeWritten(file);
+}
+
+}  // namespace window_ingress::evaluation

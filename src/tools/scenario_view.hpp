@@ -1,0 +1,45 @@
+/// A scenario as its camera shows it: for pictures of what it looks like.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "command_line.hpp"
+#include "simulation/world.hpp"
+
+namespace window_ingress::tools {
+
+/// From where; 0 m: as the scenario has it.
+struct ViewOptions {
+  double distance_m = 0.0, off_axis_rad = 0.0;
+
+  void describe(boost::program_options::options_description& description) {
+    namespace options = boost::program_options;
+    auto add = description.add_options();
+    add("distance", options::value(&distance_m), "instead of the start's [m]");
+    add("off-axis", options::value(&off_axis_rad), "with --distance: instead of the start's [rad]");
+  }
+  void check() const {
+    if (!(distance_m >= 0.0)) throw UsageError("--distance: needs metres, above 0");
+    if (off_axis_rad != 0.0 && distance_m == 0.0) throw UsageError("--off-axis needs --distance");
+  }
+};
+
+/// From the start or elsewhere, but looking at the window.
+inline cv::Mat photograph(simulation::Scenario scenario, std::uint32_t seed, const ViewOptions& view) {
+  constexpr double kSettling_sec = 0.4;  // until the camera has seen the scene
+  scenario.start.heading_rad = 0.0;
+  if (view.distance_m > 0.0) {
+    scenario.start.distance_m = view.distance_m;
+    scenario.start.off_axis_rad = view.off_axis_rad;
+    scenario.start.height_offset_m = 0.0;
+  }
+  simulation::World world(scenario, seed);
+  cv::Mat image;
+  while (image.empty() || world.timeSec() < kSettling_sec) {
+    world.advance();
+    if (const auto frame = world.takeFrame()) image = frame->image.clone();
+  }
+  return image;
+}
+
+}  // namespace window_ingress::tools
