@@ -14,7 +14,7 @@
 
 #include "adapters/bags/bag_topics.hpp"
 #include "adapters/bags/labelled_bag.hpp"
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "command_line.hpp"
 
 namespace window_ingress::tools {

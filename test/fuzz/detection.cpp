@@ -1,7 +1,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "any_image.hpp"
 #include "targets.hpp"
 #include "window_ingress/detection/window_tracker.hpp"

@@ -1,4 +1,4 @@
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "any_image.hpp"
 #include "targets.hpp"
 

@@ -170,7 +170,8 @@ class Loop {
     if (const auto odometry = message.instantiate<nav_msgs::Odometry>())
       takeOdometry(*odometry, message.getTime().toSec());
     else if (const auto imu = message.instantiate<sensor_msgs::Imu>())
-      eyes_.addAttitude(imu->header.stamp.toSec(), adapters::attitudeFromMsg(*imu).value.value());
+      eyes_.addAttitude(imu->header.stamp.toSec(),
+                        adapters::fromMsg(*imu, imu->header.frame_id).value.value().R_odom_base);
     else if (const auto info = message.instantiate<sensor_msgs::CameraInfo>())
       eyes_.calibrate(adapters::cameraFromMsg(*info, false).value.value());
     else if (const auto image = message.instantiate<sensor_msgs::CompressedImage>())

@@ -3,7 +3,6 @@
 #include <rosbag/exceptions.h>
 #include <rosbag/view.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>

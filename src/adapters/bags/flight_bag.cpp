@@ -82,10 +82,8 @@ void FlightBag::onImu(const simulation::ImuSample& sample) {
 
 void FlightBag::onStep(const evaluation::FlightRecord&, const navigation::NavigatorOutput& output) {
   const ros::Time now = stampOf(world_->timeSec());
-  geometry_msgs::TwistStamped setpoint;
-  setpoint.header = headerOf(now, frames_.odom);
-  setpoint.twist.linear = toVectorMsg(output.setpoint.velocity_odom_mps);
-  setpoint.twist.angular.z = output.setpoint.yaw_rate_radps;
+  geometry_msgs::TwistStamped setpoint = toTwistMsg(output.setpoint, frames_, std::nullopt);
+  setpoint.header.stamp = now;
   if (output.enabled) write("/cmd_vel", now, setpoint);
   window_ingress::IngressState state = toMsg(output);
   state.header = headerOf(now, frames_.odom);

@@ -4,13 +4,11 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 
-#include <cmath>
 #include <functional>
-#include <optional>
 
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <new>
 #include <stdexcept>
@@ -141,17 +140,13 @@ void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec)
 }
 
 void Replay::takeImu(const sensor_msgs::Imu& message) {
-  const auto stamp_sec = stampSec(message.header.stamp);
-  const auto attitude = attitudeFromMsg(message);
-  if (!stamp_sec) return refuse(params_.topics.imu, "header.stamp is zero or not normalised");
+  const auto attitude = fromMsg(message, params_.frames.base);
   if (!attitude) return refuse(params_.topics.imu, attitude.reason);
-  if (message.header.frame_id != params_.frames.base)
-    return refuse(params_.topics.imu,
-                  "frame_id is '" + message.header.frame_id + "', expected '" + params_.frames.base + "'");
   noticeJump(message.header.stamp);
-  tracker_.addAttitude(*stamp_sec, *attitude.value);
-  attitude_.add(*stamp_sec, geometry::makePose(attitude.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
-  waiting_.noteAttitude(*stamp_sec);
+  const auto& [stamp_sec, R_odom_base] = *attitude.value;
+  tracker_.addAttitude(stamp_sec, R_odom_base);
+  attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
+  waiting_.noteAttitude(stamp_sec);
   processComplete();
 }
 
@@ -165,10 +160,8 @@ void Replay::noticeJump(const ros::Time& stamp) {
   forgetAll();
   newest_sec_ = sec;
   ++summary_.jumps;
-  char text[120];
-  std::snprintf(text, sizeof text, "time jumps back by %.1f s to %.3f: everything is forgotten", back_sec,
-                sec);
-  if (jumped_) jumped_(text);
+  if (jumped_)
+    jumped_(formatted("time jumps back by %.1f s to %.3f: everything is forgotten", back_sec, sec));
 }
 
 void Replay::forgetAll() {

@@ -6,14 +6,13 @@
 
 #include <functional>
 #include <map>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 
 #include "adapters/bags/bag_topics.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "evaluation/images/detection_table.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/estimation/window_filter.hpp"

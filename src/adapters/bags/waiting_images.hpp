@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 
 namespace window_ingress::adapters {
 

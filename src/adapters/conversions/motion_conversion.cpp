@@ -1,3 +1,5 @@
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,7 @@
 namespace window_ingress::adapters {
 namespace {
 
+constexpr const char* kNoStamp = "header.stamp is zero or not normalised";
 constexpr double kUnitTolerance = 0.01;
 constexpr double kFarthestM = 1e5;  // beyond it a position is a fault, not a place
 constexpr double kFastestMps = 100.0;
@@ -51,25 +54,10 @@ Converted<Eigen::Isometry3d> fromMsg(const geometry_msgs::Transform& message) {
   return fromMsg(pose);
 }
 
-geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond rotation(pose.linear());
-  geometry_msgs::Pose message;
-  message.position.x = pose.translation().x();
-  message.position.y = pose.translation().y();
-  message.position.z = pose.translation().z();
-  message.orientation.x = rotation.x();
-  message.orientation.y = rotation.y();
-  message.orientation.z = rotation.z();
-  message.orientation.w = rotation.w();
-  return message;
-}
+geometry_msgs::Pose toPoseMsg(const Eigen::Isometry3d& pose) { return tf2::toMsg(pose); }
 
 geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose) {
-  const geometry_msgs::Pose message = toPoseMsg(pose);
-  geometry_msgs::Transform transform;
-  transform.translation = toVectorMsg(pose.translation());
-  transform.rotation = message.orientation;
-  return transform;
+  return tf2::eigenToTransform(pose).transform;
 }
 
 geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
@@ -83,18 +71,44 @@ geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
 
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
+  return tf2::toMsg(vector, message);
 }
 
 Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) { return {vector.x, vector.y, vector.z}; }
 
+std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame_id;
+  return header;
+}
+
+geometry_msgs::TransformStamped toTransformStampedMsg(const Eigen::Isometry3d& pose,
+                                                      const std_msgs::Header& header,
+                                                      const std::string& child) {
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = child;
+  message.transform = toTransformMsg(pose);
+  return message;
+}
+
+std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d& T_base_camera,
+                                                        const ros::Time& stamp, const FrameNames& frames,
+                                                        const std::string& camera_frame) {
+  const Eigen::Matrix3d R_optical_flu = geometry::R_optical_flu();
+  const Eigen::Isometry3d T_base_link =
+      geometry::makePose(T_base_camera.linear() * R_optical_flu, T_base_camera.translation());
+  const Eigen::Isometry3d T_link_optical =
+      geometry::makePose(R_optical_flu.transpose(), Eigen::Vector3d::Zero());
+  return {toTransformStampedMsg(T_base_link, headerOf(stamp, frames.base), "camera_link"),
+          toTransformStampedMsg(T_link_optical, headerOf(stamp, "camera_link"), camera_frame)};
+}
+
 Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames) {
   using State = navigation::VehicleState;
   const auto stamp_sec = stampSec(message.header.stamp);
-  if (!stamp_sec) return refused<State>("header.stamp is zero or not normalised");
+  if (!stamp_sec) return refused<State>(kNoStamp);
   std::string fault = frameFault("header.frame_id", message.header.frame_id, frames.odom);
   if (fault.empty()) fault = frameFault("child_frame_id", message.child_frame_id, frames.base);
   if (!fault.empty()) return refused<State>(fault);
@@ -110,10 +124,16 @@ Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, c
   return {state, ""};
 }
 
-Converted<Eigen::Quaterniond> attitudeFromMsg(const sensor_msgs::Imu& message) {
+Converted<StampedAttitude> fromMsg(const sensor_msgs::Imu& message, const std::string& base_frame) {
+  const auto stamp_sec = stampSec(message.header.stamp);
+  if (!stamp_sec) return refused<StampedAttitude>(kNoStamp);
+  const std::string fault = frameFault("header.frame_id", message.header.frame_id, base_frame);
+  if (!fault.empty()) return refused<StampedAttitude>(fault);
   if (message.orientation_covariance[0] == -1.0)
-    return refused<Eigen::Quaterniond>("the IMU says that it has no orientation (covariance -1)");
-  return fromMsg(message.orientation);
+    return refused<StampedAttitude>("the IMU says that it has no orientation (covariance -1)");
+  const auto rotation = fromMsg(message.orientation);
+  if (!rotation) return refused<StampedAttitude>(rotation.reason);
+  return {StampedAttitude{*stamp_sec, *rotation.value}, ""};
 }
 
 geometry_msgs::TwistStamped toTwistMsg(const navigation::Setpoint& setpoint, const FrameNames& frames,

@@ -4,7 +4,7 @@
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/PoseWithCovariance.h>
-#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -65,6 +65,17 @@ geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector);
 Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector);
 
+std_msgs::Header headerOf(const ros::Time& stamp, const std::string& frame_id);
+
+geometry_msgs::TransformStamped toTransformStampedMsg(const Eigen::Isometry3d& pose,
+                                                      const std_msgs::Header& header,
+                                                      const std::string& child);
+
+/// base_link -> camera_link (forward-left-up) -> `camera_frame` (right-down-forward), REP 103.
+std::vector<geometry_msgs::TransformStamped> mountingOf(const Eigen::Isometry3d& T_base_camera,
+                                                        const ros::Time& stamp, const FrameNames& frames,
+                                                        const std::string& camera_frame);
+
 // --- sensors
 // -----------------------------------------------------------------------------------------------------
 
@@ -76,8 +87,13 @@ sensor_msgs::CameraInfo toMsg(const geometry::PinholeCamera& camera);  ///< with
 /// The twist is taken in the child frame, as REP 147 and nav_msgs say, and rotated to odom.
 Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, const FrameNames& frames);
 
-/// Attitude of the frame named in the header; refused where the message says that it has none (REP 145).
-Converted<Eigen::Quaterniond> attitudeFromMsg(const sensor_msgs::Imu& message);
+/// Attitude of the vehicle.
+struct StampedAttitude {
+  double stamp_sec = 0.0;
+  Eigen::Quaterniond R_odom_base = Eigen::Quaterniond::Identity();
+};
+/// Refused in another frame, and where the message says that it has no attitude (REP 145).
+Converted<StampedAttitude> fromMsg(const sensor_msgs::Imu& message, const std::string& base_frame);
 
 // --- window
 // ------------------------------------------------------------------------------------------------------

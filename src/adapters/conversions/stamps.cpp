@@ -6,8 +6,6 @@
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
-namespace {}  // namespace
-
 std::optional<double> stampSec(const ros::Time& stamp) {
   if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
   return stamp.toSec();

@@ -2,10 +2,9 @@
 
 #include <sensor_msgs/Image.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "adapters/images/image_to_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"

@@ -7,11 +7,9 @@
 #include <window_ingress/WindowDetectorConfig.h>
 #include <window_ingress/WindowPose.h>
 
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/images/image_source.hpp"

@@ -5,7 +5,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/sources/diagnostics.hpp"
 

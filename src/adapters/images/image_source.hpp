@@ -7,7 +7,7 @@
 #include <string>
 
 #include "adapters/conversions/stamps.hpp"
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "adapters/sources/diagnostics.hpp"
 
 namespace window_ingress::adapters {

@@ -1,8 +1,9 @@
 #include "adapters/images/image_times.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -52,13 +53,10 @@ Health ImageTimes::health() const {
                                stage_ms_[i]);
   const bool slow = budgetMs() > 0.0 && whole_ms_ > budgetMs();
   const auto most = std::max_element(stage_ms_.begin(), stage_ms_.end()) - stage_ms_.begin();
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
+  health.text = formatted(
       slow ? "%.1f ms an image, the budget is %.1f ms: images are dropped; most goes into '%s' (%.1f ms)"
            : "%.1f ms an image of %.1f ms; most goes into '%s' (%.1f ms)",
       whole_ms_, budgetMs(), detection::toString(static_cast<detection::Stage>(most)), stage_ms_[most]);
-  health.text = text;
   if (slow) health.level = Health::kWarn;
   return health;
 }

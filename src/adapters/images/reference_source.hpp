@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"

@@ -1,6 +1,5 @@
 #include "adapters/markers/flight_markers.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "adapters/markers/marker_colours.hpp"

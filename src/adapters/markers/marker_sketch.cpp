@@ -1,5 +1,7 @@
 #include "adapters/markers/marker_sketch.hpp"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <sstream>
@@ -16,20 +18,12 @@ constexpr double kLineWidthM = 0.025, kTextHeightM = 0.14;
 constexpr double kShaftM = 0.035, kHeadM = 0.08, kHeadLengthM = 0.14;
 constexpr double kThinnestM = 1e-3;  // rviz refuses a scale of zero
 
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
-}
-
 bool areFinite(const Points& points) {
   return std::all_of(points.begin(), points.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }
 
 void put(Marker& marker, const Points& points) {
-  for (const Eigen::Vector3d& point : points) marker.points.push_back(toPoint(point));
+  for (const Eigen::Vector3d& point : points) marker.points.push_back(tf2::toMsg(point));
 }
 
 geometry_msgs::Vector3 scaleOf(const Eigen::Vector3d& size_m) {
@@ -38,10 +32,8 @@ geometry_msgs::Vector3 scaleOf(const Eigen::Vector3d& size_m) {
 
 }  // namespace
 
-MarkerSketch::MarkerSketch(const ros::Time& stamp, const std::string& frame_id) {
-  header_.stamp = stamp;
-  header_.frame_id = frame_id;
-}
+MarkerSketch::MarkerSketch(const ros::Time& stamp, const std::string& frame_id)
+    : header_(headerOf(stamp, frame_id)) {}
 
 Marker& MarkerSketch::add(const std::string& name, int type) {
   Marker& marker = markers_.markers.emplace_back();
@@ -130,7 +122,7 @@ void MarkerSketch::ellipsoid(const std::string& name, const Eigen::Vector3d& cen
 void MarkerSketch::text(const std::string& name, const Eigen::Vector3d& centre, const std::string& text) {
   if (text.empty() || !centre.allFinite()) return gone(name);
   Marker& marker = add(name, Marker::TEXT_VIEW_FACING);
-  marker.pose.position = toPoint(centre);
+  marker.pose.position = tf2::toMsg(centre);
   marker.text = text;
   marker.scale.z = kTextHeightM;
   marker.color = colourOf(kTextRgb);
@@ -141,8 +133,7 @@ void MarkerSketch::gone(const std::string& name) { add(name, Marker::CUBE).actio
 visualization_msgs::MarkerArray allGone(const ros::Time& stamp, const std::string& frame_id) {
   visualization_msgs::MarkerArray markers;
   Marker& marker = markers.markers.emplace_back();
-  marker.header.stamp = stamp;
-  marker.header.frame_id = frame_id;
+  marker.header = headerOf(stamp, frame_id);
   marker.action = Marker::DELETEALL;
   return markers;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_colours.hpp"
@@ -105,8 +104,7 @@ geometry_msgs::PolygonStamped openingPolygon(const Eigen::Isometry3d& T_frame_wi
                                              const geometry::OpeningSize& opening, const ros::Time& stamp,
                                              const std::string& frame_id) {
   geometry_msgs::PolygonStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = frame_id;
+  message.header = headerOf(stamp, frame_id);
   for (const Eigen::Vector3d& corner : geometry::openingCorners(opening)) {
     const Eigen::Vector3f point = (T_frame_window * corner).cast<float>();
     geometry_msgs::Point32 vertex;
@@ -122,16 +120,13 @@ std::string windowLabel(const window_ingress::WindowPose& message) {
   static const char* const kFits[] = {"fit?", "GO", "NO GO"};
   const window_ingress::RelativeYaw& yaw = message.image.relative_yaw;
   const window_ingress::SystemChecks& checks = message.checks;
-  char sight[80], text[240];
-  if (message.image.reject == window_ingress::ImagePose::OK)
-    std::snprintf(sight, sizeof sight, "yaw %+.1f +- %.1f deg", yaw.angle * geometry::kDegreesPerRad,
-                  yaw.sigma * geometry::kDegreesPerRad);
-  else
-    std::snprintf(sight, sizeof sight, "last seen %.1f s ago", message.filtered.age);
-  std::snprintf(text, sizeof text, "%s\n%.2f x %.2f m: %s%s", sight, message.size.width, message.size.height,
-                kFits[std::min<int>(checks.fit, 2)],
-                checks.frames == window_ingress::SystemChecks::FRAMES_WRONG ? "\nframes wrong" : "");
-  return text;
+  const std::string sight = message.image.reject == window_ingress::ImagePose::OK
+                                ? formatted("yaw %+.1f +- %.1f deg", yaw.angle * geometry::kDegreesPerRad,
+                                            yaw.sigma * geometry::kDegreesPerRad)
+                                : formatted("last seen %.1f s ago", message.filtered.age);
+  return sight + formatted("\n%.2f x %.2f m: ", message.size.width, message.size.height) +
+         kFits[std::min<int>(checks.fit, 2)] +
+         (checks.frames == window_ingress::SystemChecks::FRAMES_WRONG ? "\nframes wrong" : "");
 }
 
 visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& window,

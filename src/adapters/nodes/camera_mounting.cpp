@@ -2,7 +2,7 @@
 
 #include <tf2_msgs/TFMessage.h>
 
-#include "adapters/conversions/tf_conversion.hpp"
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

@@ -76,8 +76,7 @@ window_ingress::Facade FacadeLink::tell(const ros::Time& stamp) {
   published_sec_ = steadyNowSec();
   published_target_ = tracker_.facade().targetId();
   window_ingress::Facade message = toMsg(tracker_.facade(), stamp.toSec());
-  message.header.stamp = stamp;
-  message.header.frame_id = odom_frame_;
+  message.header = headerOf(stamp, odom_frame_);
   publisher_.publish(message);
   return message;
 }

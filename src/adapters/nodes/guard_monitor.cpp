@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/sources/guarded.hpp"
 
 namespace window_ingress::adapters {
@@ -34,8 +35,7 @@ void GuardMonitor::brakeIfNobodyDoes(const ros::Time& now, const std::string& fr
   if (passesOn()) return;
   if (!brake_) brake_ = nh_.advertise<Setpoint>("brake", 1);
   Setpoint zero;
-  zero.header.stamp = now;
-  zero.header.frame_id = frame;
+  zero.header = headerOf(now, frame);
   brake_.publish(zero);
 }
 

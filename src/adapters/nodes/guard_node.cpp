@@ -1,5 +1,6 @@
 #include "adapters/nodes/guard_node.hpp"
 
+#include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 
@@ -43,8 +44,7 @@ void GuardNode::send() {
 
 void GuardNode::publish(const geometry_msgs::Twist& twist, const ros::Time& stamp) {
   geometry_msgs::TwistStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = frame_id_;
+  message.header = headerOf(stamp, frame_id_);
   message.twist = twist;
   publisher_.publish(message);
   passed_on_.publish(message);

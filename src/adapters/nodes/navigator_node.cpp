@@ -2,9 +2,6 @@
 
 #include <geometry_msgs/TwistStamped.h>
 
-#include <cstdio>
-#include <stdexcept>
-
 #include "adapters/markers/marker_sketch.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
@@ -257,8 +254,7 @@ void NavigatorNode::publishState(const navigation::NavigatorOutput& output, cons
     ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
     if (navigation::isEnd(output.state)) ROS_INFO("the vehicle %s", vehicleHealth().text.c_str());
   }
-  message.header.stamp = now;
-  message.header.frame_id = frames().odom;
+  message.header = headerOf(now, frames().odom);
   state_publisher_.publish(message);
   if (action_) action_->feedBack(message);
   said_ = message;

@@ -9,7 +9,6 @@
 #include <window_ingress/IngressState.h>
 #include <window_ingress/WindowPose.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 

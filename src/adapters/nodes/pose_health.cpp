@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 
@@ -17,14 +18,14 @@ Health framesHealth(const estimation::FramesVerdict& frames) {
 Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
                     const estimation::SenderClock& odometry) {
   constexpr double kMaxOffsetSec = 0.05, kSigmas = 3.0;
-  char text[200] = "";
+  std::string ahead;
   if (odometry.aheadSec() > 0.0)
-    std::snprintf(text, sizeof text, "; odometry is stamped %.2f s ahead of its arrival, which is taken off",
-                  odometry.aheadSec());
-  const std::string ahead = text;
+    ahead = formatted("; odometry is stamped %.2f s ahead of its arrival, which is taken off",
+                      odometry.aheadSec());
   if (!offset) return {Health::kOk, "to be seen in the first turn before a window" + ahead};
-  std::snprintf(text, sizeof text, "images are stamped %.2f +- %.2f s %s beside odometry",
-                std::abs(offset->late_sec), offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
+  const std::string text =
+      formatted("images are stamped %.2f +- %.2f s %s beside odometry", std::abs(offset->late_sec),
+                offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
   const double least_sec = std::max(kMaxOffsetSec, kSigmas * offset->sigma_sec);
   if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text + ahead};
   return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
@@ -39,16 +40,13 @@ Health opennessHealth(const openness::OpennessVerdict& verdict) {
 }
 
 Health consistencyHealth(const estimation::Consistency& consistency) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
+  const std::string text =
+      formatted("normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
                 consistency.mean_nis, consistency.images, estimation::ConsistencyMonitor::kImages,
                 estimation::ConsistencyMonitor::kMaxMeanNis);
-  const bool is_good = consistency.consistent && !consistency.contradicted;
-  return {
-      is_good ? Health::kOk : Health::kWarn,
-      text + std::string(consistency.contradicted ? "; most images contradict the window that was made out"
-                                                  : "")};
+  if (consistency.contradicted)
+    return {Health::kWarn, text + "; most images contradict the window that was made out"};
+  return {consistency.consistent ? Health::kOk : Health::kWarn, text};
 }
 
 }  // namespace window_ingress::adapters

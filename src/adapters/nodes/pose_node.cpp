@@ -132,16 +132,11 @@ void PoseNode::receiveImu(const sensor_msgs::ImuConstPtr& message) {
 
 void PoseNode::takeImu(const sensor_msgs::ImuConstPtr& message) {
   imu_health_->arrived();
-  const auto stamp_sec = stampSec(message->header.stamp);
-  if (!stamp_sec) return imu_health_->refused("header.stamp is zero or not normalised");
-  if (message->header.frame_id != vehicle_.frames.base)
-    return imu_health_->refused("header.frame_id is '" + message->header.frame_id + "', expected '" +
-                                vehicle_.frames.base + "'");
-  const auto rotation = attitudeFromMsg(*message);
-  if (!rotation) return imu_health_->refused(rotation.reason);
+  const auto attitude = fromMsg(*message, vehicle_.frames.base);
+  if (!attitude) return imu_health_->refused(attitude.reason);
   imu_health_->accepted();
-  imu_health_->stamped(*stamp_sec);
-  tracker_.addAttitude(*stamp_sec, *rotation.value);
+  imu_health_->stamped(attitude.value->stamp_sec);
+  tracker_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
 }
 
 // An image waits until odometry has caught up with its exposure: poses are interpolated, not guessed.

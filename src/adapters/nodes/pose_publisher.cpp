@@ -42,12 +42,8 @@ void PosePublisher::publishFiltered(const window_ingress::WindowPose& message,
   if (markers_.getNumSubscribers() > 0)
     markers_.publish(windowMarkers(window, windowLabel(message), message.header.stamp, odom_frame_));
   if (window_frame_.empty()) return;
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = message.header.stamp;
-  transform.header.frame_id = odom_frame_;
-  transform.child_frame_id = window_frame_;
-  transform.transform = toTransformMsg(window.T_odom_window);
-  transforms_.sendTransform(transform);
+  transforms_.sendTransform(toTransformStampedMsg(
+      window.T_odom_window, headerOf(message.header.stamp, odom_frame_), window_frame_));
 }
 
 }  // namespace window_ingress::adapters

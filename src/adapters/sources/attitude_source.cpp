@@ -1,6 +1,5 @@
 #include "adapters/sources/attitude_source.hpp"
 
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/sources/guarded.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -32,22 +31,14 @@ AttitudeSource::AttitudeSource(ros::NodeHandle& nh, Diagnostics& diagnostics, co
 }
 
 void AttitudeSource::receive(const sensor_msgs::Imu& message) {
-  refusal_ = faultOf(message);
+  const auto attitude = fromMsg(message, base_frame_);
+  refusal_ = attitude.reason;
+  if (attitude)
+    attitudes_.add(
+        attitude.value->stamp_sec,
+        geometry::makePose(attitude.value->R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
   stamp_ = message.header.stamp;
   if (came_) came_();
-}
-
-// Takes it if there is none.
-std::string AttitudeSource::faultOf(const sensor_msgs::Imu& message) {
-  const auto stamp_sec = stampSec(message.header.stamp);
-  if (!stamp_sec) return "header.stamp is zero or not normalised";
-  if (message.header.frame_id != base_frame_)
-    return "header.frame_id is '" + message.header.frame_id.substr(0, 60) + "', expected '" + base_frame_ +
-           "'";
-  const auto rotation = attitudeFromMsg(message);
-  if (!rotation) return rotation.reason;
-  attitudes_.add(*stamp_sec, geometry::makePose(rotation.value->toRotationMatrix(), Eigen::Vector3d::Zero()));
-  return "";
 }
 
 std::optional<Eigen::Matrix3d> AttitudeSource::R_world_camera(double stamp_sec,

@@ -37,7 +37,6 @@ class AttitudeSource {
 
  private:
   void receive(const sensor_msgs::Imu& message);
-  std::string faultOf(const sensor_msgs::Imu& message);
   Health health() const;
 
   std::string base_frame_;

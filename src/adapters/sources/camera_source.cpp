@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "adapters/sources/guarded.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -74,12 +74,11 @@ Health CameraSource::fitHealth() const {
   if (!camera_) return {Health::kOk, "none so far"};
   if (!misfit_.empty()) return {Health::kError, misfit_};
   const bool apart = std::abs(apart_sec_) > kNearSec && steadyNowSec() - together_sec_ > kApartSec;
-  char text[40];
-  std::snprintf(text, sizeof text, "%.2f s", std::abs(apart_sec_));
   const std::string topic = "camera_info on " + subscriber_.getTopic();
   if (apart && stamp_.isZero()) return {Health::kWarn, topic + " is not stamped"};
   if (apart)
-    return {Health::kWarn, "stamps of image and " + topic + " are " + text + " apart, " +
+    return {Health::kWarn, "stamps of image and " + topic + " are " +
+                               formatted("%.2f s", std::abs(apart_sec_)) + " apart, " +
                                (apart_sec_ > 0.0 ? "the image is newer" : "the image is older")};
   if (const std::string twice = undoneTwice(); !twice.empty()) return {Health::kWarn, twice};
   return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <boost/thread/recursive_mutex.hpp>
+#include <exception>
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 #include "window_ingress/parameters/fields.hpp"

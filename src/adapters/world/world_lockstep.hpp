@@ -24,7 +24,6 @@ class WorldLockstep {
 
   window_ingress::LockstepStep& sent() { return step_; }  ///< to be kept up to date with what was sent
   void ask(const ros::Time& now);
-  bool isAsking() const { return asking_; }
   bool hasListeners() const { return publisher_.getNumSubscribers() > 0; }
 
   void hearState(const window_ingress::IngressState& state) { state_ = state; }

@@ -1,6 +1,6 @@
 #include "adapters/world/world_messages.hpp"
 
-#include "adapters/images/image_to_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/conversions/tf_conversion.hpp"
 #include "simulation/world.hpp"
 
 namespace window_ingress::adapters {

@@ -6,7 +6,7 @@
 #include <sensor_msgs/Imu.h>
 #include <window_ingress/ReferenceImage.h>
 
-#include "adapters/images/image_to_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "adapters/world/world_messages.hpp"
 
 namespace window_ingress::adapters {

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "adapters/conversions/msg_conversion.hpp"
+
 namespace window_ingress::adapters {
 namespace {
 
@@ -87,8 +89,7 @@ VerdictMsg WorldReferee::verdict(const simulation::World& world, const ros::Time
   const simulation::Referee& referee = world.referee();
   const simulation::Verdict judgement = referee.judge(claim_, limitBegins(world));
   VerdictMsg message;
-  message.header.stamp = now;
-  message.header.frame_id = "window";
+  message.header = headerOf(now, "window");
   message.outcome = static_cast<std::uint8_t>(judgement.outcome);
   message.outcome_name = simulation::toString(judgement.outcome);
   message.reason = judgement.reason;

@@ -4,7 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 
 namespace window_ingress::adapters::image_faults_test {
 

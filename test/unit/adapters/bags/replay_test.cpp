@@ -17,7 +17,7 @@
 #include "adapters/bags/detection_strip.hpp"
 #include "adapters/bags/replay_facts.hpp"
 #include "adapters/bags/replay_tables.hpp"
-#include "adapters/images/image_to_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 #include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/world/world_messages.hpp"
 

@@ -74,14 +74,20 @@ TEST(Odometry, QuaternionIsNormalisedOrRefused) {
 
 TEST(Imu, AttitudeIsRefusedWhereThereIsNone) {
   sensor_msgs::Imu message;
-  EXPECT_FALSE(attitudeFromMsg(message)) << "a quaternion of zeros";
+  message.header.stamp = ros::Time(3);
+  message.header.frame_id = kFrames.base;
+  EXPECT_FALSE(fromMsg(message, kFrames.base)) << "a quaternion of zeros";
   message.orientation.w = 1.0;
-  EXPECT_TRUE(attitudeFromMsg(message)) << "zero covariance means unknown, not absent";
+  EXPECT_TRUE(fromMsg(message, kFrames.base)) << "zero covariance means unknown, not absent";
   message.orientation_covariance[0] = -1.0;
-  EXPECT_FALSE(attitudeFromMsg(message));
+  EXPECT_FALSE(fromMsg(message, kFrames.base));
   message.orientation_covariance[0] = 0.0;
   message.orientation.y = kNan;
-  EXPECT_FALSE(attitudeFromMsg(message));
+  EXPECT_FALSE(fromMsg(message, kFrames.base));
+  message.orientation.y = 0.0;
+  EXPECT_FALSE(fromMsg(message, "another_link"));
+  message.header.stamp = ros::Time();
+  EXPECT_FALSE(fromMsg(message, kFrames.base)) << "without a stamp";
 }
 
 TEST(Transform, RefusesWhatTf2Accepts) {

@@ -1,4 +1,4 @@
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
@@ -182,6 +182,10 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimi
   } catch (const std::exception& error) {
     return refusal(std::string("compressed image cannot be decoded: ") + error.what());
   }
+}
+
+sensor_msgs::ImagePtr toImageMsg(const cv::Mat& image, const std_msgs::Header& header) {
+  return cv_bridge::CvImage(header, image.channels() == 1 ? kMono : kColour, image).toImageMsg();
 }
 
 }  // namespace window_ingress::adapters

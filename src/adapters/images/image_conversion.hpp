@@ -48,4 +48,7 @@ DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits
 /// JPEG or PNG: the size in the file's header is checked before anything is decoded. Never throws.
 DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimits& limits);
 
+/// The other way; the bytes are copied. \param image CV_8UC1 or CV_8UC3 (BGR)
+sensor_msgs::ImagePtr toImageMsg(const cv::Mat& image, const std_msgs::Header& header);
+
 }  // namespace window_ingress::adapters

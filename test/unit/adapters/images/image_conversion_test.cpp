@@ -1,4 +1,4 @@
-#include "adapters/images/image_from_msg.hpp"
+#include "adapters/images/image_conversion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "adapters/images/compressed_size.hpp"
 
-namespace window_ingress::adapters::image_from_msg_test {
+namespace window_ingress::adapters::image_conversion_test {
 
 const ImageLimits kLimits;
 
@@ -232,4 +232,4 @@ TEST(CompressedImage, SurvivesTruncationAndFlippedBytes) {
   EXPECT_FALSE(decode(sensor_msgs::CompressedImage(), kLimits).reason.empty());
 }
 
-}  // namespace window_ingress::adapters::image_from_msg_test
+}  // namespace window_ingress::adapters::image_conversion_test
