@@ -71,11 +71,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   adapters::ReplayParams params;
   params.topics = adapters::chooseTopics(bag, o.topics);
   const configuration::Overlay overlay = configuration::readOverlay(o.params);
-  params.detector = overlay.window_detector.detector;
-  params.interior = overlay.window_detector.interior;
-  params.pose = overlay.homography_pose.pose;
-  params.filter = overlay.homography_pose.filter;
-  params.tracker = overlay.homography_pose.tracker;
+  static_cast<evaluation::PerceptionParams&>(params) = evaluation::perceptionOf(overlay);
   adapters::ReferenceParams reference = o.reference;
   tools::takeReference(o.params, overlay.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) {

@@ -141,11 +141,7 @@ class Words {
 void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
   adapters::ReplayParams params;
   params.topics = adapters::chooseTopics(bag, {});
-  params.detector = facts.overlay.window_detector.detector;
-  params.interior = facts.overlay.window_detector.interior;
-  params.pose = facts.overlay.homography_pose.pose;
-  params.filter = facts.overlay.homography_pose.filter;
-  params.tracker = facts.overlay.homography_pose.tracker;
+  static_cast<evaluation::PerceptionParams&>(params) = evaluation::perceptionOf(facts.overlay);
   params.reference = facts.appearance();
   params.with_pose = true;
   adapters::replay(bag, params, [&](const adapters::ReplayedFrame& frame) {

@@ -17,14 +17,10 @@
 #include "adapters/images/reference_source.hpp"
 #include "adapters/sources/diagnostics.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
-#include "window_ingress/estimation/sender_clock.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
-
-constexpr double kMaxAttitudeGapSec = 0.02;
 
 class Replay {
  public:
@@ -34,9 +30,8 @@ class Replay {
         each_(each),
         jumped_(jumped),
         waiting_(params.with_pose && !params.topics.odom.empty(), !params.topics.imu.empty()),
-        perception_(params.detector, params.interior),
-        tracker_(params.pose, params.filter, params.tracker) {
-    if (params.reference) perception_.setReference(*params.reference);
+        eyes_(params) {
+    if (params.reference) eyes_.setReference(*params.reference);
   }
 
   void prepare(const rosbag::Bag& bag);
@@ -57,11 +52,8 @@ class Replay {
   void processComplete();
   void processAll();
   void process(const WaitingImages::Image& waiting);
-  detection::TrackInput inputOf(const cv::Mat& image, const std_msgs::Header& header,
-                                const Converted<geometry::PinholeCamera>& camera);
-  void locate(ReplayedFrame& frame, const std::string& camera_frame);
+  void locate(ReplayedFrame& frame, const Converted<Eigen::Isometry3d>& mounted);
   Converted<geometry::PinholeCamera> cameraOf(const cv::Mat& image) const;
-  Converted<Eigen::Isometry3d> mounting(const std::string& camera_frame) const;
   void refuse(const std::string& what, const std::string& why) {
     ++summary_.refused;
     ++summary_.reasons[what + ": " + withoutNumbers(why)];
@@ -72,15 +64,11 @@ class Replay {
   const std::function<void(const ReplayedFrame&)>& each_;
   const std::function<void(const std::string&)>& jumped_;
   WaitingImages waiting_;
-  perception::WindowPerception perception_;
-  estimation::PoseBuffer attitude_, odometry_;
-  estimation::SenderClock odometry_clock_;
-  estimation::TargetEstimator tracker_;
+  evaluation::FlightPerception eyes_;
+  estimation::PoseBuffer odometry_;
   Converted<geometry::PinholeCamera> camera_;
   RecordedTransforms transforms_;
   std::map<ros::Time, Eigen::Isometry3d> truth_;
-  std::optional<geometry::Quadrilateral> expected_;  // where the target must be, as of the image before
-  double expected_as_of_sec_ = -1.0;
   double newest_sec_ = -1.0;
   ReplaySummary summary_;
 };
@@ -128,14 +116,14 @@ void Replay::processAll() {
 }
 
 void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
-  auto vehicle = fromMsg(message, params_.frames);
+  const auto vehicle = fromMsg(message, params_.frames);
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
   noticeJump(message.header.stamp);
-  vehicle.value->stamp_sec = odometry_clock_.atReceiver(vehicle.value->stamp_sec, arrival_sec);
-  odometry_.add(vehicle.value->stamp_sec, vehicle.value->T_odom_base);
-  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
-                       vehicle.value->velocity_odom_mps);
-  waiting_.noteOdometry(vehicle.value->stamp_sec);
+  const auto& T_odom_base = vehicle.value->T_odom_base;
+  const double stamp_sec =
+      eyes_.addOdometry(vehicle.value->stamp_sec, arrival_sec, T_odom_base, vehicle.value->velocity_odom_mps);
+  odometry_.add(stamp_sec, T_odom_base);
+  waiting_.noteOdometry(stamp_sec);
   processComplete();
 }
 
@@ -143,10 +131,8 @@ void Replay::takeImu(const sensor_msgs::Imu& message) {
   const auto attitude = fromMsg(message, params_.frames.base);
   if (!attitude) return refuse(params_.topics.imu, attitude.reason);
   noticeJump(message.header.stamp);
-  const auto& [stamp_sec, R_odom_base] = *attitude.value;
-  tracker_.addAttitude(stamp_sec, R_odom_base);
-  attitude_.add(stamp_sec, geometry::makePose(R_odom_base.toRotationMatrix(), Eigen::Vector3d::Zero()));
-  waiting_.noteAttitude(stamp_sec);
+  eyes_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
+  waiting_.noteAttitude(attitude.value->stamp_sec);
   processComplete();
 }
 
@@ -165,23 +151,14 @@ void Replay::noticeJump(const ros::Time& stamp) {
 }
 
 void Replay::forgetAll() {
-  perception_.reset();
-  if (params_.reference) perception_.setReference(*params_.reference);
-  tracker_.reset();
-  attitude_.clear();
+  eyes_.forget();
   odometry_.clear();
-  odometry_clock_.clear();
-  expected_.reset();
   waiting_.clear();
 }
 
 Converted<geometry::PinholeCamera> Replay::cameraOf(const cv::Mat& image) const {
   if (!camera_ || (camera_.value->width == image.cols && camera_.value->height == image.rows)) return camera_;
   return {std::nullopt, "camera_info is for images of another size"};
-}
-
-Converted<Eigen::Isometry3d> Replay::mounting(const std::string& camera_frame) const {
-  return transforms_.between(params_.frames.base, camera_frame);
 }
 
 void Replay::process(const WaitingImages::Image& waiting) {
@@ -193,17 +170,18 @@ void Replay::process(const WaitingImages::Image& waiting) {
   const auto camera = cameraOf(decoded.image);
   if (!camera) refuse("camera_info", camera.reason);
   frame.camera = camera.value;
-  frame.has_odometry =
-      odometry_.at(frame.stamp.toSec(), estimation::TargetEstimator::kMaxPoseGapSec).has_value();
-  frame.has_attitude = attitude_.at(frame.stamp.toSec(), kMaxAttitudeGapSec).has_value();
+  const double stamp_sec = frame.stamp.toSec();
+  frame.has_odometry = odometry_.at(stamp_sec, estimation::TargetEstimator::kMaxPoseGapSec).has_value();
+  frame.has_attitude = eyes_.knowsAttitude(stamp_sec);
+  const auto mounted = transforms_.between(params_.frames.base, waiting.header.frame_id);
   const double begun_ms = 1e3 * steadyNowSec();
-  frame.row.window = perception_.update(inputOf(decoded.image, waiting.header, camera));
-  frame.perception = &perception_;
-  frame.tracker = &tracker_;
+  eyes_.calibrate(frame.camera);
+  frame.row.window = eyes_.detect(decoded.image, stamp_sec, mounted.value);
+  frame.perception = &eyes_.perception();
+  frame.tracker = &eyes_.tracker();
   frame.detector_ms = 1e3 * steadyNowSec() - begun_ms;
-  if (!frame.row.window) frame.row.reject_reason = detection::toString(perception_.trace().outcome);
-  expected_.reset();
-  if (params_.with_pose && camera) locate(frame, waiting.header.frame_id);
+  if (!frame.row.window) frame.row.reject_reason = detection::toString(frame.perception->trace().outcome);
+  if (params_.with_pose) locate(frame, mounted);
   frame.pose_ms = 1e3 * steadyNowSec() - begun_ms - frame.detector_ms;
   count(frame);
   const auto truth = truth_.find(waiting.header.stamp);
@@ -219,41 +197,22 @@ void Replay::count(const ReplayedFrame& frame) {
   summary_.milliseconds += frame.detector_ms + frame.pose_ms;
 }
 
-// Attitude where the bag has it near the exposure, and the mounting of the camera.
-detection::TrackInput Replay::inputOf(const cv::Mat& image, const std_msgs::Header& header,
-                                      const Converted<geometry::PinholeCamera>& camera) {
-  detection::TrackInput input;
-  input.image = image;
-  input.stamp_sec = header.stamp.toSec();
-  input.camera = camera ? &*camera.value : nullptr;
-  if (std::abs(input.stamp_sec - expected_as_of_sec_) <= perception::kExpectationLastsSec)
-    input.expected = expected_;
-  const auto T_odom_base = attitude_.at(input.stamp_sec, kMaxAttitudeGapSec);
-  if (!T_odom_base) return input;
-  if (const auto T_base_camera = mounting(header.frame_id).value)
-    input.R_world_camera = T_odom_base->linear() * T_base_camera->linear();
-  return input;
-}
-
-void Replay::locate(ReplayedFrame& frame, const std::string& camera_frame) {
-  frame.why_not_filtered = "no window";
+void Replay::locate(ReplayedFrame& frame, const Converted<Eigen::Isometry3d>& mounted) {
   const double stamp_sec = frame.stamp.toSec();
-  const auto mounted = mounting(camera_frame);
-  if (!mounted && frame.row.window) refuse("mounting of the camera", mounted.reason);
-  const std::optional<Eigen::Isometry3d>& T_base_camera = mounted.value;
-  tracker_.see({stamp_sec, *frame.camera, T_base_camera, frame.row.window, perception_.windows()});
-  tracker_.flush();
-  expected_as_of_sec_ = stamp_sec;
-  expected_ = T_base_camera ? tracker_.expected(stamp_sec, *frame.camera, *T_base_camera) : std::nullopt;
+  eyes_.see(stamp_sec, mounted.value, frame.row.window);
+  if (!frame.camera) return;
+  eyes_.tracker().flush();
+  frame.why_not_filtered = "no window";
   if (frame.row.window) {
-    const estimation::PoseResult& result = tracker_.lastUpdate().pose;
-    frame.row.pose = result.estimate;
-    frame.why_not_filtered = tracker_.lastUpdate().why_not;
-    if (!result.estimate)
-      frame.row.reject_reason = std::string("pose_") + estimation::toString(result.reject);
+    if (!mounted) refuse("mounting of the camera", mounted.reason);
+    const estimation::TargetUpdate& update = frame.tracker->lastUpdate();
+    frame.row.pose = update.pose.estimate;
+    frame.why_not_filtered = update.why_not;
+    if (!frame.row.pose)
+      frame.row.reject_reason = std::string("pose_") + estimation::toString(update.pose.reject);
   }
-  frame.filtered = tracker_.filtered(stamp_sec);
-  frame.openness = tracker_.openness();
+  frame.filtered = frame.tracker->filtered(stamp_sec);
+  frame.openness = frame.tracker->openness();
 }
 
 }  // namespace

@@ -13,24 +13,17 @@
 #include "adapters/bags/bag_topics.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_conversion.hpp"
+#include "evaluation/flights/flight_perception.hpp"
 #include "evaluation/images/detection_table.hpp"
-#include "window_ingress/estimation/target_estimator.hpp"
-#include "window_ingress/estimation/window_filter.hpp"
-#include "window_ingress/perception/window_perception.hpp"
 
 namespace window_ingress::adapters {
 
-struct ReplayParams {
+struct ReplayParams : evaluation::PerceptionParams {
   BagTopics topics;  ///< as chosen by `chooseTopics`
   FrameNames frames;
   ImageLimits image;
-  detection::DetectorParams detector;
-  openness::InteriorKltParams interior;
   std::optional<detection::ReferenceAppearance> reference;
   bool with_pose = false;  ///< the window's size is known
-  estimation::PoseParams pose;
-  estimation::FilterParams filter;
-  estimation::TargetEstimatorParams tracker;
 };
 
 /// What became of one image.

@@ -3,29 +3,17 @@
 namespace window_ingress::adapters {
 namespace {
 
-int rgbOf(navigation::State state) {
-  switch (state) {
-    case navigation::State::kIdle:
-      return 0xaaaaaa;
-    case navigation::State::kSearch:
-      return 0x9b59b6;
-    case navigation::State::kAlign:
-      return 0x1f5fa8;
-    case navigation::State::kApproach:
-      return 0x56c1e8;
-    case navigation::State::kCommit:
-      return 0xe67e22;
-    case navigation::State::kPassed:
-      return 0x2e9e4f;
-    case navigation::State::kBackOff:
-      return 0xd0312d;
-    case navigation::State::kHold:
-      return 0xf1c40f;
-    case navigation::State::kAborted:
-      break;
-  }
-  return 0x000000;
-}
+constexpr int kStateRgb[navigation::kStateCount] = {
+    0xaaaaaa,  // IDLE
+    0x9b59b6,  // SEARCH
+    0x1f5fa8,  // ALIGN
+    0x56c1e8,  // APPROACH
+    0xe67e22,  // COMMIT
+    0x2e9e4f,  // PASSED
+    0xd0312d,  // BACK_OFF
+    0xf1c40f,  // HOLD
+    0x000000,  // ABORTED
+};
 
 }  // namespace
 
@@ -38,6 +26,8 @@ std_msgs::ColorRGBA colourOf(int rgb, double alpha) {
   return colour;
 }
 
-std_msgs::ColorRGBA colourOf(navigation::State state, double alpha) { return colourOf(rgbOf(state), alpha); }
+std_msgs::ColorRGBA colourOf(navigation::State state, double alpha) {
+  return colourOf(kStateRgb[static_cast<std::size_t>(state)], alpha);
+}
 
 }  // namespace window_ingress::adapters

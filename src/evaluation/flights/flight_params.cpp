@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/configuration/pose_node_params.hpp"
 
 namespace window_ingress::evaluation {
@@ -50,11 +49,7 @@ void tellPolicy(const simulation::Scenario& scenario, const std::set<std::string
 FlightParams readFlightParams(const std::string& file) {
   const configuration::Overlay overlay = configuration::readOverlay(file);
   FlightParams params;
-  params.detector = overlay.window_detector.detector;
-  params.interior = overlay.window_detector.interior;
-  params.pose = overlay.homography_pose.pose;
-  params.filter = overlay.homography_pose.filter;
-  params.tracker = overlay.homography_pose.tracker;
+  static_cast<PerceptionParams&>(params) = perceptionOf(overlay);
   params.navigator = overlay.ingress_navigator.navigator;
   params.step_rate_hz = overlay.ingress_navigator.rate_hz;
   params.said = overlay.said;

@@ -3,24 +3,15 @@
 #include <set>
 #include <string>
 
+#include "evaluation/flights/flight_perception.hpp"
 #include "evaluation/flights/projected_detector.hpp"
 #include "simulation/world.hpp"
-#include "window_ingress/detection/detector_params.hpp"
-#include "window_ingress/estimation/filter_params.hpp"
-#include "window_ingress/estimation/pose_params.hpp"
-#include "window_ingress/estimation/target_estimator.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
-#include "window_ingress/openness/interior_klt_params.hpp"
 
 namespace window_ingress::evaluation {
 
 /// Everything that flies.
-struct FlightParams {
-  detection::DetectorParams detector;
-  openness::InteriorKltParams interior;
-  estimation::PoseParams pose;
-  estimation::FilterParams filter;
-  estimation::TargetEstimatorParams tracker;
+struct FlightParams : PerceptionParams {
   navigation::NavigatorParams navigator;
   double step_rate_hz = 30.0;   ///< of the navigator [1/s]
   bool without_images = false;  ///< the window is seen by `ProjectedDetector`, no image is drawn

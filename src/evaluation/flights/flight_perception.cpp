@@ -3,18 +3,17 @@
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation {
-namespace {
 
-constexpr double kMaxAttitudeGap_sec = 0.02;
+PerceptionParams perceptionOf(const configuration::Overlay& overlay) {
+  return {overlay.window_detector.detector, overlay.window_detector.interior, overlay.homography_pose.pose,
+          overlay.homography_pose.filter, overlay.homography_pose.tracker};
+}
 
-}  // namespace
-
-FlightPerception::FlightPerception(const FlightParams& params)
+FlightPerception::FlightPerception(const PerceptionParams& params)
     : perception_(params.detector, params.interior), tracker_(params.pose, params.filter, params.tracker) {}
 
-void FlightPerception::calibrate(const geometry::PinholeCamera& camera) {
-  camera_.reset();
-  if (camera.validate().empty()) camera_ = camera;
+void FlightPerception::calibrate(const std::optional<geometry::PinholeCamera>& camera) {
+  camera_ = camera && camera->validate().empty() ? camera : std::nullopt;
 }
 
 double FlightPerception::addOdometry(double stamp_sec, double arrival_sec,
@@ -32,23 +31,32 @@ void FlightPerception::addAttitude(double stamp_sec, const Eigen::Quaterniond& R
 
 // Where the target is expected is said with the pose of an image, and heard with the next one.
 const std::optional<detection::WindowObservation>& FlightPerception::detect(
-    const cv::Mat& image, double stamp_sec, const Eigen::Isometry3d& T_base_camera) {
+    const cv::Mat& image, double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera) {
   detection::TrackInput seen;
   seen.image = image;
   seen.stamp_sec = stamp_sec;
   seen.camera = camera_ ? &*camera_ : nullptr;
-  if (camera_ && last_seen_sec_ && stamp_sec - *last_seen_sec_ <= perception::kExpectationLastsSec)
-    seen.expected = tracker_.expected(*last_seen_sec_, *camera_, T_base_camera);
-  if (const auto T_odom_base = attitude_.at(stamp_sec, kMaxAttitudeGap_sec))
-    seen.R_world_camera = T_odom_base->linear() * T_base_camera.linear();
+  const auto T_odom_base = attitude_.at(stamp_sec, kMaxAttitudeGapSec);
+  if (T_base_camera && T_odom_base) seen.R_world_camera = T_odom_base->linear() * T_base_camera->linear();
+  if (T_base_camera && camera_ && last_seen_sec_ &&
+      stamp_sec - *last_seen_sec_ <= perception::kExpectationLastsSec)
+    seen.expected = tracker_.expected(*last_seen_sec_, *camera_, *T_base_camera);
   return perception_.update(seen);
 }
 
-void FlightPerception::see(double stamp_sec, const Eigen::Isometry3d& T_base_camera,
+void FlightPerception::see(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
                            const std::optional<detection::WindowObservation>& window) {
   if (!camera_) return last_seen_sec_.reset();
   tracker_.see({stamp_sec, *camera_, T_base_camera, window, perception_.windows()});
   last_seen_sec_ = stamp_sec;
+}
+
+void FlightPerception::forget() {
+  perception_.reset();
+  attitude_.clear();
+  odometry_clock_.clear();
+  tracker_.reset();
+  last_seen_sec_.reset();
 }
 
 }  // namespace window_ingress::evaluation

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "evaluation/flights/closed_loop_flight.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/sender_clock.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
@@ -12,28 +12,45 @@
 
 namespace window_ingress::evaluation {
 
-/// What a flight in one process sees and knows of its target, put together as the nodes do it between them.
-/// It takes everything in the order in which it comes.
+/// From the image to the target.
+struct PerceptionParams {
+  detection::DetectorParams detector;
+  openness::InteriorKltParams interior;
+  estimation::PoseParams pose;
+  estimation::FilterParams filter;
+  estimation::TargetEstimatorParams tracker;
+};
+
+/// What a user's file says to the nodes.
+PerceptionParams perceptionOf(const configuration::Overlay& overlay);
+
+/// What a flight in one process, or a recorded one, sees and knows of its target, put together as the nodes
+/// do it between them. It takes everything in the order in which it comes.
 class FlightPerception {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
-  explicit FlightPerception(const FlightParams& params);
+  explicit FlightPerception(const PerceptionParams& params);
 
   void setReference(const detection::ReferenceAppearance& reference) { perception_.setReference(reference); }
-  /// A calibration that cannot be used withdraws the one before.
-  void calibrate(const geometry::PinholeCamera& camera);
+  /// None, or one that cannot be used, withdraws the one before.
+  void calibrate(const std::optional<geometry::PinholeCamera>& camera);
   /// \return its stamp by the clock of the receiver
   double addOdometry(double stamp_sec, double arrival_sec, const Eigen::Isometry3d& T_odom_base,
                      const std::optional<Eigen::Vector3d>& velocity_odom_mps);
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
+  bool knowsAttitude(double stamp_sec) const {
+    return attitude_.at(stamp_sec, kMaxAttitudeGapSec).has_value();
+  }
 
   /// What the detector makes of an image.
-  const std::optional<detection::WindowObservation>& detect(const cv::Mat& image, double stamp_sec,
-                                                            const Eigen::Isometry3d& T_base_camera);
+  const std::optional<detection::WindowObservation>& detect(
+      const cv::Mat& image, double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera);
   /// What was seen in an image, by the detector or otherwise, goes on to the target; not without a
   /// calibration.
-  void see(double stamp_sec, const Eigen::Isometry3d& T_base_camera,
+  void see(double stamp_sec, const std::optional<Eigen::Isometry3d>& T_base_camera,
            const std::optional<detection::WindowObservation>& window);
+  /// All but parameters and reference.
+  void forget();
 
   const perception::WindowPerception& perception() const { return perception_; }
   const std::optional<geometry::PinholeCamera>& camera() const { return camera_; }
@@ -41,6 +58,8 @@ class FlightPerception {
   const estimation::TargetEstimator& tracker() const { return tracker_; }
 
  private:
+  static constexpr double kMaxAttitudeGapSec = 0.02;
+
   perception::WindowPerception perception_;
   estimation::PoseBuffer attitude_;
   estimation::SenderClock odometry_clock_;
