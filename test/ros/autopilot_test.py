@@ -6,29 +6,15 @@ import sys
 import time
 import unittest
 
-import genpy.dynamic
 import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
-from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState, WindowPose
 
 import support
-
-STATE = f"""std_msgs/Header header
-bool connected
-bool armed
-bool guided
-bool manual_input
-string mode
-uint8 system_status
-{80 * '='}
-MSG: std_msgs/Header
-{Header._full_text}"""
-State = genpy.dynamic.generate_dynamic("mavros_msgs/State", STATE)["mavros_msgs/State"]
 
 LATE_S, STOP_S = 0.2, 2.0  # of the guard; the second is set in autopilot.test
 MARGIN_S = 0.3             # a loaded machine
@@ -37,14 +23,6 @@ MARGIN_S = 0.3             # a loaded machine
 def in_map(stamp):
     message = support.odometry(stamp)
     message.header.frame_id = "map"
-    return message
-
-
-def level(stamp):
-    message = Imu()
-    message.header.stamp = stamp
-    message.header.frame_id = "base_link"
-    message.orientation.w = 1.0
     return message
 
 
@@ -60,9 +38,9 @@ class AutopilotTest(unittest.TestCase):
         cls.states = support.Listener("/state", IngressState)
         cls.armed, cls.mode, cls.system_status = False, "POSCTL", 4
         cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, in_map, 50.0),
-                       support.Stream("/mavros/imu/data", Imu, level, 50.0),
+                       support.Stream("/mavros/imu/data", Imu, support.imu, 50.0),
                        support.Stream("/window_pose", WindowPose, support.no_window, 30.0)]
-        cls.states_of_autopilot = support.Stream("/mavros/state", State, cls.state, 5.0)
+        cls.states_of_autopilot = support.Stream("/mavros/state", support.AutopilotState, cls.state, 5.0)
 
     @classmethod
     def tearDownClass(cls):
@@ -71,7 +49,7 @@ class AutopilotTest(unittest.TestCase):
 
     @classmethod
     def state(cls, stamp):
-        message = State(connected=True, armed=cls.armed, mode=cls.mode, system_status=cls.system_status)
+        message = support.AutopilotState(connected=True, armed=cls.armed, mode=cls.mode, system_status=cls.system_status)
         message.header.stamp = stamp
         return message
 
@@ -130,7 +108,7 @@ class AutopilotTest(unittest.TestCase):
         reply = self.call("start")
         self.assertFalse(reply.success)
         self.assertIn("/engaged has fallen silent", reply.message)
-        type(self).states_of_autopilot = support.Stream("/mavros/state", State, self.state, 5.0)
+        type(self).states_of_autopilot = support.Stream("/mavros/state", support.AutopilotState, self.state, 5.0)
         self.fly()
 
     def test_4_the_guard_brakes_for_a_navigator_killed_in_flight_and_then_gives_way(self):

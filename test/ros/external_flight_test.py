@@ -7,7 +7,6 @@ import threading
 import time
 import unittest
 
-import genpy.dynamic
 import rosgraph
 import rospy
 import rostest
@@ -15,23 +14,10 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
-from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict, IngressState
 
 import support
-
-STATE = f"""std_msgs/Header header
-bool connected
-bool armed
-bool guided
-bool manual_input
-string mode
-uint8 system_status
-{80 * '='}
-MSG: std_msgs/Header
-{Header._full_text}"""
-State = genpy.dynamic.generate_dynamic("mavros_msgs/State", STATE)["mavros_msgs/State"]
 
 STEP_S = 0.02
 REAL_TIME_FACTOR = 0.5         # for machines that draw slowly
@@ -54,7 +40,7 @@ class Autopilot:
         self._seen = 0.0
         self._simulates_time = simulates_time
         self._publishers = {kind: rospy.Publisher(topic, kind, queue_size=10) for topic, kind in (
-            ("/clock", Clock), ("/mavros/local_position/odom", Odometry), ("/mavros/imu/data", Imu), ("/mavros/state", State))
+            ("/clock", Clock), ("/mavros/local_position/odom", Odometry), ("/mavros/imu/data", Imu), ("/mavros/state", support.AutopilotState))
             if simulates_time or kind is not Clock}
         rospy.Subscriber("/mavros/setpoint_velocity/cmd_vel", TwistStamped, self._obey)
         rospy.Subscriber("/ground_truth/window_in_camera", PoseStamped, self._look)  # one with each image
@@ -96,8 +82,8 @@ class Autopilot:
         self._publishers[Odometry].publish(self._odometry(now - rospy.Duration(LATE_S) if late else now))
         self._publishers[Imu].publish(self._stamped(Imu(orientation=self._attitude()), now, "base_link"))
         if count % 25 == 0:
-            state = State(connected=True, armed=True, mode="OFFBOARD", system_status=4)
-            self._publishers[State].publish(self._stamped(state, now, ""))
+            state = support.AutopilotState(connected=True, armed=True, mode="OFFBOARD", system_status=4)
+            self._publishers[support.AutopilotState].publish(self._stamped(state, now, ""))
 
     @staticmethod
     def _stamped(message, now, frame):

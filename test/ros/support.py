@@ -11,6 +11,7 @@ from genpy.dynamic import generate_dynamic
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Image, Imu
+from std_msgs.msg import Header
 from window_ingress.msg import FilteredPose, ImagePose, WindowPose
 
 DEADLINE_S = 20.0
@@ -188,6 +189,19 @@ def imu(stamp):
     message.header.frame_id = "base_link"
     message.orientation.w = 1.0
     return message
+
+
+AUTOPILOT_STATE = f"""std_msgs/Header header
+bool connected
+bool armed
+bool guided
+bool manual_input
+string mode
+uint8 system_status
+{80 * '='}
+MSG: std_msgs/Header
+{Header._full_text}"""
+AutopilotState = generate_dynamic("mavros_msgs/State", AUTOPILOT_STATE)["mavros_msgs/State"]  # there may be no MAVROS here
 
 
 def no_window(stamp):

@@ -8,6 +8,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "drawn_window.hpp"
+#include "sample_camera_info.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
@@ -18,18 +19,6 @@ using sensor_msgs::CameraInfo;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-CameraInfo goodInfo() {
-  CameraInfo info;
-  info.width = 640;
-  info.height = 480;
-  info.distortion_model = "plumb_bob";
-  info.D = {-0.2, 0.05, 0.001, -0.002, 0.0};
-  info.K = {554.0, 0.0, 319.5, 0.0, 553.0, 239.5, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {500.0, 0.0, 320.0, 0.0, 0.0, 501.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
-
 struct Refusal {
   std::function<void(CameraInfo&)> spoil;
   std::string word;
@@ -39,7 +28,7 @@ struct Refusal {
 void expectRefused(const std::vector<Refusal>& all) {
   std::string reason;
   for (const Refusal& refusal : all) {
-    CameraInfo info = goodInfo();
+    CameraInfo info = test::sampleCameraInfo();
     refusal.spoil(info);
     const auto camera = cameraFromMsg(info, refusal.rectified);
     EXPECT_FALSE(camera.value) << refusal.word;
@@ -76,7 +65,7 @@ TEST(Fault, M26_NumbersThatAreNone) {
 }
 
 TEST(Fault, M27_ZeroP) {
-  CameraInfo info = goodInfo();
+  CameraInfo info = test::sampleCameraInfo();
   info.P.assign(0.0);
   for (int by_hand = 0; by_hand < 2; ++by_hand) {  // who writes K by hand leaves R zero, too
     const auto raw = cameraFromMsg(info, false);
@@ -107,7 +96,7 @@ TEST(Fault, M29_ModelsThatAreNone) {
 }
 
 CameraInfo fisheyeInfo() {
-  CameraInfo info = goodInfo();
+  CameraInfo info = test::sampleCameraInfo();
   info.distortion_model = "equidistant";
   info.D = {-0.02, 0.01, -0.004, 0.0007};
   info.K = {300.0, 0.0, 321.0, 0.0, 301.0, 238.0, 0.0, 0.0, 1.0};
@@ -194,7 +183,7 @@ TEST(Fault, M33_BinningAndRegions) {
   for (const bool rectified : {false, true})
     for (const int binning : {0, 1, 2, 4})
       for (const bool region : {false, true}) {
-        CameraInfo info = goodInfo();
+        CameraInfo info = test::sampleCameraInfo();
         const Eigen::Vector2d full = *cameraFromMsg(info, rectified).value->project(point);
         info.binning_x = info.binning_y = binning;
         if (region)

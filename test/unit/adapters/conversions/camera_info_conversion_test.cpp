@@ -3,27 +3,16 @@
 #include <limits>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "sample_camera_info.hpp"
 
 namespace window_ingress::adapters::camera_info_conversion_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-sensor_msgs::CameraInfo makeInfo() {
-  sensor_msgs::CameraInfo info;
-  info.width = 640;
-  info.height = 480;
-  info.distortion_model = "plumb_bob";
-  info.D = {-0.2, 0.05, 0.001, -0.002, 0.0};
-  info.K = {554.0, 0.0, 319.5, 0.0, 553.0, 239.5, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {500.0, 0.0, 320.0, 0.0, 0.0, 501.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
-
 template <typename Change>
 std::string refusal(Change change, bool rectified = false) {
-  sensor_msgs::CameraInfo info = makeInfo();
+  sensor_msgs::CameraInfo info = test::sampleCameraInfo();
   change(info);
   const auto camera = cameraFromMsg(info, rectified);
   EXPECT_EQ(camera.value.has_value(), camera.reason.empty());
@@ -35,7 +24,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST(CameraInfo, RawImagesTakeKAndD) {
-  const auto camera = cameraFromMsg(makeInfo(), false);
+  const auto camera = cameraFromMsg(test::sampleCameraInfo(), false);
   ASSERT_TRUE(camera) << camera.reason;
   EXPECT_EQ(camera.value->fx, 554.0);
   EXPECT_EQ(camera.value->fy, 553.0);
@@ -45,7 +34,7 @@ TEST(CameraInfo, RawImagesTakeKAndD) {
 }
 
 TEST(CameraInfo, RectifiedImagesTakePAndNoDistortion) {
-  const auto camera = cameraFromMsg(makeInfo(), true);
+  const auto camera = cameraFromMsg(test::sampleCameraInfo(), true);
   ASSERT_TRUE(camera) << camera.reason;
   EXPECT_EQ(camera.value->fx, 500.0);
   EXPECT_EQ(camera.value->cy, 240.0);
@@ -97,7 +86,7 @@ TEST(CameraInfo, RefusesUnknownModelsAndSaysWhichAreKnown) {
 }
 
 TEST(CameraInfo, TheWordFisheyeIsEquidistant) {
-  sensor_msgs::CameraInfo info = makeInfo();
+  sensor_msgs::CameraInfo info = test::sampleCameraInfo();
   info.distortion_model = "fisheye";
   info.D = {-0.02, 0.005, 0.001, -0.0002};
   const auto camera = cameraFromMsg(info, false);
@@ -120,7 +109,7 @@ TEST(CameraInfo, RationalModelOnlyWithoutItsDenominator) {
 }
 
 TEST(CameraInfo, BinningHalvesFocalLengthAndKeepsPixelCentres) {
-  sensor_msgs::CameraInfo info = makeInfo();
+  sensor_msgs::CameraInfo info = test::sampleCameraInfo();
   info.binning_x = info.binning_y = 2;
   const auto camera = cameraFromMsg(info, false);
   ASSERT_TRUE(camera) << camera.reason;
@@ -131,13 +120,13 @@ TEST(CameraInfo, BinningHalvesFocalLengthAndKeepsPixelCentres) {
 }
 
 TEST(CameraInfo, BinningZeroIsOne) {
-  sensor_msgs::CameraInfo info = makeInfo();
+  sensor_msgs::CameraInfo info = test::sampleCameraInfo();
   info.binning_x = info.binning_y = 1;
-  EXPECT_EQ(cameraFromMsg(info, false).value->cx, cameraFromMsg(makeInfo(), false).value->cx);
+  EXPECT_EQ(cameraFromMsg(info, false).value->cx, cameraFromMsg(test::sampleCameraInfo(), false).value->cx);
 }
 
 TEST(CameraInfo, RegionMovesThePrincipalPoint) {
-  sensor_msgs::CameraInfo info = makeInfo();
+  sensor_msgs::CameraInfo info = test::sampleCameraInfo();
   info.roi.x_offset = 100;
   info.roi.y_offset = 50;
   info.roi.width = 320;
@@ -163,7 +152,7 @@ TEST(CameraInfo, RefusesRegionsOffTheImage) {
 }
 
 TEST(CameraInfo, GoesThereAndBack) {
-  const auto camera = cameraFromMsg(makeInfo(), false);
+  const auto camera = cameraFromMsg(test::sampleCameraInfo(), false);
   const auto again = cameraFromMsg(toMsg(*camera.value), false);
   ASSERT_TRUE(again) << again.reason;
   EXPECT_EQ(again.value->K(), camera.value->K());
