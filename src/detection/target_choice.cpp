@@ -45,19 +45,8 @@ int TargetChoice::fewestSeen(const ScoredCandidate& rival) const {
   return isByFrameAlone(rival) ? kAllSeen : 0;
 }
 
-// Once borders that were fitted well have shown a frame of another width, others show less.
-std::optional<Rejection> TargetChoice::otherFrameAt(const Quadrilateral& place) const {
-  for (const CandidateTrace& refused : trace_.candidates)
-    if (refused.reject == RejectReason::kOtherFrame && Sameness(refused.quad).samePlace(place))
-      return Rejection{refused.reject, refused.value, refused.limit};
-  return std::nullopt;
-}
-
 std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& rival) const {
-  if (rival.located) {
-    if (const auto refused = otherFrameAt(rival.quad)) return refused;
-    if (rival.correlation) return reference_.objectionTo(rival.match, rival.appearance);
-  }
+  if (rival.located && rival.correlation) return reference_.objectionTo(rival.match, rival.appearance);
   if (rival.appearance)
     if (const auto refused = reference_.objectionTo(*rival.appearance)) return refused;
   if (rival.verdict.reject != RejectReason::kNone) return Rejection{rival.verdict.reject, rival.rank(), 0.0};

@@ -33,7 +33,6 @@ class TargetChoice {
 
  private:
   std::optional<Rejection> objection(const ScoredCandidate& rival) const;
-  std::optional<Rejection> otherFrameAt(const geometry::Quadrilateral& place) const;
   std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const View& view, double& inliers) const;
   std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
