@@ -51,7 +51,7 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
     piece_.reset();
   }
   const double turned_rad = geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_));
-  const bool has_turned = std::abs(turned_rad) > kTurnJumpRad + kFastestRadps * dt_sec;
+  const bool has_turned = isHeadingJump(turned_rad, dt_sec);
   if (has_turned) heading_error_rad_ = geometry::wrapAngle(heading_error_rad_ + turned_rad);
   is_erring_ = is_erring_ || has_turned;
   const Eigen::Vector3d before_mps = smooth_->velocity_odom_mps;
@@ -67,6 +67,14 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
   smooth_ = smooth;
   noteFrame();
   return smooth_;
+}
+
+// One that comes back may be smaller than the one that went, by noise and by how the vehicle turns.
+bool ContinuousOdometry::isHeadingJump(double turned_rad, double dt_sec) const {
+  const double vehicle_rad = kFastestRadps * dt_sec, left_rad = heading_error_rad_ + turned_rad;
+  const bool comes_back =
+      std::abs(heading_error_rad_) > kTurnJumpRad && std::abs(left_rad) < 0.5 * std::abs(heading_error_rad_);
+  return std::abs(turned_rad) > vehicle_rad + (comes_back ? 0.0 : kTurnJumpRad);
 }
 
 Eigen::Isometry3d ContinuousOdometry::T_smooth_odom(double stamp_sec) const {

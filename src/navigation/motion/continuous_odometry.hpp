@@ -92,6 +92,7 @@ class ContinuousOdometry {
   };
 
   VehicleState inSmooth(const VehicleState& odometry) const;
+  bool isHeadingJump(double turned_rad, double dt_sec) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
   void compareWithWindow(Difference& difference);

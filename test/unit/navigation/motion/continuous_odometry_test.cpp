@@ -185,6 +185,22 @@ TEST(ContinuousOdometry, AHeadingThatComesBackInFlightTurnsNoAxesWhateverTheNois
   EXPECT_EQ(wrong, 0);
 }
 
+// A vehicle that turns meanwhile makes one of two like jumps the smaller one: 0.155 and 0.111 rad were seen.
+TEST(ContinuousOdometry, AHeadingThatComesBackIsTakenBackThoughTheVehicleTurns) {
+  for (const double turn_rad : {-0.15, 0.1, 0.11, 0.12, 0.13}) {
+    Curve curve;
+    ContinuousOdometry continuous;
+    for (int i = 0; i < 400; ++i) {
+      curve.heading_turn = i >= 60 && i < 110 ? turn_rad : 0.0;
+      if (i < 200) curve.yaw += 0.4 * kStep;
+      continuous.add(curve.step());
+    }
+    EXPECT_NEAR(continuous.headingErrorRad(), 0.0, 0.05) << turn_rad;
+    const Eigen::Vector3d forward = continuous.inOdomAxes(Eigen::Vector3d::UnitX());
+    EXPECT_NEAR(std::atan2(forward.y(), forward.x()), 0.0, 0.02) << turn_rad;
+  }
+}
+
 TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   Curve curve;
   ContinuousOdometry continuous;
