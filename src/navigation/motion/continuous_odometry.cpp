@@ -146,7 +146,7 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
   const Eigen::Vector3d differs_mps = unexplained_m / piece_sec;
   pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
-  compareWithWindow(pieces_.back());
+  compareWithWindow(pieces_.back(), usualMps(uprightOf(smooth)));
   if (pieces_.size() > kPieces) pieces_.pop_front();
   judgeVelocity();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
@@ -162,10 +162,13 @@ void ContinuousOdometry::see(double stamp_sec, const Eigen::Vector3d& window_odo
     }
 }
 
-void ContinuousOdometry::compareWithWindow(Difference& difference) {
+void ContinuousOdometry::compareWithWindow(Difference& difference, const Eigen::Vector3d& usual_mps) {
   const std::optional<Sighting> before = std::exchange(piece_sighting_, sighting_);
-  if (!before || std::abs(sighting_->stamp_sec - before->stamp_sec - kPieceSec) > kSightingSec) return;
-  const Eigen::Vector2d differs_m = (sighting_->differs_m - before->differs_m).head<2>();
+  if (!before) return;
+  const double passed_sec = sighting_->stamp_sec - before->stamp_sec;
+  if (std::abs(passed_sec - kPieceSec) > kSightingSec) return;
+  const Eigen::Vector2d differs_m =
+      (sighting_->differs_m - before->differs_m - passed_sec * usual_mps).head<2>();
   const Eigen::Vector2d moved_m = (sighting_->window_m - before->window_m).head<2>();
   if (std::max(differs_m.norm(), moved_m.norm()) > kMostOfVelocityMps * kPieceSec)
     return;  // a jump, or another window

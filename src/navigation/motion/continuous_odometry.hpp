@@ -95,7 +95,7 @@ class ContinuousOdometry {
   bool isHeadingJump(double turned_rad, double dt_sec) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
-  void compareWithWindow(Difference& difference);
+  void compareWithWindow(Difference& difference, const Eigen::Vector3d& usual_mps);
   void judgeVelocity();
   using Axes = Eigen::Vector3d Difference::*;
   Eigen::Vector3d middleMps(Axes axes) const;

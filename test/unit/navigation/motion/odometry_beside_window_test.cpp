@@ -69,6 +69,21 @@ TEST(OdometryBesideWindow, WhereTheWindowSlidesAlongThePositionErrs) {
   }
 }
 
+// A steady bias is taken off: what it explains says nothing of the rest, in which the window slides along.
+TEST(OdometryBesideWindow, ASteadyBiasIsNoReasonToBelieveThePosition) {
+  Flight flight;
+  ContinuousOdometry continuous;
+  flight.bias_mps = 0.25;
+  for (int i = 0; i < 900; ++i) {
+    flight.shift_m = 0.1 * std::sin(1.5 * flight.time);
+    const VehicleState odometry = flight.step();
+    continuous.see(flight.time - 0.05, kWindow + flight.shift());
+    ASSERT_TRUE(continuous.add(odometry));
+  }
+  EXPECT_TRUE(continuous.isBiasKnown());
+  EXPECT_FALSE(continuous.isVelocityWorse());
+}
+
 TEST(OdometryBesideWindow, AJumpIsTakenOffAllTheSame) {
   Flight flight;
   ContinuousOdometry continuous;
