@@ -21,6 +21,7 @@ constexpr double kWindowMovesAlong = 0.3;  // of the difference, if it is the po
 constexpr double kMostOfVelocityMps = 0.5, kSlideSec = 0.25;  // for so long more is no error of a velocity
 constexpr double kSightingSec = 0.2;       // that two sightings are off the length of a piece
 constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
+constexpr double kSigmas = 2.0;            // of how a position walks, before a bias is known
 constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
@@ -146,11 +147,11 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
   const Eigen::Vector3d differs_mps = unexplained_m / piece_sec;
   pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
-  compareWithWindow(pieces_.back(), usualMps(uprightOf(smooth)));
   if (pieces_.size() > kPieces) pieces_.pop_front();
+  compareWithWindow(pieces_.back(), usualMps(uprightOf(smooth)));
   judgeVelocity();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
-  if (isBiasKnown()) judgePieces();
+  if (pieces_.size() >= kFirstPieces) judgePieces();
 }
 
 void ContinuousOdometry::see(double stamp_sec, const Eigen::Vector3d& window_odom_m) {
@@ -205,8 +206,9 @@ void ContinuousOdometry::judgePieces() {
   drift_m_per_sqrt_sec_ = kSigmaOfMedian * geometry::median(errors_mps) * std::sqrt(kPieceSec);
 }
 
-// Axes of `smooth`.
+// Axes of `smooth`; nothing as long as it may be a slide.
 Eigen::Vector3d ContinuousOdometry::usualMps(const Eigen::Matrix3d& R_smooth_base) const {
+  if (!isBiasKnown()) return Eigen::Vector3d::Zero();
   return axes_ == &Difference::smooth_mps ? usual_.smooth_mps
                                           : Eigen::Vector3d(R_smooth_base * usual_.base_mps);
 }
@@ -246,9 +248,10 @@ Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
 
 double ContinuousOdometry::unexplainedMps() const {
   if (is_velocity_worse_ && isBiasKnown()) return 0.0;
-  const double late_mps = (latePiecesMps() - usual_.*axes_).norm();
-  if (isBiasKnown() || pieces_.size() < kFirstPieces) return late_mps;
-  return std::max(late_mps, middleMps(axes_).norm());
+  if (isBiasKnown()) return (latePiecesMps() - usual_.*axes_).norm();
+  if (pieces_.empty()) return 0.0;
+  const double walk_mps = drift_m_per_sqrt_sec_ / std::sqrt(kPieceSec * static_cast<double>(pieces_.size()));
+  return std::max(latePiecesMps().norm(), std::hypot((usual_.*axes_).norm(), kSigmas * walk_mps));
 }
 
 Eigen::Vector3d ContinuousOdometry::unbiased(const VehicleState& smooth) const {

@@ -52,11 +52,11 @@ class ContinuousOdometry {
   double disagreementMps() const { return latePiecesMps().norm(); }
   /// By how much positions were set right so far, level [m]: the vehicle may stand as far from its place.
   double shiftM() const { return shift_m_.head<2>().norm(); }
-  /// What of it the known bias does not explain [m/s]; before one is known, over all the time so far, if that
-  /// is more.
+  /// What of it the known bias does not explain [m/s]; before one is known, what the velocity may be off by
+  /// after all the time so far, if that is more.
   double unexplainedMps() const;
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
-  double driftMPerSqrtSec() const { return drift_m_per_sqrt_sec_; }
+  double driftMPerSqrtSec() const { return isBiasKnown() ? drift_m_per_sqrt_sec_ : 0.0; }
   bool isBiasKnown() const { return pieces_.size() == kPieces; }
   /// Whether the window has shown that the position is right where the two differ.
   bool isVelocityWorse() const { return is_velocity_worse_; }
@@ -121,7 +121,7 @@ class ContinuousOdometry {
   std::deque<Sample> differences_;                     ///< of the last second, positions without shifts
   std::optional<Sighting> sighting_, piece_sighting_;  ///< the latest; that of when the piece began
   std::deque<Difference> pieces_;                      ///< the latest
-  Difference usual_;                                   ///< middle value of them; zero until it is known
+  Difference usual_;                                   ///< middle value of them
   Axes axes_ = &Difference::base_mps;                  ///< in which they are more even
   double drift_m_per_sqrt_sec_ = 0.0;
 };
