@@ -52,13 +52,16 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
     piece_.reset();
   }
   const double turned_rad = geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_));
-  const bool has_turned = isHeadingJump(turned_rad, dt_sec);
+  const bool comes_back = headingComesBack(turned_rad);
+  const bool has_turned = std::abs(turned_rad) > kFastestRadps * dt_sec + (comes_back ? 0.0 : kTurnJumpRad);
   if (has_turned) heading_error_rad_ = geometry::wrapAngle(heading_error_rad_ + turned_rad);
   is_erring_ = is_erring_ || has_turned;
   const Eigen::Vector3d before_mps = smooth_->velocity_odom_mps;
   VehicleState smooth = inSmooth(odometry);
   way_m_ += dt_sec * 0.5 * (before_mps + smooth.velocity_odom_mps);
-  if (has_turned)  // one that came back before the vehicle had moved has turned no axes
+  if (has_turned && comes_back)
+    turn_.reset();  // it was wrong alone
+  else if (has_turned)
     turn_ = Turn{turned_rad + (turn_ ? turn_->turn_rad : 0.0),
                  {odometry.stamp_sec, odometry.T_odom_base.translation(), way_m_}};
   odometry_ = odometry;
@@ -70,12 +73,11 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
   return smooth_;
 }
 
-// One that comes back may be smaller than the one that went, by noise and by how the vehicle turns.
-bool ContinuousOdometry::isHeadingJump(double turned_rad, double dt_sec) const {
-  const double vehicle_rad = kFastestRadps * dt_sec, left_rad = heading_error_rad_ + turned_rad;
-  const bool comes_back =
-      std::abs(heading_error_rad_) > kTurnJumpRad && std::abs(left_rad) < 0.5 * std::abs(heading_error_rad_);
-  return std::abs(turned_rad) > vehicle_rad + (comes_back ? 0.0 : kTurnJumpRad);
+// By a jump that may be smaller than the one that went, by noise and by how the vehicle turns.
+bool ContinuousOdometry::headingComesBack(double turned_rad) const {
+  const double error_rad = headingErrorRad();
+  return std::abs(error_rad) > kTurnJumpRad &&
+         std::abs(geometry::wrapAngle(error_rad + turned_rad)) < 0.5 * std::abs(error_rad);
 }
 
 Eigen::Isometry3d ContinuousOdometry::T_smooth_odom(double stamp_sec) const {

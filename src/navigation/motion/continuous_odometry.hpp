@@ -92,7 +92,7 @@ class ContinuousOdometry {
   };
 
   VehicleState inSmooth(const VehicleState& odometry) const;
-  bool isHeadingJump(double turned_rad, double dt_sec) const;
+  bool headingComesBack(double turned_rad) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
   void compareWithWindow(Difference& difference, const Eigen::Vector3d& usual_mps);

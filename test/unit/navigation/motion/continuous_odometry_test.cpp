@@ -201,6 +201,27 @@ TEST(ContinuousOdometry, AHeadingThatComesBackIsTakenBackThoughTheVehicleTurns) 
   }
 }
 
+// An attitude that was wrong alone, as the motion has shown, is right again: nothing is left to be judged by
+// a vehicle that hovers in an odometry that wanders.
+TEST(ContinuousOdometry, AHeadingThatComesBackWhileTheVehicleHoversTurnsNoAxes) {
+  int wrong = 0;
+  for (unsigned seed = 1; seed <= 400; ++seed) {
+    Curve curve;
+    curve.random.seed(seed);
+    curve.noise_m = 0.02;
+    ContinuousOdometry continuous;
+    for (int i = 0; i < 600; ++i) {
+      curve.heading_turn = i >= 30 && i < 150 ? -0.3 : 0.0;
+      if (i >= 140 && i < 500) curve.speed = curve.aside = curve.climb = 0.0;
+      if (i >= 500) curve.speed = 0.8;
+      continuous.add(curve.step());
+    }
+    const Eigen::Vector3d forward = continuous.inOdomAxes(Eigen::Vector3d::UnitX());
+    wrong += std::abs(std::atan2(forward.y(), forward.x())) > 0.05;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   Curve curve;
   ContinuousOdometry continuous;
