@@ -18,7 +18,8 @@ constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
 constexpr double kToldM2 = 0.02;  // of differences that a window was seen beside, squared: enough to judge by
 constexpr double kWindowMovesAlong = 0.3;  // of the difference, if it is the position that errs
-constexpr double kMostOfVelocityMps = 0.5, kSlideSec = 0.25;  // for so long more is no error of a velocity
+// For so long more is no error of a velocity; with its steady bias, and without.
+constexpr double kMostOfVelocityMps = 0.5, kMostBesideBiasMps = 0.3, kSlideSec = 0.25;
 constexpr double kSightingSec = 0.2;       // that two sightings are off the length of a piece
 constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
 constexpr double kSigmas = 2.0;            // of how a position walks, before a bias is known
@@ -281,7 +282,7 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
         return sample.stamp_sec >= smooth.stamp_sec - kSlideSec;
       });
       unexplained_m = unexplainedSince(*first);
-      most_m = kMostOfVelocityMps * kSlideSec;
+      most_m = (isBiasKnown() ? kMostBesideBiasMps : kMostOfVelocityMps) * kSlideSec;
     }
   }
   if (unexplained_m.norm() < most_m) return;

@@ -84,6 +84,25 @@ TEST(OdometryBesideWindow, ASteadyBiasIsNoReasonToBelieveThePosition) {
   EXPECT_FALSE(continuous.isVelocityWorse());
 }
 
+// Beside its steady bias no velocity errs by so much.
+TEST(OdometryBesideWindow, ASlideBesideABiasThatIsKnownIsTakenOffAllTheSame) {
+  Flight flight;
+  ContinuousOdometry continuous;
+  double y_m = 0.0, before_y_m = 0.0;
+  for (int i = 0; i < 380; ++i) {
+    flight.bias_mps = 0.17 + 0.03 * std::sin(0.7 * flight.time);
+    if (i >= 300) flight.shift_m += 0.45 * kStep;
+    const VehicleState odometry = flight.step();
+    if (i < 300) continuous.see(flight.time - 0.05, kWindow);
+    const auto smooth = continuous.add(odometry);
+    ASSERT_TRUE(smooth);
+    y_m = smooth->T_odom_base.translation().y();
+    if (i < 300) before_y_m = y_m;
+  }
+  EXPECT_TRUE(continuous.isBiasKnown());
+  EXPECT_NEAR(y_m, before_y_m, 0.15);  // of 1.2 m
+}
+
 TEST(OdometryBesideWindow, AJumpIsTakenOffAllTheSame) {
   Flight flight;
   ContinuousOdometry continuous;
