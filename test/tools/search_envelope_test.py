@@ -80,3 +80,9 @@ def test_wrong_usage_is_refused(tmp_path, arguments, said):
 def test_a_scenario_without_ranges_is_no_envelope(tmp_path):
     done = search(tmp_path / "out", "--envelope", envelope_in(tmp_path, "time_limit_sec: 30\n"))
     assert done.returncode == 2 and "has no ranges to search" in done.stderr
+
+
+def test_only_whole_numbers_have_ranges_of_whole_numbers():
+    """What is kept of a find is settled by the type of its range, and flown by the type of its key."""
+    text = (ROOT / "config/envelope.yaml").read_text()
+    assert set(re.findall(r"(\w+): \[-?\d+, -?\d+\]", text)) == {"texture_seed"}
