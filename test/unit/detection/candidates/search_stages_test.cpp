@@ -99,7 +99,7 @@ TEST(BlobMasks, StandOutFromWhatSurroundsThemWhateverTheLight) {
   BlobMasks blobs;
   blobs.take(level, 0);
   for (const auto& [sign, blob] :
-       {std::pair(BlobMasks::Sign::kAbove, above), {BlobMasks::Sign::kBelow, below}}) {
+       {std::pair(BlobMasks::Sign::kAbove, above), std::pair(BlobMasks::Sign::kBelow, below)}) {
     cv::Mat mask = blobs.run(sign, 12.0).clone();
     EXPECT_GT(cv::countNonZero(mask(blob)), 0.9 * blob.area());
     mask(cv::Rect(blob.x - 2, blob.y - 2, blob.width + 4, blob.height + 4)).setTo(0);
