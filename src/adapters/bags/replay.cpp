@@ -152,6 +152,7 @@ void Replay::noticeJump(const ros::Time& stamp) {
 
 void Replay::forgetAll() {
   eyes_.forget();
+  if (params_.reference) eyes_.setReference(*params_.reference);  // without the light that it has followed
   odometry_.clear();
   waiting_.clear();
 }

@@ -6,6 +6,7 @@
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
+
 std::optional<double> stampSec(const ros::Time& stamp) {
   if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
   return stamp.toSec();

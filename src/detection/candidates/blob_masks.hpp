@@ -9,11 +9,11 @@ class BlobMasks {
  public:
   enum class Sign { kAbove, kBelow };
 
-  /// \param level CV_8UC1 or CV_8UC3. The others speak of this channel of it from now on.
+  /// The channel in which `run` looks. \param level CV_8UC1 or CV_8UC3
   void take(const cv::Mat& level, int channel);
 
-  /// Where the channel differs from its mean round about by more than `contrast`: CV_8UC1, 0 or 255. Valid
-  /// until the next call. \param contrast [grey levels]
+  /// Where the channel is above, or below, its mean over the square around by more than `contrast`: CV_8UC1,
+  /// 0 or 255. Valid until the next call. \param contrast [grey levels]
   const cv::Mat& run(Sign sign, double contrast);
 
  private:

@@ -36,7 +36,8 @@ class CandidateSearch {
   const std::vector<ScoredCandidate>& runAgain(DetectionTrace& trace);
 
   /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
-  /// but not in brightness, or that are lost among brighter and darker things. None if it has no colours.
+  /// but not in brightness, or that are lost among brighter and darker things; and by the outlines of blobs.
+  /// None if it has no colours.
   const std::vector<ScoredCandidate>& runOnColours(DetectionTrace& trace);
 
   /// Likewise, by one paint: for thin or blurred frames of a known colour. \param paint see

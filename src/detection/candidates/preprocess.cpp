@@ -10,6 +10,7 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kColourGain = 2.0;    ///< of differences between channels, in the image of colours alone
+constexpr int kUnpainted = 100;        ///< what has nothing of the paint, in the image of one paint
 constexpr float kPaintGain = 400.0F;   ///< of chromaticities, in the image of one paint
 constexpr double kPaintSigmaPx = 1.2;  ///< its smoothing: of chromaticities, dark pixels know little
 constexpr double kClipLimit = 2.0;     ///< of the equalisation [mean bin counts]

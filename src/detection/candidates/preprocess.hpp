@@ -32,11 +32,10 @@ class Preprocess {
   /// Empty if it has no colours.
   const cv::Mat& coloursAlone();
 
-  /// The last level by one paint, whatever light is on it: CV_8UC1, `kUnpainted` where a pixel's chromaticity
+  /// The last level by one paint, whatever light is on it: CV_8UC1, 100 where a pixel's chromaticity
   /// has nothing of it. Empty if it has no colours. \param paint direction of chromaticity, see
   /// `RingMeans::paint`
   const cv::Mat& paintAlone(const Eigen::Vector3f& paint);
-  static constexpr int kUnpainted = 100;
 
  private:
   void equalise(cv::Mat& image);

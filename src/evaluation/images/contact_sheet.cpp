@@ -11,8 +11,9 @@ constexpr int kGap_px = 6;
 }  // namespace
 
 cv::Mat coloured(const cv::Mat& image) {
-  cv::Mat result = image.clone();
-  if (image.channels() == 1) cv::cvtColor(image, result, cv::COLOR_GRAY2BGR);
+  if (image.channels() != 1) return image.clone();
+  cv::Mat result;
+  cv::cvtColor(image, result, cv::COLOR_GRAY2BGR);
   return result;
 }
 
@@ -28,6 +29,7 @@ void ContactSheet::add(const cv::Mat& image, const std::string& caption) {
 }
 
 cv::Mat ContactSheet::draw() const {
+  if (cells_.empty()) return {};
   const int count = static_cast<int>(cells_.size()), columns = std::min(columns_, count);
   cv::Size size;
   for (const cv::Mat& cell : cells_) size = {cell.cols, std::max(size.height, cell.rows)};

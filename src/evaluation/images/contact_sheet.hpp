@@ -15,7 +15,7 @@ class ContactSheet {
   ContactSheet(int columns, int cell_width_px) : columns_(columns), width_px_(cell_width_px) {}
 
   void add(const cv::Mat& image, const std::string& caption);
-  cv::Mat draw() const;  ///< CV_8UC3
+  cv::Mat draw() const;  ///< CV_8UC3; empty if nothing was added
 
  private:
   int columns_, width_px_;

@@ -160,8 +160,7 @@ std::pair<std::vector<LabelledImage>, std::vector<LabelledImage>> split(
   if (names.size() < 2)
     throw std::invalid_argument(
         "the images are all of one group (one second of a bag; names that differ in their last digit only, "
-        "as of "
-        "one video): none can be held out; label images of two places at least");
+        "as of one video): none can be held out; label images of two places at least");
   std::vector<std::string> groups(names.begin(), names.end());
   std::mt19937 random(seed);
   for (std::size_t i = groups.size() - 1; i > 0; --i) std::swap(groups[i], groups[random() % (i + 1)]);
