@@ -27,6 +27,13 @@ double furthestCorner(const Quadrilateral& a, const Quadrilateral& b) {
   return furthest;
 }
 
+double distanceToBorder(const Quadrilateral& quad, const cv::Size& image) {
+  double least = std::max(image.width, image.height);
+  for (const Eigen::Vector2d& p : quad)
+    least = std::min({least, p.x(), p.y(), image.width - 1 - p.x(), image.height - 1 - p.y()});
+  return least;
+}
+
 Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera* lens) {
   if (lens)
     for (auto& corner : quad) corner = lens->undistort(corner);

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::detection {
 
 inline constexpr double kSkip = 0.06;  ///< left out at both ends of a side: corners are rounded [its lengths]
-/// Of fitted borders from where the surroundings were aligned.
-inline constexpr double kAlignedStrayPx = 2.0;
 
 /// Of vectors of the plane.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -20,6 +20,9 @@ double sizeOf(const geometry::Quadrilateral& quad);
 double meanSide(const geometry::Quadrilateral& quad);
 /// How far the corner that differs most lies from its counterpart [px].
 double furthestCorner(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);
+
+/// Of the corner nearest to the image's border, or furthest beyond it: then negative [px].
+double distanceToBorder(const geometry::Quadrilateral& quad, const cv::Size& image);
 
 /// Corners of the undistorted image and of the image as it came. \param lens null where they are the same
 geometry::Quadrilateral undistorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);

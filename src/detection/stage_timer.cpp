@@ -1,6 +1,5 @@
 #include "window_ingress/detection/stage_timer.hpp"
 
-
 namespace window_ingress::detection {
 
 const char* toString(Stage stage) {

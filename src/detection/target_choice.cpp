@@ -14,11 +14,11 @@ constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kSearchRadius = 1.5;     ///< likewise, of what the search found [px of its level]
 constexpr double kBlobRadius = 3.0;       ///< and where that is a blob's outline
-constexpr double kLocatedSigmaPx = 1.0;   ///< how well they are located
+constexpr double kLocatedSigmaPx = 1.4;   ///< how well they are located
+constexpr double kAlignedStrayPx = 2.0;   ///< of fitted borders from where the surroundings were aligned
+constexpr double kCutAway = 0.01;         ///< of a corner beyond the image [longer image sides]
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
 constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
-constexpr double kAlignedShiftPx = 0.8;   ///< and from where the wall round a hole was aligned, to count
-constexpr double kAlignedStray = 0.025;  ///< as `kAlignedStrayPx`, of borders found by the frame [mean sides]
 
 // Neither its geometry nor its surroundings have told that it is a window.
 bool isByFrameAlone(const ScoredCandidate& rival) { return rival.doubtful && !rival.correlation; }
@@ -62,28 +62,36 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
   const bool is_blob = rival.candidate.source == CandidateSource::kBlob;
   start.radius_px =
       rival.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
-  if (rival.located) start.fallback_sigma_px = kLocatedSigmaPx;
-  if (!rival.correlation) return refinement_.run(view.image, start, view.camera, &inliers);
-  start.max_stray_px = kAlignedStrayPx;
-  if (reference_.frameless()) start.max_shift_px = kAlignedShiftPx;
+  if (rival.located) start.knowAll(kLocatedSigmaPx);
+  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 
-// Borders that do not lie where the surroundings fit are those of something before them: fitted anew there.
-// Without a camera nothing keeps the surroundings from shearing, and the borders are left.
+std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, const View& view) const {
+  return refinement_.run(view.image, {ring.quad, kLocatedRadiusPx, ring.sides, kAlignedStrayPx}, view.camera);
+}
+
+std::optional<RefinedBorders> TargetChoice::bordersNear(const Quadrilateral& place, const View& view) const {
+  if (!view.camera) return std::nullopt;
+  const auto ring = reference_.surroundingsOf(place, view.image, view.camera);
+  return ring ? fitWhere(*ring, view) : std::nullopt;
+}
+
+// Without a camera nothing keeps the surroundings from shearing, and the borders are left. What another
+// window has in common with the reference is aligned, too, and its borders contradict that.
 std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                            RefinedBorders& fitted) {
   const auto ring = reference_.surroundingsOf(fitted.corners, view.image, view.camera);
   if (!ring) return std::nullopt;
-  if (auto fault = reference_.objectionTo(ring->match, rival.appearance)) return fault;
-  const double stray_px = std::max(kAlignedStrayPx, kAlignedStray * meanSide(ring->quad));
-  if (!view.camera || furthestCorner(ring->quad, fitted.corners) <= stray_px) return std::nullopt;
-  ScoredCandidate aligned = rival;
-  aligned.quad = ring->quad;
-  aligned.located = true;
-  aligned.correlation = ring->match.correlation;
-  double inliers = 0.0;
-  if (const auto anew = refine(aligned, view, inliers)) fitted = *anew;
+  if (!rival.correlation && !reference_.isHazy(view.image, *ring))
+    if (auto fault = reference_.objectionTo(ring->match, rival.appearance)) return fault;
+  if (!view.camera) return std::nullopt;
+  const auto anew = fitWhere(*ring, view);
+  if (!anew) return std::nullopt;
+  const auto agreeing = std::count(anew->fitted.begin(), anew->fitted.end(), true);
+  if (agreeing >= kFewestSeen ||
+      !reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival)))
+    fitted = *anew;
   return std::nullopt;
 }
 
@@ -97,8 +105,10 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
                            reference_.showsOpening(view.image, found->corners, view.camera));
   if (!is_opening) return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
   fitted = *found;
-  if (!rival.correlation)
-    if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
+  if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
+  const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
+  if (const double inside = distanceToBorder(fitted.corners, view.image.size()); inside < least)
+    return Rejection{RejectReason::kBorder, inside, least};
   return reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival));
 }
 

@@ -31,9 +31,14 @@ class TargetChoice {
   std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& rivals, int search_factor,
                                           const View& view);
 
+  /// Where the borders of a window near this place are: where what lies round the reference's opening fits,
+  /// averaged with what shows of its borders there. Nothing without a camera, or where that does not fit.
+  std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const View& view) const;
+
  private:
   std::optional<Rejection> objection(const ScoredCandidate& rival) const;
   std::optional<RefinedBorders> refine(const ScoredCandidate& rival, const View& view, double& inliers) const;
+  std::optional<RefinedBorders> fitWhere(const AlignedRing& ring, const View& view) const;
   std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                RefinedBorders& fitted);

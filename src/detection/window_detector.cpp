@@ -169,6 +169,12 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   return window;
 }
 
+std::optional<RefinedBorders> WindowDetector::bordersNear(const geometry::Quadrilateral& place,
+                                                          const cv::Mat& image,
+                                                          const geometry::PinholeCamera* camera) const {
+  return impl_->choice.bordersNear(place, {image, 0.0, camera});
+}
+
 StageTimer* WindowDetector::watch() const { return impl_->watch; }
 
 const DetectionTrace& WindowDetector::trace() const { return impl_->trace; }

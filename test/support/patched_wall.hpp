@@ -36,7 +36,13 @@ class PatchedWall {
     if (frame_m_ > 0.0)
       fill(image, camera, T_camera_window, -w - frame_m_, -h - frame_m_, w + frame_m_, h + frame_m_, paint);
     const geometry::Quadrilateral quad = cornersOf(camera, T_camera_window, -w, -h, w, h);
-    if (is_open) fillQuad(image, quad, within);
+    if (is_open) fillQuad(image, quad, painted_reveal_m > 0.0 ? 0.85 * paint : within);
+    if (is_open && painted_reveal_m > 0.0) {
+      cv::Mat front(image.size(), CV_8U, cv::Scalar(0)), back = front.clone();
+      fillQuad(front, quad, cv::Scalar(255));
+      fillQuad(back, cornersOf(camera, T_camera_window, -w, -h, w, h, painted_reveal_m), cv::Scalar(255));
+      image.setTo(within, front & back);
+    }
     if (opening) *opening = quad;
     cv::GaussianBlur(image, image, cv::Size(), 0.7);
     return image;
@@ -44,6 +50,7 @@ class PatchedWall {
 
   cv::Scalar paint = cv::Scalar(30, 110, 210);  ///< of the frame
   bool is_open = true;                          ///< false: the wall goes on where the opening was
+  double painted_reveal_m = 0.0;                ///< depth of a reveal in a darker shade of the frame's paint
 
   static geometry::PinholeCamera lensless() {
     return geometry::PinholeCamera::fromFieldOfView(640, 480, 1.05);
@@ -57,11 +64,11 @@ class PatchedWall {
 
   static geometry::Quadrilateral cornersOf(const geometry::PinholeCamera& camera,
                                            const Eigen::Isometry3d& T_camera_window, double left, double top,
-                                           double right, double bottom) {
+                                           double right, double bottom, double depth = 0.0) {
     geometry::Quadrilateral quad;
     const double xs[] = {left, right, right, left}, ys[] = {top, top, bottom, bottom};
     for (int i = 0; i < 4; ++i)
-      quad[i] = *camera.project(T_camera_window * Eigen::Vector3d(0.0, -xs[i], -ys[i]));
+      quad[i] = *camera.project(T_camera_window * Eigen::Vector3d(depth, -xs[i], -ys[i]));
     return quad;
   }
   static void fill(cv::Mat& image, const geometry::PinholeCamera& camera,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -9,28 +10,39 @@
 
 namespace window_ingress::detection {
 
+/// How well the place of one side is known: standard deviations across it, at its middle, and of its
+/// direction. Zero: not at all.
+struct SideSigma {
+  double px = 0.0, rad = 0.0;
+
+  bool known() const { return px > 0.0; }
+};
+
 /// The four borders as measured in the full image.
 struct RefinedBorders {
   geometry::Quadrilateral
       corners;  ///< intersections of neighbouring borders, canonical order, pixels as they came
   std::array<Eigen::Matrix2d, 4> corner_covariance;  ///< [px^2]
   std::array<Edge, 4> edges;
-  int seen = 4;                ///< sides at which there is a border, see `max_stray_px`
-  double worst_inliers = 0.0;  ///< part of the profiles on the line, of the worst side
+  std::array<bool, 4> fitted = {};  ///< false: the side lies where it was known to lie, without its border
+  std::array<SideSigma, 4> known;   ///< without their borders, as the start said
+  int seen = 4;                     ///< sides at which there is a border, see `max_stray_px`
+  double worst_inliers = 0.0;       ///< part of the profiles on the line, of the worst side
 };
 
 /// Where a fit starts and what it may take.
 struct BorderStart {
   geometry::Quadrilateral quad;  ///< canonical order, pixels of the image
   double radius_px = 2.5;        ///< how far a border may lie from its start [px]
-  /// Standard deviation of the start: a side whose border cannot be fitted stays where it started; 0: no
-  /// result then.
-  double fallback_sigma_px = 0.0;
+  /// What is known of the sides without their borders: top, right, bottom, left. A known side whose border
+  /// cannot be fitted, or contradicts what is known, stays where it started; else it becomes the average of
+  /// both, each by what it knows. An unknown side must be fitted.
+  std::array<SideSigma, 4> known = {};
   /// A fitted border with an end farther from the start than this is another edge [px].
   double max_stray_px = 1e3;
-  /// A fitted border with an end farther from the start than this is seen, but does not move the side: where
-  /// there is a reveal, the start is the more exact one [px].
-  double max_shift_px = 1e3;
+
+  /// All sides to within `sigma_px`, from end to end.
+  void knowAll(double sigma_px);
 };
 
 /// Sub-pixel fit of the four borders on the gradient of the full image, undilated, corners by intersection.

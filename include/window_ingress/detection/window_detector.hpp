@@ -37,6 +37,12 @@ class WindowDetector {
   std::optional<WindowObservation> detect(const cv::Mat& image, double stamp_sec,
                                           const geometry::PinholeCamera* camera = nullptr);
 
+  /// Where the borders of a window near this place are, if it is the reference's: where what lies round the
+  /// reference's opening fits, averaged with what shows of its borders there. Nothing without a camera, or
+  /// where that does not fit.
+  std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const cv::Mat& image,
+                                            const geometry::PinholeCamera* camera) const;
+
   /// \param watch told of each stage that is done, or null; outlives this, and its `begin` is for its owner
   void setWatch(StageTimer* watch);
   StageTimer* watch() const;

@@ -1,6 +1,8 @@
 #include "detection/alignment/rectangle_prior.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace window_ingress::detection {
@@ -8,6 +10,7 @@ namespace {
 
 constexpr double kSkewSigma =
     0.003;  ///< of the cosine between the sides: how well corners and camera are known
+constexpr double kBeyondASide = 0.05;  ///< of the camera, from a side, to be beyond it [sides]
 
 using RowVector8d = Eigen::Matrix<double, 1, 8>;
 
@@ -41,6 +44,19 @@ void RectanglePrior::addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& n
   const RowVector8d d_skew = (down.transpose() * d_across + across.transpose() * d_down) / (width * height) -
                              skew * (d_log_width + d_log_height);
   add(skew, d_skew, noise / (kSkewSigma * kSkewSigma), normal, right);
+}
+
+// The camera's place before the opening, from its centre: in its sides and from its plane.
+std::array<SideView, 4> RectanglePrior::viewsOfSides(const Eigen::Matrix3d& map) const {
+  const Eigen::Matrix3d view = inverse_camera_ * map;
+  const Eigen::Vector3d across = view.col(0), down = view.col(1), centre = view.col(2);
+  const double x = -across.dot(centre) / across.squaredNorm(), y = -down.dot(centre) / down.squaredNorm();
+  const double away = std::abs(across.cross(down).normalized().dot(centre));
+  const auto from = [away](double beyond, double side) {
+    return SideView{std::abs(beyond) * side / std::max(1e-9, away), beyond > kBeyondASide};
+  };
+  return {from(-y - 0.5, down.norm()), from(x - 0.5, across.norm()), from(y - 0.5, down.norm()),
+          from(-x - 0.5, across.norm())};
 }
 
 }  // namespace window_ingress::detection

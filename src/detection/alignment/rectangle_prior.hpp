@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "detection/alignment/homography_sums.hpp"
@@ -14,6 +15,12 @@ struct OpeningAspect {
   double log_sigma = 0.0;  ///< of its logarithm; above 0
 };
 
+/// From where one side of a rectangle is seen.
+struct SideView {
+  double tangent = 0.0;      ///< of the angle, across the side, between the line of sight and the normal
+  bool from_beyond = false;  ///< the camera stands before the wall beyond the side
+};
+
 /// What is known of a homography before anything is seen: that it is a calibrated camera's view of a
 /// rectangle. Of its eight numbers six are a pose's; the other two, the aspect and the angle between its
 /// sides, are free only as far as they are uncertain. Where a part of the ring is hidden, nothing else keeps
@@ -25,6 +32,9 @@ class RectanglePrior {
   /// Adds it to the normal equations of a step p, for maps that become map * (1 + P)^-1.
   /// \param map from the opening, its sides of length 1, to ideal pixels \param noise variance of a residual
   void addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal, Vector8f& right) const;
+
+  /// Top, right, bottom, left of the opening in this view. \param map as above
+  std::array<SideView, 4> viewsOfSides(const Eigen::Matrix3d& map) const;
 
  private:
   Eigen::Matrix3d inverse_camera_;

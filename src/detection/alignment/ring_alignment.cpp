@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
 constexpr double kCoarsestPx = 15.0;  ///< resolution at which an alignment starts [px a mean side]
-constexpr int kCoarseSteps = 10, kFineSteps = 6;
+constexpr int kCoarseSteps = 10, kFineSteps = 6, kLastSteps = 20;
 constexpr double kStill_px = 0.03;    ///< a shorter step is the last one [px of the level]
 constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
 constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
@@ -24,15 +24,33 @@ constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are kno
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
 constexpr double kMinCorrelation = 0.05;     ///< at a level, to go on
+constexpr double kDependent = 3.0;  ///< samples that share their noise, for one that has noise of its own
+constexpr double kFloorPx = 0.03;   ///< no side is claimed to be known better than this
+/// Of a frame: how far it is out of true, and how far it stands out of the opening's plane [sides].
+constexpr double kOutOfTrue = 0.0003, kStandsOut = 0.005;
+constexpr double kX[] = {-0.5, 0.5, 0.5, -0.5}, kY[] = {-0.5, -0.5, 0.5, 0.5};  ///< corners of the opening
+
+using RowVector8d = Eigen::Matrix<double, 1, 8>;
 
 bool cornersOf(const Matrix3d& map, Quadrilateral& quad) {
-  static const double kX[] = {-0.5, 0.5, 0.5, -0.5}, kY[] = {-0.5, -0.5, 0.5, 0.5};
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector3d p = map * Eigen::Vector3d(kX[i], kY[i], 1.0);
     if (!(p.z() > 1e-6)) return false;
     quad[i] = p.hnormalized();
   }
   return geometry::isFinite(quad) && geometry::isConvex(quad);
+}
+
+// What a change of the homography moves a corner by across a line of the image.
+RowVector8d slopeAcross(const Matrix3d& map, int corner, const Eigen::Vector2d& normal) {
+  const double x = kX[corner], y = kY[corner];
+  const Eigen::Vector3d p = map * Eigen::Vector3d(x, y, 1.0);
+  const Eigen::Vector2d at = p.hnormalized();
+  Eigen::Matrix2d to_image;
+  for (int k = 0; k < 2; ++k) to_image.col(k) = (map.block<2, 1>(0, k) - at * map(2, k)) / p.z();
+  Eigen::Matrix<double, 2, 8> in_plane;
+  in_plane << x, y, 1, 0, 0, 0, -x * x, -x * y, 0, 0, 0, x, y, 1, -x * y, -y * y;
+  return normal.transpose() * to_image * in_plane;
 }
 
 }  // namespace
@@ -105,15 +123,15 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
     if (segment.gain > kMinGain) accumulate(segment, normal_sum, right, explained);
   }
   spread_ = view_.spreadOf(residuals_, spread_);
-  Matrix8f normal = normal_sum.matrix() - explained;
+  normal_ = normal_sum.matrix() - explained;
   const float noise = spread_ * spread_;
   for (int k = 0; k < 8; ++k) {
     const float spread = k < 6 ? kStepSpread : kPerspectiveSpread;
-    normal(k, k) += noise / (spread * spread);
+    normal_(k, k) += noise / (spread * spread);
   }
   Vector8f toward = right.vector();
-  if (prior_) prior_->addTo(map, noise, normal, toward);
-  const Vector8f p = normal.ldlt().solve(toward);
+  if (prior_) prior_->addTo(map, noise, normal_, toward);
+  const Vector8f p = normal_.ldlt().solve(toward);
   if (!p.allFinite()) return std::nullopt;
   Matrix3d change = Matrix3d::Identity();
   change.row(0) += Eigen::RowVector3f(p[0], p[1], p[2]).cast<double>();
@@ -146,6 +164,33 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
   return best;
 }
 
+// From the spread of what is left over, and how flat and straight such frames are.
+std::array<SideSigma, 4> RingAlignment::sidesOf(const RingView::Scale& scale, const Matrix3d& map) {
+  std::array<SideSigma, 4> sides{};
+  Quadrilateral quad;
+  view_.look(scale, map);
+  if (!prior_ || !change(map) || !cornersOf(map, quad)) return sides;
+  const Eigen::Matrix<double, 8, 8> covariance =
+      kDependent * spread_ * spread_ * normal_.cast<double>().inverse();
+  const auto views = prior_->viewsOfSides(map);
+  const bool framed = view_.model().framed();
+  for (int i = 0; i < 4; ++i) {
+    if (framed && views[i].from_beyond) continue;
+    const int next = (i + 1) % 4;
+    const Eigen::Vector2d along = quad[next] - quad[i];
+    const double length = along.norm();
+    const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()) / length;
+    const RowVector8d from = slopeAcross(map, i, normal), to = slopeAcross(map, next, normal);
+    const auto spread = [&](const RowVector8d& v) { return std::sqrt((v * covariance * v.transpose())(0)); };
+    const double uneven =
+        kFloorPx / length + (framed ? kOutOfTrue + kStandsOut * views[i].tangent : 0.0);  // [sides]
+    sides[i] = {std::hypot(spread(0.5 * (from + to)), uneven * length),
+                std::hypot(spread(to - from) / length, uneven * std::sqrt(12.0))};
+    if (!std::isfinite(sides[i].px) || !std::isfinite(sides[i].rad)) sides[i] = {};
+  }
+  return sides;
+}
+
 std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, double finest_px) {
   const Quadrilateral ideal = undistorted(start, view_.lens());
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
@@ -157,11 +202,17 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
   int last_level = -1;
   for (double wanted = std::min(kCoarsestPx, finest);; wanted *= 2.0) {
     const RingView::Scale scale = view_.scaleFor(side_px, std::min(wanted, finest));
-    if (scale.level != last_level)
-      found.match = refine(scale, ideal, map, last_level < 0 ? kCoarseSteps : kFineSteps);
+    const bool is_last = wanted >= finest;
+    if (scale.level != last_level || is_last)
+      found.match = refine(scale, ideal, map,
+                           is_last          ? kLastSteps
+                           : last_level < 0 ? kCoarseSteps
+                                            : kFineSteps);
     if (found.match.correlation < kMinCorrelation) return std::nullopt;
     last_level = scale.level;
-    if (wanted >= finest) break;
+    if (!is_last) continue;
+    found.sides = sidesOf(scale, map);
+    break;
   }
   if (!cornersOf(map, found.quad)) return std::nullopt;
   found.quad = distorted(found.quad, view_.lens());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "detection/alignment/rectangle_prior.hpp"
 #include "detection/alignment/ring_score.hpp"
 #include "detection/alignment/ring_view.hpp"
+#include "window_ingress/detection/border_refinement.hpp"
 
 namespace window_ingress::detection {
 
@@ -16,6 +18,9 @@ namespace window_ingress::detection {
 struct AlignedRing {
   geometry::Quadrilateral quad;  ///< order as the start, pixels of the image as it came
   RingMatch match;
+  /// How well its sides are known, in that order. Without a camera, which alone keeps it from shearing, none
+  /// is; nor is the side of a frame from beyond which the camera looks.
+  std::array<SideSigma, 4> sides;
 };
 
 /// Compares the reference's ring with places in an image, and moves a quadrilateral to where it fits best:
@@ -43,12 +48,14 @@ class RingAlignment {
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
   RingMatch refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
                    int most_steps);
+  std::array<SideSigma, 4> sidesOf(const RingView::Scale& scale, const Eigen::Matrix3d& map);
 
   RingView view_;
   RingScore judgement_;
   std::optional<RectanglePrior> prior_;
   RingCorrelation correlation_;
   std::vector<float> residuals_;
+  Matrix8f normal_;      ///< of the last change
   float spread_ = 0.1F;  ///< of the residuals
 };
 

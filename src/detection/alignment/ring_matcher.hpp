@@ -13,9 +13,10 @@ class RingMatcher {
  public:
   /// See RingModel.
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0,
-             const std::optional<OpeningAspect>& aspect = std::nullopt) {
+             const std::optional<OpeningAspect>& aspect = std::nullopt, bool framed = false) {
     model_.learn(image, opening, colour);
     model_.setAspect(aspect);
+    model_.setFramed(framed);
   }
   void forget() { model_.forget(); }
   bool known() const { return model_.known(); }

@@ -67,6 +67,10 @@ class RingModel {
   void setAspect(const std::optional<OpeningAspect>& aspect) { aspect_ = aspect; }
   const std::optional<OpeningAspect>& aspect() const { return aspect_; }
 
+  /// The ring shows a frame, which may stand out of the opening's plane.
+  void setFramed(bool framed) { framed_ = framed; }
+  bool framed() const { return framed_; }
+
   /// Gives the differences of three logarithms their weight.
   void weighColour(float& blue, float& green, float& red) const;
 
@@ -79,6 +83,7 @@ class RingModel {
   int channels_ = 0;
   float colour_ = 1.0F;
   std::optional<OpeningAspect> aspect_;
+  bool framed_ = false;
 };
 
 }  // namespace window_ingress::detection

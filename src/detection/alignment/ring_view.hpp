@@ -65,6 +65,7 @@ class RingView {
   /// The same. \param quad pixels of the image as it came \param side_px resolution, at most [px a mean side]
   double look(const geometry::Quadrilateral& quad, double side_px);
 
+  const RingModel& model() const { return *model_; }
   const RingLevel& ring() const { return *ring_; }
   int channels() const { return channels_; }
   float value(std::size_t at) const { return values_[at]; }  ///< as those of the ring

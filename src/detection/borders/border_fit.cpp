@@ -9,7 +9,8 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr float kFaintest = 0.5f;  // slope that may be an edge [grey levels a pixel]
+constexpr float kFaintest = 0.5f;        // slope that may be an edge [grey levels a pixel]
+constexpr float kFaintestChange = 3.0f;  // of the mean colour over two pixels, likewise [grey levels]
 constexpr int kMinProfiles = 4;
 constexpr double kSigmas = 2.0;  // of a difference between the halves of a side
 constexpr int kNoPeak = 1 << 20;
@@ -51,6 +52,33 @@ void BorderFit::project(const EdgeProfiles& profiles, const Eigen::Vector3f& col
       for (int k = 1; k + 1 < width; ++k) out[k] += weights[c] * (in[k + 1] - in[k - 1]);
     }
   }
+}
+
+bool BorderFit::projectStrongest(const EdgeProfiles& profiles, double radius_px) {
+  const int radius = static_cast<int>(std::ceil(radius_px)), width = profiles.width();
+  mean_.resize(static_cast<std::size_t>(3) * width);
+  profiles.mean(0, profiles.count(), mean_.data());
+  const bool soft = isColourSoft(profiles);
+  changes_.clear();
+  sizes_.clear();
+  int strongest = radius;
+  double most = 0.0;
+  for (int o = -radius; o <= radius; ++o) {
+    Eigen::Vector3f change;
+    for (int c = 0; c < 3; ++c) {
+      const float* at = mean_.data() + (profiles.channels() == 1 ? 0 : c) * width + profiles.reach() + o;
+      change[c] = at[1] - at[-1];
+    }
+    changes_.push_back(soft ? resolvedPart(change) : change);
+    sizes_.push_back(changes_.back().norm());
+    const double weight = sizes_.back() * std::exp(-0.5 * std::pow(o / (0.6 * radius_px), 2));
+    if (weight > most) most = weight, strongest = o + radius;
+  }
+  project(profiles, most > 0.0 ? Eigen::Vector3f(changes_[strongest] / sizes_[strongest])
+                               : Eigen::Vector3f::Constant(1.0f / std::sqrt(3.0f)));
+  for (std::size_t k = 1; k + 1 < sizes_.size(); ++k)
+    if (sizes_[k] > kFaintestChange && sizes_[k] >= sizes_[k - 1] && sizes_[k] >= sizes_[k + 1]) return true;
+  return false;
 }
 
 // Where a profile has its edge near an offset, to a pixel.
@@ -110,18 +138,14 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
 }
 
 // Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
-// part along it; as a
-// whole where a half alone does not tell, and in a track.
-TwoStepEdge BorderFit::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const {
+// part along it; as a whole where a half alone does not tell.
+void BorderFit::toFront(double nearest_px, double farthest_px, FittedBorder& border) const {
   const int count = profiles_->count(), middle = count / 2;
+  const TwoStepEdgeLimits limits{nearest_px, farthest_px, nullptr};
   const TwoStepEdge edge = frontOf(limits, border.line, 0, count);
   border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
-  if (!(edge.apart > 0.0)) return edge;
-  if (limits.before) {
-    border.line.offset += edge.front;
-    return edge;
-  }
+  if (!(edge.apart > 0.0)) return;
   TwoStepEdgeLimits halves = limits;
   halves.before = &edge;
   const TwoStepEdge first = frontOf(halves, border.line, 0, middle),
@@ -135,7 +159,6 @@ TwoStepEdge BorderFit::toFront(const TwoStepEdgeLimits& limits, FittedBorder& bo
   } else {
     border.line.offset += edge.front;
   }
-  return edge;
 }
 
 TwoStepEdge BorderFit::frontOf(const TwoStepEdgeLimits& limits, const OffsetLine& line, int first,

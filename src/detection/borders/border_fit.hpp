@@ -40,14 +40,18 @@ class BorderFit {
   /// profiles use its sum.
   void project(const EdgeProfiles& profiles, const Eigen::Vector3f& colour);
 
+  /// The same along the direction in which the side as a whole changes most, near the middle line rather than
+  /// at `radius_px` from it. \return false if it changes nowhere as an edge does
+  bool projectStrongest(const EdgeProfiles& profiles, double radius_px);
+
   /// Moves `border.line` onto the edges near it. \return false, and only the line changed, if there are fewer
   /// than four profiles on it
   bool run(const BorderFitLimits& limits, FittedBorder& border);
 
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
-  /// (`TwoStepEdge`), and enlarges its spread by what is not known of it. \return what was found about the
-  /// line that was fitted
-  TwoStepEdge toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const;
+  /// (`TwoStepEdge`), and enlarges its spread by what is not known of it.
+  /// \param nearest_px, farthest_px of the front edge from what was fitted, outwards positive [px]
+  void toFront(double nearest_px, double farthest_px, FittedBorder& border) const;
 
  private:
   TwoStepEdge frontOf(const TwoStepEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
@@ -62,6 +66,9 @@ class BorderFit {
   std::vector<float> slopes_;  // of the projected profiles, grey levels a pixel
   std::vector<int> peak_at_;   // by profile: sample of the edge, and its offset
   std::vector<double> peak_, positions_, offsets_, scratch_;
+  std::vector<float> mean_;               // of all profiles, channel by channel
+  std::vector<Eigen::Vector3f> changes_;  // of the mean colour over two pixels, by offset
+  std::vector<float> sizes_;              // of the changes
 };
 
 }  // namespace window_ingress::detection

@@ -1,9 +1,10 @@
 #include "window_ingress/detection/border_refinement.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "detection/borders/border_fit.hpp"
 #include "detection/borders/edge_profiles.hpp"
@@ -14,20 +15,19 @@ namespace window_ingress::detection {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3f;
 
 constexpr int kSamples = 80;  ///< profiles across each side, at most one a pixel
 constexpr double kNominalSide =
-    640.0;  ///< longer side of an image up to which pixel parameters hold as they are
-constexpr double kFaintestChange =
-    3.0;                             ///< of the mean colour over two pixels that may be an edge [grey levels]
-constexpr double kWidePx = 1e3;      ///< no prior
-constexpr double kShortestPx = 4.0;  ///< a side that can be fitted [px]
+    640.0;                       ///< longer side of an image up to which pixel parameters hold as they are
+constexpr double kWidePx = 1e3;  ///< no prior
+constexpr double kShortestPx = 4.0;       ///< a side that can be fitted [px]
 constexpr double kFrontWithinPx = 1.2;    ///< reach of the front edge of a reveal from what was fitted [px]
 constexpr double kLocatedWithinPx = 1.6;  ///< and of that from a start that was located [px]
 constexpr double kWider = 1.8;            ///< of the reach, where a located border is not in it
 constexpr double kTurned = 2.5;           ///< of the reach, for the ends of a line that most of a side shows
 constexpr double kMaxInliers = 0.7;
+constexpr double kKnownSigmas = 3.0;
+constexpr double kContradiction = 13.8;  ///< chi squared of two numbers that one in a thousand exceeds
 
 }  // namespace
 
@@ -35,9 +35,6 @@ constexpr double kMaxInliers = 0.7;
 struct BorderRefinement::Workspace {
   EdgeProfiles profiles;
   BorderFit fit;
-  std::vector<float> mean;        // of all profiles, channel by channel
-  std::vector<Vector3f> changes;  // of the mean colour over two pixels, by offset
-  std::vector<float> sizes;       // of the changes
 };
 
 namespace {
@@ -45,30 +42,29 @@ namespace {
 /// One side while it is being fitted: profiles once, then everything from them.
 class Side {
  public:
-  Side(BorderRefinement::Workspace& memory, const BorderFitLimits& limits, const BorderStart& start)
-      : memory_(memory), limits_(limits), start_(start) {}
+  Side(BorderRefinement::Workspace& memory, const BorderFitLimits& limits, const BorderStart& start, int side)
+      : memory_(memory), limits_(limits), start_(start), known_(start.known[side]) {}
 
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
-    return run(image, lens, a, b, start_.radius_px);
+    return run(image, lens, a, b, reach());
   }
   // Again, where nothing lies near the start: for a border further away that shows over most of its length.
   void runWider(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a,
                 const Vector2d& b) {
-    if (showsEdge()) return;
+    if (shows_edge_) return;
     border_ = FittedBorder();
-    const bool found = run(image, lens, a, b, kWider * start_.radius_px);
+    const bool found = run(image, lens, a, b, kWider * reach());
     fitted_ = found && inliers_ > kMaxInliers;
   }
   bool fitted() const { return fitted_; }
   bool seen() const { return seen_; }
   double inliers() const { return inliers_; }
   Line line() const { return border_.inImage(memory_.profiles); }
-  // The start as an answer; the less certain the further off the edge that was found and not believed.
+  // The start as an answer.
   Line start() const {
     FittedBorder border;
     border.from = -0.5 * memory_.profiles.length(), border.to = -border.from;
-    border.sigma_px = std::hypot(start_.fallback_sigma_px, 0.5 * stray_px_);
-    border.sigma_rad = border.sigma_px * std::sqrt(12.0) / memory_.profiles.length();
+    border.sigma_px = known_.px, border.sigma_rad = known_.rad;
     return border.inImage(memory_.profiles);
   }
   // Ends of the stretch that was seen, or of the start, on the line.
@@ -87,76 +83,66 @@ class Side {
     const int reach = radius + static_cast<int>(std::ceil(limits_.radius_px)) + 2;
     count_ = std::clamp(static_cast<int>((b - a).norm() * (1.0 - 2.0 * kSkip)), 4, kSamples);
     memory_.profiles.sample(image, lens, {a, b, count_, kSkip, reach});
-    chooseEdge(radius);
-    memory_.fit.project(memory_.profiles, colour_);
+    shows_edge_ = memory_.fit.projectStrongest(memory_.profiles, radius_px);
     if (!fit({radius_px, 0.6 * radius_px, std::max(limits_.outlier_px, 0.35 * radius_px)})) return false;
     if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > reachOf(radius_px)) return false;
     toFront();
-    stray_px_ = stray();
-    seen_ = stray_px_ <= start_.max_stray_px;
-    fitted_ = seen_ && stray_px_ <= start_.max_shift_px;
+    seen_ = stray() <= start_.max_stray_px;
+    fitted_ = seen_ && agrees();
+    if (fitted_ && known_.known()) average();
     return fitted_;
+  }
+
+  double reach() const {
+    return known_.known() ? std::min(start_.radius_px, kKnownSigmas * known_.px + 1.0) : start_.radius_px;
+  }
+
+  // Mahalanobis's distance between what is known of a side and what was fitted.
+  bool agrees() const {
+    if (!known_.known()) return true;
+    const Eigen::Matrix2d both = knownInformation().inverse() + fittedInformation().inverse();
+    const Vector2d apart(border_.line.offset, border_.line.slope);
+    return apart.dot(both.ldlt().solve(apart)) < kContradiction;
+  }
+
+  // Of offset and slope at the middle of the side.
+  Eigen::Matrix2d knownInformation() const {
+    return Vector2d(1.0 / (known_.px * known_.px), 1.0 / (known_.rad * known_.rad)).asDiagonal();
+  }
+  Eigen::Matrix2d fittedInformation() const {
+    const double at = border_.middle(), across = 1.0 / (border_.sigma_px * border_.sigma_px);
+    Eigen::Matrix2d information;
+    information << across, at * across, at * across,
+        at * at * across + 1.0 / (border_.sigma_rad * border_.sigma_rad);
+    return information;
+  }
+
+  void average() {
+    const Eigen::Matrix2d fitted = fittedInformation(), covariance = (knownInformation() + fitted).inverse();
+    const Vector2d line = covariance * fitted * Vector2d(border_.line.offset, border_.line.slope);
+    const Vector2d middle(1.0, border_.middle());
+    border_.line = {line.x(), line.y()};
+    border_.sigma_px = std::sqrt(middle.dot(covariance * middle));
+    border_.sigma_rad = std::sqrt(covariance(1, 1));
   }
 
   // A start that was located may be turned itself: a line that nearly all of the side shows may be, too.
   double reachOf(double radius_px) const {
     return located() && inliers_ > kMaxInliers ? kTurned * radius_px : radius_px;
   }
-  bool located() const { return start_.fallback_sigma_px > 0.0; }
-
-  // Something that may be a border lies near the start, only that no line fits it.
-  bool showsEdge() const {
-    const auto& sizes = memory_.sizes;
-    for (std::size_t k = 1; k + 1 < sizes.size(); ++k)
-      if (sizes[k] > kFaintestChange && sizes[k] >= sizes[k - 1] && sizes[k] >= sizes[k + 1]) return true;
-    return false;
-  }
+  bool located() const { return known_.known(); }
 
   // A start that was located says where the front edge is, any other one but what is beside it.
   void toFront() {
     const double from = border_.line.at(border_.middle());
     const double near = kFrontWithinPx, wide = kLocatedWithinPx;
-    memory_.fit.toFront({located() ? -wide - from : -near, located() ? wide - from : near, nullptr, nullptr},
-                        border_);
+    memory_.fit.toFront(located() ? -wide - from : -near, located() ? wide - from : near, border_);
   }
 
   // How far an end of the fitted line is from the start.
   double stray() const {
     const double half = 0.5 * memory_.profiles.length();
     return std::max(std::abs(border_.line.at(-half)), std::abs(border_.line.at(half)));
-  }
-
-  // Where the side as a whole changes, and the direction in colour space in which it does.
-  void chooseEdge(int radius) {
-    const EdgeProfiles& p = memory_.profiles;
-    memory_.mean.resize(static_cast<std::size_t>(3) * p.width());
-    p.mean(0, p.count(), memory_.mean.data());
-    const bool soft = isColourSoft(p);
-    memory_.changes.clear();
-    memory_.sizes.clear();
-    for (int o = -radius; o <= radius; ++o) {
-      Vector3f change;
-      for (int c = 0; c < 3; ++c) {
-        const float* mean = memory_.mean.data() + (p.channels() == 1 ? 0 : c) * p.width() + p.reach() + o;
-        change[c] = mean[1] - mean[-1];
-      }
-      if (soft) change = resolvedPart(change);
-      memory_.changes.push_back(change);
-      memory_.sizes.push_back(change.norm());
-    }
-    const int at = strongest(memory_.sizes, radius);
-    if (memory_.sizes[at] > 0.0f) colour_ = memory_.changes[at] / memory_.sizes[at];
-  }
-
-  static int strongest(const std::vector<float>& changes, double radius_px) {
-    const int reach = static_cast<int>(changes.size()) / 2;
-    int at = reach;
-    double best = 0.0;
-    for (int k = 0; k < static_cast<int>(changes.size()); ++k) {
-      const double weight = changes[k] * std::exp(-0.5 * std::pow((k - reach) / (0.6 * radius_px), 2));
-      if (weight > best) best = weight, at = k;
-    }
-    return at;
   }
 
   bool fit(const BorderFitLimits& limits) {
@@ -170,11 +156,11 @@ class Side {
   BorderRefinement::Workspace& memory_;
   const BorderFitLimits& limits_;  // of the last pass, for this image's size
   const BorderStart& start_;
+  const SideSigma known_;
   int count_ = 0;
   FittedBorder border_;
-  bool fitted_ = false, seen_ = false;
-  double stray_px_ = 0.0, inliers_ = 0.0;
-  Vector3f colour_ = Vector3f::Constant(1.0f / std::sqrt(3.0f));
+  bool shows_edge_ = false, fitted_ = false, seen_ = false;
+  double inliers_ = 0.0;
 };
 
 // Canonical order again: a corner may have become the first by a fraction of a pixel.
@@ -186,6 +172,8 @@ void startAtTopLeft(RefinedBorders& borders) {
   std::rotate(borders.corner_covariance.begin(), borders.corner_covariance.begin() + shift,
               borders.corner_covariance.end());
   std::rotate(borders.edges.begin(), borders.edges.begin() + shift, borders.edges.end());
+  std::rotate(borders.fitted.begin(), borders.fitted.begin() + shift, borders.fitted.end());
+  std::rotate(borders.known.begin(), borders.known.begin() + shift, borders.known.end());
 }
 
 // Corners of the image as it came from the borders; false if they are no window.
@@ -204,6 +192,11 @@ bool finish(const std::array<Line, 4>& lines, const geometry::PinholeCamera* len
 
 }  // namespace
 
+void BorderStart::knowAll(double sigma_px) {
+  for (int i = 0; i < 4; ++i)
+    known[i] = {sigma_px, sigma_px * std::sqrt(12.0) / std::max(1.0, (quad[(i + 1) % 4] - quad[i]).norm())};
+}
+
 BorderRefinement::BorderRefinement() : memory_(std::make_unique<Workspace>()) {}
 BorderRefinement::~BorderRefinement() = default;
 BorderRefinement::BorderRefinement(BorderRefinement&&) noexcept = default;
@@ -221,6 +214,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
   RefinedBorders borders;
   borders.worst_inliers = 1.0;
   borders.seen = 0;
+  borders.known = start.known;
   bool good = true;
   for (int i = 0; i < 4 && good; ++i) {
     const Vector2d& from = start.quad[i];
@@ -228,11 +222,12 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
     const Vector2d a = lens ? lens->undistort(from) : from, b = lens ? lens->undistort(to) : to;
     good = (b - a).norm() > kShortestPx;
     if (!good) break;
-    Side side(*memory_, limits, start);
-    good = side.run(image, lens, a, b) || start.fallback_sigma_px > 0.0;
+    Side side(*memory_, limits, start, i);
+    good = side.run(image, lens, a, b) || start.known[i].known();
     if (good && !side.fitted()) side.runWider(image, lens, a, b);
     borders.worst_inliers = std::min(borders.worst_inliers, side.inliers());
     borders.seen += side.seen();
+    borders.fitted[i] = side.fitted();
     lines[i] = side.fitted() ? side.line() : side.start();
     const auto [begin, end] = side.ends();
     borders.edges[i] = edgeThroughLens(lines[i], begin, end, lens);

@@ -22,8 +22,7 @@ constexpr double kFits = 1.2;         // of two that need no other ones
 constexpr double kStillGood = 10.0;   // of two steps that are believed
 constexpr double kBetter = 0.25;      // of the rest of one step
 constexpr double kWellKnownPx = 0.3;  // standard deviation of a front that is believed
-constexpr double kBesidePx = 1.2;     // a front further out must have the right colour outside
-constexpr float kAlike = 0.35f;       // of the change across an edge: colours nearer than this are the same
+constexpr double kBesidePx = 1.2;     // a front further out is seen with more of what lies outside
 constexpr float kCollinear = 0.97f, kMaxOvershoot = 0.3f;
 constexpr int kFitIterations = 8;
 constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
@@ -167,16 +166,6 @@ Fit fit(const Model& model, const Params& start) {
   return best;
 }
 
-// The colour beyond the edge is the one that is known to lie outside.
-bool isNextTo(const float* mean, int channels, int half, const Eigen::Vector3f& outside) {
-  const auto strangeness = [&](int o) {
-    Eigen::Vector3f colour;
-    for (int c = 0; c < 3; ++c) colour[c] = mean[(channels == 1 ? 0 : c) * (2 * half + 1) + half + o];
-    return (colour - outside).norm();
-  };
-  return strangeness(2) < std::max(4.0f, kAlike * strangeness(-2));
-}
-
 // An image that was sharpened overshoots beside its edges: no strip of its own.
 bool isOvershoot(const Fit& two) {
   const Eigen::Vector3f over = two.reveal - two.outside, change = two.outside - two.within;
@@ -184,15 +173,10 @@ bool isOvershoot(const Fit& two) {
          over.norm() < kMaxOvershoot * change.norm();
 }
 
-bool isOutside(const Fit& two, const TwoStepEdgeLimits& limits) {
-  if (!limits.outside) return true;
-  return (two.outside - *limits.outside).norm() < 0.5f * (two.reveal - *limits.outside).norm();
-}
-
 bool isGood(const Fit& two, const TwoStepEdgeLimits& limits, bool near) {
   if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px || isOvershoot(two))
     return false;
-  if (two.params[0] > kBesidePx && (near || !isOutside(two, limits))) return false;
+  if (near && two.params[0] > kBesidePx) return false;
   return two.rest < kFits && two.sigma < kWellKnownPx;
 }
 
@@ -212,23 +196,21 @@ TwoStepEdge fitTwoStepEdge(const float* mean, int channels, int half, const TwoS
     if (isGood(two, limits, last.front <= kBesidePx)) return answer(two, 1.0);
   }
   const Fit one = fit(Model(mean, channels, half, -3, 2, false), {0.0, 1.0, kUsualBlur});
-  const bool goes_on = limits.outside && !isNextTo(mean, channels, half, *limits.outside);
-  if ((one.rest < kGoodEnough && !goes_on) || one.params[2] > kSoftest) return {};
+  if (one.rest < kGoodEnough || one.params[2] > kSoftest) return {};
   Fit best;
   best.rest = best.sigma = 1e9;
   for (const auto& [model, front, apart] : std::array<std::tuple<const Model*, double, double>, 4>{
            {{&near, 0.0, 0.7}, {&near, 0.0, 2.0}, {&near, 1.0, 1.0}, {&far, 2.0, 2.0}}}) {
-    if (model == &far ? front > limits.farthest_px + 1.0 : one.rest < kGoodEnough) continue;
+    if (model == &far && front > limits.farthest_px + 1.0) continue;
     const Fit two = fit(*model, {front, apart, kUsualBlur});
     if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px) continue;
     if ((model == &near && two.params[0] > kBesidePx) || isOvershoot(two)) continue;
-    if (two.params[0] > kBesidePx && !isOutside(two, limits)) continue;
     if (two.sigma < kWellKnownPx ? best.sigma > kWellKnownPx || two.rest < best.rest
                                  : best.sigma > kWellKnownPx && two.rest < best.rest)
       best = two;
     if (best.rest < kFits && best.sigma < kWellKnownPx) break;
   }
-  if (best.rest > kBetter * one.rest && !(goes_on && best.params[0] > kBesidePx)) return {};
+  if (best.rest > kBetter * one.rest) return {};
   const double moved = std::abs(best.params[0] - one.params[0]);
   if (best.rest > kStillGood || best.sigma > kWellKnownPx) return {0.0, 0.0, 0.5 * std::min(2.0, moved), 0.0};
   return answer(best, moved);

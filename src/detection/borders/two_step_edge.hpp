@@ -15,9 +15,6 @@ struct TwoStepEdge {
 /// What may be taken for the front edge.
 struct TwoStepEdgeLimits {
   double nearest_px = -1.2, farthest_px = 1.2;  ///< offsets, outwards positive [px]
-  /// Colour that lies outside of the front edge, BGR, if known: tells a reveal (another colour, then this
-  /// one) from a frame (this colour, then another one).
-  const Eigen::Vector3f* outside = nullptr;
   /// What was found in nearly the same colours before: tried first.
   const TwoStepEdge* before = nullptr;
 };

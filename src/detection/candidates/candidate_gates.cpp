@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::detection {
 namespace {
 
@@ -25,13 +27,6 @@ double worstAngle(const geometry::Quadrilateral& quad) {
   double worst = 0.0;
   for (double angle : geometry::interiorAngles(quad)) worst = std::max(worst, std::abs(angle - kRightAngle));
   return worst;
-}
-
-double distanceToBorder(const geometry::Quadrilateral& quad, const cv::Size& image) {
-  double least = std::max(image.width, image.height);
-  for (const Eigen::Vector2d& p : quad)
-    least = std::min({least, p.x(), p.y(), image.width - 1 - p.x(), image.height - 1 - p.y()});
-  return least;
 }
 
 }  // namespace

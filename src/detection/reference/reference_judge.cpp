@@ -66,7 +66,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   borders_.learn(inChannels(reference_->image()), reference_->opening());
   shape_.learn(reference_->image(), reference_->opening());
   ring_.learn(inChannels(reference_->image()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
-              shape_.aspect());
+              shape_.aspect(), !frameless());
   if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), RingWidths(), 1);
 }
 
@@ -178,9 +178,9 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
   return objection && frame && frame->isLike() ? below(match.faithful, kFaithful) : objection;
 }
 
-bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const {
-  if (!frame_colours_) return false;
-  const auto seen = ringColours(image, corners, RingWidths(), 1);
+bool ReferenceJudge::isHazy(const cv::Mat& image, const AlignedRing& ring) const {
+  if (!frame_colours_ || ring.match.contrast >= kMinClearContrast * ring.match.correlation) return false;
+  const auto seen = ringColours(image, ring.quad, RingWidths(), 1);
   return seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze;
 }
 
@@ -190,8 +190,6 @@ std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadri
   if (!compares(image)) return std::nullopt;
   const auto ring = ring_.alignedAt(inChannels(image), camera, corners);
   if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
-  if (ring->match.contrast < kMinClearContrast * ring->match.correlation && isHazy(image, ring->quad))
-    return std::nullopt;
   return ring;
 }
 

@@ -57,10 +57,13 @@ class ReferenceJudge {
   std::optional<Rejection> objectionTo(const RingMatch& match,
                                        const std::optional<AppearanceMatch>& frame) const;
 
-  /// Where what lies round a window that was found by its frame fits best; nothing where there is something
-  /// else behind that frame, as behind a gate.
+  /// Where what lies round a window near this place fits best; nothing where there is something else behind
+  /// its frame, as behind a gate.
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera);
+
+  /// True if haze has taken the contrasts of what lies there.
+  bool isHazy(const cv::Mat& image, const AlignedRing& ring) const;
 
   /// True if what lies within three of the borders differs from the wall without: a wall whose pattern
   /// repeats itself looks like that round the opening elsewhere, too, but goes on within.
@@ -73,7 +76,6 @@ class ReferenceJudge {
                                        const geometry::PinholeCamera* camera, bool by_frame_alone);
 
  private:
-  bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners) const;
   const cv::Mat& inChannels(const cv::Mat& image);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                         const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);

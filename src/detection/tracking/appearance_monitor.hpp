@@ -1,10 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <utility>
 
-#include "detection/alignment/ring_alignment.hpp"
-#include "detection/reference/reference_borders.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/window_observation.hpp"
@@ -12,31 +10,24 @@
 
 namespace window_ingress::detection {
 
-/// From time to time: does what is followed still look like the reference, and are its borders where the
-/// reference's are? While it surely does, the reference follows the light.
+/// From time to time: does what is followed still look like the reference? While it surely does, the
+/// reference follows the light.
 class AppearanceMonitor {
  public:
   explicit AppearanceMonitor(const DetectorParams& params) : params_(params) {}
 
-  void setParams(const DetectorParams& params);
+  void setParams(const DetectorParams& params) { params_ = params; }
   /// \param reference null: there is nothing to compare with
-  void setReference(std::shared_ptr<ReferenceAppearance> reference);
+  void setReference(std::shared_ptr<ReferenceAppearance> reference) { reference_ = std::move(reference); }
 
   void start();                        ///< another window is followed
   void restart() { unlike_ = false; }  ///< the same one, as a search has just seen it
 
   /// Called with each image in which all sides are in view; looks every `TrackParams::appearance_every`.
-  /// \param followed pixels of the image as it came
-  /// \param window as observed; takes the appearance
-  /// \return false: it looks otherwise, or the borders are elsewhere
-  bool look(const TrackInput& input, const geometry::Quadrilateral& followed, WindowObservation& window);
+  /// \param window as observed; takes the appearance \return false: it looks otherwise
+  bool look(const TrackInput& input, WindowObservation& window);
   /// Right after a look that agreed: takes over part of what differs.
   void adapt(const TrackInput& input, const WindowObservation& window);
-
-  /// Where the wall round the opening says that the borders are, near those followed; nothing if it is not
-  /// sure, or if a frame is found in place. Looks at every third call.
-  std::optional<geometry::Quadrilateral> align(const TrackInput& input,
-                                               const geometry::Quadrilateral& followed);
 
   bool hasCompared() const { return compared_; }  ///< `look` has compared the last image
   bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last image, and it was alike
@@ -44,15 +35,9 @@ class AppearanceMonitor {
   double drift() const { return reference_ ? reference_->drift() : 0.0; }
 
  private:
-  bool strays(const TrackInput& input, const geometry::Quadrilateral& followed);
-  void learnBorders();
-
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
-  RingModel ring_;                                  // where the reference shows no frame
-  RingAlignment alignment_;
-  std::unique_ptr<ReferenceBorders> borders_;
-  int frames_to_comparison_ = 0, frames_to_alignment_ = 0;
+  int frames_to_comparison_ = 0;
   bool unlike_ = false, agreed_ = false, compared_ = false;
 };
 

@@ -1,9 +1,7 @@
 #include "detection/tracking/edge_tracker.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/quads.hpp"
@@ -12,7 +10,6 @@ namespace window_ingress::detection {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3f;
 
 constexpr int kProfiles = 18;           ///< across each side to find the border again
 constexpr int kFineProfiles = 40;       ///< across each side to fit its line
@@ -61,29 +58,16 @@ std::optional<Stretch> throughLens(const Stretch& whole, const cv::Size& image, 
   return Stretch{whole.from + (best_end - best + 1) * step, whole.from + best_end * step};
 }
 
-constexpr int kNextTo = 2;              // offset of the colour next to a border, clear of its blur [px]
-constexpr float kMinEdgeChange = 6.0f;  // of colour that is an edge, over all channels [grey levels]
-constexpr float kAlikePart = 0.4f;      // of the change across an edge: colours nearer than this are the same
-constexpr float kAdaption = 0.05f;      // of the colour outside, an image
-constexpr float kRisesAgain = 1.4f;     // an edge is so much steeper than what lies before it
-constexpr int kTimes = 3;
-
-Vector3f profileColour(const float* mean, int channels, int half, int offset) {
-  Vector3f colour = Vector3f::Zero();
-  for (int c = 0; c < channels; ++c) colour[c] = mean[c * (2 * half + 1) + half + offset];
-  return colour;
-}
-
 constexpr double kNominalSidePx = 640.0;  // longer side of an image at which pixel parameters hold
 constexpr double kViewMarginPx = 3.0;     // of a side from the border of the image
 constexpr double kMaxOfASide = 0.8;       // of a short side must be in the image
 constexpr double kReachSigmas = 3.0;
 constexpr double kMinReachPx = 2.5;
-constexpr double kLearningRate = 0.15;  // an image
 constexpr double kPriorPx = 1.0;        // of the border beside stronger edges
 constexpr double kRoughPx = 0.7;        // of the first fit
-constexpr double kFrontReachPx = 3.2;   // of the front edge of a reveal from what was fitted
-constexpr int kLookEvery = 6;           // images, for a reveal beside the border
+constexpr double kSameApartPx = 0.3;    // a larger change of it is no noise
+constexpr double kApartRate = 0.3;      // of what is known of it, an alignment
+constexpr double kFoundWithinPx = 4.0;  // an edge, of a border that is to be followed
 constexpr int kMinFollowed = 6;
 
 int longerSide(const cv::Mat& image) { return std::max(image.cols, image.rows); }
@@ -104,62 +88,19 @@ std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image
   return Stretch{whole.from + begin * span, whole.from + end * span};
 }
 
-// Outwards from the border: other colours, then an edge, then the remembered one.
-std::optional<int> FrontBorder::partedAt(const float* mean, int channels, int half) const {
-  const auto strangeness = [&](int o) { return (profileColour(mean, channels, half, o) - outside_).norm(); };
-  const float change = strangeness(1);
-  if (change < kMinEdgeChange || strangeness(kNextTo) < kAlikePart * change) return std::nullopt;
-  int reached = kNextTo + 1;
-  while (reached <= half && strangeness(reached) >= kAlikePart * change) ++reached;
-  if (reached >= half) return std::nullopt;
-  // A wide blur ends gently, an edge of its own rises again.
-  float least = std::numeric_limits<float>::infinity(), steepest = 0.0f;
-  int best = 0;
-  for (int o = 1; o <= reached; ++o) {
-    const float fall = strangeness(o - 1) - strangeness(o + 1);
-    if (o >= kNextTo && fall > kRisesAgain * std::max(0.0f, least) && fall > steepest)
-      steepest = fall, best = o;
-    least = std::min(least, fall);
-  }
-  if (best == 0) return std::nullopt;
-  return best;
-}
-
-// The light changes; reveals do not become frames.
-Vector3f FrontBorder::likest(const float* mean, int channels, int half) const {
-  Vector3f likest = outside_;
-  float least = std::numeric_limits<float>::infinity();
-  for (int o = kNextTo; o <= half; ++o) {
-    const Vector3f colour = profileColour(mean, channels, half, o);
-    const float distance = (colour - outside_).norm();
-    if (distance < least) least = distance, likest = colour;
-  }
-  return likest;
-}
-
-std::optional<double> FrontBorder::look(const EdgeProfiles& profiles, const OffsetLine& border, int half_px) {
-  const int half = std::min(half_px, kHalf), channels = profiles.channels();
-  std::array<float, 3 * (2 * kHalf + 1)> mean;
-  if (half <= kNextTo || profiles.meanAlong(border, half, mean.data()) == 0) return std::nullopt;
-  const Vector3f next = profileColour(mean.data(), channels, half, kNextTo);
-  if (!known_) {
-    outside_ = next;
-    known_ = true;
-    parted_ = 0;
-    return std::nullopt;
-  }
-  const auto at = partedAt(mean.data(), channels, half);
-  parted_ = at ? parted_ + 1 : 0;
-  outside_ += kAdaption * (likest(mean.data(), channels, half) - outside_);
-  if (parted_ < kTimes) return std::nullopt;
-  parted_ = 0;
-  return *at;
+// Of a side, what lies beside it and is followed.
+Stretch EdgeTracker::edgeOf(const Stretch& side, double size_px) {
+  middle_ = 0.5 * (side.from + side.to);
+  const double length = side.length(), at = apart_.px(size_px), end = 0.5 * length * apart_.slope;
+  if (!(length > 0.0)) return side;
+  const Vector2d span = side.to - side.from, outwards = Vector2d(span.y(), -span.x()) / length;
+  return {side.from - (at - end) * outwards, side.to - (at + end) * outwards};
 }
 
 FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens,
                                    const Stretch& predicted, double size_px, double sigma_px) {
   FollowedBorder border;
-  const auto stretch = stretchInView(predicted, image.size(), kViewMarginPx, lens);
+  const auto stretch = stretchInView(edgeOf(predicted, size_px), image.size(), kViewMarginPx, lens);
   if (!stretch) return border;
   const double wanted = std::min(kMinStretch * longerSide(image), kMaxOfASide * predicted.length());
   border.in_view = stretch->length() >= wanted;
@@ -172,12 +113,13 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
   coarse_.sample(image, lens, {stretch->from, stretch->to, count, kSkip, reach + half_px_ + 2, true});
   const auto match = memory_.match(coarse_, reach, size_px);
   border.similarity = match ? match->similarity : 0.0;
-  border.fitted = match && match->similarity >= kMinSimilarity && fit(image, lens, match->line, border);
+  border.fitted =
+      match && match->similarity >= kMinSimilarity && fit(image, lens, match->line, size_px, border);
   return border;
 }
 
 bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
-                      FollowedBorder& border) {
+                      double size_px, FollowedBorder& border) {
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
                radius_px = scale * BorderFitLimits().radius_px;
   const int count =
@@ -193,36 +135,63 @@ bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens,
   if (!fit_.run(limits, fitted)) return false;
   limits.outlier_px = BorderFitLimits().outlier_px * scale;
   if (!fit_.run(limits, fitted)) return false;
-  if (edge_.apart > 0.0 || ++frames_ % kLookEvery == 0)
-    edge_ = fit_.toFront({-kFrontReachPx, kFrontReachPx, front_.outside(), &edge_}, fitted);
+  edge_ = fitted;
+  seen_ = {coarse.offset + fitted.line.offset, coarse.slope + fitted.line.slope};
+  const double shift = fine_.along().dot(fine_.middle() - middle_);
+  fitted.line.offset += apart_.px(size_px) + apart_.slope * shift;
+  fitted.line.slope += apart_.slope;
+  fitted.sigma_px = std::hypot(fitted.sigma_px, apart_.sigma.px * size_px);
+  fitted.sigma_rad = std::hypot(fitted.sigma_rad, apart_.sigma.rad);
   border.inliers = static_cast<double>(fitted.inliers) / std::max(1, fine_.insideCount());
   border.line = fitted.inImage(fine_);
   border.a = fine_.point(fitted.from, fitted.line.at(fitted.from));
   border.b = fine_.point(fitted.to, fitted.line.at(fitted.to));
-  seen_ = {coarse.offset + fitted.line.offset, coarse.slope + fitted.line.slope};
   return border.inliers >= kMinInliers;
 }
 
-void EdgeTracker::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px) {
-  const auto out_px = front_.look(coarse_, seen_, half_px_);
-  if (!out_px) return memory_.learn(coarse_, seen_, half_px_, size_px, kLearningRate);
-  const double half = 0.5 * coarse_.length();
-  learn(image, lens,
-        {coarse_.point(-half, seen_.at(-half) + *out_px), coarse_.point(half, seen_.at(half) + *out_px)},
-        size_px);
+bool EdgeTracker::keepApart(const Line& border, double size_px, double furthest_px) {
+  const double half = 0.5 * fine_.length();
+  const auto outwards = [&](double position) {
+    const Vector2d edge = fine_.point(position, edge_.line.at(position));
+    return -border.distance(edge) / border.normal.dot(fine_.normal());
+  };
+  const double from = outwards(-half), to = outwards(half);
+  if (!(std::max(std::abs(from), std::abs(to)) < furthest_px)) return false;
+  const double slope = (to - from) / fine_.length();
+  const double offset = 0.5 * (from + to) + slope * fine_.along().dot(middle_ - fine_.middle());
+  const bool is_same = apart_.sigma.known() && std::abs(offset - apart_.px(size_px)) < kSameApartPx;
+  const double rate = is_same ? kApartRate : 1.0;
+  apart_.offset += rate * (offset / (size_px * size_px) - apart_.offset);
+  apart_.slope += rate * (slope - apart_.slope);
+  apart_.sigma = {border.sigma_px / size_px, border.sigma_rad};
+  return true;
+}
+
+// Of a border that is known by what lies round it, no edge need show: the nearest one is followed then.
+Stretch EdgeTracker::edgeNear(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                              const Stretch& border, double size_px) {
+  apart_ = {};
+  const double radius_px = kFoundWithinPx * scaleOf(image), half = 0.5 * border.length();
+  const int count = std::clamp(static_cast<int>(border.length()), kMinFollowed, kFineProfiles);
+  fine_.sample(image, lens,
+               {border.from, border.to, count, kSkip, static_cast<int>(std::ceil(radius_px)) + 4});
+  FittedBorder edge;
+  const double outlier_px = kRoughPx * scaleOf(image);
+  if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run({radius_px, kPriorPx, outlier_px}, edge) ||
+      edge.inliers < kMinInliers * count || std::abs(edge.line.offset) < kSameApartPx)
+    return border;
+  apart_.offset = -edge.line.offset / (size_px * size_px), apart_.slope = -edge.line.slope;
+  return {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))};
 }
 
 void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
                         double size_px) {
   half_px_ = std::clamp(static_cast<int>(std::lround(kReach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
-  coarse_.sample(image, lens, {border.from, border.to, kProfiles, kSkip, half_px_ + 3, true});
-  edge_ = TwoStepEdge();
-  frames_ = -1;
+  const Stretch edge = edgeNear(image, lens, border, size_px);
+  coarse_.sample(image, lens, {edge.from, edge.to, kProfiles, kSkip, half_px_ + 3, true});
   soft_.reset();
   memory_.clear();
   memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
-  front_.forget();
-  front_.look(coarse_, {}, half_px_);
 }
 
 }  // namespace window_ingress::detection

@@ -25,35 +25,6 @@ struct Stretch {
 std::optional<Stretch> stretchInView(const Stretch& whole, const cv::Size& image, double margin_px,
                                      const geometry::PinholeCamera* lens);
 
-/// Keeps a border at the front of the opening while the window comes nearer.
-///
-/// From afar the two edges of a reveal (front: frame or wall to reveal; back: reveal to what is behind) are
-/// one; nearer they part, and the back one is often the stronger. The front one is where the colour outside,
-/// that of frame or wall, ends: it was next to the border when the edges were one, and is remembered. When
-/// something else has come between the border and that colour, the border is moved out to where it begins.
-/// Lines of the wall beyond (courses of bricks, the frame's outer border) are none of that: the remembered
-/// colour lies between them and the border.
-class FrontBorder {
- public:
-  static constexpr int kHalf = 10;  ///< offsets that are looked at [px]
-
-  void forget() { known_ = false; }
-  /// Colour next to the border, BGR; null while nothing is known.
-  const Eigen::Vector3f* outside() const { return known_ ? &outside_ : nullptr; }
-
-  /// The border lies along this line.
-  /// \return how far out the front border is from it, if it is another one; after it was so several times
-  std::optional<double> look(const EdgeProfiles& profiles, const OffsetLine& border, int half_px);
-
- private:
-  Eigen::Vector3f likest(const float* mean, int channels, int half) const;
-  std::optional<int> partedAt(const float* mean, int channels, int half) const;
-
-  bool known_ = false;
-  Eigen::Vector3f outside_ = Eigen::Vector3f::Zero();  // colour next to the border
-  int parted_ = 0;                                     // times in a row
-};
-
 /// One border looked for where it is predicted.
 struct FollowedBorder {
   bool in_view = false;  ///< enough of it should be in the image
@@ -75,9 +46,11 @@ class EdgeTracker {
   /// \param sigma_px of the prediction across the side
   FollowedBorder follow(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& predicted,
                         double size_px, double sigma_px);
-  /// Takes the border as followed last into memory; or, where it turned out not to be the front one, the
-  /// front one, which is then found in the next image.
-  void keep(const cv::Mat& image, const geometry::PinholeCamera* lens, double size_px);
+  /// Takes the edge as followed last into memory.
+  void keep(double size_px) { memory_.learn(coarse_, seen_, half_px_, size_px, kLearningRate); }
+  /// The border lies there, beside the edge that was followed last: from now on it is reported so far from
+  /// that edge. \return false, and nothing changed, if that is farther than `furthest_px`
+  bool keepApart(const Line& border, double size_px, double furthest_px);
   /// Takes a border that is known to lie there into memory, in place of everything else.
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
              double size_px);
@@ -85,15 +58,27 @@ class EdgeTracker {
   const EdgeTemplate& memory() const { return memory_; }
 
  private:
+  Stretch edgeOf(const Stretch& side, double size_px);
+  Stretch edgeNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
+                   double size_px);
   bool fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
-           FollowedBorder& border);
+           double size_px, FollowedBorder& border);
+
+  static constexpr double kLearningRate = 0.15;  // an image
 
   EdgeTemplate memory_;
-  FrontBorder front_;
   EdgeProfiles coarse_, fine_;
   BorderFit fit_;
-  TwoStepEdge edge_;  // of a reveal beside the border, as seen last
-  int frames_ = -1;
+  FittedBorder edge_;                                 // as followed last, in the fine profiles' axes
+  Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();  // of the side that it was looked for on
+  /// From the edge outwards to the border, about the side's middle. The edges of a reveal part with the
+  /// square of the window's size.
+  struct {
+    double offset = 0.0, slope = 0.0;  // the offset over the square of the window's size [1 / px]
+    SideSigma sigma;                   // across over the window's size
+
+    double px(double size_px) const { return offset * size_px * size_px; }
+  } apart_;
   std::optional<bool> soft_;  // the colours beside the border, see `isColourSoft`
   OffsetLine seen_;           // as followed last, in the coarse profiles' axes
   int half_px_ = 6;

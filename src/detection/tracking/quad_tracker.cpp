@@ -21,6 +21,11 @@ constexpr double kGoodInliers = 0.8;  // part of profiles on a line that is as g
 constexpr double kBeyondEnd =
     0.3;  // a corner may lie this much beyond what was seen of a side, in its lengths
 constexpr double kBeyondEndPx = 6.0;
+/// Of the edge that is followed for a border which shows, and which does not; in the window's sizes.
+constexpr double kApartPx = 2.5, kApartUnseen = 0.08;
+/// A side known no better without its border, and so near to the image's border that not much lies round it,
+/// says nothing of an edge; in longer image sides.
+constexpr double kVaguePx = 0.5, kCutPart = 0.05;
 
 // What is left of the change between two quadrilaterals when place, size and roll are taken out [px].
 double warpBetween(const Quadrilateral& before, const Quadrilateral& after) {
@@ -44,9 +49,12 @@ bool reaches(const FollowedBorder& border, const Vector2d& corner) {
   return beyond <= kBeyondEndPx + kBeyondEnd * (border.b - border.a).norm();
 }
 
-bool shows(const cv::Mat& image, const Vector2d& p) {
-  return p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= image.cols - 1 && p.y() <= image.rows - 1;
+// From the border of the image.
+double marginOf(const cv::Mat& image, const Vector2d& p) {
+  return std::min({p.x(), p.y(), image.cols - 1 - p.x(), image.rows - 1 - p.y()});
 }
+
+bool shows(const cv::Mat& image, const Vector2d& p) { return marginOf(image, p) >= 0.0; }
 
 // The corner between two borders if it was seen.
 std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::PinholeCamera* lens,
@@ -117,9 +125,38 @@ void QuadTracker::describe(const cv::Mat& image, const geometry::PinholeCamera* 
   }
 }
 
-void QuadTracker::keep(const cv::Mat& image, const geometry::PinholeCamera* lens, const Quadrilateral& quad) {
+void QuadTracker::keep(const Quadrilateral& quad) {
   for (int i = 0; i < 4; ++i)
-    if (borders_[i].fitted) edges_[i].keep(image, lens, meanSide(quad));
+    if (borders_[i].fitted) edges_[i].keep(meanSide(quad));
+}
+
+bool QuadTracker::realign(const cv::Mat& image, const geometry::PinholeCamera* lens,
+                          const RefinedBorders& borders, QuadMotion& motion) {
+  const Quadrilateral quad = undistorted(borders.corners, lens), followed = motion.quad();
+  int first = 0;  // of the corners, the one that is the first one followed
+  for (int i = 1; i < 4; ++i)
+    if ((quad[i] - followed[0]).norm() < (quad[first] - followed[0]).norm()) first = i;
+  Quadrilateral placed;
+  for (int i = 0; i < 4; ++i) placed[i] = quad[(first + i) % 4];
+  bool learned = false;
+  for (int i = 0; i < 4; ++i) {
+    const Vector2d &from = placed[i], &to = placed[(i + 1) % 4];
+    const Edge& edge = borders.edges[(first + i) % 4];
+    const Vector2d along = (to - from).normalized();
+    const Line border{0.5 * (from + to), {along.y(), -along.x()}, edge.sigma_px, edge.sigma_rad};
+    const bool shows = borders.fitted[(first + i) % 4];
+    const double furthest_px = shows ? kApartPx : kApartUnseen * meanSide(followed);
+    const SideSigma& known = borders.known[(first + i) % 4];
+    const bool is_cut =
+        std::min(marginOf(image, from), marginOf(image, to)) < kCutPart * std::max(image.cols, image.rows);
+    const bool is_vague = (!known.known() || known.px > kVaguePx) && (is_cut || !shows);
+    if (borders_[i].fitted && (is_vague || edges_[i].keepApart(border, meanSide(followed), furthest_px)))
+      continue;
+    edges_[i].learn(image, lens, {from, to}, meanSide(quad));
+    learned = true;
+  }
+  if (learned) motion.place(placed);
+  return learned;
 }
 
 double QuadTracker::quality() const {

@@ -24,7 +24,12 @@ class QuadTracker {
   void describe(const cv::Mat& image, const geometry::PinholeCamera* lens, const QuadMotion& motion,
                 WindowObservation& window) const;
   /// Takes them into memory.
-  void keep(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
+  void keep(const geometry::Quadrilateral& quad);
+  /// The borders lie there: edges that were followed beside them are reported as them from now on. A border
+  /// whose edge is too far from it, or was not found, is taken as what is to be followed.
+  /// \return true if there was such a border; the motion is moved then
+  bool realign(const cv::Mat& image, const geometry::PinholeCamera* lens, const RefinedBorders& borders,
+               QuadMotion& motion);
 
   int inView() const { return in_view_; }
   int fitted() const { return fitted_; }

@@ -22,9 +22,7 @@ constexpr double kKnownTurn =
 constexpr double kQualityRate = 0.25;    // part of the certainty that a frame replaces
 constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
 constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
-constexpr double kMinMovePx = 1.5,
-                 kMinMove = 0.012;       // of a corner, to be led by the wall; in the window's sizes
-constexpr double kAlignedSigmaPx = 1.0;  // of borders, where the wall says they are
+constexpr int kAlignEvery = 3;           // frames
 constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
 
 }  // namespace
@@ -77,7 +75,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   certainty += kQualityRate * (quality - certainty);
   if (!found || certainty < kMinCertainty) return false;
   motion.settle(images.elapsedSec());
-  quad_tracker.keep(input.image, images.lens(), motion.quad());
+  quad_tracker.keep(motion.quad());
   quad_tracker.describe(input.image, images.lens(), motion, window);
   identity.follow(input.stamp_sec);
   window.stamp_sec = input.stamp_sec;
@@ -89,7 +87,7 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
 
 void WindowTracker::Impl::watch(const TrackInput& input) {
   if (quad_tracker.inView() < 4) return;
-  if (!reference.look(input, distorted(motion.quad(), images.lens()), window)) confirmation.doubt();
+  if (!reference.look(input, window)) confirmation.doubt();
   if (reference.hasAgreed() && confirmation.isConfirmed() && certainty > kAdaptCertainty &&
       quad_tracker.fitted() == 4)
     reference.adapt(input, window);
@@ -97,23 +95,16 @@ void WindowTracker::Impl::watch(const TrackInput& input) {
     appearance_gate.note(window.bhattacharyya, input.stamp_sec);
 }
 
-// Textures beside a border are followed easily for it: where the wall says that the borders are elsewhere,
-// those there are followed from now on.
+// Edges beside a border are followed easily for it, such as the back one of a reveal: what lies round the
+// opening says where it is. The edges there are followed from now on, or those followed are kept apart from
+// it.
 void WindowTracker::Impl::realign(const TrackInput& input) {
-  if (quad_tracker.inView() < 4) return;
-  const Quadrilateral followed = distorted(motion.quad(), images.lens());
-  const auto expected = reference.align(input, followed);
-  if (!expected || furthestCorner(*expected, followed) < std::max(kMinMovePx, kMinMove * sizeOf(followed)))
-    return;
-  BorderStart start;
-  start.quad = *expected;
-  start.fallback_sigma_px = kAlignedSigmaPx;
-  start.max_stray_px = kAlignedStrayPx;
-  const auto borders = refinement.run(input.image, start, input.camera);
-  if (!borders || borders->seen < 3) return;
-  const Quadrilateral quad = undistorted(borders->corners, images.lens());
-  motion.place(quad);
-  quad_tracker.learn(input.image, images.lens(), quad);
+  if (--frames_to_alignment > 0 || quad_tracker.inView() < 4) return;
+  frames_to_alignment = kAlignEvery;
+  const auto borders =
+      detector.bordersNear(distorted(motion.quad(), images.lens()), input.image, input.camera);
+  if (!borders) return;
+  if (!quad_tracker.realign(input.image, images.lens(), *borders, motion)) return;
   window.corners = borders->corners;
   window.corner_visible.fill(true);
   window.corner_covariance = borders->corner_covariance;

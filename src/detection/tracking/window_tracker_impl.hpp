@@ -76,7 +76,7 @@ struct WindowTracker::Impl {
   double certainty = 0.0;
   std::vector<SeenWindow> windows;
   double searched_sec = 0.0;
-  int frames_to_completion = 0, frames_elsewhere = 0;
+  int frames_to_alignment = 0, frames_to_completion = 0, frames_elsewhere = 0;
   bool was_searched = false, place_is_expected = false;
   bool tracking = false, has_motion = false, has_own_trace = false;
 };

@@ -40,6 +40,7 @@ void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found
   found.target_id = identity.id();
   motion.start(quad, kFoundSigmaPx);
   quad_tracker.learn(input.image, images.lens(), quad);
+  frames_to_alignment = 0;
   certainty = std::max(found.score, 2.0 * kMinCertainty);
   window = found;
   tracking = has_motion = true;

@@ -71,4 +71,15 @@ TEST(RectanglePrior, WhatAPoseMayChangeCostsNothing) {
   EXPECT_LT(eigen.eigenvalues()[5], 1e-4F * eigen.eigenvalues()[6]) << "six of eight are free";
 }
 
+// Seen from before its right side, a little above its top.
+TEST(RectanglePrior, TellsFromWhereEachSideIsSeen) {
+  Eigen::Matrix3d view;
+  view << kAspect, 0, -0.5 * kAspect, 0, 1, 0.6, 0, 0, 2.0;
+  const auto sides = RectanglePrior(camera(), {kAspect, 0.01}).viewsOfSides(camera().K() * view);
+  const double tangents[] = {0.05, 0.0, 0.55, 0.5 * kAspect};
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(sides[i].tangent, tangents[i], 1e-9) << i;
+  EXPECT_TRUE(sides[0].from_beyond);
+  for (int i = 1; i < 4; ++i) EXPECT_FALSE(sides[i].from_beyond) << i;
+}
+
 }  // namespace window_ingress::detection::rectangle_prior_test

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "detection/tracking/appearance_monitor.hpp"
 #include "patched_wall.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 
 namespace window_ingress::detection::ring_matcher_test {
 
@@ -58,44 +58,27 @@ TEST(RingMatcher, NothingIsKnownBeforeAReference) {
   EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
 }
 
-TrackInput inputOf(const cv::Mat& image) {
-  TrackInput input;
-  input.image = image;
-  return input;
+// Borders near those of a view of a wall whose left one was taken for something beside it.
+std::optional<RefinedBorders> bordersNear(const PatchedWall& reference, const Known& seen, double off_px) {
+  Quadrilateral corners, place = seen.opening;
+  const cv::Mat image = reference.draw(seenFrom(2.5, 0.0), &corners);
+  WindowDetector detector{DetectorParams()};
+  detector.setReference(ReferenceAppearance(image, corners));
+  place[0].x() -= off_px, place[3].x() -= off_px;
+  const geometry::PinholeCamera camera = PatchedWall::lensless();
+  return detector.bordersNear(place, seen.image, &camera);
 }
 
-// Of three looks one compares.
-std::optional<Quadrilateral> aligned(const PatchedWall& wall, const Quadrilateral& followed,
-                                     const cv::Mat& image) {
-  Quadrilateral corners;
-  const cv::Mat reference = wall.draw(seenFrom(2.5, 0.0), &corners);
-  AppearanceMonitor watch{DetectorParams()};
-  watch.setReference(std::make_shared<ReferenceAppearance>(reference, corners));
-  std::optional<Quadrilateral> found;
-  for (int i = 0; i < 3 && !found; ++i) found = watch.align(inputOf(image), followed);
-  return found;
-}
-
-TEST(AppearanceMonitor, TheWallSaysWhereTheBordersOfAHoleAre) {
-  const PatchedWall wall(3, 0.0, 25.0);
-  const Known known{wall};
-  Quadrilateral followed = known.opening;  // its left border on something beside it
-  followed[0].x() -= 7.0, followed[3].x() -= 7.0;
-  const auto found = aligned(wall, followed, known.image);
-  ASSERT_TRUE(found);
-  EXPECT_LT(test::worstCorner(*found, known.opening), 0.5);
-  EXPECT_FALSE(aligned(PatchedWall(4, 0.0, 25.0), followed, known.image)) << "of another wall";
-}
-
-TEST(AppearanceMonitor, TheWallLeadsToAFrameThatWasLeft) {
-  const PatchedWall framed(3, 0.07, 25.0);
-  const Known known{framed};
-  EXPECT_FALSE(aligned(framed, known.opening, known.image)) << "it is in its place";
-  Quadrilateral followed = known.opening;
-  followed[0].x() -= 8.0, followed[3].x() -= 8.0;
-  const auto found = aligned(framed, followed, known.image);
-  ASSERT_TRUE(found);
-  EXPECT_LT(test::worstCorner(*found, known.opening), 2.5);
+TEST(WindowDetector, WhatLiesRoundItLeadsToTheBordersOfAHoleOrAFrame) {
+  for (const double frame_m : {0.0, 0.07}) {
+    const PatchedWall wall(3, frame_m, 25.0);
+    const Known known{wall};
+    const auto borders = bordersNear(wall, known, 7.0);
+    ASSERT_TRUE(borders) << frame_m;
+    EXPECT_LT(test::worstCorner(borders->corners, known.opening), 0.3) << frame_m;
+  }
+  EXPECT_FALSE(bordersNear(PatchedWall(4, 0.0, 25.0), Known{PatchedWall(3, 0.0, 25.0)}, 7.0))
+      << "of another wall";
 }
 
 /// What the detector makes of views of a wall, with an image of it as reference.
@@ -185,6 +168,28 @@ TEST(WindowDetector, AHoleWithoutAFrameIsKnownByItsWall) {
     EXPECT_LT(test::worstCorner(window->corners, opening), 0.3) << yaw;
     EXPECT_GT(window->correlation, 0.7);
     EXPECT_LT(window->runner_up, 0.55) << "nothing else is like it";
+  }
+}
+
+// From nearer and nearer beside the window: the frame's border is faint beside the back edge of the reveal.
+TEST(WindowTracker, ThePaintOfAFrameMayGoOnIntoTheReveal) {
+  PatchedWall wall(3, 0.07, 25.0);
+  Quadrilateral opening;
+  const cv::Mat reference = wall.draw(seenFrom(2.5, 0.0), &opening);
+  wall.painted_reveal_m = 0.1;
+  WindowTracker tracker{DetectorParams()};
+  tracker.setReference(ReferenceAppearance(reference, opening));
+  const geometry::PinholeCamera camera = PatchedWall::lensless();
+  for (int i = 0; i < 24; ++i) {
+    TrackInput input;
+    input.image = wall.draw(seenFrom(3.2 - 0.04 * i, 0.35), &opening, cv::Scalar(30, 40, 35));
+    test::addNoise(input.image, 2.0, 3 + i);
+    input.stamp_sec = 10.0 + i / 30.0;
+    input.camera = &camera;
+    const auto window = tracker.update(input);
+    ASSERT_TRUE(window && window->whole()) << i << ": " << tracker.trace().detail;
+    if (i < 5) continue;
+    EXPECT_LT(test::worstCorner(window->corners, opening), 1.0) << i;
   }
 }
 

@@ -102,7 +102,9 @@ TEST(BorderRefinement, ASideThatCannotBeFittedStaysWhereItStartedIfAsked) {
   double inliers = 1.0;
   EXPECT_FALSE(refinement.run(image, {opening, 3.0}, nullptr, &inliers));
   EXPECT_LT(inliers, 0.45);
-  const auto borders = refinement.run(image, {opening, 3.0, 0.7}, nullptr);
+  BorderStart start{opening, 3.0};
+  start.knowAll(0.7);
+  const auto borders = refinement.run(image, start, nullptr);
   ASSERT_TRUE(borders);
   EXPECT_DOUBLE_EQ(borders->edges[geometry::kBottom].sigma_px, 0.7);
   EXPECT_LT(borders->edges[geometry::kTop].sigma_px, 0.1);
@@ -112,7 +114,8 @@ TEST(BorderRefinement, ASideThatWasLocatedTurnedIsFittedWhereItShows) {
   test::DrawnWindow drawn;
   drawn.opening = test::rectangle(100, 80, 230, 180);
   for (const double turned_px : {2.0, 3.5, 4.5}) {
-    BorderStart start{drawn.opening, 2.5, 1.0};
+    BorderStart start{drawn.opening, 2.5};
+    start.knowAll(1.0);
     start.quad[0].y() += turned_px, start.quad[1].y() -= turned_px;
     const auto borders = BorderRefinement().run(drawn.draw(), start, nullptr);
     ASSERT_TRUE(borders);
@@ -120,18 +123,49 @@ TEST(BorderRefinement, ASideThatWasLocatedTurnedIsFittedWhereItShows) {
   }
 }
 
-TEST(BorderRefinement, ABorderBeyondTheShiftIsSeenAndDoesNotMoveItsSide) {
-  cv::Mat image(240, 320, CV_8UC1, cv::Scalar(170));
-  const auto opening = test::rectangle(80, 60, 240, 180);
-  test::fillQuad(image, opening, cv::Scalar(60));
-  BorderStart start{opening, 3.0, 0.7};
-  start.quad[0].x() += 1.5, start.quad[3].x() += 1.5;
-  start.max_stray_px = 2.0, start.max_shift_px = 0.8;
-  const auto borders = BorderRefinement().run(image, start, nullptr);
+/// A dark opening, and a start whose left side lies off its border.
+struct KnownStart {
+  KnownStart(double off_px, double sigma_px) {
+    test::fillQuad(image, opening, cv::Scalar(60));
+    start.quad[0].x() += off_px, start.quad[3].x() += off_px;
+    start.knowAll(sigma_px);
+  }
+  std::optional<RefinedBorders> fit() const { return BorderRefinement().run(image, start, nullptr); }
+  double left_px(const RefinedBorders& borders) const { return borders.corners[0].x() - opening[0].x(); }
+
+  geometry::Quadrilateral opening = test::rectangle(80, 60, 240, 180);
+  cv::Mat image = cv::Mat(240, 320, CV_8UC1, cv::Scalar(170));
+  BorderStart start{opening, 3.0};
+};
+
+TEST(BorderRefinement, ABorderThatContradictsWhatIsKnownOfASideDoesNotMoveIt) {
+  const KnownStart known(1.5, 0.2);
+  const auto borders = known.fit();
   ASSERT_TRUE(borders);
   EXPECT_EQ(borders->seen, 4);
-  EXPECT_NEAR(borders->corners[0].x(), start.quad[0].x(), 0.1);
-  EXPECT_GT(borders->edges[geometry::kLeft].sigma_px, 0.7);
+  EXPECT_NEAR(known.left_px(*borders), 1.5, 0.05);
+  EXPECT_NEAR(borders->edges[geometry::kLeft].sigma_px, 0.2, 1e-9);
+}
+
+TEST(BorderRefinement, WhatIsKnownOfASideAndItsBorderAreAveragedByWhatEachKnows) {
+  const auto apart = [](double sigma_px) {
+    const KnownStart known(0.1, sigma_px);
+    const auto borders = known.fit();
+    EXPECT_TRUE(borders);
+    EXPECT_LT(borders->edges[geometry::kLeft].sigma_px, sigma_px);
+    return known.left_px(*borders);
+  };
+  EXPECT_NEAR(apart(1.0), 0.0, 0.03);
+  EXPECT_NEAR(apart(0.03), 0.05, 0.02) << "as well known as a sharp border";
+  EXPECT_GT(apart(0.01), 0.085);
+}
+
+TEST(BorderRefinement, AnUnknownSideMustShowItsBorder) {
+  KnownStart known(0.0, 0.5);
+  known.image.colRange(0, 100).setTo(60);
+  EXPECT_TRUE(known.fit());
+  known.start.known[geometry::kLeft] = {};
+  EXPECT_FALSE(known.fit());
 }
 
 TEST(BorderRefinement, NothingFromPlainImagesTinyOrOutsideQuads) {

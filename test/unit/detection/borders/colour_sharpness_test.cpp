@@ -79,7 +79,7 @@ TEST(ColourSharpness, TheFrontOfARevealIsWhereBrightnessChanges) {
   for (const double start_px : {-0.5, 0.0, 0.5}) {
     BorderStart start{kOpening, 2.5};
     for (auto& corner : start.quad) corner += Eigen::Vector2d::Constant(start_px);
-    start.fallback_sigma_px = 1.0;
+    start.knowAll(1.0);
     const auto borders = refinement.run(withSoftColour(drawn(1.0)), start, nullptr);
     ASSERT_TRUE(borders);
     for (int i = 0; i < 4; ++i)

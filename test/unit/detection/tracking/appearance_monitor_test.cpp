@@ -17,7 +17,7 @@ struct Watched {
     window.corners = drawn.opening;
     window.corner_visible = {true, true, true, true};
   }
-  bool look(AppearanceMonitor& watch) { return watch.look(input, window.corners, window); }
+  bool look(AppearanceMonitor& watch) { return watch.look(input, window); }
 
   DetectorParams params;
   test::DrawnWindow drawn;

@@ -11,6 +11,7 @@
 #include "detection/tracking/edge_template.hpp"
 #include "detection/tracking/edge_tracker.hpp"
 #include "detection/tracking/quad_motion.hpp"
+#include "detection/tracking/quad_tracker.hpp"
 #include "detection/tracking/track_identity.hpp"
 #include "drawn_window.hpp"
 
@@ -102,30 +103,55 @@ TEST(EdgeTemplate, KnowsTheInnerFromTheOuterBorderWhereverTheyLie) {
   EXPECT_FALSE(inner.match(across(bands({{0, kWall}}), -30), 6, 100.0)) << "outside";
 }
 
-TEST(FrontBorder, MovesOutWhenARevealPartsFromTheFrame) {
-  FrontBorder front;
-  EXPECT_FALSE(front.look(across(bands({{0, kFrame}, {100, kHole}}), 100), {}, 8));
-  std::optional<double> out;
-  for (int i = 0; i < 5 && !out; ++i)
-    out = front.look(across(bands({{0, kFrame}, {95, kReveal}, {100, kHole}}), 100), {}, 8);
-  ASSERT_TRUE(out);
-  EXPECT_NEAR(*out, 5.0, 1.1);
-}
+Stretch stretchAt(double row) { return {Vector2d(40, row), Vector2d(260, row)}; }
+Line lineAt(double row, double sigma_px) { return {Vector2d(150, row), Vector2d(0, -1), sigma_px, 1e-4}; }
 
-TEST(FrontBorder, StaysAtABorderThatIsTheFrontWhateverIsBeyond) {
-  FrontBorder front;
-  for (int i = 0; i < 10; ++i) {
-    const double frame = 92 - 0.3 * i;  // its outer border moves away as it comes nearer
-    EXPECT_FALSE(front.look(across(bands({{0, kWall}, {frame, kFrame}, {100, kHole}}), 100), {}, 8)) << i;
+// The front edge of a reveal does not show; its back edge comes nearer, and the border with it.
+TEST(EdgeTracker, AnEdgeBesideTheBorderIsReportedAsTheBorder) {
+  const auto image = [](double row) { return bands({{0, kWall}, {row, kHole}}); };
+  EdgeTracker tracker;
+  tracker.learn(image(100), nullptr, stretchAt(100), 100.0);
+  EXPECT_NEAR(tracker.follow(image(100), nullptr, stretchAt(100), 100.0, 1.0).line.point.y(), 100.0, 0.1);
+  ASSERT_TRUE(tracker.keepApart(lineAt(98.2, 0.2), 100.0, 2.5));
+  for (const double size_px : {100.0, 120.0}) {
+    const double border = 101.0 - 1.8 * std::pow(size_px / 100.0, 2);
+    const auto followed = tracker.follow(image(101), nullptr, stretchAt(border + 0.5), size_px, 1.0);
+    ASSERT_TRUE(followed.fitted);
+    EXPECT_NEAR(followed.line.point.y(), border, 0.1) << size_px;
+    EXPECT_GT(followed.line.sigma_px, 0.2 * size_px / 100.0);
   }
+  EXPECT_FALSE(tracker.keepApart(lineAt(96.0, 0.2), 100.0, 2.5)) << "another edge";
 }
 
-TEST(FrontBorder, StaysAtABlurredBorder) {
-  FrontBorder front;
-  for (int i = 0; i < 10; ++i) {
-    cv::Mat image = bands({{0, kFrame}, {100, kHole}});
-    if (i > 0) cv::GaussianBlur(image, image, cv::Size(), 0.35 * i);
-    EXPECT_FALSE(front.look(across(image, 100), {}, 8)) << i;
+TEST(EdgeTracker, WhereABorderShowsNoEdgeTheNearestOneIsFollowedForIt) {
+  const cv::Mat image = bands({{0, kWall}, {100, kHole}});
+  EdgeTracker tracker;
+  tracker.learn(image, nullptr, stretchAt(97), 100.0);
+  const auto followed = tracker.follow(image, nullptr, stretchAt(97), 100.0, 1.0);
+  ASSERT_TRUE(followed.fitted);
+  EXPECT_NEAR(followed.line.point.y(), 97.0, 0.2);
+}
+
+// Borders found 5 px above the top edge that is followed, with next to nothing known of them otherwise.
+TEST(QuadTracker, WhereTheImageEndsBesideASideItsOwnEdgeIsBelieved) {
+  for (const double top : {10.0, 70.0}) {
+    test::DrawnWindow drawn;
+    drawn.width = 320, drawn.height = 240;
+    drawn.opening = test::rectangle(80, top, 240, top + 120);
+    const cv::Mat image = drawn.draw();
+    QuadTracker tracker;
+    QuadMotion motion;
+    motion.start(drawn.opening, 0.3);
+    tracker.learn(image, nullptr, drawn.opening);
+    motion.predict(Eigen::Matrix3d::Identity(), 0.033, {1, 1, 1});
+    ASSERT_TRUE(tracker.follow(image, nullptr, motion));
+    ASSERT_EQ(tracker.fitted(), 4);
+    RefinedBorders borders;
+    borders.corners = drawn.opening;
+    borders.corners[0].y() -= 5.0, borders.corners[1].y() -= 5.0;
+    borders.fitted.fill(true);
+    borders.known.fill({1.0, 0.01});
+    EXPECT_EQ(tracker.realign(image, nullptr, borders, motion), top > 50.0) << top;
   }
 }
 
