@@ -12,9 +12,9 @@ void RangeCheck::choice(const std::string& name, const std::string& value,
   faults_.push_back(prefix_ + name + " = " + value + " is none of " + words);
 }
 
-std::string joined(const std::vector<std::string>& texts) {
+std::string joined(const std::vector<std::string>& texts, const char* between) {
   std::string line;
-  for (const auto& text : texts) line += (line.empty() ? "" : "; ") + text;
+  for (const auto& text : texts) line += (line.empty() ? "" : between) + text;
   return line;
 }
 

@@ -20,103 +20,107 @@ struct YamlReader::Impl {
   /// What the readers of one file share.
   struct File {
     std::vector<std::string> known;
-    std::set<std::string> said;
+    std::set<std::string> said = {};
+    YamlFaults faults = {};
   };
 
-  YamlMapping mapping;
   std::shared_ptr<File> shared;
+  YamlMapping mapping;
 
-  template <typename Value>
-  bool read(const std::string& name, Value& value, const char* expected) {
+  YamlError fault(const std::string& name, const std::string& text) {
+    return mapping.fault(mapping.find(name), mapping.path() + text);
+  }
+
+  /// \param check of the value read, which is kept if this throws nothing
+  template <typename Value, typename Check>
+  void read(const std::string& name, Value& value, const char* expected, const Check& check) {
     const YAML::Node node = mapping.find(name);
-    if (!node.IsDefined()) return false;
-    try {
-      value = node.as<Value>();
-    } catch (const YAML::Exception&) {
-      fail(name, std::string(": must be ") + expected);
-    }
-    shared->said.insert(mapping.path() + name);
-    return true;
+    if (!node.IsDefined()) return;
+    shared->faults.collect([&] {
+      Value found{};
+      try {
+        found = node.as<Value>();
+      } catch (const YAML::Exception&) {
+        throw fault(name, name + ": must be " + expected);
+      }
+      check(found);
+      value = found;
+      shared->said.insert(mapping.path() + name);
+    });
   }
 
-  [[noreturn]] void fail(const std::string& name, const std::string& text) {
-    mapping.fail(mapping.find(name), mapping.path() + name + text);
-  }
-
-  void refuse(const std::string& name, const RangeCheck& check) {
-    if (!check.faults().empty()) mapping.fail(mapping.find(name), mapping.path() + check.faults().front());
-  }
-
-  template <typename Number>
-  void readNumber(const std::string& name, Number& value, double minimum, double maximum,
-                  const char* expected) {
-    Number number = value;
-    if (!read(name, number, expected)) return;
-    RangeCheck check;
-    check(name, number, minimum, maximum);
-    refuse(name, check);
-    value = number;
+  template <typename... Limits>
+  auto within(const std::string& name, const Limits&... limits) {
+    return [this, &name, &limits...](const auto& value) {
+      RangeCheck check;
+      check(name, value, limits...);
+      if (!check.faults().empty()) throw fault(name, check.faults().front());
+    };
   }
 };
 
-YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known)
-    : impl_(new Impl{YamlMapping(file, mapping),
-                     std::make_shared<Impl::File>(Impl::File{std::move(known), {}})}) {}
+YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known) {
+  const auto shared = std::make_shared<Impl::File>(Impl::File{std::move(known)});
+  impl_.reset(new Impl{shared, YamlMapping(file, mapping, shared->faults)});
+}
 
 YamlReader::YamlReader(const std::string& file, const std::string& key, const YAML::Node& value)
-    : impl_(new Impl{YamlMapping(file, key, value), std::make_shared<Impl::File>()}) {}
+    : impl_(new Impl{std::make_shared<Impl::File>(), YamlMapping(file, key, value)}) {}
 
 YamlReader::YamlReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 YamlReader::~YamlReader() = default;
 
 void YamlReader::operator()(const std::string& name, double& value, double minimum, double maximum) {
-  impl_->readNumber(name, value, minimum, maximum, "a number");
+  impl_->read(name, value, "a number", impl_->within(name, minimum, maximum));
 }
 
 void YamlReader::operator()(const std::string& name, int& value, double minimum, double maximum) {
-  impl_->readNumber(name, value, minimum, maximum, "a whole number");
+  impl_->read(name, value, "a whole number", impl_->within(name, minimum, maximum));
 }
 
 void YamlReader::operator()(const std::string& name, bool& value) {
-  impl_->read(name, value, "true or false");
+  impl_->read(name, value, "true or false", impl_->within(name));
 }
 
 void YamlReader::operator()(const std::string& name, std::string& value) {
-  impl_->read(name, value, "a text");
+  impl_->read(name, value, "a text", impl_->within(name));
 }
 
 void YamlReader::operator()(const std::string& name, std::vector<double>& value) {
-  std::vector<double> numbers;
-  if (!impl_->read(name, numbers, "a list of numbers")) return;
-  if (!std::all_of(numbers.begin(), numbers.end(), isFinite)) impl_->fail(name, ": must be finite numbers");
-  value = numbers;
+  impl_->read(name, value, "a list of numbers", [&](const std::vector<double>& numbers) {
+    if (!std::all_of(numbers.begin(), numbers.end(), isFinite))
+      throw impl_->fault(name, name + ": must be finite numbers");
+  });
 }
 
 void YamlReader::choice(const std::string& name, std::string& value,
                         const std::vector<std::string>& allowed) {
-  std::string word = value;
-  if (!impl_->read(name, word, "a text")) return;
-  RangeCheck check;
-  check.choice(name, word, allowed);
-  impl_->refuse(name, check);
-  value = word;
+  impl_->read(name, value, "a text", [&](const std::string& word) {
+    RangeCheck check;
+    check.choice(name, word, allowed);
+    if (!check.faults().empty()) throw impl_->fault(name, check.faults().front());
+  });
 }
 
 std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
   const YAML::Node node = impl_->mapping.find(name);
-  if (!node.IsDefined()) return nullptr;
-  const std::string path = impl_->mapping.path() + name;
-  if (!node.IsMap()) impl_->fail(name, ": must be a mapping of keys to values");
-  auto child =
-      std::make_unique<Impl>(Impl{YamlMapping(impl_->mapping.file(), node, path + "/"), impl_->shared});
-  return std::unique_ptr<YamlReader>(new YamlReader(std::move(child)));
+  std::unique_ptr<YamlReader> child;
+  if (!node.IsDefined()) return child;
+  impl_->shared->faults.collect([&] {
+    const std::string& file = impl_->mapping.file();
+    YamlMapping mapping(file, node, impl_->shared->faults, impl_->mapping.path() + name + "/");
+    child.reset(new YamlReader(std::make_unique<Impl>(Impl{impl_->shared, std::move(mapping)})));
+  });
+  return child;
 }
 
-void YamlReader::refuseUnknownKeys() const {
+void YamlReader::refuseUnknownKeys() {
   impl_->mapping.refuseUnknownKeys(
-      [&](const std::string& path) { return didYouMean(path, impl_->shared->known); });
+      [&](const std::string& path) { return didYouMean(path, impl_->shared->known); }, impl_->shared->faults);
 }
+
+void YamlReader::throwIfFaulty() const { impl_->shared->faults.throwIfAny(); }
 
 const std::set<std::string>& YamlReader::said() const { return impl_->shared->said; }
 
@@ -125,6 +129,7 @@ std::set<std::string> visitYamlFile(const std::string& file, std::vector<std::st
   YamlReader reader(file, loadYaml(file), std::move(known));
   visit(reader);
   reader.refuseUnknownKeys();
+  reader.throwIfFaulty();
   return reader.said();
 }
 

@@ -4,19 +4,24 @@
 #include <ios>
 #include <utility>
 
-#include "window_ingress/parameters/yaml.hpp"
-
 namespace window_ingress::parameters {
 
-YamlMapping::YamlMapping(std::string file, const YAML::Node& mapping, std::string path)
+void YamlFaults::throwIfAny() const {
+  std::string lines;
+  for (const auto& [line, fault] : by_line_) lines += (lines.empty() ? "" : "\n") + fault;
+  if (!lines.empty()) throw YamlError(lines, by_line_.begin()->first);
+}
+
+YamlMapping::YamlMapping(std::string file, const YAML::Node& mapping, YamlFaults& faults, std::string path)
     : file_(std::move(file)), mapping_(mapping), path_(std::move(path)) {
-  const std::string place = path_.empty() ? "" : path_ + ": ";
-  if (!mapping.IsMap()) fail(mapping, place + "must be a mapping of keys to values");
+  const std::string place = path_.empty() ? "" : path_.substr(0, path_.size() - 1) + ": ";
+  if (!mapping.IsMap()) throw fault(mapping, place + "must be a mapping of keys to values");
   std::set<std::string> keys;
   for (const auto& entry : mapping) {
-    if (!entry.first.IsScalar()) fail(entry.first, place + "a key must be a word");
-    if (!keys.insert(entry.first.Scalar()).second)
-      fail(entry.first, path_ + entry.first.Scalar() + ": stands here for the second time");
+    if (!entry.first.IsScalar())
+      faults.add(fault(entry.first, place + "a key must be a word"));
+    else if (!keys.insert(entry.first.Scalar()).second)
+      faults.add(fault(entry.first, path_ + entry.first.Scalar() + ": stands here for the second time"));
   }
 }
 
@@ -29,8 +34,9 @@ YAML::Node YamlMapping::find(const std::string& name) {
   return static_cast<const YAML::Node&>(mapping_)[name];
 }
 
-void YamlMapping::fail(const YAML::Node& at, const std::string& text) const {
-  throw YamlError(file_ + ":" + std::to_string(std::max(0, at.Mark().line) + 1) + ": " + text);
+YamlError YamlMapping::fault(const YAML::Node& at, const std::string& text) const {
+  const int line = std::max(0, at.Mark().line) + 1;
+  return YamlError(file_ + ":" + std::to_string(line) + ": " + text, line);
 }
 
 std::vector<std::string> YamlMapping::asked() const {
@@ -39,10 +45,12 @@ std::vector<std::string> YamlMapping::asked() const {
   return paths;
 }
 
-void YamlMapping::refuseUnknownKeys(const std::function<std::string(const std::string&)>& advice) const {
+void YamlMapping::refuseUnknownKeys(const std::function<std::string(const std::string&)>& advice,
+                                    YamlFaults& faults) const {
   for (const auto& entry : mapping_) {
-    const auto key = entry.first.as<std::string>();
-    if (asked_.count(key) == 0) fail(entry.first, path_ + key + ": unknown key" + advice(path_ + key));
+    const std::string path = path_ + entry.first.Scalar();
+    if (entry.first.IsScalar() && asked_.count(entry.first.Scalar()) == 0)
+      faults.add(fault(entry.first, path + ": unknown key" + advice(path)));
   }
 }
 

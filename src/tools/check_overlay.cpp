@@ -33,7 +33,8 @@ po::options_description describe(Options& o) {
       "Usage: check_overlay [FILE.yaml] [OPTION...]\n"
       "Checks a parameter file before it is given as config:= to launch files or as --params to tools: each "
       "key\n"
-      "must exist, each value must be in its range. Prints the file's name if so, else what is wrong. The "
+      "must exist, each value must be in its range. Prints the file's name if so, else all that is wrong. "
+      "The "
       "options\n"
       "are arguments of launch files, which call this before they start anything; 'none' means not given.\n"
       "Exit code: 0 the file can be used, 2 it cannot.\n\nOptions");
@@ -178,15 +179,38 @@ void checkNavigator(const std::string& file, const navigation::NavigatorParams& 
   }
 }
 
-void checkLaunch(const Options& o) {
+/// All that is wrong, to be told at once.
+class Faults {
+ public:
+  template <typename Step>
+  bool collect(const Step& step) {
+    try {
+      step();
+      return true;
+    } catch (const UsageError& fault) {
+      texts_.push_back(fault.what());
+    } catch (const parameters::YamlError& fault) {
+      texts_.push_back(fault.what());
+    }
+    return false;
+  }
+  void throwIfAny() const {
+    if (!texts_.empty()) throw UsageError(parameters::joined(texts_, "\n"));
+  }
+
+ private:
+  std::vector<std::string> texts_;
+};
+
+void checkLaunch(const Options& o, Faults& faults) {
   const auto words = tools::wordsOfParent();
   const auto file = tools::launchFileOf(words, o.launch_folder);
   if (file.empty()) return;
-  tools::checkLaunchArguments(words, file);
+  faults.collect([&] { tools::checkLaunchArguments(words, file); });
   std::vector<const char*> nodes;  // of ingress.launch alone
   if (!o.fly.empty()) nodes = {"/window_detector", "/homography_pose"};
   if (o.fly == "true") nodes.insert(nodes.end(), {"/ingress_navigator", "/setpoint_guard"});
-  tools::checkNoneRuns(words, nodes);
+  faults.collect([&] { tools::checkNoneRuns(words, nodes); });
 }
 
 // Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is
@@ -197,24 +221,34 @@ std::string existing(const std::string& file) {
   return file;
 }
 
+void checkOverlay(const Options& o, const std::string& file, configuration::Overlay& overlay,
+                  Faults& faults) {
+  faults.collect([&] { checkReference(o, file, overlay.window_detector); });
+  faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
+  checkSpeeds(overlay);
+  faults.collect([&] { checkSizesAreSaid(o, overlay); });
+  faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
+  const bool says_both = saysOpening(overlay) && (says(overlay, "vehicle/", {"half_width_m"}) ||
+                                                  says(overlay, "vehicle/", {"half_height_m"}));
+  if (o.fly == "true" || (o.fly.empty() && says_both))
+    faults.collect([&] { checkFits(overlay.vehicle, overlay.homography_pose.pose); });
+}
+
 int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
                             o.launch_folder.empty();
   if (asks_nothing) throw UsageError("no file given; see --help");
-  if (!o.launch_folder.empty()) checkLaunch(o);
-  const std::string file = existing(given(o.file));
-  auto overlay = configuration::readOverlay(file, configuration::readOverlay(given(o.defaults)));
-  checkReference(o, file, overlay.window_detector);
-  takeWindowSize(given(o.window_size), file, overlay);
-  checkSpeeds(overlay);
-  checkSizesAreSaid(o, overlay);
-  checkNavigator(file, overlay.ingress_navigator.navigator);
-  const bool says_both = saysOpening(overlay) && (says(overlay, "vehicle/", {"half_width_m"}) ||
-                                                  says(overlay, "vehicle/", {"half_height_m"}));
-  if (o.fly == "true" || (o.fly.empty() && says_both))
-    checkFits(overlay.vehicle, overlay.homography_pose.pose);
-  checkCameraPose(given(o.camera_pose));
+  Faults faults;
+  if (!o.launch_folder.empty()) checkLaunch(o, faults);
+  const std::string file = given(o.file);
+  configuration::Overlay overlay;
+  const bool is_read = faults.collect([&] {
+    overlay = configuration::readOverlay(existing(file), configuration::readOverlay(given(o.defaults)));
+  });
+  if (is_read) checkOverlay(o, file, overlay, faults);
+  faults.collect([&] { checkCameraPose(given(o.camera_pose)); });
+  faults.throwIfAny();
   std::cout << file;
   return 0;
 }

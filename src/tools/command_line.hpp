@@ -64,12 +64,13 @@ inline void makeFolder(const std::string& folder) {
   if (error || !std::filesystem::is_directory(folder)) throw UsageError(folder + ": cannot make this folder");
 }
 
-/// Runs a tool. What it throws becomes one line on stderr and the exit code: 2 for wrong usage and for input
-/// that cannot be used, 1 for a job that failed.
+/// Runs a tool. What it throws becomes a line on stderr, one for each fault, and the exit code: 2 for wrong
+/// usage and for input that cannot be used, 1 for a job that failed.
 template <typename Body>
 int runTool(const char* name, const Body& body) {
   const auto fail = [name](const std::string& what, int code) {
-    std::cerr << name << ": " << what << "\n";
+    std::istringstream lines(what);
+    for (std::string line; std::getline(lines, line);) std::cerr << name << ": " << line << "\n";
     return code;
   };
   try {

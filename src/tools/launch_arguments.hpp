@@ -107,7 +107,7 @@ inline std::filesystem::path launchFileOf(const std::vector<std::string>& words,
 }
 
 /// \param words of the command that starts this launch file
-/// \throws UsageError that names the first argument that cannot be
+/// \throws UsageError with a line for each argument that cannot be
 inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& file) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const auto& word : words)
@@ -117,17 +117,20 @@ inline void checkLaunchArguments(const std::vector<std::string>& words, const st
   std::vector<std::string> names;
   for (const auto& argument : known) names.push_back(argument.name);
   const std::string launch = file.filename().string();
+  std::vector<std::string> faults;
   for (const auto& [name, value] : given) {
     if (!std::regex_match(name, std::regex("[A-Za-z]\\w*"))) continue;  // __name, /topic
     const auto argument = std::find(names.begin(), names.end(), name);
     if (argument == names.end()) {
       const std::string meant = parameters::didYouMean(name, names);
       const std::string listed = "; roslaunch --ros-args window_ingress " + launch + " lists them";
-      throw UsageError(launch + " has no argument '" + name + "'" + (meant.empty() ? listed : meant));
+      faults.push_back(launch + " has no argument '" + name + "'" + (meant.empty() ? listed : meant));
+      continue;
     }
     const std::string why = whyNot(known[static_cast<std::size_t>(argument - names.begin())], value);
-    if (!why.empty()) throw UsageError(launch + ": " + name + ":=" + value + ": " + why);
+    if (!why.empty()) faults.push_back(launch + ": " + name + ":=" + value + ": " + why);
   }
+  if (!faults.empty()) throw UsageError(parameters::joined(faults, "\n"));
 }
 
 }  // namespace window_ingress::tools

@@ -49,6 +49,18 @@ class RefusedStartTest(unittest.TestCase):
         for value in (float("nan"), float("inf"), -1.0, 1e300):
             self.assert_refused("ingress_navigator", "navigator/limits/speed_mps", value, "is not within")
 
+    def test_what_is_wrong_with_vehicle_and_node_is_told_at_once(self):
+        rospy.set_param("/vehicle/half_width_m", -1.0)
+        try:
+            for node in ("window_detector", "homography_pose", "ingress_navigator"):
+                self.assert_refused(node, "thershold", 1.0, "unknown parameter", "/vehicle/half_width_m = -1 is not within")
+        finally:
+            rospy.delete_param("/vehicle/half_width_m")
+
+    def test_a_word_that_is_none_of_those_there_are_is_refused(self):
+        self.assert_refused("homography_pose", "gravity_source", "mag", "is none of imu, odom, tf")
+        self.assert_refused("ingress_navigator", "setpoint_frame", "map", "is none of odom, base_link")
+
     def test_lockstep_is_refused_without_simulated_time(self):
         for node in ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"):
             rospy.set_param(f"/{node}/lockstep", True)

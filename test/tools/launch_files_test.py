@@ -253,6 +253,21 @@ def test_each_launch_file_takes_its_arguments():
         assert done.returncode == 0, done.stderr
 
 
+def test_all_that_is_wrong_is_said_at_once(tmp_path):
+    config = tmp_path / "drone.yaml"
+    config.write_text("vehicle:\n  half_widht_m: 0.3\n  half_height_m: -1\nhomography_pose: {gravity_source: mag}\n")
+    said = refusal(ROOT / "launch/px4.launch", f"config:={config}", "refrence:=none", "fly:=maybe")
+    for fault in (f"{config}:2: vehicle/half_widht_m: unknown key; did you mean 'half_width_m'?",
+                  f"{config}:3: vehicle/half_height_m = -1 is not within", f"{config}:4: homography_pose/gravity_source = mag is none of",
+                  "px4.launch has no argument 'refrence'", "px4.launch: fly:=maybe: give one of true, false"):
+        assert f"check_overlay: {fault}" in said
+    config.write_text("vehicle: {half_width_m: 0.7}\ningress_navigator: {navigator: {limits: {acceleration_mps2: 0.5}}}\n")
+    said = refusal(ROOT / "launch/ingress.launch", f"config:={config}", "reference:=none.png", "window_size:=1")
+    for fault in ("reference:=none.png: give its whole path", "window_size: '1' is not 2 numbers",
+                  "must not be below vehicle/braking_mps2", "does not fit through the opening"):
+        assert fault in said
+
+
 def test_contradictions_are_said(tmp_path):
     config = tmp_path / "drone.yaml"
     config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n"

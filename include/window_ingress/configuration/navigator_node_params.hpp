@@ -34,8 +34,7 @@ struct NavigatorNodeParams {
                                   ///< gone [s]
   double max_pose_silence_sec = 1.5;  ///< messages on window_pose that have not arrived for this long, on the
                                       ///< steady clock, are gone [s]
-  std::string setpoint_frame = "odom";  ///< axes of the setpoints: odom or base_link, whatever these frames
-                                        ///< are called
+  std::string setpoint_frame = "odom";  ///< axes of the setpoints, whatever these frames are called
   bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
   bool start_at_once = false;  ///< start the mission with the first step at which it may; only in lockstep
   EngagementParams engagement;
@@ -46,7 +45,7 @@ struct NavigatorNodeParams {
     field("rate_hz", self.rate_hz, 20.0, 200.0);
     field("max_silence_sec", self.max_silence_sec, 0.05, 5.0);
     field("max_pose_silence_sec", self.max_pose_silence_sec, 0.05, 5.0);
-    field("setpoint_frame", self.setpoint_frame);
+    field.choice("setpoint_frame", self.setpoint_frame, {"odom", "base_link"});
     field("lockstep", self.lockstep);
     field("start_at_once", self.start_at_once);
     field.group("engagement", self.engagement);

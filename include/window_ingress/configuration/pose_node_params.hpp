@@ -10,7 +10,7 @@
 namespace window_ingress::configuration {
 
 struct PoseNodeParams {
-  std::string gravity_source = "imu";   ///< where "up" comes from: imu, odom or tf
+  std::string gravity_source = "imu";   ///< where "up" comes from
   double odom_wait_sec = 0.05;          ///< longest wait of an image for odometry as new as itself [s]
   bool lockstep = false;                ///< run step by step with the simulated world; only with use_sim_time
   bool publish_tf = false;              ///< broadcast the filtered window as a frame
@@ -20,7 +20,7 @@ struct PoseNodeParams {
   estimation::TargetEstimatorParams tracker;
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field("gravity_source", self.gravity_source);
+    field.choice("gravity_source", self.gravity_source, {"imu", "odom", "tf"});
     field("odom_wait_sec", self.odom_wait_sec, 0.0, 0.5);
     field("lockstep", self.lockstep);
     field("publish_tf", self.publish_tf);

@@ -1,5 +1,5 @@
-/// One list of fields per parameter struct, from which everything else is derived: range checks, reading from yaml,
-/// reading from the ROS parameter server, the tables of the documentation.
+/// One list of fields per parameter struct, from which everything else is derived: range checks, reading from
+/// yaml, reading from the ROS parameter server, the tables of the documentation.
 ///
 /// A parameter struct lists its fields once:
 ///
@@ -66,6 +66,6 @@ std::vector<std::string> outOfRange(const Params& params) {
 }
 
 /// The texts as one line, for an error.
-std::string joined(const std::vector<std::string>& texts);
+std::string joined(const std::vector<std::string>& texts, const char* between = "; ");
 
 }  // namespace window_ingress::parameters

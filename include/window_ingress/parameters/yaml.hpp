@@ -16,14 +16,15 @@ class Node;
 
 namespace window_ingress::parameters {
 
-/// A yaml file that cannot be used: `what()` is one line "file:line: key: what is wrong".
+/// A yaml file that cannot be used: `what()` has a line for each fault, "file:line: key: what is wrong".
 class YamlError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit YamlError(const std::string& what, int line = 0) : std::runtime_error(what), line(line) {}
+  int line;  ///< of the file
 };
 
 /// Visitor that fills a parameter struct from one yaml mapping. Missing keys keep their defaults; unknown
-/// keys, wrong types and values out of range are errors that name file, line and key.
+/// keys, wrong types and values out of range are collected, with file, line and key.
 class YamlReader {
  public:
   /// \param known all paths that may stand in the file, to say which may have been meant
@@ -47,8 +48,10 @@ class YamlReader {
       child->refuseUnknownKeys();
     }
   }
-  /// \throws YamlError for the first key that no field has asked for.
-  void refuseUnknownKeys() const;
+  /// Keys that no field has asked for are faults.
+  void refuseUnknownKeys();
+  /// \throws YamlError that names every fault so far, those of groups included
+  void throwIfFaulty() const;
   /// Paths of all that has been read, by this reader and those of its groups.
   const std::set<std::string>& said() const;
 

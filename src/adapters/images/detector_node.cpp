@@ -16,8 +16,7 @@ constexpr double kLateSec = 0.5;  // a pose so much older than an image says not
 }
 
 DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(readParameters<DetectorNodeParams>(pnh, {"tuning"})),
-      vehicle_(readVehicle(nh)),
+    : params_(readParameters<DetectorNodeParams>(nh, pnh, vehicle_, {"tuning"})),
       diagnostics_(nh, pnh),
       perception_(params_.detector, params_.interior),
       camera_(nh, diagnostics_, vehicle_.image_is_rectified),

@@ -56,8 +56,8 @@ class DetectorNode : public Node {
   Health detectionHealth() const;
   Health referenceHealth() const;
 
-  DetectorNodeParams params_;
   navigation::VehicleParams vehicle_;
+  DetectorNodeParams params_;
   Diagnostics diagnostics_;
   ClockWatch clock_;
   perception::WindowPerception perception_;

@@ -26,18 +26,19 @@ GuardParams lastGate(const navigation::LimitParams& limits) {
   return gate;
 }
 
-NavigatorNodeParams checked(NavigatorNodeParams params, const navigation::VehicleParams& vehicle) {
+NavigatorNodeParams read(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+  navigation::VehicleParams vehicle;
+  auto params = readParameters<NavigatorNodeParams>(nh, pnh, vehicle);
   params.navigator.vehicle = vehicle;
   if (params.start_at_once && !params.lockstep)
     throw ParameterError("start_at_once is for lockstep only: call ~start");
-  if (params.setpoint_frame == kOdomAxes || params.setpoint_frame == kBaseAxes) return params;
-  throw ParameterError("setpoint_frame is '" + params.setpoint_frame + "', must be 'odom' or 'base_link'");
+  return params;
 }
 
 }  // namespace
 
 NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(checked(readParameters<NavigatorNodeParams>(pnh), readVehicle(nh))),
+    : params_(read(nh, pnh)),
       diagnostics_(nh, pnh),
       odom_health_(diagnostics_, "odom", kSilenceSec),
       pose_health_(diagnostics_, "window_pose", kSilenceSec),

@@ -13,16 +13,14 @@ constexpr double kOdometryGoneSec = 0.3;
 PoseNodeParams checked(PoseNodeParams params) {
   if (params.lockstep && params.gravity_source == "tf")
     throw ParameterError("gravity_source is 'tf', must be imu or odom in lockstep");
-  for (const char* known : {"imu", "odom", "tf"})
-    if (params.gravity_source == known) return params;
-  throw ParameterError("gravity_source is '" + params.gravity_source + "', must be imu, odom or tf");
+  return params;
 }
 
 }  // namespace
 
 PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : vehicle_(readVehicle(nh)),
-      params_(checked(configuration::forVehicle(readParameters<PoseNodeParams>(pnh), vehicle_))),
+    : params_(
+          checked(configuration::forVehicle(readParameters<PoseNodeParams>(nh, pnh, vehicle_), vehicle_))),
       diagnostics_(nh, pnh),
       window_health_(diagnostics_, "window", kSilenceSec),
       odom_health_(diagnostics_, "odom", kSilenceSec),

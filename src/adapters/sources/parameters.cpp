@@ -130,8 +130,8 @@ ParameterReader ParameterReader::descend(const std::string& name) {
   return child;
 }
 
-void ParameterReader::adopt(const ParameterReader& child) {
-  const std::vector<std::string> faults = child.faults();
+void ParameterReader::adopt(const ParameterReader& other) {
+  const std::vector<std::string> faults = other.faults();
   faults_.insert(faults_.end(), faults.begin(), faults.end());
 }
 

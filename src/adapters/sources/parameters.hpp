@@ -45,6 +45,8 @@ class ParameterReader {
 
   /// Names that are read by others: below the namespace, and no error.
   void ignore(const std::set<std::string>& names) { asked_.insert(names.begin(), names.end()); }
+  /// What another reader found is wrong here, too.
+  void adopt(const ParameterReader& other);
 
   /// Everything wrong so far, unknown names included; empty if nothing is.
   std::vector<std::string> faults() const;
@@ -53,7 +55,6 @@ class ParameterReader {
  private:
   const XmlRpc::XmlRpcValue* find(const std::string& name);
   ParameterReader descend(const std::string& name);
-  void adopt(const ParameterReader& child);
   void wrongType(const std::string& name, const char* expected, const XmlRpc::XmlRpcValue& found);
   void checkRange(const std::string& name, double number, double minimum, double maximum);
 
@@ -68,21 +69,35 @@ class ParameterReader {
 /// there stands anything else
 XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& nh);
 
-/// Reads the parameters of one node; `Params::visit` lists all that may stand in its private namespace.
-/// \throws ParameterError
+/// What stands below the namespace of `nh`, which `Params::visit` lists, and what is wrong with it.
+/// \throws ParameterError as `parameterTree`
 template <typename Params>
-Params readParameters(const ros::NodeHandle& pnh, const std::set<std::string>& others = {}) {
-  Params params;
-  ParameterReader reader(pnh.getNamespace(), parameterTree(pnh), parameters::keysOf(params));
+ParameterReader readInto(Params& params, const ros::NodeHandle& nh,
+                         const std::set<std::string>& others = {}) {
+  ParameterReader reader(nh.getNamespace(), parameterTree(nh), parameters::keysOf(params));
   reader.ignore(others);
   Params::visit(params, reader);
-  reader.throwIfFaulty();
+  return reader;
+}
+
+/// Reads the parameters of one node. \throws ParameterError
+template <typename Params>
+Params readParameters(const ros::NodeHandle& pnh) {
+  Params params;
+  readInto(params, pnh).throwIfFaulty();
   return params;
 }
 
-/// What all nodes know of the vehicle: `vehicle`, beside the nodes. \throws ParameterError
-inline navigation::VehicleParams readVehicle(const ros::NodeHandle& nh) {
-  return readParameters<navigation::VehicleParams>(ros::NodeHandle(nh, "vehicle"));
+/// The same, and what all nodes know of the vehicle: `vehicle`, beside the nodes. \throws ParameterError that
+/// says what is wrong in both
+template <typename Params>
+Params readParameters(const ros::NodeHandle& nh, const ros::NodeHandle& pnh,
+                      navigation::VehicleParams& vehicle, const std::set<std::string>& others = {}) {
+  Params params;
+  ParameterReader reader = readInto(params, pnh, others);
+  reader.adopt(readInto(vehicle, ros::NodeHandle(nh, "vehicle")));
+  reader.throwIfFaulty();
+  return params;
 }
 
 }  // namespace window_ingress::adapters

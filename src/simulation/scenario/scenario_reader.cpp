@@ -18,27 +18,29 @@ using parameters::YamlReader;
 
 namespace {
 
-/// Where within its range a key's value is to lie; and which of these keys there were.
+/// Where within its range a key's value is to lie, and which of these keys there were; what is wrong.
 struct Draws {
   const Quantiles& quantiles;
   std::set<std::string> used = {};
+  parameters::YamlFaults faults = {};
 };
 
 /// Visitor that fills a scenario from a yaml mapping. Beyond `parameters::YamlReader` it takes a range `[min,
-/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. \throws parameters::YamlError
-/// with file, line and key
+/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. Faults go to the draws.
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
                  std::uint32_t seed, Draws& draws)
-      : mapping_(file, mapping, path), seed_(seed), draws_(draws) {}
+      : mapping_(file, mapping, draws.faults, path), seed_(seed), draws_(draws) {}
 
   template <typename Params>
   void fill(Params& params) {
     Params::visit(params, *this);
-    mapping_.refuseUnknownKeys([this](const std::string& path) {
-      return parameters::didYouMean(path, mapping_.asked()) + "; see doc/scenarios.md";
-    });
+    mapping_.refuseUnknownKeys(
+        [this](const std::string& path) {
+          return parameters::didYouMean(path, mapping_.asked()) + "; see doc/scenarios.md";
+        },
+        draws_.faults);
   }
 
   template <typename Number>
@@ -54,7 +56,9 @@ class ScenarioReader {
   }
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed) {
     readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
-      YamlReader(mapping_.file(), name, node).choice(name, word, allowed);
+      YamlReader reader(mapping_.file(), name, node);
+      reader.choice(name, word, allowed);
+      reader.throwIfFaulty();
     });
   }
   template <typename Params>
@@ -64,7 +68,7 @@ class ScenarioReader {
   template <typename Params>
   void list(const std::string& name, std::vector<Params>& items) {
     readDrawn(name, items, [&](const YAML::Node& node, std::vector<Params>& listed) {
-      if (!node.IsSequence()) mapping_.fail(node, name + ": must be a list, or [] for none");
+      if (!node.IsSequence()) throw mapping_.fault(node, name + ": must be a list, or [] for none");
       listed.clear();
       for (std::size_t i = 0; i < node.size(); ++i)
         below(name + "[" + std::to_string(i) + "]", node[i]).fill(listed.emplace_back());
@@ -88,7 +92,7 @@ class ScenarioReader {
     if (!node.IsMap() || node.size() != 1 || !node["one_of"].IsDefined()) return {node};
     const YAML::Node items = node["one_of"];
     if (!items.IsSequence() || items.size() == 0)
-      mapping_.fail(node, name + ": one_of must be a list of at least one value");
+      throw mapping_.fault(node, name + ": one_of must be a list of at least one value");
     return {items.begin(), items.end()};
   }
 
@@ -105,14 +109,16 @@ class ScenarioReader {
   void readDrawn(const std::string& name, Value& value, const Read& read) {
     const YAML::Node node = mapping_.find(name);
     if (!node.IsDefined()) return;
-    const auto options = optionsOf(name, node);
-    const std::size_t drawn = drawOption(name, options.size());
-    const Value before = value;
-    for (std::size_t i = 0; i < options.size(); ++i) {
-      Value candidate = before;
-      read(options[i], candidate);
-      if (i == drawn) value = candidate;
-    }
+    draws_.faults.collect([&] {
+      const auto options = optionsOf(name, node);
+      const std::size_t drawn = drawOption(name, options.size());
+      const Value before = value;
+      for (std::size_t i = 0; i < options.size(); ++i) {
+        Value candidate = before;
+        read(options[i], candidate);
+        if (i == drawn) value = candidate;
+      }
+    });
   }
 
   // One value through the reader of all parameter files, for the same checks and words.
@@ -120,17 +126,18 @@ class ScenarioReader {
   void readOne(const std::string& name, const YAML::Node& node, Value& value, Limits... limits) const {
     YamlReader reader(mapping_.file(), name, node);
     reader(name, value, limits...);
+    reader.throwIfFaulty();
   }
 
   template <typename Number>
   std::pair<Number, Number> readRange(const std::string& name, const YAML::Node& node, double minimum,
                                       double maximum) const {
-    if (node.size() != 2) mapping_.fail(node, name + ": a range must have two ends, [min, max]");
+    if (node.size() != 2) throw mapping_.fault(node, name + ": a range must have two ends, [min, max]");
     std::pair<Number, Number> range{};
     readOne(name, node[0], range.first, minimum, maximum);
     readOne(name, node[1], range.second, minimum, maximum);
     if (range.first > range.second)
-      mapping_.fail(node, name + ": the range's first end is the greater one; swap them");
+      throw mapping_.fault(node, name + ": the range's first end is the greater one; swap them");
     return range;
   }
 
@@ -175,6 +182,7 @@ Scenario readScenario(const std::string& file, std::uint32_t seed, const Quantil
   Draws draws{quantiles};
   Scenario scenario, with_profile;
   ScenarioReader(file, root, "", seed, draws).fill(scenario);
+  draws.faults.throwIfAny();
   applyProfile(scenario.vehicle.profile, with_profile.vehicle, with_profile.odometry);
   ScenarioReader(file, root, "", seed, draws).fill(with_profile);
   for (const auto& [key, quantile] : quantiles)

@@ -87,6 +87,17 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
 }
 
+TEST_F(YamlFile, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
+  EXPECT_EQ(error("speeed_mps: 1\ninner: {count: 11, cuont: 1}\nfast: 7\ncorners: 1\nfast: true\n[a]: 1\n"),
+            file_ + ":1: speeed_mps: unknown key; did you mean 'speed_mps'?\n" +   //
+                file_ + ":2: inner/count = 11 is not within 0 .. 10\n" +           //
+                file_ + ":2: inner/cuont: unknown key; did you mean 'count'?\n" +  //
+                file_ + ":3: fast: must be true or false\n" +                      //
+                file_ + ":4: corners: must be a list of numbers\n" +               //
+                file_ + ":5: fast: stands here for the second time\n" +            //
+                file_ + ":6: a key must be a word");
+}
+
 TEST_F(YamlFile, MissingFileAndFolderSaySo) {
   for (const std::string file : {"/nowhere/params.yaml", "/"}) {
     Sample sample;
