@@ -144,8 +144,9 @@ std::string FacadeMemory::whyNotTarget(const detection::WindowObservation& windo
   const KnownWindow* seen = map_.at(*place, window.stamp_sec);
   if (seen != nullptr && seen->id == target->id) return "";
   const double apart_m = (place->position_m - target->place.position_m).norm();
+  const bool is_listed = seen != nullptr && map_.isConfirmed(*seen);
   return formatted("%s, %.1f m from window %u, which is the target",
-                   seen != nullptr ? name(seen->id).c_str() : "another window", apart_m, target->id);
+                   is_listed ? name(seen->id).c_str() : "another window", apart_m, target->id);
 }
 
 std::optional<geometry::Quadrilateral> FacadeMemory::expected(const Viewpoint& from) const {

@@ -17,8 +17,7 @@ constexpr double kSigmas = 3.0;
 constexpr double kWallM = 1.2;                            // shown beyond the opening's border
 constexpr double kNumberAboveM = 0.2, kTextAboveM = 0.7;  // the opening's upper border
 constexpr double kFaintest = 0.5;                         // of the less likely hypothesis
-constexpr double kHintM = 0.3, kHintScore = 0.5;          // smaller, or worse: no more than a hint
-constexpr double kHint = 0.25;                            // how faint that is
+constexpr double kFlyableM = 0.3, kFlyableScore = 0.5;    // smaller, or worse: a pane, a paving stone
 constexpr int kFanParts = 12;
 
 Points cornersOf(const Eigen::Isometry3d& T, const geometry::OpeningSize& size) {
@@ -86,11 +85,11 @@ void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
     sketch.gone(name + part);
 }
 
-// Nothing was found out about it, and nobody would fly at it.
-bool isHint(const window_ingress::KnownWindow& window) {
-  const bool is_candidate =
-      window.may_be_target && window.score >= kHintScore && std::min(window.width, window.height) >= kHintM;
-  return !is_candidate && window.openness == window_ingress::Openness::UNKNOWN && window.failures == 0;
+// Somebody would fly at it, or somebody did and something was found out.
+bool isDrawn(const window_ingress::KnownWindow& window) {
+  const bool is_candidate = window.may_be_target && window.score >= kFlyableScore &&
+                            std::min(window.width, window.height) >= kFlyableM;
+  return is_candidate || window.openness != window_ingress::Openness::UNKNOWN || window.failures > 0;
 }
 
 std::string chances(const estimation::FilteredWindow& window) {
@@ -159,16 +158,15 @@ visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& faca
   MarkerSketch sketch(facade.header.stamp, facade.header.frame_id);
   for (const window_ingress::KnownWindow& window : facade.windows) {
     const auto T = fromMsg(window.pose);
-    if (!T) continue;
+    const bool is_target = window.id == facade.target_id;
+    if (!T || !(is_target || isDrawn(window))) continue;
     const std::string name = "window " + std::to_string(window.id);
     const int verdict = std::min<int>(window.openness, 2);
-    const bool is_target = window.id == facade.target_id;
-    const bool is_hint = !is_target && isHint(window);
     const auto border = closed(cornersOf(*T.value, {window.width, window.height}));
-    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], is_hint ? kHint : 0.9));
+    if (!is_target) sketch.line(name, border, colourOf(kColours[verdict], 0.9));
     std::string text = std::to_string(window.id) + (is_target ? ", target: " : ": ") + kVerdicts[verdict];
     if (window.failures > 0) text += ", given up";
-    sketch.text(name + ": text", above(*T.value, window.height, kNumberAboveM), is_hint ? "" : text);
+    sketch.text(name + ": text", above(*T.value, window.height, kNumberAboveM), text);
   }
   return sketch.markers();
 }

@@ -31,7 +31,8 @@ visualization_msgs::MarkerArray windowMarkers(const estimation::FilteredWindow& 
                                               const std::string& text, const ros::Time& stamp,
                                               const std::string& frame_id);
 
-/// All windows known: borders coloured by whether they are open, and in each its number and verdict.
+/// The windows known that somebody would fly at: borders coloured by whether they are open, above each its
+/// number and verdict.
 visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& facade);
 
 }  // namespace window_ingress::adapters
