@@ -31,6 +31,7 @@ namespace {
 
 struct Options {
   std::string bag, output, size, params, corners;
+  bool overwrite = false;
   adapters::BagTopics topics;
   adapters::ReferenceParams reference;
 };
@@ -43,6 +44,7 @@ po::options_description describe(Options& o) {
   description.add_options()("help,h", "this text")                                   //
       ("bag", po::value(&o.bag)->required(), "bag to read")                          //
       ("output,o", po::value(&o.output)->required(), "folder to write into")         //
+      ("overwrite", po::bool_switch(&o.overwrite), "replaces the replay in DIR")     //
       ("image", po::value(&o.topics.image), "topic; else the only one of its type")  //
       ("camera-info", po::value(&o.topics.camera_info), "likewise")                  //
       ("odom", po::value(&o.topics.odom), "likewise")                                //
@@ -61,6 +63,8 @@ Options checked(Options o) {
   if (!o.corners.empty() && o.reference.picture.empty())
     throw UsageError("--reference-corners needs --reference");
   if (!o.topics.truth.empty() && o.size.empty()) throw UsageError("--truth needs --window-size");
+  if (!o.overwrite && fs::exists(fs::path(o.output) / "frames.csv"))
+    throw UsageError(o.output + " holds an earlier replay: --overwrite replaces it, or give another folder");
   if (!o.corners.empty()) o.reference.corners = numbers("--reference-corners", o.corners, 8);
   return o;
 }

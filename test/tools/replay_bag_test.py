@@ -27,9 +27,21 @@ def bag_of(folder, *words):
 
 
 def replay(bag, output, *options):
-    done = run("replay_bag", "--bag", bag, "--output", output, *options)
+    done = run("replay_bag", "--bag", bag, "--output", output, "--overwrite", *options)
     assert done.returncode == 0, done.stderr
     return done
+
+
+def test_an_earlier_replay_is_replaced_only_when_asked(tmp_path):
+    bag = bag_of(tmp_path, "seconds=1")
+    assert run("replay_bag", "--bag", bag, "--output", tmp_path).returncode == 0, "a folder with other files is none"
+    before = (tmp_path / "frames.csv").read_bytes()
+    (tmp_path / "frames.csv").write_text("kept")
+    refused = run("replay_bag", "--bag", bag, "--output", tmp_path)
+    assert refused.returncode == 2 and f"{tmp_path} holds an earlier replay: --overwrite replaces it" in refused.stderr
+    assert (tmp_path / "frames.csv").read_text() == "kept"
+    replay(bag, tmp_path)
+    assert (tmp_path / "frames.csv").read_bytes() == before
 
 
 def rows(file):
