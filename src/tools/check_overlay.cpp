@@ -1,4 +1,6 @@
 /// Whether a file may be laid over the defaults; see --help. Launch files ask before they start anything.
+#include <ros/package.h>
+
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/images/image_source.hpp"
 #include "adapters/images/reference_source.hpp"
 #include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/sources/parameters.hpp"
@@ -25,7 +28,7 @@ using tools::UsageError;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      launch_folder;
+      image_transport, needs_package, launch_folder;
 };
 
 po::options_description describe(Options& o) {
@@ -44,9 +47,11 @@ po::options_description describe(Options& o) {
       ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
       ("needs-window-size", po::value(&o.needs_window_size),
        "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
-       "reference")                                                                                //
-      ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                  //
-      ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")  //
+       "reference")                                                                                      //
+      ("image-transport", po::value(&o.image_transport), "by which images come; FILE.yaml counts more")  //
+      ("needs-package", po::value(&o.needs_package), "that the calling roslaunch starts a node of")      //
+      ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                        //
+      ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")        //
       ("launch-folder", po::value(&o.launch_folder),
        "of the package: the arguments that the calling roslaunch was given are checked against its file "
        "there")  //
@@ -86,6 +91,13 @@ void checkReference(const Options& o, const std::string& file,
   } catch (const adapters::ParameterError& error) {
     throw UsageError(from + error.what());
   }
+}
+
+void checkTransport(const Options& o, const configuration::Overlay& overlay) {
+  const bool said = overlay.said.count("window_detector/image_transport") != 0;
+  const std::string& transport = said ? overlay.window_detector.image_transport : o.image_transport;
+  const std::string why = transport.empty() ? "" : adapters::whyNoTransport(transport);
+  if (!why.empty()) throw UsageError(why);
 }
 
 void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
@@ -202,6 +214,18 @@ class Faults {
   std::vector<std::string> texts_;
 };
 
+void checkInstalled(const std::string& package) {
+  std::vector<std::string> all;
+  if (package.empty() || !ros::package::getAll(all) ||
+      std::find(all.begin(), all.end(), package) != all.end())
+    return;
+  std::string name = package;
+  std::replace(name.begin(), name.end(), '_', '-');
+  throw UsageError(
+      "the package " + package + " is not installed: apt install ros-noetic-" + name +
+      ", on Debian build it in your workspace; or start another driver (rehearse.launch: camera:=false)");
+}
+
 void checkLaunch(const Options& o, Faults& faults) {
   const auto words = tools::wordsOfParent();
   const auto file = tools::launchFileOf(words, o.launch_folder);
@@ -211,6 +235,7 @@ void checkLaunch(const Options& o, Faults& faults) {
   if (!o.fly.empty()) nodes = {"/window_detector", "/homography_pose"};
   if (o.fly == "true") nodes.insert(nodes.end(), {"/ingress_navigator", "/setpoint_guard"});
   faults.collect([&] { tools::checkNoneRuns(words, nodes); });
+  if (!tools::startsNothing(words)) faults.collect([&] { checkInstalled(o.needs_package); });
 }
 
 // Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is
@@ -224,6 +249,7 @@ std::string existing(const std::string& file) {
 void checkOverlay(const Options& o, const std::string& file, configuration::Overlay& overlay,
                   Faults& faults) {
   faults.collect([&] { checkReference(o, file, overlay.window_detector); });
+  faults.collect([&] { checkTransport(o, overlay); });
   faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
   checkSpeeds(overlay);
   faults.collect([&] { checkSizesAreSaid(o, overlay); });

@@ -37,12 +37,15 @@ inline std::string masterOf(const std::vector<std::string>& words) {
   return uri != nullptr ? uri : "";
 }
 
+inline bool startsNothing(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--nodes" || word == "--files" || word == "--dump-params";
+  });
+}
+
 /// \param words of roslaunch \throws UsageError that names the first of these nodes that runs already
 inline void checkNoneRuns(const std::vector<std::string>& words, const std::vector<const char*>& nodes) {
-  const auto says = [&](const char* option) {
-    return std::find(words.begin(), words.end(), option) != words.end();
-  };
-  if (says("--nodes") || says("--files") || says("--dump-params")) return;  // starts nothing
+  if (startsNothing(words)) return;
   const char* name_space = std::getenv("ROS_NAMESPACE");
   if (name_space != nullptr && *name_space != '\0') return;
   const std::string master = masterOf(words);

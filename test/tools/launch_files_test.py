@@ -268,6 +268,24 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path):
         assert fault in said
 
 
+def test_images_by_a_transport_that_is_not_there_end_the_launch(tmp_path):
+    launch = ROOT / "launch/px4.launch"
+    said = refusal(launch, *SIZE, "image_transport:=compresed")
+    assert "image_transport is 'compresed', available are: compressed, raw" in said and "ros-noetic-compresed-image-transport" in said
+    config = tmp_path / "drone.yaml"
+    config.write_text(f"{VEHICLE.read_text()}window_detector: {{image_transport: theorra}}\n")
+    assert "image_transport is 'theorra', available are" in refusal(launch, SIZE[0], f"config:={config}")
+    assert run("roslaunch", "--nodes", launch, *SIZE, "image_transport:=compressed").returncode == 0
+
+
+@pytest.mark.skipif(run("rospack", "find", "usb_cam").returncode == 0, reason="usb_cam is here")
+@pytest.mark.parametrize("name", ["usb_cam", "rehearse"])
+def test_a_driver_that_is_not_installed_ends_the_launch_before_anything_starts(name):
+    done = run("roslaunch", "window_ingress", f"{name}.launch", *(["rviz:=false"] if name == "rehearse" else []))
+    assert done.returncode == 1 and "started with pid" not in done.stdout
+    assert "check_overlay: the package usb_cam is not installed: apt install ros-noetic-usb-cam" in done.stderr
+
+
 def test_contradictions_are_said(tmp_path):
     config = tmp_path / "drone.yaml"
     config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n"

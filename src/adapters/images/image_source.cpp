@@ -1,8 +1,10 @@
 #include "adapters/images/image_source.hpp"
 
 #include <image_transport/exception.h>
+#include <image_transport/subscriber_plugin.h>
 #include <sensor_msgs/CompressedImage.h>
 
+#include <pluginlib/class_loader.hpp>
 #include <utility>
 
 #include "adapters/sources/guarded.hpp"
@@ -13,13 +15,20 @@ namespace {
 
 constexpr double kStuckSec = 1.0;
 
-std::string available(const image_transport::ImageTransport& transport) {
-  std::string names = "compressed";
-  for (const std::string& name : transport.getLoadableTransports()) names += ", " + name;
-  return names;
-}
-
 }  // namespace
+
+std::string whyNoTransport(const std::string& transport) {
+  using Plugin = image_transport::SubscriberPlugin;
+  std::string known = "compressed";
+  pluginlib::ClassLoader<Plugin> plugins("image_transport", "image_transport::SubscriberPlugin");
+  for (const std::string& plugin : plugins.getDeclaredClasses()) {
+    if (transport == "compressed" || plugin == Plugin::getLookupName(transport)) return "";
+    known += ", " + plugin.substr(plugin.find('/') + 1, plugin.rfind("_sub") - plugin.find('/') - 1);
+  }
+  return "image_transport is '" + transport + "', available are: " + known +
+         "; of others install the plugin (Noetic: " + "ros-noetic-" + transport +
+         "-image-transport; Debian: build it in your workspace)";
+}
 
 ImageSource::ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
                          const ImageLimits& limits, const StampLimits& stamps, Callback callback)
@@ -54,8 +63,9 @@ void ImageSource::subscribePlugin(const std::string& transport) {
     plugin_subscriber_ =
         transport_.subscribe("image_raw", 1, callback, ros::VoidPtr(),
                              image_transport::TransportHints(transport, ros::TransportHints().tcpNoDelay()));
-  } catch (const image_transport::Exception&) {
-    throw ParameterError("image_transport is '" + transport + "', available are: " + available(transport_));
+  } catch (const image_transport::Exception& error) {
+    const std::string why = whyNoTransport(transport);
+    throw ParameterError(why.empty() ? error.what() : why);
   }
   health_.watch([this] { return plugin_subscriber_.getTopic(); },
                 [this] { return static_cast<int>(plugin_subscriber_.getNumPublishers()); });

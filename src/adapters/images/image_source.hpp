@@ -12,6 +12,9 @@
 
 namespace window_ingress::adapters {
 
+/// Why images cannot come by this transport, and which there are; empty if they can.
+std::string whyNoTransport(const std::string& transport);
+
 /// Images of the topic `image_raw`, by any transport: those that image_transport has, and "compressed",
 /// which is read here, because its plugin decodes without looking at sizes and is not in every distribution.
 class ImageSource {
