@@ -6,6 +6,7 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
@@ -71,6 +72,20 @@ class IngressNavigatorTest(unittest.TestCase):
 
     def test_start_without_data_lists_what_is_missing(self):
         self.assertIn("odom", support.wait_for(self.refused, "a start without data that is refused"))
+
+    def test_start_names_what_the_nodes_before_it_lack(self):
+        lacks = {"window_detector: image": "no image on /image_raw", "window_detector: camera_info": "no camera_info on /camera_info",
+                 "homography_pose: imu": "no imu on /imu"}
+
+        def say(level, prefix=""):
+            names = [prefix + name for name in lacks]
+            return lambda _: DiagnosticArray(status=[DiagnosticStatus(level, name, text, "", []) for name, text in zip(names, lacks.values())])
+
+        self.streams["diagnostics"] = support.Stream("/diagnostics", DiagnosticArray, say(DiagnosticStatus.ERROR), 10.0)
+        support.wait_for(lambda: all(text in (self.refused() or "") for text in lacks.values()), "an answer that names all three")
+        for say_now in (say(DiagnosticStatus.OK), say(DiagnosticStatus.ERROR, "other_drone/")):
+            self.streams["diagnostics"].make = say_now
+            support.wait_for(lambda: "no imu" not in (self.refused() or "no imu"), "an answer that names none of them")
 
     def test_start_says_what_will_be_asked(self):
         self.assertIn("will ask for ~confirm_opening at the line: glass is not excluded", self.start().message)

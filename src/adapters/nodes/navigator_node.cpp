@@ -45,6 +45,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       odom_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
       pose_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
       engagement_(params_.engagement),
+      upstream_(nh, diagnostics_),
       guard_(nh, diagnostics_, params_.guard),
       navigator_(params_.navigator),
       last_gate_(lastGate(params_.navigator.limits)) {

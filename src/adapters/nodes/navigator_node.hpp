@@ -17,6 +17,7 @@
 #include "adapters/markers/flight_markers.hpp"
 #include "adapters/nodes/guard_monitor.hpp"
 #include "adapters/nodes/mission_action.hpp"
+#include "adapters/nodes/upstream_faults.hpp"
 #include "adapters/nodes/run_node.hpp"
 #include "adapters/nodes/setpoint_gate.hpp"
 #include "adapters/sources/diagnostics.hpp"
@@ -83,6 +84,7 @@ class NavigatorNode : public Node {
   StampGate odom_gate_, pose_gate_;
   estimation::SenderClock odom_clock_;
   Engagement engagement_;
+  UpstreamFaults upstream_;
   GuardMonitor guard_;
   ClockWatch clock_;
   navigation::Navigator navigator_;

@@ -24,12 +24,11 @@ navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& p
   if (params_.start_at_once && last_.state == State::kIdle)
     return {false, "starts by itself in the first step in which it may"};
   navigation::Reply reply = navigator_.start(input_, now_sec, policy);
-  for (const TopicHealth* topic : {&odom_health_, &pose_health_}) {
-    const Health health = topic->health();
-    if (!reply.success && health.level == Health::kError) reply.message += "; " + health.text;
-  }
-  const Health engaged = engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec());
-  if (!reply.success && engaged.level == Health::kError) reply.message += "; " + engaged.text;
+  if (reply.success) return reply;
+  for (const Health& health : {odom_health_.health(), pose_health_.health(),
+                               engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec())})
+    if (health.level == Health::kError) reply.message += "; " + health.text;
+  for (const std::string& fault : upstream_.texts()) reply.message += "; " + fault;
   return reply;
 }
 
@@ -81,8 +80,10 @@ bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& respons
 
 template <typename Response>
 bool NavigatorNode::answer(const char* service, const navigation::Reply& reply, Response& response) {
-  const std::string said = std::string(service) + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
-  if (reply.success || said != refused_) ROS_INFO("%s", said.c_str());  // who asks again and again is told once
+  const std::string said =
+      std::string(service) + ": " + (reply.success ? "done: " : "refused: ") + reply.message;
+  if (reply.success || said != refused_)
+    ROS_INFO("%s", said.c_str());  // who asks again and again is told once
   refused_ = reply.success ? "" : said;
   response.success = reply.success;
   response.message = reply.message;
