@@ -12,6 +12,7 @@
 
 #include "simulation/scenario/vehicle_profiles.hpp"
 #include "simulation/vehicle/quadrotor.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation::stopping_distance_test {
@@ -19,6 +20,7 @@ namespace window_ingress::simulation::stopping_distance_test {
 constexpr double kStep_sec = 0.0025, kCruise_sec = 8.0, kRest_sec = 14.0;
 constexpr double kGuard_sec = 0.2 + 1.0 / 30.0;  // late_sec and one period of the guard
 constexpr double kTolerance_m = 0.05;
+constexpr const char* kProfiles[] = {"arducopter_4_0", "arducopter_4_3", "crisp", "px4_1_13_gps"};
 
 /// How far a vehicle gets, at most, after its sender has died at `speed`; zeros come after `zeros_after_sec`,
 /// negative: never.
@@ -46,7 +48,8 @@ std::map<std::string, std::vector<double>> documented() {
   std::map<std::string, std::vector<double>> rows;
   std::string line, cell;
   while (std::getline(file, line)) {
-    if (line.rfind("| `arducopter", 0) != 0 && line.rfind("| `crisp`", 0) != 0) continue;
+    const auto names = [&](const char* profile) { return line.rfind("| `" + std::string(profile), 0) == 0; };
+    if (std::none_of(std::begin(kProfiles), std::end(kProfiles), names)) continue;
     std::istringstream cells(line);
     std::vector<std::string> row;
     while (std::getline(cells, cell, '|')) row.push_back(cell);
@@ -58,7 +61,7 @@ std::map<std::string, std::vector<double>> documented() {
 
 TEST(StoppingDistance, IsAsDocumented) {
   const auto rows = documented();
-  for (const char* profile : {"arducopter_4_0", "arducopter_4_3", "crisp"})
+  for (const char* profile : kProfiles)
     for (const double speed : {0.5, 1.0, 1.5}) {
       char name[60];
       std::snprintf(name, sizeof name, " `%s`  %.1f ", profile, speed);
@@ -72,6 +75,22 @@ TEST(StoppingDistance, IsAsDocumented) {
       }
       for (int i = 0; i < 3; ++i) EXPECT_NEAR(row->second[i], got[i], kTolerance_m) << name << i;
     }
+}
+
+// What px4.launch and ardupilot.launch say of the vehicle is what the speed schedule counts on.
+TEST(StoppingDistance, IsNotLongerThanWhatTheLaunchFilesSay) {
+  const std::string ardupilot = WINDOW_INGRESS_SOURCE_DIR "/config/ardupilot.yaml";
+  const std::pair<const char*, std::string> flown[] = {{"px4_1_13_gps", ""},
+                                                       {"arducopter_4_0", ardupilot},
+                                                       {"arducopter_4_0_default", ardupilot},
+                                                       {"arducopter_4_3", ardupilot}};
+  for (const auto& [profile, file] : flown) {
+    const auto vehicle = configuration::readOverlay(file).vehicle;
+    for (const double speed : {0.5, 1.0, 1.5}) {
+      const double said_m = speed * vehicle.response_sec + 0.5 * speed * speed / vehicle.braking_mps2;
+      EXPECT_LT(travel(profile, speed, 0.0), said_m + 0.01) << profile << " at " << speed << " m/s";
+    }
+  }
 }
 
 TEST(StoppingDistance, TheGuardSavesMetresWhereTheLastVelocityIsHeld) {
