@@ -64,16 +64,16 @@ class CornerClicks {
 
   // The second Enter saves all the same.
   bool isDoubtful() {
-    const std::string why = doubtOf(image_, flat(points_));
-    const std::string asked = why + ". Enter saves all the same";
-    if (why.empty() || said_ == asked) return false;
+    const CornerFit beside = besideEdges(image_, flat(points_));
+    const std::string asked = beside.said + ". Enter saves all the same";
+    if (!beside.corners.empty() || said_ == asked) return false;
     said_ = asked;
     return true;
   }
 
   void fit() {
     const CornerFit fit = fitted(image_, flat(points_));
-    said_ = (fit.corners.empty() ? "not fitted: " : "") + fit.said;
+    said_ = (fit.corners.empty() ? "not fitted: " : "moved by the fit: ") + fit.said;
     std::cout << said_ << std::endl;
     for (std::size_t i = 0; i < points_.size() && !fit.corners.empty(); ++i)
       points_[i] = {fit.corners[2 * i], fit.corners[2 * i + 1]};

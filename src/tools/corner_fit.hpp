@@ -24,7 +24,7 @@ const char* const kSides[] = {"top", "right", "bottom", "left"};
 /// What became of an attempt to fit the corners to the edges near them.
 struct CornerFit {
   std::vector<double> corners;  ///< empty: none to be trusted
-  std::string said;             ///< by how much each side moved, or why the fit is refused
+  std::string said;             ///< by how much each side moves, or why the fit is refused
 };
 
 inline CornerFit noFit(const std::string& why) { return {{}, why}; }
@@ -61,22 +61,23 @@ inline CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners
     return noFit(formatted("only %.0f %% of one side lie on a straight edge near it", 100.0 * on_edge));
   if (!borders) return noFit("the straight edge near one side leads away from its corners");
   const double most_px = std::min(kMaxMovedPx * scale, kMaxMovedPart * shortestSide(*clicked));
-  CornerFit fit{{}, "moved by the fit:"};
+  CornerFit fit;
   for (std::size_t side = 0; side < 4; ++side) {
     const double moved_px = sideMovedPx(*clicked, borders->corners, side);
     if (!(moved_px <= most_px))
       return noFit(formatted("the %s side would move by %.1f px, more than %.1f: is it on the inner edge?",
                              kSides[side], moved_px, most_px));
-    fit.said += formatted("%s %s %.1f px", side == 0 ? "" : ",", kSides[side], moved_px);
+    fit.said += formatted("%s%s %.1f px", side == 0 ? "" : ", ", kSides[side], moved_px);
   }
   for (const auto& corner : borders->corners) fit.corners.insert(fit.corners.end(), {corner.x(), corner.y()});
   return fit;
 }
 
-/// What speaks against corners that are saved as they are; empty if they lie on edges.
-inline std::string doubtOf(const cv::Mat& image, const std::vector<double>& corners) {
-  const CornerFit fit = fitted(image, corners, kNearPx);
-  return fit.corners.empty() ? "poor corners: " + fit.said : "";
+/// How far corners that are saved as they are lie from the edges near them; none are near poor corners.
+inline CornerFit besideEdges(const cv::Mat& image, const std::vector<double>& corners) {
+  CornerFit fit = fitted(image, corners, kNearPx);
+  fit.said = (fit.corners.empty() ? "poor corners: " : "beside the edges near them: ") + fit.said;
+  return fit;
 }
 
 }  // namespace window_ingress::tools

@@ -69,12 +69,15 @@ int run(const Job& job) {
     const auto fit = tools::fitted(image, corners);
     if (fit.corners.empty())
       throw std::runtime_error("not fitted: " + fit.said + "; mend the corners, or leave out --fit");
-    std::cout << fit.said << "\n";
+    std::cout << "moved by the fit: " << fit.said << "\n";
     corners = fit.corners;
   }
   const auto reference = adapters::makeReference(image, corners, params);
-  if (const std::string why = tools::doubtOf(image, corners); !why.empty())
-    std::cerr << "make_reference: warning: " << why << "\n";
+  const auto beside = tools::besideEdges(image, corners);
+  if (beside.corners.empty())
+    std::cerr << "make_reference: warning: " << beside.said << "\n";
+  else
+    std::cout << beside.said << "\n";
   adapters::saveReference(job.output, reference);
   const fs::path written = fs::absolute(job.output);
   const char* const called_by = std::getenv("WINDOW_INGRESS_RUN");  // scripts/run, as the user called it

@@ -281,9 +281,11 @@ def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
 @pytest.mark.parametrize("off, said", [((6, 0), "poor corners: "), ((25, 9), "poor corners: "), ((1, 0), "")])
 def test_corners_that_are_saved_beside_the_edges_are_said_to_be(labelled, tmp_path, off, said):
     corners = [(x + off[0], y + off[1]) for x, y in corners_at(*VIEWS[0])]
-    code, _, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--corners", flat(corners))
+    code, done, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--corners", flat(corners))
     assert code == 0 and (tmp_path / "a.png").exists()
     assert (f"warning: {said}" in errors) if said else not errors, errors
+    sides = re.search(r"beside the edges near them: top (\S+) px, right (\S+) px, bottom (\S+) px, left (\S+) px", done)
+    assert (sides is None) if said else max(map(float, sides.groups())) < 2.0, done
 
 
 def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
