@@ -11,9 +11,10 @@ double share(double dt_sec, double time_constant_sec);
 
 /// How the vehicle's velocity follows its setpoints, measured in flight: of models with a dead time and
 /// different time constants and limits of acceleration, all fed with the setpoints that were sent, the one
-/// whose velocity is most like the measured one. A steady difference (wind, a biased velocity) counts for
-/// nothing: each model learns its own and is judged by what remains. Where none explains the motion (turned
-/// axes, a vehicle that is held), what was assumed stays.
+/// whose velocity is most like the measured one. Half of them make up for the way by which they are behind
+/// their setpoints, as some autopilots do: what these overshoot by and creep back is no wind. A steady
+/// difference (wind, a biased velocity) counts for nothing: each model learns its own and is judged by what
+/// remains. Where none explains the motion (turned axes, a vehicle that is held), what was assumed stays.
 class ResponseEstimator {
  public:
   /// \param assumed_sec is believed until the vehicle has been asked to change its velocity often enough to
@@ -39,7 +40,9 @@ class ResponseEstimator {
   struct Model {
     double response_sec;  ///< dead time and time constant
     double acceleration_mps2;
+    double pull_hz;  ///< velocity per way that it is behind
     Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+    Eigen::Vector3d behind_m = Eigen::Vector3d::Zero();  ///< of where the setpoints would have brought it
     Eigen::Vector3d offset_mps =
         Eigen::Vector3d::Zero();  ///< steady difference of the measured velocity from it
     double error = 0.0;           ///< mean square of what remains, fading [m^2/s^2]

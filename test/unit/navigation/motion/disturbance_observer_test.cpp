@@ -56,6 +56,21 @@ TEST(DisturbanceObserver, OneWildSampleIsForgottenAtOnce) {
   EXPECT_LE(observe.disturbance().norm(), params.max_wind_mps * 0.033 / DisturbanceObserver::kWindSec);
 }
 
+// ArduCopter 4.0 overshoots by the way that it was behind, and creeps back after a stop.
+TEST(DisturbanceObserver, WhatAnAutopilotMakesUpForIsNoWind) {
+  auto observe = observer();
+  double speed_mps = 0.0, behind_m = 0.0, squares_m2ps = 0.0;
+  constexpr double kStep = 1.0 / 30.0, kPullHz = 0.36, kLagSec = 0.64, kSettledSec = 8.0, kSec = 40.0;
+  for (double t = 0.0; t < kSec; t += kStep) {
+    const double told_mps = std::fmod(t, 12.0) < 6.0 ? 0.75 : 0.0;
+    speed_mps += kStep / kLagSec * (told_mps + kPullHz * behind_m - speed_mps);
+    behind_m += kStep * (told_mps - speed_mps);
+    observe.update({0.0, speed_mps, 0.0}, {0.0, told_mps, 0.0}, kStep);
+    if (t > kSettledSec) squares_m2ps += kStep * observe.disturbance().squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(squares_m2ps / (kSec - kSettledSec)), 0.025);
+}
+
 TEST(DisturbanceObserver, TellsGustsFromWind) {
   auto steady = observer(), gusty = observer();
   for (int i = 0; i < 600; ++i) {
