@@ -67,8 +67,10 @@ double Approach::forwardSpeed(const CommitCriterion& criterion, const RelativeSt
   const double in_view = std::clamp(1.5 - std::abs(relative.bearing_rad) / 0.3, 0.0, 1.0);
   const double speed_mps = params_->approach.speed_mps * criterion.openness * in_view;
   const double end_m = criterion.holds ? params_->vehicle.half_length_m : criterion.commit_distance_m;
-  return std::min(speed_mps, stoppingSpeed(relative.distance() - end_m, params_->vehicle.braking_mps2,
-                                           params_->vehicle.response_sec));
+  const double room_m = relative.distance() - end_m;
+  if (room_m < 0.0) return velocityTowards(room_m, params_->back_off.speed_mps, *params_);
+  return std::min(speed_mps,
+                  stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec));
 }
 
 double Approach::asideM(const CommitCriterion& criterion, const Situation& situation) const {

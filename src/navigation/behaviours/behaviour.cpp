@@ -158,14 +158,16 @@ Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEst
   const Eigen::Vector3d carried_window =
       R_odom_window.transpose() * (target.motion.velocity_odom_mps - wind_odom_mps);
   velocity_window.tail<2>() += carried_window.tail<2>();
-  const double across = velocity_window.norm();
-  if (across > params.limits.speed_mps) velocity_window *= params.limits.speed_mps / across;
-  const double left =
-      std::sqrt(std::max(0.0, std::pow(params.limits.speed_mps, 2) - velocity_window.squaredNorm()));
+  const double limit_mps = params.limits.speed_mps, wished_mps = std::max(forward_mps, -limit_mps);
+  const auto leftBeside = [&](double taken_mps) {
+    return std::sqrt(std::max(0.0, limit_mps * limit_mps - taken_mps * taken_mps));
+  };
+  const double across_mps = velocity_window.norm(), most_mps = leftBeside(std::min(0.0, wished_mps));
+  if (across_mps > most_mps) velocity_window *= most_mps / across_mps;
   const double ahead_mps =
       std::max(0.0, relative.velocity_window_mps.x()) +
       aheadMps((velocity_window - relative.velocity_window_mps).tail<2>().norm(), params);
-  velocity_window.x() = std::clamp(std::min(forward_mps, ahead_mps), -left, left);
+  velocity_window.x() = std::min({wished_mps, ahead_mps, leftBeside(velocity_window.norm())});
   return R_odom_window * velocity_window;
 }
 

@@ -96,7 +96,7 @@ double headingErrorTowards(const RelativeState& relative, const NavigatorParams&
 double velocityTowards(double error_m, double limit_mps, const NavigatorParams& params);
 
 /// Velocity in odom axes: forward as given, sideways and upward onto the window's axis and against the wind,
-/// within the speed limit. What is sideways has priority: forward gets what is left.
+/// within the speed limit. Away from the window goes before sideways, sideways before forward.
 Eigen::Vector3d velocityAlongAxis(const RelativeState& relative, const TargetEstimate& target,
                                   double forward_mps, const Eigen::Vector3d& wind_odom_mps,
                                   const NavigatorParams& params);

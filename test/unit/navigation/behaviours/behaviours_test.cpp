@@ -180,6 +180,16 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   EXPECT_NE(decision.reason.find("0.50 m"), std::string::npos);
 }
 
+TEST(ApproachBehaviour, GoesBackToTheLineThatItWasBlownAcross) {
+  Approach approach{kDefaults};
+  MissionState memory;
+  approach.enter();
+  const Decision beside = approach.step(situationAt({-0.8, 0.5, 1.5}, 1.0, true), memory);
+  EXPECT_LT(beside.wish.velocity_odom_mps.x(), -0.3);
+  const Decision before_it = approach.step(situationAt({-0.8, 0.0, 1.5}, 1.0, true), memory);
+  EXPECT_EQ(before_it.event, Event::kCommitReached);
+}
+
 TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
   MissionState memory;
   Align align{kDefaults};
@@ -323,6 +333,18 @@ TEST(VelocityAlongAxis, WhatAcceleratesSlowlyIsAskedForLittleForwardWhileItIsToM
   EXPECT_LT(forwardAt(0.3), 0.2);
   EXPECT_LT(forwardAt(-0.3), 0.2);
   EXPECT_NEAR(forwardAt(0.0), 0.9, 1e-9);
+}
+
+TEST(VelocityAlongAxis, AwayFromTheWindowGoesBeforeSideways) {
+  const TargetEstimate target = test::targetAtOrigin(0.0);
+  const auto wishFor = [&](double forward_mps) -> Eigen::Vector3d {
+    const RelativeState relative = relate(test::vehicleAt({-1.5, 2.0, 2.5}, 0.0), target);
+    return velocityAlongAxis(relative, target, forward_mps, {0.0, 0.4, 0.0}, kDefaults);
+  };
+  EXPECT_EQ(wishFor(-0.8).x(), -0.8);
+  EXPECT_NEAR(wishFor(-0.8).norm(), kDefaults.limits.speed_mps, 1e-9);
+  EXPECT_EQ(wishFor(-3.0), Eigen::Vector3d(-kDefaults.limits.speed_mps, 0.0, 0.0));
+  EXPECT_NEAR(wishFor(0.8).tail<2>().norm(), kDefaults.limits.speed_mps, 1e-9);
 }
 
 TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
