@@ -28,7 +28,7 @@ using tools::UsageError;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, needs_package, launch_folder;
+      image_transport, needs_package, scenario, launch_folder;
 };
 
 po::options_description describe(Options& o) {
@@ -49,6 +49,7 @@ po::options_description describe(Options& o) {
        "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
        "reference")                                                                                      //
       ("image-transport", po::value(&o.image_transport), "by which images come; FILE.yaml counts more")  //
+      ("scenario", po::value(&o.scenario), "yaml file of the simulated world")                           //
       ("needs-package", po::value(&o.needs_package), "that the calling roslaunch starts a node of")      //
       ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                        //
       ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")        //
@@ -199,9 +200,7 @@ class Faults {
     try {
       step();
       return true;
-    } catch (const UsageError& fault) {
-      texts_.push_back(fault.what());
-    } catch (const parameters::YamlError& fault) {
+    } catch (const std::runtime_error& fault) {  // of usage, yaml, scenario
       texts_.push_back(fault.what());
     }
     return false;
@@ -263,7 +262,7 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
 int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
-                            o.launch_folder.empty();
+                            o.scenario.empty() && o.launch_folder.empty();
   if (asks_nothing) throw UsageError("no file given; see --help");
   Faults faults;
   if (!o.launch_folder.empty()) checkLaunch(o, faults);
@@ -274,6 +273,7 @@ int check(const Options& o) {
   });
   if (is_read) checkOverlay(o, file, overlay, faults);
   faults.collect([&] { checkCameraPose(given(o.camera_pose)); });
+  if (!o.scenario.empty()) faults.collect([&] { simulation::loadScenario(o.scenario, 1); });
   faults.throwIfAny();
   std::cout << file;
   return 0;

@@ -286,6 +286,19 @@ def test_a_driver_that_is_not_installed_ends_the_launch_before_anything_starts(n
     assert "check_overlay: the package usb_cam is not installed: apt install ros-noetic-usb-cam" in done.stderr
 
 
+@pytest.mark.parametrize("name", ["sim", "demo", "external", "board", "check_frames"])
+def test_a_scenario_that_cannot_be_ends_the_launch_before_anything_starts(tmp_path, name):
+    scenario = tmp_path / "scenario.yaml"
+    scenario.write_text("start:\n  distanse_m: 4\n  distance_m: 99\n")
+    said = refusal(ROOT / f"launch/{name}.launch", f"scenario:={scenario}")
+    assert f"{scenario}:2: start/distanse_m: unknown key" in said and f"{scenario}:3: distance_m = 99 is not within" in said
+
+
+def test_the_demo_says_why_it_did_not_fly():
+    nowhere = subprocess.run([ROOT / "scripts/demo", "--scenario", "/nowhere.yaml"], capture_output=True, text=True, timeout=60, check=False)
+    assert nowhere.returncode != 0 and "/nowhere.yaml" in nowhere.stderr and "building" not in nowhere.stdout
+
+
 def test_contradictions_are_said(tmp_path):
     config = tmp_path / "drone.yaml"
     config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n"

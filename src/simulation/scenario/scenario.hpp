@@ -20,7 +20,7 @@
 
 namespace window_ingress::simulation {
 
-/// A scenario file that cannot be used: `what()` is one line "file:line: key: what is wrong; what to do".
+/// A scenario file that cannot be used: `what()` has a line for each fault, "file:line: key: what is wrong".
 class ScenarioError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
