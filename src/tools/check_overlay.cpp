@@ -17,6 +17,7 @@
 #include "command_line.hpp"
 #include "launch_arguments.hpp"
 #include "navigation/mission/mission_rules.hpp"
+#include "params_file.hpp"
 #include "running_nodes.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
@@ -89,6 +90,7 @@ void checkReference(const Options& o, const std::string& file,
                      "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
   try {
     adapters::loadReference(reference, detector.detector);
+    if (reference.corners.empty()) warn(tools::kGuessedOpening);
   } catch (const adapters::ParameterError& error) {
     throw UsageError(from + error.what());
   }

@@ -131,6 +131,8 @@ Job prepare(const Options& o) {
   job.params = tools::readParams(o.params, reference, corners);
   if (!o.camera.empty()) job.camera = parameters::readCalibrationFile(o.camera);
   if (!reference.empty()) job.reference = readReference(reference, corners, job.params);
+  if (!reference.empty() && corners.empty())
+    std::cerr << "detect_images: warning: " << tools::kGuessedOpening << "\n";
   if (!o.size.empty()) {
     estimation::PoseParams params;
     const auto size = numbers("--window-size", o.size, 2);

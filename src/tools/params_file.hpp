@@ -9,6 +9,11 @@
 
 namespace window_ingress::tools {
 
+/// Of a reference that has no corners.
+constexpr const char* kGuessedOpening =
+    "the opening in the reference image is guessed, often wrongly: give its corners; 'ingress reference' "
+    "finds and writes them";
+
 /// The reference of the file, unless one was given by its own options. \throws UsageError
 inline void takeReference(const std::string& file, const configuration::ReferenceParams& kept,
                           std::string& image, std::vector<double>& corners) {

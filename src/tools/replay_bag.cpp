@@ -80,6 +80,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   tools::takeReference(o.params, overlay.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) {
     params.reference = adapters::loadReference(reference, params.detector);
+    if (reference.corners.empty()) say(tools::kGuessedOpening);
   } else if ((params.reference = adapters::recordedReference(bag, params))) {
     say("the reference image is the bag's own");
   } else {

@@ -207,6 +207,13 @@ def reference_of(tmp_path, image, text):
     return run("detect_images", "--output", tmp_path / "found.csv", "--params", file, image)
 
 
+def test_a_reference_without_corners_is_said_to_be_guessed(tmp_path, image):
+    cv2.imwrite(str(tmp_path / "window.png"), cv2.rectangle(numpy.full((120, 160, 3), 190, numpy.uint8), (40, 30), (120, 90), (20, 95, 225), 6))
+    for options, code in ((["check_overlay"], 0), (["detect_images", "--output", tmp_path / "out.csv", image], 0)):
+        said = run(*options, "--reference", tmp_path / "window.png")
+        assert said.returncode == code and "warning: the opening in the reference image is guessed" in said.stderr, said.stderr
+
+
 def test_a_reference_file_is_taken_as_params(tmp_path, image):
     whole = "window_detector: {{reference: {{picture: '{}', corners: [40.5, 30, 120, 30, 120, 90, 40, 90]}}}}"
     done = reference_of(tmp_path, image, whole)
