@@ -28,7 +28,7 @@ def test_rows_name_tests_that_exist():
             if kind == "ros":
                 assert any((ROOT / "test" / folder / name).is_file() for folder in ("faults/ros", "ros")), row
             elif kind == "command":
-                assert (ROOT / "dev" / name).is_file(), row
+                assert (ROOT / "dev" / name).is_file() and (ROOT / "test/faults/ros" / f"{rest[0]}.py").is_file(), row
             elif kind == "world":
                 assert any((ROOT / folder / name).is_file() for folder in ("test/faults/world", "config/scenarios")), row
             else:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Missions in the simulated world beside a stranger who publishes garbage or lies; see dev/hostile."""
+"""Missions in the simulated world beside a stranger who publishes garbage or lies, on any topic but those that steer;
+exit code 0 if nothing was touched and no oracle violated."""
 import collections
 import copy
 import math

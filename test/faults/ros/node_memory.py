@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What each node takes: resident memory and threads, flight after flight without faults; see dev/node_memory.
+"""What each node takes: resident memory and threads, flight after flight without faults in the simulated world.
 
 Exit code 0 if no node grows, 1 if one does, 2 if nothing could be flown.
 """
@@ -17,7 +17,7 @@ from own_system import OwnSystem  # noqa: E402
 
 MAX_GROWTH_MB = 1.0
 DOCUMENT = HERE.parents[2] / "doc/robustness.md"
-BEGIN, END = "<!-- memory: begin (dev/node_memory --write-doc) -->", "<!-- memory: end -->"
+BEGIN, END = "<!-- memory: begin (dev/fault_run node_memory --write-doc) -->", "<!-- memory: end -->"
 
 
 @dataclasses.dataclass

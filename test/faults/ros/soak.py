@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Flight after flight through the real nodes, with faults at random times and a viewer that is too slow; see dev/soak.
+"""Flight after flight through the real nodes, with faults at random times and a viewer that is too slow.
 
 One line a flight, then a table; exit code 0 if no oracle was violated and nothing touched, 1 if one was, 2 if nothing could be
 flown. What is touched while the vehicle itself does not do as it is told (`oracles.DISOBEYS`) nobody aboard could have prevented: it

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Too many and too large images for too little time; see dev/starve."""
+"""Images of 3840 x 2880 at up to 200 Hz, while all nodes share one core with a program that wants all of it; exit code 0 if
+images are dropped and not queued, and setpoints go on."""
 import argparse
 import os
 import pathlib
