@@ -2,6 +2,7 @@
 import csv
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -173,6 +174,8 @@ def test_bags_with_and_without_the_truth_tell_the_same(truth, tmp_path):
     assert done.returncode == 0, done.stderr
     assert "crossed at 5.00 s, y +0.100 m, z +0.050 m" in done.stdout, done.stdout
     assert "actual miss 10.0 cm, predicted at most 12.0 cm" in done.stdout
+    idle = [float(seconds) for seconds in re.findall(r"IDLE ([\d.]+) s", done.stdout)]
+    assert all(seconds < 2.0 for seconds in idle), done.stdout  # what was said before /clock ran has no time
     assert "APPROACH 3.0 s, COMMIT 2.0 s" in done.stdout and "ended in PASSED: as the test says" in done.stdout
     assert ("referee: PASSED: went through" in done.stdout) == (truth == "truth")
     picture = cv2.imread(str(tmp_path / "flight.png"))

@@ -55,6 +55,8 @@ def main():
     odom = [] if what == "no_odom" else ["/mavros/local_position/odom"]
     odom += ["/mavros/odometry/in"] if what == "two_odoms" else []
     with rosbag.Bag(file, "w") as bag:
+        if what != "no_state":  # from before /clock ran
+            bag.write("/state", IngressState(state_name="IDLE"), rospy.Time.from_sec(START_S - 2.0))
         for i in range(-10, 70):
             t = 0.1 * i
             messages = [(topic, odometry(t - 5.0)) for topic in odom]

@@ -51,6 +51,7 @@ def only_one(file, name, topics):
 
 
 def flight_of(file, messages, chosen):
+    messages["state"] = [m for m in messages["state"] if stamp(m) > 0]  # before /clock runs there is no time
     if not messages["state"]:
         raise FlightError(f"{file}: no {KINDS['state']} in it; was the navigator running, and /state recorded?")
     if messages["pose"] and not hasattr(messages["pose"][0], "image"):
