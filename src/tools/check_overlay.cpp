@@ -277,7 +277,7 @@ int check(const Options& o) {
   faults.collect([&] { checkCameraPose(given(o.camera_pose)); });
   if (!o.scenario.empty()) faults.collect([&] { simulation::loadScenario(o.scenario, 1); });
   faults.throwIfAny();
-  std::cout << file;
+  std::cout << file << "\n";
   return 0;
 }
 

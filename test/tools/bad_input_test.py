@@ -214,6 +214,11 @@ def test_a_reference_without_corners_is_said_to_be_guessed(tmp_path, image):
         assert said.returncode == code and "warning: the opening in the reference image is guessed" in said.stderr, said.stderr
 
 
+def test_a_good_parameter_file_is_named_on_a_line(tmp_path):
+    (tmp_path / "drone.yaml").write_text("vehicle: {half_width_m: 0.3}\n")
+    assert run("check_overlay", tmp_path / "drone.yaml").stdout == f"{tmp_path}/drone.yaml\n"
+
+
 def test_a_reference_file_is_taken_as_params(tmp_path, image):
     whole = "window_detector: {{reference: {{picture: '{}', corners: [40.5, 30, 120, 30, 120, 90, 40, 90]}}}}"
     done = reference_of(tmp_path, image, whole)
