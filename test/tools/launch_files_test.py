@@ -256,10 +256,11 @@ def test_each_launch_file_takes_its_arguments():
 def test_all_that_is_wrong_is_said_at_once(tmp_path):
     config = tmp_path / "drone.yaml"
     config.write_text("vehicle:\n  half_widht_m: 0.3\n  half_height_m: -1\nhomography_pose: {gravity_source: mag}\n")
-    said = refusal(ROOT / "launch/px4.launch", f"config:={config}", "refrence:=none", "fly:=maybe")
+    said = refusal(ROOT / "launch/px4.launch", f"config:={config}", "refrence:=none", "fly:=maybe", "camera_pose:=[1,2]")
     for fault in (f"{config}:2: vehicle/half_widht_m: unknown key; did you mean 'half_width_m'?",
                   f"{config}:3: vehicle/half_height_m = -1 is not within", f"{config}:4: homography_pose/gravity_source = mag is none of",
-                  "px4.launch has no argument 'refrence'", "px4.launch: fly:=maybe: give one of true, false"):
+                  "px4.launch has no argument 'refrence'", "px4.launch: fly:=maybe: give one of true, false",
+                  "camera_pose: '1,2' is not 6 numbers"):
         assert f"check_overlay: {fault}" in said
     config.write_text("vehicle: {half_width_m: 0.7}\ningress_navigator: {navigator: {limits: {acceleration_mps2: 0.5}}}\n")
     said = refusal(ROOT / "launch/ingress.launch", f"config:={config}", "reference:=none.png", "window_size:=1")
@@ -373,7 +374,9 @@ def test_the_vehicle_is_said_once_for_all_nodes(tmp_path, name, half_width, brak
 
 
 def test_the_camera_is_mounted_where_it_is_said_to_be():
-    assert "/camera_mounting" not in dump("px4")["nodes"]
+    for name in ("px4", "sim"):
+        assert "/camera_mounting" not in dump(name)["nodes"]
+    assert dump("ingress", "camera_pose:=[0.1,0,0,0,0,0]")["params"]["/camera_mounting/pose"] == [0.1, 0, 0, 0, 0, 0]
     launch = dump("px4", "camera_pose:=[0.1, 0, 0.02, 0, 0.3, 0]", "image:=/eye/image_raw")
     nodes = launch["nodes"]
     assert launch["params"]["/camera_mounting/pose"] == [0.1, 0, 0.02, 0, 0.3, 0] and "/camera_mounting" in nodes
