@@ -159,6 +159,6 @@ def test_the_recorded_flight_before_the_kiosk(tmp_path):
     replay(data / "kiosk.bag", tmp_path / "out", "--window-size", "1.3,1.1", "--truth", "/ground_truth/window_in_camera",
            "--reference", data / "kiosk_reference.jpg", "--reference-corners", corners)
     page = Page(tmp_path / "out/report.html")
-    assert "window found 207 of 240" in page.text and "without odometry 0" in page.text  # two of them cut by the edge
+    assert "window found 206 of 240" in page.text and "without odometry 0" in page.text  # one of them cut by the edge
     errors = sorted(float(row["error_corner_px"]) for row in rows(tmp_path / "out/frames.csv") if row["error_corner_px"])
-    assert errors[len(errors) // 2] < 2.0
+    assert errors[len(errors) // 2] < 0.5 and errors[-1] < 3.0
