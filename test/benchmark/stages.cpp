@@ -59,7 +59,7 @@ bool runHalfSearch(Stages& s) {
 bool runAppearance(Stages& s) {
   bool compared = false;
   for (const ScoredCandidate& rival : s.rivals)
-    compared |= s.sequence.reference->distance(s.image, rival.quad, s.params.appearance).has_value();
+    compared |= s.sequence.reference->compare(s.image, rival.quad, s.params.appearance).has_value();
   return compared;
 }
 bool runBorders(Stages& s) {
