@@ -36,9 +36,8 @@ class YamlFaults {
 /// and line.
 class YamlMapping {
  public:
-  /// \param faults gets keys that are none or stand there twice \param path of the mapping in the file, with
-  /// a
-  /// '/' at its end; empty for the whole file
+  /// \param faults gets keys that are none or stand there twice
+  /// \param path of the mapping in the file, with a '/' at its end; empty for the whole file
   YamlMapping(std::string file, const YAML::Node& mapping, YamlFaults& faults, std::string path = "");
   /// A mapping of one key. Not made as a node: yaml-cpp would merge the value's whole file into it.
   YamlMapping(std::string file, std::string key, const YAML::Node& value);

@@ -29,9 +29,10 @@ class AppearanceMonitor {
   /// Right after a look that agreed: takes over part of what differs.
   void adapt(const TrackInput& input, const WindowObservation& window);
 
-  bool hasCompared() const { return compared_; }  ///< `look` has compared the last image
-  bool hasAgreed() const { return agreed_; }      ///< `look` has looked at the last image, and it was alike
-  bool isUnlike() const { return unlike_; }       ///< the last time that it was looked at
+  bool isKnown() const { return reference_ != nullptr; }  ///< there is something to compare with
+  bool hasCompared() const { return compared_; }          ///< `look` has compared the last image
+  bool hasAgreed() const { return agreed_; }  ///< `look` has looked at the last image, and it was alike
+  bool isUnlike() const { return unlike_; }   ///< the last time that it was looked at
   double drift() const { return reference_ ? reference_->drift() : 0.0; }
 
  private:

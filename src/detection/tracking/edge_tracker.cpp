@@ -167,10 +167,18 @@ bool EdgeTracker::keepApart(const Line& border, double size_px, double furthest_
   return true;
 }
 
-// Of a border that is known by what lies round it, no edge need show: the nearest one is followed then.
-Stretch EdgeTracker::edgeNear(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                              const Stretch& border, double size_px) {
+void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
+                        double size_px) {
+  half_px_ = std::clamp(static_cast<int>(std::lround(kReach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
+  coarse_.sample(image, lens, {border.from, border.to, kProfiles, kSkip, half_px_ + 3, true});
   apart_ = {};
+  soft_.reset();
+  memory_.clear();
+  memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
+}
+
+void EdgeTracker::learnNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
+                            double size_px) {
   const double radius_px = kFoundWithinPx * scaleOf(image), half = 0.5 * border.length();
   const int count = std::clamp(static_cast<int>(border.length()), kMinFollowed, kFineProfiles);
   fine_.sample(image, lens,
@@ -179,19 +187,10 @@ Stretch EdgeTracker::edgeNear(const cv::Mat& image, const geometry::PinholeCamer
   const double outlier_px = kRoughPx * scaleOf(image);
   if (!fit_.projectStrongest(fine_, radius_px) || !fit_.run({radius_px, kPriorPx, outlier_px}, edge) ||
       edge.inliers < kMinInliers * count || std::abs(edge.line.offset) < kSameApartPx)
-    return border;
+    return learn(image, lens, border, size_px);
+  learn(image, lens, {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))},
+        size_px);
   apart_.offset = -edge.line.offset / (size_px * size_px), apart_.slope = -edge.line.slope;
-  return {fine_.point(-half, edge.line.at(-half)), fine_.point(half, edge.line.at(half))};
-}
-
-void EdgeTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
-                        double size_px) {
-  half_px_ = std::clamp(static_cast<int>(std::lround(kReach * longerSide(image))), 4, EdgeTemplate::kMaxHalf);
-  const Stretch edge = edgeNear(image, lens, border, size_px);
-  coarse_.sample(image, lens, {edge.from, edge.to, kProfiles, kSkip, half_px_ + 3, true});
-  soft_.reset();
-  memory_.clear();
-  memory_.learn(coarse_, {}, half_px_, size_px, 1.0);
 }
 
 }  // namespace window_ingress::detection

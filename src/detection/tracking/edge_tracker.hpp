@@ -55,12 +55,14 @@ class EdgeTracker {
   void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
              double size_px);
 
+  /// The same of a border which is known by what lies round it: the edge nearest to it is followed for it.
+  void learnNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
+                 double size_px);
+
   const EdgeTemplate& memory() const { return memory_; }
 
  private:
   Stretch edgeOf(const Stretch& side, double size_px);
-  Stretch edgeNear(const cv::Mat& image, const geometry::PinholeCamera* lens, const Stretch& border,
-                   double size_px);
   bool fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
            double size_px, FollowedBorder& border);
 

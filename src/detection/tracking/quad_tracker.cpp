@@ -69,9 +69,10 @@ std::optional<LineCorner> seenCorner(const cv::Mat& image, const geometry::Pinho
 
 }  // namespace
 
-void QuadTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens,
-                        const Quadrilateral& quad) {
-  for (int i = 0; i < 4; ++i) edges_[i].learn(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
+void QuadTracker::learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const Quadrilateral& quad,
+                        bool is_known) {
+  const auto learn = is_known ? &EdgeTracker::learnNear : &EdgeTracker::learn;
+  for (int i = 0; i < 4; ++i) (edges_[i].*learn)(image, lens, {quad[i], quad[(i + 1) % 4]}, meanSide(quad));
 }
 
 bool QuadTracker::follow(const cv::Mat& image, const geometry::PinholeCamera* lens, QuadMotion& motion) {
@@ -152,7 +153,7 @@ bool QuadTracker::realign(const cv::Mat& image, const geometry::PinholeCamera* l
     const bool is_vague = (!known.known() || known.px > kVaguePx) && (is_cut || !shows);
     if (borders_[i].fitted && (is_vague || edges_[i].keepApart(border, meanSide(followed), furthest_px)))
       continue;
-    edges_[i].learn(image, lens, {from, to}, meanSide(quad));
+    edges_[i].learnNear(image, lens, {from, to}, meanSide(quad));
     learned = true;
   }
   if (learned) motion.place(placed);

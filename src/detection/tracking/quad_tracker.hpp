@@ -13,8 +13,10 @@ namespace window_ingress::detection {
 /// The four borders of the tracked window, followed together.
 class QuadTracker {
  public:
-  /// Takes the borders of a window that was just found as what is to be followed.
-  void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad);
+  /// Takes the borders of a window that was just found as what is to be followed. \param is_known by what
+  /// lies round it, which is asked again soon: the edges nearest to them are followed for them
+  void learn(const cv::Mat& image, const geometry::PinholeCamera* lens, const geometry::Quadrilateral& quad,
+             bool is_known);
 
   /// Looks for all of them round the prediction; corrects it by what was found.
   /// \return true if enough of the borders in view are found, and the shape changed as a window's can

@@ -39,7 +39,7 @@ void WindowTracker::Impl::take(const TrackInput& input, WindowObservation& found
     confirmation.start(), reference.start();
   found.target_id = identity.id();
   motion.start(quad, kFoundSigmaPx);
-  quad_tracker.learn(input.image, images.lens(), quad);
+  quad_tracker.learn(input.image, images.lens(), quad, input.camera && reference.isKnown());
   frames_to_alignment = 0;
   certainty = std::max(found.score, 2.0 * kMinCertainty);
   window = found;

@@ -126,7 +126,7 @@ TEST(EdgeTracker, AnEdgeBesideTheBorderIsReportedAsTheBorder) {
 TEST(EdgeTracker, WhereABorderShowsNoEdgeTheNearestOneIsFollowedForIt) {
   const cv::Mat image = bands({{0, kWall}, {100, kHole}});
   EdgeTracker tracker;
-  tracker.learn(image, nullptr, stretchAt(97), 100.0);
+  tracker.learnNear(image, nullptr, stretchAt(97), 100.0);
   const auto followed = tracker.follow(image, nullptr, stretchAt(97), 100.0, 1.0);
   ASSERT_TRUE(followed.fitted);
   EXPECT_NEAR(followed.line.point.y(), 97.0, 0.2);
@@ -142,7 +142,7 @@ TEST(QuadTracker, WhereTheImageEndsBesideASideItsOwnEdgeIsBelieved) {
     QuadTracker tracker;
     QuadMotion motion;
     motion.start(drawn.opening, 0.3);
-    tracker.learn(image, nullptr, drawn.opening);
+    tracker.learn(image, nullptr, drawn.opening, false);
     motion.predict(Eigen::Matrix3d::Identity(), 0.033, {1, 1, 1});
     ASSERT_TRUE(tracker.follow(image, nullptr, motion));
     ASSERT_EQ(tracker.fitted(), 4);
