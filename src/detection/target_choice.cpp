@@ -83,8 +83,8 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
                                                            RefinedBorders& fitted) {
   const auto ring = reference_.surroundingsOf(fitted.corners, view.image, view.camera);
   if (!ring) return std::nullopt;
-  if (!rival.correlation && !reference_.isHazy(view.image, *ring))
-    if (auto fault = reference_.objectionTo(ring->match, rival.appearance)) return fault;
+  if (!rival.correlation)
+    if (auto fault = reference_.objectionTo(*ring, view.image, rival.appearance)) return fault;
   if (!view.camera) return std::nullopt;
   const auto anew = fitWhere(*ring, view);
   if (!anew) return std::nullopt;

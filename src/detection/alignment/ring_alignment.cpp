@@ -15,9 +15,9 @@ namespace {
 using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
-constexpr double kCoarsestPx = 15.0;  ///< resolution at which an alignment starts [px a mean side]
 constexpr int kCoarseSteps = 10, kFineSteps = 6, kLastSteps = 20;
-constexpr double kStill_px = 0.03;    ///< a shorter step is the last one [px of the level]
+constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of the level]
+constexpr int kPatience = 3;          ///< steps without a better correlation, and it ends
 constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
 constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
 constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
@@ -147,13 +147,15 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
   RingMatch best;
   Matrix3d at = map;
   const double reach_px = kFurthest * meanSide(start);
+  int best_step = 0;
   for (int n = 0;; ++n) {
     const double seen = view_.look(scale, at);
     if (seen < RingView::kMinSeen) break;
     const auto step = change(at);
     if (correlation_.value() > best.correlation)
-      best.correlation = correlation_.value(), best.seen = seen, map = at;
-    if (!step || n == most_steps) break;
+      best.correlation = correlation_.value(), best.seen = seen, map = at, best_step = n,
+      information_ = normal_ / (spread_ * spread_);
+    if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);
     Quadrilateral quad;
@@ -165,13 +167,11 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
 }
 
 // From the spread of what is left over, and how flat and straight such frames are.
-std::array<SideSigma, 4> RingAlignment::sidesOf(const RingView::Scale& scale, const Matrix3d& map) {
+std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   std::array<SideSigma, 4> sides{};
   Quadrilateral quad;
-  view_.look(scale, map);
-  if (!prior_ || !change(map) || !cornersOf(map, quad)) return sides;
-  const Eigen::Matrix<double, 8, 8> covariance =
-      kDependent * spread_ * spread_ * normal_.cast<double>().inverse();
+  if (!prior_ || !cornersOf(map, quad)) return sides;
+  const Eigen::Matrix<double, 8, 8> covariance = kDependent * information_.cast<double>().inverse();
   const auto views = prior_->viewsOfSides(map);
   const bool framed = view_.model().framed();
   for (int i = 0; i < 4; ++i) {
@@ -191,7 +191,8 @@ std::array<SideSigma, 4> RingAlignment::sidesOf(const RingView::Scale& scale, co
   return sides;
 }
 
-std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, double finest_px) {
+std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, double finest_px,
+                                                double coarsest_px) {
   const Quadrilateral ideal = undistorted(start, view_.lens());
   if (!geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
   Matrix3d map = mapFromCentre(ideal);
@@ -200,7 +201,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
   spread_ = kFirstSpread;
   AlignedRing found;
   int last_level = -1;
-  for (double wanted = std::min(kCoarsestPx, finest);; wanted *= 2.0) {
+  for (double wanted = std::min(coarsest_px, finest);; wanted *= 2.0) {
     const RingView::Scale scale = view_.scaleFor(side_px, std::min(wanted, finest));
     const bool is_last = wanted >= finest;
     if (scale.level != last_level || is_last)
@@ -211,7 +212,7 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
     if (found.match.correlation < kMinCorrelation) return std::nullopt;
     last_level = scale.level;
     if (!is_last) continue;
-    found.sides = sidesOf(scale, map);
+    found.sides = sidesOf(map);
     break;
   }
   if (!cornersOf(map, found.quad)) return std::nullopt;

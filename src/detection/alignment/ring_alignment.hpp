@@ -40,23 +40,26 @@ class RingAlignment {
   /// most count less.
   RingMatch judge(const geometry::Quadrilateral& quad, double side_px);
 
-  /// Nothing if it runs away from the start. \param finest_px as `side_px`
-  std::optional<AlignedRing> align(const geometry::Quadrilateral& start, double finest_px);
+  /// Nothing if it runs away from the start. \param finest_px, coarsest_px resolutions at which it ends and
+  /// begins: the coarser, the further off a start may be
+  std::optional<AlignedRing> align(const geometry::Quadrilateral& start, double finest_px,
+                                   double coarsest_px);
 
  private:
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
   RingMatch refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
                    int most_steps);
-  std::array<SideSigma, 4> sidesOf(const RingView::Scale& scale, const Eigen::Matrix3d& map);
+  std::array<SideSigma, 4> sidesOf(const Eigen::Matrix3d& map) const;
 
   RingView view_;
   RingScore judgement_;
   std::optional<RectanglePrior> prior_;
   RingCorrelation correlation_;
   std::vector<float> residuals_;
-  Matrix8f normal_;      ///< of the last change
-  float spread_ = 0.1F;  ///< of the residuals
+  Matrix8f normal_;       ///< of the last change
+  Matrix8f information_;  ///< of the best map, from its change and the spread of what was left
+  float spread_ = 0.1F;   ///< of the residuals
 };
 
 }  // namespace window_ingress::detection

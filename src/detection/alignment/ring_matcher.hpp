@@ -26,14 +26,15 @@ class RingMatcher {
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
-  /// Where it fits best near this place, which was found by its frame, and how well, also where the image is
-  /// less sharp than the reference's; nothing where it does not.
+  /// Where it fits best near this place, which was found by its borders; nothing where it does not.
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                        const geometry::Quadrilateral& quad);
+  /// How well it fits there, in the image of the last call, also where that is less sharp than the
+  /// reference's.
+  RingMatch judged(const geometry::Quadrilateral& quad);
 
  private:
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
-  RingMatch judged(const geometry::Quadrilateral& quad);
   void keep(const ScoredCandidate& rival);
   void compareAll(std::vector<ScoredCandidate>& rivals);
 

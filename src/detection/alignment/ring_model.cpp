@@ -185,19 +185,10 @@ const cv::Mat& ImagePyramid::level(int k) {
   return levels_[wanted];
 }
 
-float logOf(float value) {
-  static const std::array<float, 257> table = [] {
-    std::array<float, 257> logs{};
-    for (int i = 0; i < 257; ++i) logs[i] = std::log((static_cast<float>(i) + kDark) / kMiddle);
-    return logs;
-  }();
-  const int whole = std::clamp(static_cast<int>(value), 0, 255);
-  return table[whole] + (value - static_cast<float>(whole)) * (table[whole + 1] - table[whole]);
-}
-
-void RingModel::weighColour(float& blue, float& green, float& red) const {
-  const float brightness = (blue + green + red) / 3.0F;
-  for (float* channel : {&blue, &green, &red}) *channel = brightness + colour_ * (*channel - brightness);
+std::array<float, 257> logsOfColours() {
+  std::array<float, 257> logs{};
+  for (int i = 0; i < 257; ++i) logs[i] = std::log((static_cast<float>(i) + kDark) / kMiddle);
+  return logs;
 }
 
 void RingModel::learn(const cv::Mat& image, const Quadrilateral& opening, double colour) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -32,8 +33,15 @@ class ImagePyramid {
   int made_ = 0, deepest_ = 0;
 };
 
-/// Logarithm of a colour: what the light multiplies is added to it.
-float logOf(float value);
+std::array<float, 257> logsOfColours();
+inline const std::array<float, 257> kLogsOfColours = logsOfColours();
+
+/// Logarithm of a colour, 0 to 255: what the light multiplies is added to it.
+inline float logOf(float value) {
+  const int whole = static_cast<int>(value);
+  return kLogsOfColours[whole] +
+         (value - static_cast<float>(whole)) * (kLogsOfColours[whole + 1] - kLogsOfColours[whole]);
+}
 
 /// The ring round the opening at one resolution: points of the plane of the opening, and what is seen there.
 /// Points lie in the order of their segments.
@@ -72,7 +80,10 @@ class RingModel {
   bool framed() const { return framed_; }
 
   /// Gives the differences of three logarithms their weight.
-  void weighColour(float& blue, float& green, float& red) const;
+  void weighColour(float& blue, float& green, float& red) const {
+    const float brightness = (blue + green + red) / 3.0F;
+    for (float* channel : {&blue, &green, &red}) *channel = brightness + colour_ * (*channel - brightness);
+  }
 
   /// The level nearest to this resolution, coarse to fine by steps of the square root of two.
   const RingLevel& level(double side_px) const;

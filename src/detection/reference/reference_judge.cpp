@@ -178,10 +178,17 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
   return objection && frame && frame->isLike() ? below(match.faithful, kFaithful) : objection;
 }
 
-bool ReferenceJudge::isHazy(const cv::Mat& image, const AlignedRing& ring) const {
-  if (!frame_colours_ || ring.match.contrast >= kMinClearContrast * ring.match.correlation) return false;
-  const auto seen = ringColours(image, ring.quad, RingWidths(), 1);
+bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                            const RingMatch& match) const {
+  if (!frame_colours_ || match.contrast >= kMinClearContrast * match.correlation) return false;
+  const auto seen = ringColours(image, corners, RingWidths(), 1);
   return seen && distanceThroughHaze(frame_colours_->means, seen->means).value_or(1.0) < kMaxThroughHaze;
+}
+
+std::optional<Rejection> ReferenceJudge::objectionTo(const AlignedRing& ring, const cv::Mat& image,
+                                                     const std::optional<AppearanceMatch>& frame) {
+  const RingMatch match = ring_.judged(ring.quad);
+  return isHazy(image, ring.quad, match) ? std::nullopt : objectionTo(match, frame);
 }
 
 std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadrilateral& corners,

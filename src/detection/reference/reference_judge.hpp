@@ -62,8 +62,9 @@ class ReferenceJudge {
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera);
 
-  /// True if haze has taken the contrasts of what lies there.
-  bool isHazy(const cv::Mat& image, const AlignedRing& ring) const;
+  /// The same of surroundings that `surroundingsOf` found last; haze that took their contrasts is none.
+  std::optional<Rejection> objectionTo(const AlignedRing& ring, const cv::Mat& image,
+                                       const std::optional<AppearanceMatch>& frame);
 
   /// True if what lies within three of the borders differs from the wall without: a wall whose pattern
   /// repeats itself looks like that round the opening elsewhere, too, but goes on within.
@@ -76,6 +77,7 @@ class ReferenceJudge {
                                        const geometry::PinholeCamera* camera, bool by_frame_alone);
 
  private:
+  bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners, const RingMatch& match) const;
   const cv::Mat& inChannels(const cv::Mat& image);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                         const ScoredCandidate& rough, const ReferenceBorders::Effort& effort);

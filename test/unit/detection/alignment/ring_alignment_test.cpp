@@ -21,12 +21,12 @@ struct Scene {
     image = wall.draw(from, &opening, within);
     test::addNoise(image, 2.0, 7);
   }
-  double found(double off_px) {
+  double found(double off_px, double coarsest_px = 15.0) {
     RingAlignment alignment;
     alignment.set(model, image, nullptr);
     Quadrilateral start = opening;
     start[0] += Eigen::Vector2d(off_px, -off_px), start[2] += Eigen::Vector2d(-0.5 * off_px, off_px);
-    const auto aligned = alignment.align(start, 400.0);
+    const auto aligned = alignment.align(start, 400.0, coarsest_px);
     if (!aligned) return 1e9;
     correlation = aligned->match.correlation;
     match = alignment.judge(aligned->quad, 200.0);
@@ -49,6 +49,14 @@ TEST(RingAlignment, FindsTheCornersOfAHoleWithoutAFrameToAFractionOfAPixel) {
       EXPECT_LT(scene.found(4.0), 0.25) << distance << " m, " << yaw << " rad";
       EXPECT_GT(scene.correlation, 0.8);
     }
+}
+
+TEST(RingAlignment, ANearStartNeedsNoCoarseLevels) {
+  Scene scene{PatchedWall(3)};
+  for (double distance : {2.5, 5.0}) {
+    scene.look(seenFrom(distance, 0.3));
+    EXPECT_LT(scene.found(2.0, 100.0), 0.15) << distance << " m";
+  }
 }
 
 TEST(RingAlignment, WhatLiesWithinTheOpeningCountsNothing) {
@@ -116,7 +124,7 @@ TEST(RingAlignment, ACalibratedCameraKeepsAHiddenSideFromShearing) {
       alignment.set(scene.model, scene.image, &camera);
       Quadrilateral start = scene.opening;
       start[0].x() += 12.0, start[3].x() += 12.0;
-      const auto aligned = alignment.align(start, 400.0);
+      const auto aligned = alignment.align(start, 400.0, 15.0);
       return aligned ? test::worstCorner(aligned->quad, scene.opening) : 1e9;
     };
     EXPECT_LT(worst(OpeningAspect{PatchedWall::kAspect, 0.01}), 0.3) << seed;
@@ -136,7 +144,7 @@ TEST(RingAlignment, WhatIsSaidOfTheSidesIsHonest) {
       scene.look(seenFrom(distance, yaw, 0.1 * yaw, 0.02));
       RingAlignment alignment;
       alignment.set(scene.model, scene.image, &camera);
-      const auto aligned = alignment.align(test::grown(scene.opening, 2.0), 400.0);
+      const auto aligned = alignment.align(test::grown(scene.opening, 2.0), 400.0, 15.0);
       ASSERT_TRUE(aligned);
       for (int i = 0; i < 4; ++i) {
         const Eigen::Vector2d along = (scene.opening[(i + 1) % 4] - scene.opening[i]).normalized();
@@ -160,7 +168,7 @@ TEST(RingAlignment, NoSideIsKnownWithoutACameraNorTheSideOfAFrameFromBeyond) {
   const auto known = [&](const geometry::PinholeCamera* with) {
     RingAlignment alignment;
     alignment.set(scene.model, scene.image, with);
-    const auto aligned = alignment.align(scene.opening, 400.0);
+    const auto aligned = alignment.align(scene.opening, 400.0, 15.0);
     EXPECT_TRUE(aligned);
     return std::count_if(aligned->sides.begin(), aligned->sides.end(),
                          [](const SideSigma& side) { return side.known(); });
@@ -195,7 +203,7 @@ TEST(RingAlignment, AnotherWallDoesNotFit) {
     other.look(seenFrom(3.0, yaw));
     RingAlignment alignment;
     alignment.set(scene.model, other.image, nullptr);
-    const auto aligned = alignment.align(other.opening, 400.0);
+    const auto aligned = alignment.align(other.opening, 400.0, 15.0);
     EXPECT_LT(aligned ? aligned->match.correlation : 0.0, 0.4);
     EXPECT_LT(alignment.compare(other.opening, 28.0).correlation, 0.3);
   }
@@ -219,7 +227,7 @@ TEST(RingAlignment, LensesAreSeenThrough) {
     seen[i] = camera.distort(seen[i]), start[i] = seen[i] + Eigen::Vector2d(3.0, -2.0);
   RingAlignment alignment;
   alignment.set(scene.model, bent, &camera);
-  const auto aligned = alignment.align(start, 400.0);
+  const auto aligned = alignment.align(start, 400.0, 15.0);
   ASSERT_TRUE(aligned);
   EXPECT_LT(test::worstCorner(aligned->quad, seen), 0.25);
 }
