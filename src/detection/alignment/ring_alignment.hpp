@@ -37,7 +37,7 @@ class RingAlignment {
   RingMatch compare(const geometry::Quadrilateral& quad, double side_px);
 
   /// The same, and what it says where something stands before the ring: samples that differ far more than
-  /// most count less.
+  /// most count less. In the dark at half the resolution, which averages the noise.
   RingMatch judge(const geometry::Quadrilateral& quad, double side_px);
 
   /// Nothing if it runs away from the start. \param finest_px, coarsest_px resolutions at which it ends and

@@ -8,8 +8,8 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
-constexpr double kRoughPx = 15.0;               ///< at which an alignment begins where a place is rough
-constexpr double kNearPx = 100.0;               ///< and where it is known by its borders
+constexpr double kRoughStartPx = 15.0;          ///< at which an alignment begins where a place is rough
+constexpr double kNearStartPx = 100.0;          ///< and where it is known by its borders
 constexpr std::size_t kPlaces = 10;             ///< that are aligned
 constexpr std::size_t kFinePlaces = 2;          ///< and of these, to the last
 constexpr int kVariants = 2;                    ///< rough loops of one place from which it is aligned
@@ -39,7 +39,7 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
 }
 
 std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough, double finest_px) {
-  const auto found = alignment_.align(rough.quad, finest_px, kRoughPx);
+  const auto found = alignment_.align(rough.quad, finest_px, kRoughStartPx);
   if (!found) return std::nullopt;
   const auto quad = geometry::canonical(found->quad);
   if (!quad) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const ge
                                                   const geometry::Quadrilateral& quad) {
   if (!known() || image.channels() != model_.channels()) return std::nullopt;
   alignment_.set(model_, image, camera);
-  return alignment_.align(quad, kFinestPx, kNearPx);
+  return alignment_.align(quad, kFinestPx, kNearStartPx);
 }
 
 const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,

@@ -113,6 +113,15 @@ double RingView::look(const Quadrilateral& quad, double side_px) {
   return look(scaleFor(meanSide(ideal), side_px), mapFromCentre(ideal));
 }
 
+float RingView::meanLog() const {
+  float sum = 0.0F, seen = 0.0F;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const float weight = weights_[i % weights_.size()];
+    sum += weight * values_[i], seen += weight;
+  }
+  return seen > 0.0F ? sum / seen : 0.0F;
+}
+
 RingSegment RingView::segment(int s) const {
   RingSegment segment;
   segment.begin = ring_->segments[s], segment.end = ring_->segments[s + 1];

@@ -70,6 +70,8 @@ class RingView {
   int channels() const { return channels_; }
   float value(std::size_t at) const { return values_[at]; }  ///< as those of the ring
 
+  float meanLog() const;  ///< of the colours that are seen
+
   /// How much a sample counts; 0 where it lies beside the image.
   float weight(std::size_t i) const { return weights_[i]; }
   void setWeight(std::size_t i, float weight) { weights_[i] = weight; }

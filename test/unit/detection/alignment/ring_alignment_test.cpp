@@ -59,6 +59,15 @@ TEST(RingAlignment, ANearStartNeedsNoCoarseLevels) {
   }
 }
 
+TEST(RingAlignment, ADimViewIsJudgedWhereItsNoiseAveragesOut) {
+  Scene scene{PatchedWall(3, 0.07, 25.0)};
+  scene.look(seenFrom(4.5, 0.3));
+  scene.image.convertTo(scene.image, -1, 0.13);
+  test::addNoise(scene.image, 2.0, 5);
+  EXPECT_LT(scene.found(3.0), 0.5);
+  EXPECT_GT(scene.match.faithful_uncovered, 0.88) << "0.77 at the resolution of all others";
+}
+
 TEST(RingAlignment, WhatLiesWithinTheOpeningCountsNothing) {
   Scene scene{PatchedWall(3, 0.07)};
   scene.look(seenFrom(3.0, 0.3), cv::Scalar(250, 240, 230));
