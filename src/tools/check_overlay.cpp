@@ -71,8 +71,9 @@ std::string given(std::string text) {
 
 void warn(const std::string& text) { std::cerr << "check_overlay: warning: " << text << "\n"; }
 
-void checkReference(const Options& o, const std::string& file,
-                    const configuration::DetectorNodeParams& detector) {
+/// \return width over height of the opening in the reference image; 0: nobody says it
+double checkReference(const Options& o, const std::string& file,
+                      const configuration::DetectorNodeParams& detector) {
   configuration::ReferenceParams reference = detector.reference;
   const std::string image = given(o.reference), corners = given(o.corners);
   const std::string from = image.empty() && corners.empty() ? file + ": window_detector/" : "";
@@ -83,14 +84,18 @@ void checkReference(const Options& o, const std::string& file,
       warn(
           "no reference image (reference:=, or window_detector/reference in the file): other windows and "
           "decoys are taken for the target");
-    return;
+    return 0.0;
   }
   if (!std::filesystem::path(reference.picture).is_absolute())
     throw UsageError(from + "reference '" + reference.picture +
                      "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
   try {
-    adapters::loadReference(reference, detector.detector);
-    if (reference.corners.empty()) warn(tools::kGuessedOpening);
+    const auto opening = adapters::loadReference(reference, detector.detector).opening();
+    if (!reference.corners.empty())
+      return ((opening[1] - opening[0]).norm() + (opening[2] - opening[3]).norm()) /
+             ((opening[3] - opening[0]).norm() + (opening[2] - opening[1]).norm());
+    warn(tools::kGuessedOpening);
+    return 0.0;
   } catch (const adapters::ParameterError& error) {
     throw UsageError(from + error.what());
   }
@@ -121,6 +126,19 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
   pose.opening_height_m = size[1];
   const auto faults = parameters::outOfRange(pose);
   if (!faults.empty()) throw UsageError("window_size " + text + ": " + parameters::joined(faults));
+}
+
+// Width and height exchanged, or one of them misread. Seen aslant an image may be off by less.
+void checkAspect(double in_image, const estimation::PoseParams& opening) {
+  constexpr double kMaxRatio = 1.25;
+  const double said = opening.opening_width_m / opening.opening_height_m;
+  if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "the opening, " << opening.opening_width_m << " x " << opening.opening_height_m << " m, is " << said
+       << " times as wide as it is high, in the reference image " << in_image
+       << " times: measure both sides, look at the corners";
+  warn(text.str());
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
@@ -249,9 +267,12 @@ std::string existing(const std::string& file) {
 
 void checkOverlay(const Options& o, const std::string& file, configuration::Overlay& overlay,
                   Faults& faults) {
-  faults.collect([&] { checkReference(o, file, overlay.window_detector); });
+  double aspect = 0.0;
+  faults.collect([&] { aspect = checkReference(o, file, overlay.window_detector); });
   faults.collect([&] { checkTransport(o, overlay); });
   faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
+  if (aspect > 0.0 && (saysOpening(overlay) || !given(o.window_size).empty()))
+    checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
   faults.collect([&] { checkSizesAreSaid(o, overlay); });
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });

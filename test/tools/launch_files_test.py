@@ -312,6 +312,20 @@ def test_contradictions_are_said(tmp_path):
     assert run("check_overlay", config, "--window-size", "1.6,1.4").stderr == ""
 
 
+@pytest.mark.parametrize("size, is_said", [("1.4,2.0", True), ("2.0,0.8", True), ("2.0,1.4", False), ("1.8,1.4", False)])
+def test_a_size_that_is_not_that_of_the_reference_image_is_said(tmp_path, size, is_said):
+    arguments = "--reference", photograph(tmp_path / "window.png"), "--reference-corners", "60,50,260,50,260,190,60,190"
+    done = run("check_overlay", "--window-size", size, *arguments)
+    assert done.returncode == 0
+    assert ("in the reference image 1.43 times: measure both sides" in done.stderr) == is_said
+    assert is_said or done.stderr == ""
+
+
+def test_a_reference_that_is_not_there_is_one_line(tmp_path):
+    done = run("check_overlay", "--reference", tmp_path / "none.png")
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "cannot read" in done.stderr
+
+
 def test_nothing_that_dies_takes_the_guard_with_it():
     for name in ("ingress", "px4", "ardupilot"):
         assert not any(node["required"] for node in dump(name)["nodes"].values()), name

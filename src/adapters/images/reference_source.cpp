@@ -58,7 +58,9 @@ detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImag
 
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params) {
-  const cv::Mat image = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat image;
+  if (std::filesystem::exists(reference.picture))  // else OpenCV complains first
+    image = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (image.empty())
     throw ParameterError("reference/picture: cannot read '" + reference.picture + "' as an image");
   return makeReference(image, reference.corners, params);
