@@ -15,7 +15,7 @@ namespace window_ingress::tools {
 
 constexpr double kMaxShownPx = 1200.0;  // of the image on the screen
 constexpr double kFitRadiusPx = 6.0;    // on the screen
-constexpr double kMaxMovedPx = 4.0;     // of a side by the fit, on the screen: clicks are better than that
+constexpr double kMaxMovedPx = 3.0;     // of a side by the fit, on the screen: clicks are better than that
 constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side
 constexpr double kNearPx = 3.0;         // on the screen: corners further from an edge are doubtful
 constexpr double kMinOnEdge = 0.7;      // of each side, on one straight edge

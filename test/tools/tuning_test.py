@@ -274,7 +274,7 @@ def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
     cv2.imwrite(str(tmp_path / "frame.png"), image)
     code, _, errors = run("make_reference", tmp_path / "frame.png", "--output", tmp_path / "a.png", "--fit", "--corners",
                           "88.5,68.5,215.5,68.5,215.5,171.5,88.5,171.5")
-    assert code == 1 and "the right side would move by 5" in errors and "more than 4.0" in errors, errors
+    assert code == 1 and "the right side would move by 5" in errors and "more than 3.0" in errors, errors
     assert not (tmp_path / "a.png").exists()
 
 
