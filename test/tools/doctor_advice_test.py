@@ -115,13 +115,18 @@ def test_the_programs_that_are_advised_are_installed(doctor):
         assert any((folder / program).is_file() for folder in folders), f"{package} {program}: scripts/setup does not install it"
 
 
-@pytest.mark.parametrize("file", ["ingress.launch", "px4.launch", "ardupilot.launch"])
-def test_the_launch_files_have_the_arguments_that_are_advised(doctor, file):
+@pytest.mark.parametrize("file, without", [("ingress.launch", {"mavros"}), ("px4.launch", set()), ("ardupilot.launch", set()),
+                                           ("rehearse.launch", {"mavros", "cmd_vel"})])
+def test_the_launch_files_have_the_arguments_that_are_advised(doctor, file, without):
     lines = [line for line in (ROOT / "tools/doctor").read_text(encoding="utf-8").splitlines() if "{LAUNCH} " in line]
     advised = {*doctor.ARGUMENTS.values(), "image_transport", *re.findall(r"(\w+):=", "".join(lines))} - {"image_transport:=compressed image"}
     assert "cmd_vel" in advised and "camera_frame" in advised
     there = set(re.findall(r'<arg name="(\w+)" default', (ROOT / "launch" / file).read_text(encoding="utf-8")))
-    assert advised - there <= ({"mavros"} if file == "ingress.launch" else set())
+    assert advised - there == without
+
+
+def test_who_rehearses_is_told_the_arguments_of_the_rehearsal(doctor):
+    assert doctor.launch_file(types.SimpleNamespace(graph=types.SimpleNamespace(nodes=lambda: ["/rosout", "/rehearsal"]))) == "rehearse.launch"
 
 
 @pytest.mark.parametrize("simulated, clocks, heard, said", [
