@@ -91,9 +91,7 @@ double checkReference(const Options& o, const std::string& file,
                      "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
   try {
     const auto opening = adapters::loadReference(reference, detector.detector).opening();
-    if (!reference.corners.empty())
-      return ((opening[1] - opening[0]).norm() + (opening[2] - opening[3]).norm()) /
-             ((opening[3] - opening[0]).norm() + (opening[2] - opening[1]).norm());
+    if (!reference.corners.empty()) return geometry::aspectRatio(opening);
     warn(tools::kGuessedOpening);
     return 0.0;
   } catch (const adapters::ParameterError& error) {
