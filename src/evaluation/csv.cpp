@@ -48,7 +48,7 @@ std::string csvCornerColumns(const std::string& name) {
 }
 
 CsvReader::CsvReader(const std::string& file) : name_(file), file_(file) {
-  if (!std::getline(file_, line_)) throw TableError(file + ": cannot be read, or empty");
+  if (!std::getline(file_, line_)) throw InputError(file + ": cannot be read, or empty");
   columns_ = fieldsOf(line_);
 }
 
@@ -82,7 +82,7 @@ double CsvReader::number(std::size_t column) const {
 }
 
 void CsvReader::fail(const std::string& what) const {
-  throw TableError(name_ + ":" + std::to_string(number_) + ": " + what);
+  throw InputError(name_ + ":" + std::to_string(number_) + ": " + what);
 }
 
 }  // namespace window_ingress::evaluation

@@ -2,19 +2,13 @@
 #pragma once
 
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "window_ingress/geometry/quadrilateral.hpp"
+#include "window_ingress/text/input_error.hpp"
 
 namespace window_ingress::evaluation {
-
-/// A table that cannot be read: `what()` is one line "file:line: what is wrong".
-class TableError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// A text as one field: in quotes if it holds a comma, a quote or a line end.
 std::string csvField(const std::string& text);
@@ -27,17 +21,17 @@ std::string csvCornerColumns(const std::string& name);
 /// The rows of a table below its header, one after the other.
 class CsvReader {
  public:
-  explicit CsvReader(const std::string& file);  ///< \throws TableError without a header
-  /// \param header all of it \throws TableError if the file has another one
+  explicit CsvReader(const std::string& file);  ///< \throws InputError without a header
+  /// \param header all of it \throws InputError if the file has another one
   CsvReader(const std::string& file, const std::string& header);
 
   const std::vector<std::string>& columns() const { return columns_; }
   bool next();       ///< the next row; false at the end
-  bool nextWhole();  ///< likewise; \throws TableError unless it has a field for each column
+  bool nextWhole();  ///< likewise; \throws InputError unless it has a field for each column
 
   const std::string& line() const { return line_; }  ///< the row as it stands there
   std::string text(std::size_t column) const;        ///< empty in a row that ends before
-  double number(std::size_t column) const;           ///< \throws TableError if it is none
+  double number(std::size_t column) const;           ///< \throws InputError if it is none
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 const Scenario& checked(const Scenario& scenario) {
   const auto faults = faultsOf(scenario);
-  if (!faults.empty()) throw ScenarioError("scenario: " + parameters::joined(faults));
+  if (!faults.empty()) throw InputError("scenario: " + parameters::joined(faults));
   return scenario;
 }
 
@@ -42,8 +42,8 @@ WallInAir wallOf(const Scenario& scenario, const Scene& scene) {
 geometry::PinholeCamera modelOf(const CameraParams& params) {
   try {
     return params.model();
-  } catch (const std::runtime_error& error) {
-    throw ScenarioError(std::string("scenario: camera/calibration_file: ") + error.what());
+  } catch (const InputError& error) {
+    throw InputError(std::string("scenario: camera/calibration_file: ") + error.what());
   }
 }
 
@@ -51,7 +51,7 @@ std::unique_ptr<CameraSensor> makeCamera(const Scene& scene, const CameraParams&
   try {
     return std::make_unique<CameraSensor>(scene, params, seed);
   } catch (const std::invalid_argument& error) {
-    throw ScenarioError(std::string("scenario: ") + error.what());
+    throw InputError(std::string("scenario: ") + error.what());
   }
 }
 
@@ -166,7 +166,7 @@ void World::inject(FaultParams fault) {
   fault.at_sec = time_sec_;
   if (external()) {
     const std::string why_not = whyNotBesideExternalVehicle(fault);
-    if (!why_not.empty()) throw ScenarioError("fault: " + why_not);
+    if (!why_not.empty()) throw InputError("fault: " + why_not);
   }
   faults_.inject(fault);
 }

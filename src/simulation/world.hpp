@@ -44,7 +44,7 @@ class World {
   /// matters: light, noise, faults that spoil it.
   enum class Images { kDrawn, kNone };
 
-  /// \throws ScenarioError if the scenario cannot be built, std::runtime_error if there is no software
+  /// \throws InputError if the scenario cannot be built, std::runtime_error if there is no software
   /// renderer.
   World(const Scenario& scenario, std::uint32_t seed, Images images = Images::kDrawn);
   World(const World&) = delete;
@@ -79,7 +79,7 @@ class World {
   /// What a clock says that is asked now, or nothing.
   std::optional<double> readClock();
 
-  /// From now on. \throws ScenarioError if there can be no such fault
+  /// From now on. \throws InputError if there can be no such fault
   void inject(FaultParams fault);
 
   const geometry::PinholeCamera& camera() const { return model_; }

@@ -19,13 +19,13 @@
 #include "navigation/mission/mission_rules.hpp"
 #include "params_file.hpp"
 #include "running_nodes.hpp"
+#include "simulation/scenario/scenario.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
 
 namespace po = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
@@ -87,15 +87,15 @@ double checkReference(const Options& o, const std::string& file,
     return 0.0;
   }
   if (!std::filesystem::path(reference.picture).is_absolute())
-    throw UsageError(from + "reference '" + reference.picture +
+    throw InputError(from + "reference '" + reference.picture +
                      "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
   try {
     const auto opening = adapters::loadReference(reference, detector.detector).opening();
     if (!reference.corners.empty()) return geometry::aspectRatio(opening);
     warn(tools::kGuessedOpening);
     return 0.0;
-  } catch (const adapters::ParameterError& error) {
-    throw UsageError(from + error.what());
+  } catch (const InputError& error) {
+    throw InputError(from + error.what());
   }
 }
 
@@ -103,7 +103,7 @@ void checkTransport(const Options& o, const configuration::Overlay& overlay) {
   const bool said = overlay.said.count("window_detector/image_transport") != 0;
   const std::string& transport = said ? overlay.window_detector.image_transport : o.image_transport;
   const std::string why = transport.empty() ? "" : adapters::whyNoTransport(transport);
-  if (!why.empty()) throw UsageError(why);
+  if (!why.empty()) throw InputError(why);
 }
 
 void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
@@ -123,7 +123,7 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
   pose.opening_width_m = size[0];
   pose.opening_height_m = size[1];
   const auto faults = parameters::outOfRange(pose);
-  if (!faults.empty()) throw UsageError("window_size " + text + ": " + parameters::joined(faults));
+  if (!faults.empty()) throw InputError("window_size " + text + ": " + parameters::joined(faults));
 }
 
 // Width and height exchanged, or one of them misread. Seen aslant an image may be off by less.
@@ -166,7 +166,7 @@ void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) 
   if (o.needs_window_size != "true") return;
   const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
   if (!is_found_out && given(o.window_size).empty() && !saysOpening(overlay))
-    throw UsageError(
+    throw InputError(
         "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
   if (o.fly != "true" || says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"}))
@@ -189,15 +189,15 @@ void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseP
        << " m (twice vehicle/half_width_m, half_height_m), does not fit "
        << "through the opening, " << opening.opening_width_m << " x " << opening.opening_height_m
        << " m: measure both";
-  throw UsageError(text.str());
+  throw InputError(text.str());
 }
 
 void checkCameraPose(const std::string& text) {
   if (text.empty()) return;
   try {
     adapters::T_base_cameraOf(tools::numbers("camera_pose", text, 6));
-  } catch (const adapters::ParameterError& error) {
-    throw UsageError("camera_pose " + text + ": " + error.what());
+  } catch (const InputError& error) {
+    throw InputError("camera_pose " + text + ": " + error.what());
   }
 }
 
@@ -206,7 +206,7 @@ void checkNavigator(const std::string& file, const navigation::NavigatorParams& 
   try {
     navigation::checked(params);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(file + ": ingress_navigator/" + error.what());
+    throw InputError(file + ": ingress_navigator/" + error.what());
   }
 }
 
@@ -218,13 +218,13 @@ class Faults {
     try {
       step();
       return true;
-    } catch (const std::runtime_error& fault) {  // of usage, yaml, scenario
+    } catch (const InputError& fault) {
       texts_.push_back(fault.what());
     }
     return false;
   }
   void throwIfAny() const {
-    if (!texts_.empty()) throw UsageError(parameters::joined(texts_, "\n"));
+    if (!texts_.empty()) throw InputError(parameters::joined(texts_, "\n"));
   }
 
  private:
@@ -238,7 +238,7 @@ void checkInstalled(const std::string& package) {
     return;
   std::string name = package;
   std::replace(name.begin(), name.end(), '_', '-');
-  throw UsageError(
+  throw InputError(
       "the package " + package + " is not installed: apt install ros-noetic-" + name +
       ", on Debian build it in your workspace; or start another driver (rehearse.launch: camera:=false)");
 }
@@ -259,7 +259,7 @@ void checkLaunch(const Options& o, Faults& faults) {
 // there.
 std::string existing(const std::string& file) {
   if (!file.empty() && !std::filesystem::exists(file))
-    throw UsageError("config " + std::filesystem::absolute(file).string() + ": no such file");
+    throw InputError("config " + std::filesystem::absolute(file).string() + ": no such file");
   return file;
 }
 
@@ -284,7 +284,7 @@ int check(const Options& o) {
   const bool asks_nothing = o.file.empty() && o.reference.empty() && o.corners.empty() &&
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
                             o.scenario.empty() && o.launch_folder.empty();
-  if (asks_nothing) throw UsageError("no file given; see --help");
+  if (asks_nothing) throw InputError("no file given; see --help");
   Faults faults;
   if (!o.launch_folder.empty()) checkLaunch(o, faults);
   const std::string file = given(o.file);

@@ -7,13 +7,10 @@
 #include <filesystem>
 #include <iostream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "evaluation/csv.hpp"
-#include "simulation/scenario/scenario.hpp"
-#include "window_ingress/parameters/yaml.hpp"
+#include "window_ingress/text/input_error.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
@@ -23,13 +20,7 @@ constexpr const char* kParamsHelp =
     "yaml file laid over the defaults, as config:= of launch files: its first level names the nodes, and the "
     "vehicle";
 
-/// Wrong usage or input that cannot be used: one line, exit code 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// `count` finite numbers with commas between, any number of them for 0. \throws UsageError that names the
+/// `count` finite numbers with commas between, any number of them for 0. \throws InputError that names the
 /// option
 inline std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
   std::vector<double> values;
@@ -42,26 +33,26 @@ inline std::vector<double> numbers(const std::string& option, const std::string&
   }
   const bool as_many = count == 0 ? !values.empty() : values.size() == count;
   if (!good || !as_many)
-    throw UsageError(option + ": '" + text + "' is not " + (count == 0 ? "" : std::to_string(count) + " ") +
+    throw InputError(option + ": '" + text + "' is not " + (count == 0 ? "" : std::to_string(count) + " ") +
                      "numbers with commas between");
   return values;
 }
 
-/// Any number of them, each between two bounds. \throws UsageError
+/// Any number of them, each between two bounds. \throws InputError
 inline std::vector<double> numbersWithin(const std::string& option, const std::string& text, double least,
                                          double most) {
   const std::vector<double> values = numbers(option, text, 0);
   for (const double value : values)
     if (value < least || value > most)
-      throw UsageError(option + formatted(": needs numbers from %g to %g", least, most));
+      throw InputError(option + formatted(": needs numbers from %g to %g", least, most));
   return values;
 }
 
-/// Makes the folder if it is missing. \throws UsageError
+/// Makes the folder if it is missing. \throws InputError
 inline void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) throw UsageError(folder + ": cannot make this folder");
+  if (error || !std::filesystem::is_directory(folder)) throw InputError(folder + ": cannot make this folder");
 }
 
 /// Runs a tool. What it throws becomes a line on stderr, one for each fault, and the exit code: 2 for wrong
@@ -77,14 +68,6 @@ int runTool(const char* name, const Body& body) {
     return body();
   } catch (const boost::program_options::error& error) {
     return fail(std::string(error.what()) + "; see --help", 2);
-  } catch (const UsageError& error) {
-    return fail(error.what(), 2);
-  } catch (const simulation::ScenarioError& error) {
-    return fail(error.what(), 2);
-  } catch (const evaluation::TableError& error) {
-    return fail(error.what(), 2);
-  } catch (const parameters::YamlError& error) {
-    return fail(error.what(), 2);
   } catch (const std::invalid_argument& error) {
     return fail(error.what(), 2);
   } catch (const std::exception& error) {

@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
 using tools::numbers;
-using tools::UsageError;
 
 namespace {
 
@@ -69,10 +68,10 @@ po::options_description describe(Options& o) {
 }
 
 void check(const Options& o) {
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  if (o.inputs.empty()) throw UsageError("no image given; see --help");
-  if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0)) throw UsageError("--rate: needs images a second, above 0");
-  if (!o.corners.empty() && o.reference.empty()) throw UsageError("--reference-corners needs --reference");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
+  if (o.inputs.empty()) throw InputError("no image given; see --help");
+  if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0)) throw InputError("--rate: needs images a second, above 0");
+  if (!o.corners.empty() && o.reference.empty()) throw InputError("--reference-corners needs --reference");
 }
 
 bool looksLikeImage(const fs::path& path) {
@@ -87,7 +86,7 @@ bool looksLikeImage(const fs::path& path) {
 std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
   std::vector<std::string> images;
   for (const std::string& input : inputs) {
-    if (!fs::exists(input)) throw UsageError(input + ": no such file or folder");
+    if (!fs::exists(input)) throw InputError(input + ": no such file or folder");
     if (!fs::is_directory(input)) {
       images.push_back(input);
       continue;
@@ -95,7 +94,7 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
     std::vector<std::string> found;
     for (const auto& entry : fs::directory_iterator(input))
       if (entry.is_regular_file() && looksLikeImage(entry.path())) found.push_back(entry.path().string());
-    if (found.empty()) throw UsageError(input + ": no image in this folder");
+    if (found.empty()) throw InputError(input + ": no image in this folder");
     std::sort(found.begin(), found.end());
     images.insert(images.end(), found.begin(), found.end());
   }
@@ -113,13 +112,13 @@ cv::Mat readImage(const std::string& file) {
 detection::ReferenceAppearance readReference(const std::string& file, const std::vector<double>& v,
                                              const detection::DetectorParams& params) {
   const cv::Mat image = fs::exists(file) ? readImage(file) : cv::Mat();
-  if (image.empty()) throw UsageError(file + ": cannot be read as an image; give --reference a photograph");
+  if (image.empty()) throw InputError(file + ": cannot be read as an image; give --reference a photograph");
   if (v.empty()) return detection::referenceFromImage(image, params);
   const auto quad = geometry::canonical({Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]),
                                          Eigen::Vector2d(v[4], v[5]), Eigen::Vector2d(v[6], v[7])});
-  if (!quad) throw UsageError("--reference-corners: no convex quadrilateral");
+  if (!quad) throw InputError("--reference-corners: no convex quadrilateral");
   if (const std::string fault = detection::ReferenceAppearance::faultOf(image, *quad); !fault.empty())
-    throw UsageError("--reference-corners: " + fault);
+    throw InputError("--reference-corners: " + fault);
   return detection::ReferenceAppearance(image, *quad);
 }
 

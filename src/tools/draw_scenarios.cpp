@@ -14,7 +14,6 @@ namespace {
 
 namespace options = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 
 struct Job {
   std::vector<std::string> files;
@@ -40,9 +39,9 @@ options::options_description describe(Job& job) {
 }
 
 int run(const Job& job) {
-  if (job.output.empty()) throw UsageError("--output is missing; see --help");
-  if (job.files.empty()) throw UsageError("no scenario file is given; see --help");
-  if (job.columns < 1 || job.cell_width_px < 64) throw UsageError("--columns or --width is too small");
+  if (job.output.empty()) throw InputError("--output is missing; see --help");
+  if (job.files.empty()) throw InputError("no scenario file is given; see --help");
+  if (job.columns < 1 || job.cell_width_px < 64) throw InputError("--columns or --width is too small");
   job.view.check();
   evaluation::ContactSheet sheet(job.columns, job.cell_width_px);
   std::uint32_t seed = job.seed;

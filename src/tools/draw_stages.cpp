@@ -17,7 +17,6 @@ namespace {
 
 namespace options = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 
 constexpr int kQuality = 75;  // of a jpg
 
@@ -62,14 +61,14 @@ Subject read(const Job& job) {
   Subject subject;
   if (std::filesystem::exists(job.image))  // OpenCV warns by itself of a file that is not there
     subject.image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (subject.image.empty()) throw UsageError(job.image + ": cannot be read as an image");
+  if (subject.image.empty()) throw InputError(job.image + ": cannot be read as an image");
   return subject;
 }
 
 int run(const Job& job) {
-  if (job.output.empty()) throw UsageError("--output is missing; see --help");
+  if (job.output.empty()) throw InputError("--output is missing; see --help");
   if (job.scenario.empty() == job.image.empty())
-    throw UsageError("give either a scenario or an image; see --help");
+    throw InputError("give either a scenario or an image; see --help");
   job.view.check();
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const Subject subject = job.image.empty() ? photograph(job) : read(job);

@@ -27,7 +27,6 @@ namespace {
 using namespace window_ingress;
 using tools::FlyJob;
 using tools::FlyResults;
-using tools::UsageError;
 using Observer = std::unique_ptr<evaluation::FlightObserver>;
 
 #ifdef WINDOW_INGRESS_WITH_ROS
@@ -105,7 +104,7 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   auto flights = evaluation::readFlights(folder);
   for (const auto& flight : flights)
     if (std::find(job.seeds.begin(), job.seeds.end(), flight.seed) == job.seeds.end())
-      throw UsageError("--resume: " + folder + " holds seed " + std::to_string(flight.seed) +
+      throw InputError("--resume: " + folder + " holds seed " + std::to_string(flight.seed) +
                        ", which is not among those asked for");
   if (flights.empty()) return flights;
   const std::uint32_t seed = flights.back().seed;
@@ -113,7 +112,7 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
                job.seeds.size(), seed);
   const auto again = evaluation::flyOnce(job.scenario(seed), seed, job.params, {});
   if (evaluation::csvRow(again) != evaluation::csvRow(flights.back()))
-    throw UsageError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +
+    throw InputError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +
                      folder + "/flights.csv: another scenario, other parameters or another build");
   flights.back() = again;
   return flights;

@@ -84,40 +84,40 @@ inline std::vector<std::uint32_t> seedsOf(const FlyJob& job) {
   if (!drawn.empty()) return drawn;
   const FlyOptions& o = job.asked;
   auto seeds = evaluation::parseSeeds(o.seeds);
-  if (!seeds) throw UsageError("--seeds " + o.seeds + ": give A..B with A <= B, e.g. 1..20");
+  if (!seeds) throw InputError("--seeds " + o.seeds + ": give A..B with A <= B, e.g. 1..20");
   if (o.shard.empty()) return *seeds;
   const auto shard = evaluation::shardOf(*seeds, o.shard);
-  if (!shard) throw UsageError("--shard " + o.shard + ": give I/N with I from 1 to N, e.g. 1/4");
+  if (!shard) throw InputError("--shard " + o.shard + ": give I/N with I from 1 to N, e.g. 1/4");
   return *shard;
 }
 
 // Flights that somebody has waited for are not lost to a folder given twice.
 inline void checkOutput(const FlyJob& job) {
   const FlyOptions& o = job.asked;
-  if (o.resume && o.overwrite) throw UsageError("--resume and --overwrite: give one of them");
+  if (o.resume && o.overwrite) throw InputError("--resume and --overwrite: give one of them");
   if (job.holdsFlights() && !o.resume && !o.overwrite)
-    throw UsageError(o.output +
+    throw InputError(o.output +
                      " holds the flights of an earlier campaign: --resume goes on with it, --overwrite "
                      "replaces it, or give another folder");
 }
 
 inline FlyJob jobOf(const FlyOptions& o) {
-  if (o.scenario.empty()) throw UsageError("--scenario is missing; see --help");
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.scenario.empty()) throw InputError("--scenario is missing; see --help");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
   FlyJob job{o};
   checkOutput(job);
   if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
   job.seeds = seedsOf(job);
-  if (o.jobs < 1 || o.jobs > 256) throw UsageError("--jobs: give a number from 1 to 256");
+  if (o.jobs < 1 || o.jobs > 256) throw InputError("--jobs: give a number from 1 to 256");
   if (!o.params.empty()) job.params = evaluation::readFlightParams(o.params);
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(o.output);
   if (!o.log.empty()) makeFolder(o.log);
   if (!o.keep_failures) return job;
-  if (o.no_pictures) throw UsageError("--keep-failures: there are no images to keep with --no-pictures");
+  if (o.no_pictures) throw InputError("--keep-failures: there are no images to keep with --no-pictures");
   if (!kCanRecordBags)
-    throw UsageError(
+    throw InputError(
         "--keep-failures: this fly was built without ROS and cannot write bags; run scripts/build");
   makeFolder(job.failures_folder = o.output + "/failures");
   return job;

@@ -107,7 +107,7 @@ inline std::filesystem::path launchFileOf(const std::vector<std::string>& words,
 }
 
 /// \param words of the command that starts this launch file
-/// \throws UsageError with a line for each argument that cannot be
+/// \throws InputError with a line for each argument that cannot be
 inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& file) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const auto& word : words)
@@ -130,7 +130,7 @@ inline void checkLaunchArguments(const std::vector<std::string>& words, const st
     const std::string why = whyNot(known[static_cast<std::size_t>(argument - names.begin())], value);
     if (!why.empty()) faults.push_back(launch + ": " + name + ":=" + value + ": " + why);
   }
-  if (!faults.empty()) throw UsageError(parameters::joined(faults, "\n"));
+  if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
 }
 
 }  // namespace window_ingress::tools

@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace options = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 
 struct Job {
   std::string image, output = "reference.png", corners, params;
@@ -48,19 +47,19 @@ options::options_description describe(Job& job) {
 }
 
 int run(const Job& job) {
-  if (job.image.empty()) throw UsageError("no image given; see --help");
+  if (job.image.empty()) throw InputError("no image given; see --help");
   if (std::error_code none; fs::equivalent(job.image, job.output, none))
-    throw UsageError("--output " + job.output + " is the photograph itself; give another name");
+    throw InputError("--output " + job.output + " is the photograph itself; give another name");
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   cv::Mat image;
   if (fs::exists(job.image)) image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (image.empty()) throw UsageError(job.image + ": cannot be read as an image");
+  if (image.empty()) throw InputError(job.image + ": cannot be read as an image");
   std::vector<double> corners;
   if (!job.corners.empty()) {
     corners = tools::numbers("--corners", job.corners, 8);
   } else {
     if (!tools::hasDisplay())
-      throw UsageError("there is no display to click in: give --corners x1,y1,...,x4,y4");
+      throw InputError("there is no display to click in: give --corners x1,y1,...,x4,y4");
     const auto clicked = tools::CornerClicks(image).run();
     if (!clicked) throw std::runtime_error("given up, nothing written");
     corners = *clicked;

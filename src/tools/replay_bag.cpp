@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
 using tools::numbers;
-using tools::UsageError;
 
 namespace {
 
@@ -61,10 +60,10 @@ po::options_description describe(Options& o) {
 
 Options checked(Options o) {
   if (!o.corners.empty() && o.reference.picture.empty())
-    throw UsageError("--reference-corners needs --reference");
-  if (!o.topics.truth.empty() && o.size.empty()) throw UsageError("--truth needs --window-size");
+    throw InputError("--reference-corners needs --reference");
+  if (!o.topics.truth.empty() && o.size.empty()) throw InputError("--truth needs --window-size");
   if (!o.overwrite && fs::exists(fs::path(o.output) / "frames.csv"))
-    throw UsageError(o.output + " holds an earlier replay: --overwrite replaces it, or give another folder");
+    throw InputError(o.output + " holds an earlier replay: --overwrite replaces it, or give another folder");
   if (!o.corners.empty()) o.reference.corners = numbers("--reference-corners", o.corners, 8);
   return o;
 }
@@ -93,7 +92,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   params.pose.opening_width_m = size[0];
   params.pose.opening_height_m = size[1];
   const auto faults = parameters::outOfRange(params.pose);
-  if (!faults.empty()) throw UsageError("--window-size: " + parameters::joined(faults));
+  if (!faults.empty()) throw InputError("--window-size: " + parameters::joined(faults));
   return params;
 }
 
@@ -131,9 +130,9 @@ void judge(const Options& options, const adapters::ReplayParams& params,
   if (summary.refused > 0)
     say(std::to_string(summary.refused) + " messages refused, the last one: " + summary.refusal);
   if (summary.images == 0)
-    throw UsageError(options.bag + ": no image in " + params.topics.image + " can be read");
+    throw InputError(options.bag + ": no image in " + params.topics.image + " can be read");
   if (params.with_pose && summary.calibrated == 0)
-    throw UsageError(options.bag + ": no calibration: " + summary.refusal);
+    throw InputError(options.bag + ": no calibration: " + summary.refusal);
   say(std::to_string(summary.images) + " images, " +
       formatted("%.2f", summary.milliseconds / summary.images) + " ms each");
 }

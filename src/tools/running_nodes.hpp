@@ -43,7 +43,7 @@ inline bool startsNothing(const std::vector<std::string>& words) {
   });
 }
 
-/// \param words of roslaunch \throws UsageError that names the first of these nodes that runs already
+/// \param words of roslaunch \throws InputError that names the first of these nodes that runs already
 inline void checkNoneRuns(const std::vector<std::string>& words, const std::vector<const char*>& nodes) {
   if (startsNothing(words)) return;
   const char* name_space = std::getenv("ROS_NAMESPACE");
@@ -52,7 +52,7 @@ inline void checkNoneRuns(const std::vector<std::string>& words, const std::vect
   for (const char* node : nodes) {
     const auto uri = asked(master, "lookupNode", node);
     if (!uri.valid() || !asked(std::string(XmlRpc::XmlRpcValue(uri)), "getPid").valid()) continue;
-    throw UsageError(
+    throw InputError(
         std::string(node) + " runs already at " + master +
         ": this launch would end it. End the other launch first, or take another master: roslaunch -p PORT");
   }

@@ -19,8 +19,8 @@ struct ViewOptions {
     add("off-axis", options::value(&off_axis_rad), "with --distance: instead of the start's [rad]");
   }
   void check() const {
-    if (!(distance_m >= 0.0)) throw UsageError("--distance: needs metres, above 0");
-    if (off_axis_rad != 0.0 && distance_m == 0.0) throw UsageError("--off-axis needs --distance");
+    if (!(distance_m >= 0.0)) throw InputError("--distance: needs metres, above 0");
+    if (off_axis_rad != 0.0 && distance_m == 0.0) throw InputError("--off-axis needs --distance");
   }
 };
 

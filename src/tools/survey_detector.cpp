@@ -24,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kRadPerDegree = 0.017453292519943295;
@@ -69,7 +68,7 @@ po::options_description describe(Options& o) {
 std::vector<double> risingDistances(const std::string& option, const std::string& text) {
   const std::vector<double> distances = tools::numbersWithin(option, text, 0.3, 100.0);
   if (!std::is_sorted(distances.begin(), distances.end()))
-    throw UsageError(option + ": needs rising distances");
+    throw InputError(option + ": needs rising distances");
   return distances;
 }
 
@@ -80,9 +79,9 @@ std::vector<double> fixedDistances(const Options& o) {
 // Of the i-th frame.
 evaluation::ViewRange rangeOf(const Options& o, int i) {
   if (!(o.off_axis_deg >= 0.0 && o.off_axis_deg < 85.0))
-    throw UsageError("--off-axis: needs 0 to 85 degrees");
+    throw InputError("--off-axis: needs 0 to 85 degrees");
   const std::vector<double> fixed = fixedDistances(o), range_m = risingDistances("--distance", o.distance);
-  if (range_m.size() != 2) throw UsageError("--distance: needs two distances");
+  if (range_m.size() != 2) throw InputError("--distance: needs two distances");
   evaluation::ViewRange range;
   range.nearest_m = fixed.empty() ? range_m[0] : fixed[i % fixed.size()];
   range.farthest_m = fixed.empty() ? range_m[1] : range.nearest_m;
@@ -92,11 +91,11 @@ evaluation::ViewRange rangeOf(const Options& o, int i) {
 }
 
 void check(const Options& o) {
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
   if (o.scenarios.empty() == o.folders.empty())
-    throw UsageError("needs either --scenario or --load; see --help");
-  if (!o.folders.empty() && !o.save.empty()) throw UsageError("--save has no use with --load");
-  if (o.frames < 1) throw UsageError("--frames: needs 1 at least");
+    throw InputError("needs either --scenario or --load; see --help");
+  if (!o.folders.empty() && !o.save.empty()) throw InputError("--save has no use with --load");
+  if (o.frames < 1) throw InputError("--frames: needs 1 at least");
 }
 
 /// Looks for the window in one image after the other.
@@ -168,7 +167,7 @@ simulation::Scenario load(const std::string& file, std::uint32_t seed, const Opt
   if (!o.antialiasing.empty()) scenario.camera.antialiasing = o.antialiasing;
   if (o.without_target) scenario.window.present = false;
   const auto faults = simulation::faultsOf(scenario);
-  if (!faults.empty()) throw UsageError(file + ": " + faults[0]);
+  if (!faults.empty()) throw InputError(file + ": " + faults[0]);
   return scenario;
 }
 

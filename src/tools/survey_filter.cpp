@@ -19,7 +19,6 @@ namespace po = boost::program_options;
 using namespace window_ingress;
 using evaluation::FilterSample;
 using evaluation::SizeTold;
-using tools::UsageError;
 
 struct Options {
   int runs = 200;
@@ -46,9 +45,9 @@ po::options_description describe(Options& o) {
 }
 
 void check(const Options& o) {
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  if (o.runs < 2 || o.runs > 100000) throw UsageError("--runs: needs 2 to 100000");
-  if (o.size != "known" && o.size != "unknown") throw UsageError("--size: known or unknown");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
+  if (o.runs < 2 || o.runs > 100000) throw InputError("--runs: needs 2 to 100000");
+  if (o.size != "known" && o.size != "unknown") throw InputError("--size: known or unknown");
 }
 
 void write(std::ostream& out, int run, const FilterSample& s) {

@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 
 struct Options {
   std::vector<std::string> scenarios;
@@ -174,10 +173,10 @@ class Survey {
 };
 
 int run(const Options& o) {
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
   if (o.open + o.closed + o.synthetic + o.glass < 1)
-    throw UsageError("nothing to do: --open, --closed, --synthetic or --glass");
-  if (!(o.range.rate_hz >= 1.0 && o.range.rate_hz <= 120.0)) throw UsageError("--rate: needs 1 to 120");
+    throw InputError("nothing to do: --open, --closed, --synthetic or --glass");
+  if (!(o.range.rate_hz >= 1.0 && o.range.rate_hz <= 120.0)) throw InputError("--rate: needs 1 to 120");
   tools::makeFolder(o.output);
   Survey survey(o);
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.open); ++i) {

@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 
 constexpr double kRadPerDegree = 0.017453292519943295;
 
@@ -63,16 +62,16 @@ po::options_description describe(Options& o) {
 evaluation::PoseSurveySetup setupOf(const Options& o) {
   evaluation::PoseSurveySetup setup = evaluation::usualSetup();
   if (!o.camera.empty()) setup.camera = parameters::readCalibrationFile(o.camera);
-  if (setup.camera.hasDistortion()) throw UsageError(o.camera + ": needs a calibration without distortion");
+  if (setup.camera.hasDistortion()) throw InputError(o.camera + ": needs a calibration without distortion");
   if (o.window_size.empty()) return setup;
   const auto size = tools::numbers("--window-size", o.window_size, 2);
-  if (size[0] < 0.1 || size[1] < 0.1) throw UsageError("--window-size: needs 0.1 m at least");
+  if (size[0] < 0.1 || size[1] < 0.1) throw InputError("--window-size: needs 0.1 m at least");
   setup.opening = {size[0], size[1]};
   return setup;
 }
 
 int surveyNoise(const Options& o) {
-  if (o.draws < 1) throw UsageError("--draws: needs 1 at least");
+  if (o.draws < 1) throw InputError("--draws: needs 1 at least");
   const auto setup = setupOf(o);
   const auto distances = tools::numbersWithin("--at", o.distances, 0.3, 100.0);
   const auto yaws = tools::numbersWithin("--yaw", o.yaws, 0.0, 80.0);
@@ -88,7 +87,7 @@ int surveyNoise(const Options& o) {
         results.push_back(
             evaluation::surveyCell(setup, {distance, yaw * kRadPerDegree, noise}, o.draws, seed++));
         if (results.back().draws == 0)
-          throw UsageError("--at: the window does not fit into the image from " + std::to_string(distance) +
+          throw InputError("--at: the window does not fit into the image from " + std::to_string(distance) +
                            " m");
         table << evaluation::poseSurveyRow(results.back()) << "\n";
       }
@@ -147,7 +146,7 @@ class Chain {
 };
 
 int surveyImages(const Options& o) {
-  if (o.window_size.empty()) throw UsageError("--load needs --window-size");
+  if (o.window_size.empty()) throw InputError("--load needs --window-size");
   tools::makeFolder(o.output);
   Chain chain(o);
   for (const std::string& name : o.folders) {
@@ -164,7 +163,7 @@ int surveyImages(const Options& o) {
 }
 
 int run(const Options& o) {
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
   return o.folders.empty() ? surveyNoise(o) : surveyImages(o);
 }
 

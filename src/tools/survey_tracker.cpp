@@ -24,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace window_ingress;
-using tools::UsageError;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kAttitudeNoise_rad = 0.002, kAttitudeBias_rad = 0.01;
@@ -60,14 +59,14 @@ po::options_description describe(Options& o) {
 }
 
 void check(const Options& o) {
-  if (o.output.empty()) throw UsageError("--output is missing; see --help");
-  if (o.scenarios.empty()) throw UsageError("--scenario is missing; see --help");
-  if (o.flights < 1) throw UsageError("--flights: needs 1 at least");
+  if (o.output.empty()) throw InputError("--output is missing; see --help");
+  if (o.scenarios.empty()) throw InputError("--scenario is missing; see --help");
+  if (o.flights < 1) throw InputError("--flights: needs 1 at least");
   if (!(o.range.speed_mps >= 0.1 && o.range.speed_mps <= 10.0))
-    throw UsageError("--speed: needs 0.1 to 10 m/s");
-  if (!(o.range.end_m >= 0.2 && o.range.end_m <= 3.0)) throw UsageError("--end: needs 0.2 to 3 m");
+    throw InputError("--speed: needs 0.1 to 10 m/s");
+  if (!(o.range.end_m >= 0.2 && o.range.end_m <= 3.0)) throw InputError("--end: needs 0.2 to 3 m");
   if (!(o.range.wobble_rad >= 0.0 && o.range.wobble_rad <= 0.3))
-    throw UsageError("--wobble: needs 0 to 0.3 rad");
+    throw InputError("--wobble: needs 0 to 0.3 rad");
 }
 
 detection::DetectorParams paramsOf(const Options& o) {

@@ -27,7 +27,6 @@ namespace options = boost::program_options;
 using namespace window_ingress;
 using parameters::NamedField;
 using tools::Bench;
-using tools::UsageError;
 
 const char *const kStages = "stages", *const kSliders = "parameters";
 const char* const kKeys =
@@ -71,19 +70,19 @@ options::options_description describe(Job& job) {
 }
 
 void save(const std::string& file, const Bench& bench) {
-  if (file.empty()) throw UsageError("--output is missing: where to save");
+  if (file.empty()) throw InputError("--output is missing: where to save");
   std::ofstream output(file);
   output << "# Written by tune_detector: what differs from the defaults. Give it as config:= to launch "
             "files, as --params to "
             "tools.\n"
          << bench.overlay();
   output.close();
-  if (!output) throw UsageError(file + ": cannot be written");
+  if (!output) throw InputError(file + ": cannot be written");
   std::cout << "written: " << file << "\n" << bench.overlay() << std::flush;
 }
 
 int runHeadless(const Job& job, tools::TuningSource& source, Bench& bench) {
-  if (source.count() == 0) throw UsageError("--headless needs images or a bag");
+  if (source.count() == 0) throw InputError("--headless needs images or a bag");
   std::vector<double> milliseconds;
   int found = 0;
   for (int i = 0; i < source.count(); ++i, source.step(1)) {
@@ -94,7 +93,7 @@ int runHeadless(const Job& job, tools::TuningSource& source, Bench& bench) {
   std::cout << "windows in " << found << " of " << source.count() << " images, median "
             << evaluation::quantile(milliseconds, 0.5) << " ms\n";
   if (!job.sheet.empty() && !cv::imwrite(job.sheet, bench.sheet(source.image(), job.width)))
-    throw UsageError(job.sheet + ": cannot be written");
+    throw InputError(job.sheet + ": cannot be written");
   if (!job.output.empty()) save(job.output, bench);
   return 0;
 }
@@ -204,11 +203,11 @@ class Desk {
 };
 
 int run(Job job) {
-  if (job.source.empty()) throw UsageError("no SOURCE given; see --help");
+  if (job.source.empty()) throw InputError("no SOURCE given; see --help");
   if (job.every < 1 || job.most < 1 || job.width < 64)
-    throw UsageError("--every, --most: at least 1; --width: at least 64");
+    throw InputError("--every, --most: at least 1; --width: at least 64");
   if (!job.headless && job.output.empty())
-    throw UsageError("--output is missing: where 's' saves; see --help");
+    throw InputError("--output is missing: where 's' saves; see --help");
   if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);
   auto start = tools::readParams(job.params, job.reference.picture, job.reference.corners);
   const auto fields = parameters::fieldsOf(start);
@@ -219,7 +218,7 @@ int run(Job job) {
   Bench bench(start, reference);
   if (job.headless) return runHeadless(job, *source, bench);
   if (!tools::hasDisplay())
-    throw UsageError("there is no display for the trackbars; --headless --set NAME=VALUE does without");
+    throw InputError("there is no display for the trackbars; --headless --set NAME=VALUE does without");
   return Desk(job, *source, bench).run();
 }
 

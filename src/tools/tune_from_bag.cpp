@@ -25,7 +25,6 @@ using namespace window_ingress;
 using evaluation::DetectionCounts;
 using evaluation::LabelledImage;
 using parameters::fieldsOf;
-using tools::UsageError;
 
 struct Job {
   std::vector<std::string> bags;
@@ -81,21 +80,21 @@ std::vector<std::string> namesOf(const std::string& text) {
 }
 
 void check(const Job& job) {
-  if (job.output.empty()) throw UsageError("--output is missing; see --help");
-  if (job.labels.empty() == job.bags.empty()) throw UsageError("give either --labels or --bag; see --help");
-  if (job.labels.empty() != job.images.empty()) throw UsageError("--labels and --images go together");
+  if (job.output.empty()) throw InputError("--output is missing; see --help");
+  if (job.labels.empty() == job.bags.empty()) throw InputError("give either --labels or --bag; see --help");
+  if (job.labels.empty() != job.images.empty()) throw InputError("--labels and --images go together");
   if (!job.bags.empty() && (job.topics.truth.empty() || job.size.empty()))
-    throw UsageError("--bag needs --truth and --window-size: without them nobody knows what is right");
-  if (job.every < 1 || job.trials < 1) throw UsageError("--every and --trials: at least 1");
-  if (!(job.held_out > 0.0 && job.held_out < 1.0)) throw UsageError("--held-out: between 0 and 1");
+    throw InputError("--bag needs --truth and --window-size: without them nobody knows what is right");
+  if (job.every < 1 || job.trials < 1) throw InputError("--every and --trials: at least 1");
+  if (!(job.held_out > 0.0 && job.held_out < 1.0)) throw InputError("--held-out: between 0 and 1");
   if (!job.corners.empty() && job.reference.picture.empty())
-    throw UsageError("--reference-corners needs --reference");
+    throw InputError("--reference-corners needs --reference");
 }
 
 Images read(const Job& job) {
   if (!job.labels.empty()) return evaluation::readLabelled(job.labels, job.images);
   const auto size = tools::numbers("--window-size", job.size, 2);
-  if (!(size[0] > 0.0 && size[1] > 0.0)) throw UsageError("--window-size: metres above 0");
+  if (!(size[0] > 0.0 && size[1] > 0.0)) throw InputError("--window-size: metres above 0");
   Images samples;
   for (const std::string& file : job.bags) {
     rosbag::Bag bag;
@@ -141,7 +140,7 @@ void write(const std::string& file, const detection::DetectorParams& tuned, cons
          << parameters::toYaml(parameters::changed(fieldsOf(after), fieldsOf(defaults)),
                                "window_detector/detector");
   output.close();
-  if (!output) throw UsageError(file + ": cannot be written");
+  if (!output) throw InputError(file + ": cannot be written");
 }
 
 int run(const Job& job) {

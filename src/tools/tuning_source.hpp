@@ -84,17 +84,17 @@ inline void addFile(const std::filesystem::path& path, StoredImages& images) {
 }
 
 /// \param source image, folder, bag, or the name of a topic
-/// \param every, most of a bag: one image in so many, and no more than so many. \throws UsageError
+/// \param every, most of a bag: one image in so many, and no more than so many. \throws InputError
 inline std::unique_ptr<TuningSource> openSource(const std::string& source, const std::string& image_topic,
                                                 int every, int most) {
   namespace fs = std::filesystem;
   const bool exists = fs::exists(source);
   if (!exists && source.rfind('/', 0) == 0 && source.find('.') == std::string::npos) {
     if (!ros::master::check())
-      throw UsageError(source + ": no such file, and no ROS master to ask for a topic");
+      throw InputError(source + ": no such file, and no ROS master to ask for a topic");
     return std::make_unique<Camera>(source);
   }
-  if (!exists) throw UsageError(source + ": no such image, folder or bag; a topic begins with '/'");
+  if (!exists) throw InputError(source + ": no such image, folder or bag; a topic begins with '/'");
   auto images = std::make_unique<StoredImages>();
   if (fs::is_directory(source)) {
     std::vector<fs::path> files;
@@ -114,7 +114,7 @@ inline std::unique_ptr<TuningSource> openSource(const std::string& source, const
   } else {
     addFile(source, *images);
   }
-  if (images->count() == 0) throw UsageError(source + ": no image in it that can be read");
+  if (images->count() == 0) throw InputError(source + ": no image in it that can be read");
   return images;
 }
 

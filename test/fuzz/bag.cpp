@@ -18,7 +18,7 @@ void bag(const std::uint8_t* data, std::size_t size) {
       require(!frame.image.empty(), "a frame has an image");
       ++frames;
     });
-  } catch (const adapters::BagError& error) {
+  } catch (const InputError& error) {
     require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
   }
 }

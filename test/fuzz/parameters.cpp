@@ -50,9 +50,7 @@ void calibration(const MemoryFile& file) {
   try {
     require(window_ingress::parameters::readCalibrationFile(file.name()).validate().empty(),
             "an accepted camera is one");
-  } catch (const std::logic_error&) {
-    throw;
-  } catch (const std::runtime_error& error) {
+  } catch (const InputError& error) {
     require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
   }
 }
@@ -65,7 +63,7 @@ void parameters(const std::uint8_t* data, std::size_t size) {
   configuration::Overlay overlay;
   try {
     overlay = configuration::readOverlay(file.name());
-  } catch (const window_ingress::parameters::YamlError& error) {
+  } catch (const InputError& error) {
     return require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
   }
   use(overlay);

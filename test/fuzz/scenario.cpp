@@ -11,7 +11,7 @@ void scenario(const std::uint8_t* data, std::size_t size) {
     try {
       const simulation::Scenario loaded = simulation::loadScenario(file.name(), seed);
       require(simulation::faultsOf(loaded).empty(), "an accepted scenario has no fault");
-    } catch (const simulation::ScenarioError& error) {
+    } catch (const InputError& error) {
       require(std::string(error.what()).find(file.name()) == 0, "a refusal names the file");
     }
   }

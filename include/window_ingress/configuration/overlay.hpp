@@ -37,8 +37,8 @@ struct Overlay {
   std::set<std::string> said;  ///< paths of what the last file says: "vehicle/half_width_m"
 };
 
-/// Reads a file over what there is; no file, an empty name, leaves everything as it is. What it says of the vehicle is
-/// told to pose node and navigator, too. \throws parameters::YamlError that names file, line and key of what
+/// Reads a file over what there is; no file, an empty name, leaves everything as it is. What it says of the
+/// vehicle is told to pose node and navigator, too. \throws InputError that names file, line and key of what
 /// nobody reads and of what cannot be
 Overlay readOverlay(const std::string& file, Overlay overlay = {});
 

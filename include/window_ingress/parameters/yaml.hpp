@@ -9,6 +9,7 @@
 
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/text/input_error.hpp"
 
 namespace YAML {
 class Node;
@@ -17,9 +18,9 @@ class Node;
 namespace window_ingress::parameters {
 
 /// A yaml file that cannot be used: `what()` has a line for each fault, "file:line: key: what is wrong".
-class YamlError : public std::runtime_error {
+class YamlError : public InputError {
  public:
-  explicit YamlError(const std::string& what, int line = 0) : std::runtime_error(what), line(line) {}
+  explicit YamlError(const std::string& what, int line = 0) : InputError(what), line(line) {}
   int line;  ///< of the file
 };
 

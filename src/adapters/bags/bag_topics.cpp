@@ -46,10 +46,10 @@ class Chooser {
     for (const auto& [topic, type] : topics_)
       if (types.count(type) > 0 && !isAside(topic)) found[topic] = type;
     if (found.empty() && !needed.empty())
-      throw BagError(bag_.getFileName() + ": no " + needed + " in it: no topic of type " + *types.begin() +
-                     ", only " + listed(topics_));
+      throw InputError(bag_.getFileName() + ": no " + needed + " in it: no topic of type " + *types.begin() +
+                       ", only " + listed(topics_));
     if (found.size() > 1)
-      throw BagError(bag_.getFileName() + ": choose one with " + option + ": " + listed(found));
+      throw InputError(bag_.getFileName() + ": choose one with " + option + ": " + listed(found));
     return found.empty() ? "" : found.begin()->first;
   }
 
@@ -60,8 +60,8 @@ class Chooser {
       const auto found = topics_.find(topic);
       if (found != topics_.end() && types.count(found->second) > 0) return topic;
     }
-    throw BagError(bag_.getFileName() + ": " + option + " " + wanted + " is not in it as " + *types.begin() +
-                   "; it has " + listed(topics_));
+    throw InputError(bag_.getFileName() + ": " + option + " " + wanted + " is not in it as " +
+                     *types.begin() + "; it has " + listed(topics_));
   }
   const rosbag::Bag& bag_;
   std::map<std::string, std::string> topics_;
@@ -70,17 +70,17 @@ class Chooser {
 }  // namespace
 
 void openBag(rosbag::Bag& bag, const std::string& file) {
-  if (std::filesystem::is_directory(file)) throw BagError(file + ": is a folder; name one bag in it");
+  if (std::filesystem::is_directory(file)) throw InputError(file + ": is a folder; name one bag in it");
   if (const std::string damage = whyDamaged(file); !damage.empty())
-    throw BagError(file + ": damaged: " + damage + "; see 'rosbag check' and 'rosbag reindex'");
+    throw InputError(file + ": damaged: " + damage + "; see 'rosbag check' and 'rosbag reindex'");
   try {
     bag.open(file, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {
-    throw BagError(file + ": has no index, the recording was cut off; repair it with 'rosbag reindex'");
+    throw InputError(file + ": has no index, the recording was cut off; repair it with 'rosbag reindex'");
   } catch (const rosbag::BagException& error) {
-    throw BagError(file + ": cannot be read as a bag: " + error.what());
+    throw InputError(file + ": cannot be read as a bag: " + error.what());
   } catch (const std::exception& error) {  // of whatever a damaged file makes it allocate
-    throw BagError(file + ": damaged: " + error.what());
+    throw InputError(file + ": damaged: " + error.what());
   }
 }
 

@@ -2,28 +2,23 @@
 
 #include <rosbag/bag.h>
 
-#include <stdexcept>
 #include <string>
 
-namespace window_ingress::adapters {
+#include "window_ingress/text/input_error.hpp"
 
-/// A bag that cannot be used: `what()` is one line that says what, where, and what to do.
-class BagError : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
-};
+namespace window_ingress::adapters {
 
 /// Topics of a bag; empty: found by type.
 struct BagTopics {
   std::string image, camera_info, odom, imu, truth;
 };
 
-/// Opens a bag for reading. \throws BagError for a missing, empty, truncated or otherwise broken file
+/// Opens a bag for reading. \throws InputError for a missing, empty, truncated or otherwise broken file
 void openBag(rosbag::Bag& bag, const std::string& file);
 
 /// Fills in what is empty: the one topic of the right type, ground truth and debug images left aside. An
 /// image topic may be named without its "/compressed". `odom`, `imu` and `truth` may stay empty. \throws
-/// BagError if there are no images, no calibration, or several topics to choose from
+/// InputError if there are no images, no calibration, or several topics to choose from
 BagTopics chooseTopics(const rosbag::Bag& bag, const BagTopics& wanted);
 
 }  // namespace window_ingress::adapters

@@ -41,7 +41,7 @@ geometry::PinholeCamera cameraOf(const rosbag::Bag& bag, const std::string& topi
     if (camera) return *camera.value;
     reason = camera.reason;
   }
-  throw BagError(bag.getFileName() + ": " + topic + ": " + reason);
+  throw InputError(bag.getFileName() + ": " + topic + ": " + reason);
 }
 
 // Images of one second look alike.
@@ -54,7 +54,7 @@ auto readingBag(const rosbag::Bag& bag, const Work& work) {
   try {
     return work();
   } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
-    throw BagError(bag.getFileName() + ": damaged: " + error.what());
+    throw InputError(bag.getFileName() + ": damaged: " + error.what());
   }
 }
 
@@ -77,8 +77,8 @@ std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, co
       return true;
     });
     if (images.empty())
-      throw BagError(bag.getFileName() + ": no image on " + topics.image + " with the stamp of a pose on " +
-                     topics.truth + " and the size of the calibration");
+      throw InputError(bag.getFileName() + ": no image on " + topics.image + " with the stamp of a pose on " +
+                       topics.truth + " and the size of the calibration");
     return images;
   });
 }

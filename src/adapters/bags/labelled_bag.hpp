@@ -11,7 +11,7 @@ namespace window_ingress::adapters {
 /// Images of a bag with what they show, by a topic with the true pose of the window.
 /// \param topics as chosen by `chooseTopics`, `truth` among them
 /// \param every take one image of so many
-/// \throws BagError if the bag is damaged, or nothing in it can be used
+/// \throws InputError if the bag is damaged, or nothing in it can be used
 std::vector<evaluation::LabelledImage> labelledImages(const rosbag::Bag& bag, const BagTopics& topics,
                                                       const geometry::OpeningSize& opening, int every);
 

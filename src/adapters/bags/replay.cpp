@@ -238,11 +238,11 @@ ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
                       rosbag::TopicQuery(std::vector<std::string>{t.image, t.camera_info, t.odom, t.imu}));
     for (const rosbag::MessageInstance& message : view) run.take(message);
   } catch (const ros::Exception& error) {  // rosbag's own and those of deserialisation
-    throw BagError(bag.getFileName() + ": damaged: " + error.what());
+    throw InputError(bag.getFileName() + ": damaged: " + error.what());
   } catch (const std::bad_alloc&) {  // lengths of a damaged message
-    throw BagError(bag.getFileName() + ": damaged: a message asks for more memory than there is");
+    throw InputError(bag.getFileName() + ": damaged: a message asks for more memory than there is");
   } catch (const std::length_error&) {
-    throw BagError(bag.getFileName() + ": damaged: a message is longer than any can be");
+    throw InputError(bag.getFileName() + ": damaged: a message is longer than any can be");
   }
   return run.finish();
 }

@@ -55,13 +55,13 @@ struct ReplaySummary {
   double milliseconds = 0.0;           ///< spent in the detector and the pose
 };
 
-/// The target as the bag itself has it, if it does: what the nodes would take. \throws ParameterError
+/// The target as the bag itself has it, if it does: what the nodes would take. \throws InputError
 std::optional<detection::ReferenceAppearance> recordedReference(const rosbag::Bag& bag,
                                                                 const ReplayParams& params);
 
 /// A stamp more than `kJumpSec` before the newest one is a jump back in time: everything starts anew, as it
 /// does in the nodes when a bag is looped. \param each called for each image in the order of the bag \param
-/// jumped called at each jump, with what to say about it \throws BagError if the bag is damaged half way
+/// jumped called at each jump, with what to say about it \throws InputError if the bag is damaged half way
 ReplaySummary replay(const rosbag::Bag& bag, const ReplayParams& params,
                      const std::function<void(const ReplayedFrame&)>& each,
                      const std::function<void(const std::string&)>& jumped = {});

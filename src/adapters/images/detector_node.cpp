@@ -182,7 +182,7 @@ bool DetectorNode::captureReference(Trigger::Request&, Trigger::Response& respon
   try {
     saveReference(params_.reference.capture_file, reference);
     response.message += "; written to " + params_.reference.capture_file;
-  } catch (const ParameterError& error) {
+  } catch (const InputError& error) {
     response.success = false;
     response.message += std::string(", but it is not kept: ") + error.what();
   }

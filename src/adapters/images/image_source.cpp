@@ -65,7 +65,7 @@ void ImageSource::subscribePlugin(const std::string& transport) {
                              image_transport::TransportHints(transport, ros::TransportHints().tcpNoDelay()));
   } catch (const image_transport::Exception& error) {
     const std::string why = whyNoTransport(transport);
-    throw ParameterError(why.empty() ? error.what() : why);
+    throw InputError(why.empty() ? error.what() : why);
   }
   health_.watch([this] { return plugin_subscriber_.getTopic(); },
                 [this] { return static_cast<int>(plugin_subscriber_.getNumPublishers()); });

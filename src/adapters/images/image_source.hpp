@@ -21,7 +21,7 @@ class ImageSource {
  public:
   using Callback = std::function<void(const std_msgs::Header&, const DecodedImage&)>;
 
-  /// \throws ParameterError that lists the transports if there is no such one
+  /// \throws InputError that lists the transports if there is no such one
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
               const ImageLimits& limits, const StampLimits& stamps, Callback callback);
 

@@ -33,14 +33,13 @@ detection::ReferenceAppearance makeReference(const cv::Mat& image, const std::ve
                                              const detection::DetectorParams& params) {
   if (corners.empty()) return detection::referenceFromImage(image, params);
   if (corners.size() != 8)
-    throw ParameterError("reference/corners holds " + std::to_string(corners.size()) +
-                         " numbers instead of 8");
+    throw InputError("reference/corners holds " + std::to_string(corners.size()) + " numbers instead of 8");
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto canonical = geometry::canonical(quad);
-  if (!canonical) throw ParameterError("reference/corners are no convex quadrilateral in cyclic order");
+  if (!canonical) throw InputError("reference/corners are no convex quadrilateral in cyclic order");
   if (const std::string fault = detection::ReferenceAppearance::faultOf(image, *canonical); !fault.empty())
-    throw ParameterError("reference/corners: " + fault);
+    throw InputError("reference/corners: " + fault);
   return {image, *canonical};
 }
 
@@ -48,7 +47,7 @@ detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImag
                                              const ImageLimits& limits,
                                              const detection::DetectorParams& params) {
   const DecodedImage decoded = decode(boost::make_shared<sensor_msgs::Image>(message.image), limits);
-  if (!decoded.reason.empty()) throw ParameterError("reference image: " + decoded.reason);
+  if (!decoded.reason.empty()) throw InputError("reference image: " + decoded.reason);
   std::vector<double> corners;
   for (std::size_t i = 0; i < 4; ++i)
     corners.insert(corners.end(), {message.corner_x[i], message.corner_y[i]});
@@ -62,7 +61,7 @@ detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
   if (std::filesystem::exists(reference.picture))  // else OpenCV complains first
     image = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (image.empty())
-    throw ParameterError("reference/picture: cannot read '" + reference.picture + "' as an image");
+    throw InputError("reference/picture: cannot read '" + reference.picture + "' as an image");
   return makeReference(image, reference.corners, params);
 }
 
@@ -75,7 +74,7 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
   const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
   if (!writeImage(path.string(), reference.image()) ||
       !writeImage(understood.string(), detection::drawReference(reference)))
-    throw ParameterError("reference: cannot write '" + path.string() + "' as an image, or what is beside it");
+    throw InputError("reference: cannot write '" + path.string() + "' as an image, or what is beside it");
   const fs::path text = fs::path(path).replace_extension(".yaml");
   std::ofstream output(text);
   output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(path.string())
@@ -83,7 +82,7 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
   for (int i = 0; i < 4; ++i) output << (i ? ", " : "") << opening[i].x() << ", " << opening[i].y();
   output << "]\n";
   output.close();
-  if (!output) throw ParameterError("reference: cannot write '" + text.string() + "'");
+  if (!output) throw InputError("reference: cannot write '" + text.string() + "'");
 }
 
 }  // namespace window_ingress::adapters

@@ -17,22 +17,22 @@ namespace window_ingress::adapters {
 
 using configuration::ReferenceParams;
 
-/// A reference from an image and eight numbers, or none for the whole image. \throws ParameterError
+/// A reference from an image and eight numbers, or none for the whole image. \throws InputError
 detection::ReferenceAppearance makeReference(const cv::Mat& image, const std::vector<double>& corners,
                                              const detection::DetectorParams& params);
 
-/// The same from a message, live or recorded. \throws ParameterError
+/// The same from a message, live or recorded. \throws InputError
 detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImage& message,
                                              const ImageLimits& limits,
                                              const detection::DetectorParams& params);
 
-/// Reads the operator's image. \throws ParameterError that says what is wrong with it
+/// Reads the operator's image. \throws InputError that says what is wrong with it
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params);
 
 /// Writes a reference: the image; in a file of the same name that ends in .yaml the parameters that load
 /// it, below the node's name, so that it can be laid over the defaults as `config:=`; and in one that ends in
-/// _understood.png what is made of it (`detection::drawReference`). \throws ParameterError that says which
+/// _understood.png what is made of it (`detection::drawReference`). \throws InputError that says which
 /// file could not be written
 void saveReference(const std::string& file, const detection::ReferenceAppearance& reference);
 

@@ -19,15 +19,15 @@ void checkRange(const std::vector<double>& pose) {
     const double most = i < 3 ? kFarthest_m : kHalfTurn;
     check(std::string("pose: ") + kNames[i] + (i < 3 ? " [m]" : " [rad, not degrees]"), pose[i], -most, most);
   }
-  if (!check.faults().empty()) throw ParameterError(parameters::joined(check.faults()));
+  if (!check.faults().empty()) throw InputError(parameters::joined(check.faults()));
 }
 
 }  // namespace
 
 Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose) {
   if (pose.size() != 6)
-    throw ParameterError("pose has " + std::to_string(pose.size()) +
-                         " numbers, must have six: [x, y, z, yaw, pitch, roll] in metres and radians");
+    throw InputError("pose has " + std::to_string(pose.size()) +
+                     " numbers, must have six: [x, y, z, yaw, pitch, roll] in metres and radians");
   checkRange(pose);
   const Eigen::Matrix3d R_base_link = (Eigen::AngleAxisd(pose[3], Eigen::Vector3d::UnitZ()) *
                                        Eigen::AngleAxisd(pose[4], Eigen::Vector3d::UnitY()) *

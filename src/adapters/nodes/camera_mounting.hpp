@@ -25,7 +25,7 @@ struct CameraMountingParams {
 };
 
 /// \param pose x, y, z [m], yaw, pitch, roll [rad]: turned about z, then y, then x. Zero angles look ahead, a
-/// positive pitch looks down, a positive yaw to the left. \throws ParameterError if these are not six
+/// positive pitch looks down, a positive yaw to the left. \throws InputError if these are not six
 /// numbers, or none of a camera on a small vehicle: degrees in place of radians, millimetres
 Eigen::Isometry3d T_base_cameraOf(const std::vector<double>& pose);
 

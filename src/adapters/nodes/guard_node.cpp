@@ -9,7 +9,7 @@ namespace {
 
 GuardParams checked(const GuardParams& params) {
   if (params.lockstep && !ros::Time::isSimTime())
-    throw ParameterError("lockstep is for simulated time only, and use_sim_time is not set");
+    throw InputError("lockstep is for simulated time only, and use_sim_time is not set");
   return params;
 }
 

@@ -31,7 +31,7 @@ NavigatorNodeParams read(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
   auto params = readParameters<NavigatorNodeParams>(nh, pnh, vehicle);
   params.navigator.vehicle = vehicle;
   if (params.start_at_once && !params.lockstep)
-    throw ParameterError("start_at_once is for lockstep only: call ~start");
+    throw InputError("start_at_once is for lockstep only: call ~start");
   return params;
 }
 

@@ -12,7 +12,7 @@ constexpr double kOdometryGoneSec = 0.3;
 
 PoseNodeParams checked(PoseNodeParams params) {
   if (params.lockstep && params.gravity_source == "tf")
-    throw ParameterError("gravity_source is 'tf', must be imu or odom in lockstep");
+    throw InputError("gravity_source is 'tf', must be imu or odom in lockstep");
   return params;
 }
 

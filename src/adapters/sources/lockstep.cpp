@@ -14,7 +14,7 @@ Lockstep::Lockstep(ros::NodeHandle& nh, Diagnostics& diagnostics, std::function<
                    std::function<void(const Step&)> work)
     : complete_(std::move(complete)), work_(std::move(work)) {
   if (!ros::Time::isSimTime())
-    throw ParameterError("lockstep is for simulated time only, and use_sim_time is not set");
+    throw InputError("lockstep is for simulated time only, and use_sim_time is not set");
   subscriber_ = subscribeGuarded<Step>(nh, "lockstep", 10, diagnostics, [this](const auto& message) {
     pending_ = message;
     check();

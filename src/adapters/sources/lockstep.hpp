@@ -18,7 +18,7 @@ class Lockstep {
 
   /// \param complete whether everything that the step names, and what other nodes make of it, has come
   /// \param work what the node does in this step
-  /// \throws ParameterError without use_sim_time: on a real vehicle nothing may wait for a simulated world
+  /// \throws InputError without use_sim_time: on a real vehicle nothing may wait for a simulated world
   Lockstep(ros::NodeHandle& nh, Diagnostics& diagnostics, std::function<bool(const Step&)> complete,
            std::function<void(const Step&)> work);
 

@@ -147,15 +147,15 @@ std::vector<std::string> ParameterReader::faults() const {
 
 void ParameterReader::throwIfFaulty() const {
   const std::vector<std::string> all = faults();
-  if (!all.empty()) throw ParameterError(parameters::joined(all));
+  if (!all.empty()) throw InputError(parameters::joined(all));
 }
 
 XmlRpcValue parameterTree(const ros::NodeHandle& nh) {
   XmlRpcValue tree;
   if (!nh.getParam(nh.getNamespace(), tree)) return emptyStruct();
   if (tree.getType() != XmlRpcValue::TypeStruct)
-    throw ParameterError(nh.getNamespace() + " is " + typeName(tree) +
-                         ", must be a mapping of names to values: these parameters stand below it");
+    throw InputError(nh.getNamespace() + " is " + typeName(tree) +
+                     ", must be a mapping of names to values: these parameters stand below it");
   return tree;
 }
 

@@ -13,14 +13,9 @@
 #include "window_ingress/navigation/vehicle_params.hpp"
 #include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/text/input_error.hpp"
 
 namespace window_ingress::adapters {
-
-/// Parameters that a node must not start with: `what()` is one line that names each of them.
-class ParameterError : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
-};
 
 /// Visitor over the tree below one namespace. Missing parameters keep their defaults; a double may be given
 /// as an int; wrong types, numbers out of range and names that nobody asked for are collected.
@@ -50,7 +45,7 @@ class ParameterReader {
 
   /// Everything wrong so far, unknown names included; empty if nothing is.
   std::vector<std::string> faults() const;
-  void throwIfFaulty() const;  ///< \throws ParameterError
+  void throwIfFaulty() const;  ///< \throws InputError
 
  private:
   const XmlRpc::XmlRpcValue* find(const std::string& name);
@@ -65,12 +60,12 @@ class ParameterReader {
   std::vector<std::string> faults_;
 };
 
-/// All parameters below the namespace of `nh`, an empty struct if there are none. \throws ParameterError if
+/// All parameters below the namespace of `nh`, an empty struct if there are none. \throws InputError if
 /// there stands anything else
 XmlRpc::XmlRpcValue parameterTree(const ros::NodeHandle& nh);
 
 /// What stands below the namespace of `nh`, which `Params::visit` lists, and what is wrong with it.
-/// \throws ParameterError as `parameterTree`
+/// \throws InputError as `parameterTree`
 template <typename Params>
 ParameterReader readInto(Params& params, const ros::NodeHandle& nh,
                          const std::set<std::string>& others = {}) {
@@ -80,7 +75,7 @@ ParameterReader readInto(Params& params, const ros::NodeHandle& nh,
   return reader;
 }
 
-/// Reads the parameters of one node. \throws ParameterError
+/// Reads the parameters of one node. \throws InputError
 template <typename Params>
 Params readParameters(const ros::NodeHandle& pnh) {
   Params params;
@@ -88,7 +83,7 @@ Params readParameters(const ros::NodeHandle& pnh) {
   return params;
 }
 
-/// The same, and what all nodes know of the vehicle: `vehicle`, beside the nodes. \throws ParameterError that
+/// The same, and what all nodes know of the vehicle: `vehicle`, beside the nodes. \throws InputError that
 /// says what is wrong in both
 template <typename Params>
 Params readParameters(const ros::NodeHandle& nh, const ros::NodeHandle& pnh,

@@ -8,11 +8,11 @@ namespace window_ingress::adapters {
 
 void refuseInLockstep(const simulation::Scenario& scenario) {
   if (scenario.vehicle.profile == "external")
-    throw ParameterError("lockstep: the time of an external vehicle is its own; set lockstep to false");
+    throw InputError("lockstep: the time of an external vehicle is its own; set lockstep to false");
   for (const auto& fault : scenario.faults)
     if (fault.unit == "clock" || fault.unit == "tf")
-      throw ParameterError("lockstep: nobody looks at " + fault.unit +
-                           " there, its fault would do nothing; set lockstep to false");
+      throw InputError("lockstep: nobody looks at " + fault.unit +
+                       " there, its fault would do nothing; set lockstep to false");
 }
 
 WorldLockstep::WorldLockstep(ros::NodeHandle& nh, const std::string& camera_frame, double timeout_sec)

@@ -11,7 +11,7 @@
 
 namespace window_ingress::adapters {
 
-/// \throws ParameterError if the scenario holds what lockstep cannot do
+/// \throws InputError if the scenario holds what lockstep cannot do
 void refuseInLockstep(const simulation::Scenario& scenario);
 
 /// The world's side of lockstep: says where it stands, and knows when the vehicle has answered.

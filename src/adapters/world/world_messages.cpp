@@ -72,7 +72,7 @@ std::string checkedUrl(const std::string& url) {
   for (const char* scheme : {"file:///", "package://"})
     if (url.rfind(scheme, 0) == 0) return url;
   if (!url.empty())
-    throw ParameterError("camera_info_url is '" + url + "', must begin with file:/// or package://");
+    throw InputError("camera_info_url is '" + url + "', must begin with file:/// or package://");
   return url;
 }
 

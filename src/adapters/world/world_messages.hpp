@@ -24,7 +24,7 @@ window_ingress::ReferenceImage toReferenceMsg(const simulation::World& world, co
 sensor_msgs::Imu toImuMsg(const simulation::ImuSample& sample, const ros::Time& stamp,
                           const FrameNames& frames);
 geometry_msgs::PoseStamped toPoseStampedMsg(const Eigen::Isometry3d& pose, const std_msgs::Header& header);
-/// The address of a calibration file as camera_info_manager has it, or none. \throws ParameterError
+/// The address of a calibration file as camera_info_manager has it, or none. \throws InputError
 std::string checkedUrl(const std::string& url);
 
 }  // namespace window_ingress::adapters

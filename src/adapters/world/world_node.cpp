@@ -259,12 +259,12 @@ bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
   fault.duration_sec = request.duration_sec;
   const bool unheard = lockstep_ && (fault.unit == "clock" || fault.unit == "tf");
   try {
-    if (unheard) throw simulation::ScenarioError("fault: in lockstep nobody looks at " + fault.unit);
+    if (unheard) throw InputError("fault: in lockstep nobody looks at " + fault.unit);
     world_->inject(fault);
     response.success = true;
     response.message = fault.unit + " " + fault.kind + " from " + std::to_string(now().toSec()) + " s for " +
                        std::to_string(fault.duration_sec) + " s";
-  } catch (const simulation::ScenarioError& error) {
+  } catch (const InputError& error) {
     response.message = error.what();
   }
   ROS_INFO("inject: %s", response.message.c_str());

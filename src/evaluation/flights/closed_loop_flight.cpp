@@ -24,7 +24,7 @@ simulation::World::Images imagesFor(const FlightParams& params) {
 
 const simulation::Scenario& flyable(const simulation::Scenario& scenario) {
   if (scenario.vehicle.profile != "external") return scenario;
-  throw simulation::ScenarioError(
+  throw InputError(
       "vehicle: external is flown elsewhere, over ROS topics; take another profile, or the world node");
 }
 

@@ -14,7 +14,7 @@ namespace window_ingress::evaluation {
 /// and filter to the navigator, and its setpoints back. Deterministic: scenario, seed and parameters give the
 /// same result to the bit. The opening's size, the vehicle's body and its camera are known facts and taken
 /// from the world, unless the operator says otherwise. \param timing the flight's is added to it \throws
-/// simulation::ScenarioError, std::invalid_argument (parameters), std::runtime_error (no renderer). Without
+/// InputError, std::invalid_argument (parameters), std::runtime_error (no renderer). Without
 /// images, observers are not shown any.
 FlightResult flyOnce(const simulation::Scenario& scenario, std::uint32_t seed, const FlightParams& params,
                      const std::vector<FlightObserver*>& observers = {}, FlightTiming* timing = nullptr);

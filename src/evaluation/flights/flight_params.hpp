@@ -20,7 +20,7 @@ struct FlightParams : PerceptionParams {
       said;  ///< by the operator: "vehicle/half_width_m"; what is not is taken from the world
 };
 
-/// What a user's file says to the nodes, for a flight. \throws parameters::YamlError
+/// What a user's file says to the nodes, for a flight. \throws InputError
 FlightParams readFlightParams(const std::string& file);
 
 /// The parameters with what is known of the vehicle and its target before the flight.

@@ -113,7 +113,7 @@ std::vector<FlightResult> joinFlights(const std::vector<std::string>& folders) {
     for (auto& flight : readFlights(folder)) {
       const std::uint32_t seed = flight.seed;
       if (!by_seed.emplace(seed, std::move(flight)).second)
-        throw TableError(folder + "/flights.csv: seed " + std::to_string(seed) + " was flown twice");
+        throw InputError(folder + "/flights.csv: seed " + std::to_string(seed) + " was flown twice");
     }
   std::vector<FlightResult> flights;
   for (auto& entry : by_seed) flights.push_back(std::move(entry.second));

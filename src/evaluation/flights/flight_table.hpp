@@ -22,17 +22,17 @@ std::string csvRow(const FlightResult& flight);
 std::string trackHeader();
 std::string trackRows(const FlightResult& flight);
 
-/// Flights of a folder that `fly` has written, tracks included. \throws TableError
+/// Flights of a folder that `fly` has written, tracks included. \throws InputError
 std::vector<FlightResult> readFlights(const std::string& folder);
 
-/// Flights of several folders in the order of their seeds. \throws TableError, also for a seed found twice
+/// Flights of several folders in the order of their seeds. \throws InputError, also for a seed found twice
 std::vector<FlightResult> joinFlights(const std::vector<std::string>& folders);
 
 /// Flights to be flown of one scenario: by seed, where within its range each named key lies.
 using FlightDraws = std::map<std::uint32_t, simulation::Quantiles>;
 
 /// A csv file with a header `seed,KEY,...` (paths of keys with a range, as in `simulation::Quantiles`) and a
-/// row a flight. \throws TableError that names file and line
+/// row a flight. \throws InputError that names file and line
 FlightDraws readDraws(const std::string& file);
 
 }  // namespace window_ingress::evaluation

@@ -128,10 +128,10 @@ std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::
                          cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), targets,
                          std::nullopt};
     if (sample.image.empty())
-      throw TableError(path + ": cannot be read as an image; " + csv_file + " names it");
+      throw InputError(path + ": cannot be read as an image; " + csv_file + " names it");
     samples.push_back(sample);
   }
-  if (samples.empty()) throw TableError(csv_file + ": no image in it");
+  if (samples.empty()) throw InputError(csv_file + ": no image in it");
   return samples;
 }
 

@@ -48,7 +48,7 @@ DetectionCounts countDetections(const std::vector<LabelledImage>& samples,
 /// Reads annotations: a csv file with columns file, x1, y1 .. x4, y4, in any order and beside others; a row a
 /// target, without numbers: no target in that image. Labels that begin with "pose_only_" are left out.
 /// \param folder where the images are
-/// \throws TableError that says what is wrong, and in which line
+/// \throws InputError that says what is wrong, and in which line
 std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::string& folder);
 
 /// An image of a window whose pose is known. Nothing if the image shows only a part of it.

@@ -44,7 +44,7 @@ std::string rowOf(const SurveyImage& sample) {
 
 cv::Mat readImage(const std::string& file) {
   const cv::Mat image = cv::imread(file, cv::IMREAD_COLOR);
-  if (image.empty()) throw TableError(file + ": cannot be read as an image");
+  if (image.empty()) throw InputError(file + ": cannot be read as an image");
   return image;
 }
 

@@ -17,9 +17,9 @@ class SurveyFolder {
   void add(const SurveyImage& sample);  ///< \throws std::runtime_error if a file cannot be written
   void writeTable() const;              ///< truth.csv; \throws std::runtime_error
 
-  void readTable();  ///< \throws TableError
+  void readTable();  ///< \throws InputError
   int size() const { return static_cast<int>(rows_.size()); }
-  SurveyImage load(int i) const;  ///< \throws TableError
+  SurveyImage load(int i) const;  ///< \throws InputError
 
  private:
   std::string fileOf(const SurveyImage& sample, const std::string& ending) const;

@@ -87,7 +87,7 @@ struct CameraParams {
     field("auto_white_balance", self.auto_white_balance);
     field.choice("antialiasing", self.antialiasing, {"edges", "multisampling"});
   }
-  /// \throws std::runtime_error as `parameters::readCalibrationFile` for a bad `calibration_file`
+  /// \throws InputError as `parameters::readCalibrationFile` for a bad `calibration_file`
   geometry::PinholeCamera model() const;
   Eigen::Isometry3d T_base_camera() const;
   /// The mounting as the vehicle is told of it.

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,14 +16,9 @@
 #include "simulation/scenario/vehicle_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/text/input_error.hpp"
 
 namespace window_ingress::simulation {
-
-/// A scenario file that cannot be used: `what()` has a line for each fault, "file:line: key: what is wrong".
-class ScenarioError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Where the flight starts, relative to the target window.
 struct StartParams {
@@ -111,7 +105,7 @@ std::vector<std::string> faultsOf(const Scenario& scenario);
 using Quantiles = std::map<std::string, double>;
 
 /// Reads a scenario. Any number may be a fixed value or a range `[min, max]` that is drawn from the seed,
-/// each key for itself: a further range leaves the values of the others as they were. \throws ScenarioError
+/// each key for itself: a further range leaves the values of the others as they were. \throws InputError
 /// with file, line and key
 Scenario loadScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles = {});
 

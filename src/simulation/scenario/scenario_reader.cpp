@@ -186,7 +186,7 @@ Scenario readScenario(const std::string& file, std::uint32_t seed, const Quantil
   applyProfile(scenario.vehicle.profile, with_profile.vehicle, with_profile.odometry);
   ScenarioReader(file, root, "", seed, draws).fill(with_profile);
   for (const auto& [key, quantile] : quantiles)
-    if (draws.used.count(key) == 0) throw ScenarioError(file + ": " + key + ": has no range to draw from");
+    if (draws.used.count(key) == 0) throw InputError(file + ": " + key + ": has no range to draw from");
   return with_profile;
 }
 
@@ -197,13 +197,13 @@ Scenario loadScenario(const std::string& file, std::uint32_t seed, const Quantil
   try {
     scenario = readScenario(file, seed, quantiles);
   } catch (const YamlError& error) {
-    throw ScenarioError(error.what());
+    throw InputError(error.what());
   }
   auto& calibration_file = scenario.camera.calibration_file;
   if (!calibration_file.empty())
     calibration_file = (std::filesystem::path(file).parent_path() / calibration_file).string();
   const auto faults = faultsOf(scenario);
-  if (!faults.empty()) throw ScenarioError(file + ": " + parameters::joined(faults));
+  if (!faults.empty()) throw InputError(file + ": " + parameters::joined(faults));
   return scenario;
 }
 

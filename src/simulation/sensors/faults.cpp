@@ -28,7 +28,7 @@ void FaultPlan::inject(const FaultParams& fault) {
   auto wrong = parameters::outOfRange(fault);
   const std::string why_not = whyNoSuchFault(fault);
   if (wrong.empty() && !why_not.empty()) wrong.push_back(why_not);
-  if (!wrong.empty()) throw ScenarioError("fault: " + parameters::joined(wrong));
+  if (!wrong.empty()) throw InputError("fault: " + parameters::joined(wrong));
   faults_.push_back(fault);
 }
 

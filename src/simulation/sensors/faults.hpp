@@ -22,7 +22,7 @@ class FaultPlan {
  public:
   explicit FaultPlan(const std::vector<FaultParams>& faults) : faults_(faults.begin(), faults.end()) {}
 
-  /// \throws ScenarioError if it is out of range or there can be no such fault
+  /// \throws InputError if it is out of range or there can be no such fault
   void inject(const FaultParams& fault);
 
   /// What acts on this unit at this time: of several the one that began last, of those the last named. Stays

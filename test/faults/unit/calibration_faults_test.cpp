@@ -12,6 +12,7 @@
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/text/input_error.hpp"
 
 namespace window_ingress::adapters::calibration_faults_test {
 
@@ -246,13 +247,13 @@ TEST(Fault, M36_CalibrationFiles) {
     try {
       parameters::readCalibrationFile(file);
       ADD_FAILURE() << "accepted: " << text;
-    } catch (const std::runtime_error& error) {
+    } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find(file), 0u) << error.what();
       ++refused;
     }
   }
-  EXPECT_THROW(parameters::readCalibrationFile("/nowhere/camera.yaml"), std::runtime_error);
-  EXPECT_THROW(parameters::readCalibrationFile(testing::TempDir()), std::runtime_error) << "a folder";
+  EXPECT_THROW(parameters::readCalibrationFile("/nowhere/camera.yaml"), InputError);
+  EXPECT_THROW(parameters::readCalibrationFile(testing::TempDir()), InputError) << "a folder";
   RecordProperty("seen",
                  std::to_string(refused + 2) + " files refused by name; nothing but an exception comes back");
 }

@@ -25,7 +25,7 @@ class OverlayFile : public testing::Test {
   std::string error(const std::string& text) {
     try {
       read(text);
-    } catch (const parameters::YamlError& refused) {
+    } catch (const InputError& refused) {
       return refused.what();
     }
     return "";

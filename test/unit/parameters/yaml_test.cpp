@@ -52,7 +52,7 @@ class YamlFile : public testing::Test {
   std::string error(const std::string& text) {
     try {
       read(text);
-    } catch (const YamlError& e) {
+    } catch (const InputError& e) {
       return e.what();
     }
     return "";
@@ -104,7 +104,7 @@ TEST_F(YamlFile, MissingFileAndFolderSaySo) {
     try {
       readYamlFile(file, sample);
       FAIL();
-    } catch (const YamlError& e) {
+    } catch (const InputError& e) {
       EXPECT_NE(std::string(e.what()).find(file + ": cannot be read"), std::string::npos) << e.what();
     }
   }

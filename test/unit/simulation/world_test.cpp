@@ -158,11 +158,11 @@ TEST(World, NoiseHasTheSizeAskedAndIsNewInEachImage) {
 TEST(World, RefusesAScenarioThatCannotBe) {
   Scenario scenario;
   scenario.start.distance_m = std::nan("");
-  EXPECT_THROW(World(scenario, 1), ScenarioError);
+  EXPECT_THROW(World(scenario, 1), InputError);
   scenario = Scenario();
   scenario.camera.k1 = -0.9;
   scenario.camera.horizontal_fov_rad = 2.2;
-  EXPECT_THROW(World(scenario, 1), ScenarioError);
+  EXPECT_THROW(World(scenario, 1), InputError);
 }
 
 TEST(World, AVehicleThatHitsTheWallStopsThereAndFallsToTheGround) {
@@ -243,7 +243,7 @@ TEST(World, ForwardIsWhereTheNosePointsWhateverTheHeading) {
 TEST(World, RefusesAPayloadThatItCannotLift) {
   Scenario scenario;
   scenario.vehicle.payload_kg = 1.2 * scenario.vehicle.mass_kg;
-  EXPECT_THROW(World(scenario, 1), ScenarioError);
+  EXPECT_THROW(World(scenario, 1), InputError);
   scenario.vehicle.payload_kg = 0.4 * scenario.vehicle.mass_kg;
   EXPECT_NO_THROW(World(scenario, 1));
 }

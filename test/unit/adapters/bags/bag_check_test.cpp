@@ -60,7 +60,7 @@ class BagCheck : public testing::Test {
       params.topics = chooseTopics(bag, {});
       replay(bag, params, [](const ReplayedFrame&) {});
       return true;
-    } catch (const BagError& error) {
+    } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find(file_), 0u) << error.what();
       return false;
     }

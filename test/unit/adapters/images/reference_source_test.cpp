@@ -47,21 +47,20 @@ TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
 
 TEST_F(ReferenceSource, WhatCannotBeWrittenIsSaid) {
   const cv::Mat image = window().draw();
-  EXPECT_THROW(saveReference((folder_ / "a.nosuchformat").string(), {image, window().opening}),
-               ParameterError);
-  EXPECT_THROW(saveReference("/proc/nowhere/a.png", {image, window().opening}), ParameterError);
+  EXPECT_THROW(saveReference((folder_ / "a.nosuchformat").string(), {image, window().opening}), InputError);
+  EXPECT_THROW(saveReference("/proc/nowhere/a.png", {image, window().opening}), InputError);
 }
 
 TEST_F(ReferenceSource, BadReferencesAreRefused) {
   const cv::Mat image = window().draw();
-  EXPECT_THROW(makeReference(image, {1, 2, 3}, {}), ParameterError);
-  EXPECT_THROW(makeReference(image, {1, 1, 1, 1, 1, 1, 1, 1}, {}), ParameterError);
-  EXPECT_THROW(loadReference({}, {}), ParameterError);
+  EXPECT_THROW(makeReference(image, {1, 2, 3}, {}), InputError);
+  EXPECT_THROW(makeReference(image, {1, 1, 1, 1, 1, 1, 1, 1}, {}), InputError);
+  EXPECT_THROW(loadReference({}, {}), InputError);
   fs::create_directories(folder_);
   std::ofstream(folder_ / "text.png") << "no image";
   ReferenceParams params;
   params.picture = (folder_ / "text.png").string();
-  EXPECT_THROW(loadReference(params, {}), ParameterError);
+  EXPECT_THROW(loadReference(params, {}), InputError);
 }
 
 }  // namespace window_ingress::adapters::reference_source_test

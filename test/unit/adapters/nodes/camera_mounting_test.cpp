@@ -29,9 +29,9 @@ TEST(CameraMounting, OpticalAxesInTheBody) {
 }
 
 TEST(CameraMounting, RefusesDegreesAndWhatLiesBesideASmallVehicle) {
-  EXPECT_THROW(T_base_cameraOf({0.1, 0, 0, 15.0, 0, 0}), ParameterError);
-  EXPECT_THROW(T_base_cameraOf({0.1, 0, 0, 0, -4.0, 0}), ParameterError);
-  EXPECT_THROW(T_base_cameraOf({100.0, 0, 0, 0, 0, 0}), ParameterError);
+  EXPECT_THROW(T_base_cameraOf({0.1, 0, 0, 15.0, 0, 0}), InputError);
+  EXPECT_THROW(T_base_cameraOf({0.1, 0, 0, 0, -4.0, 0}), InputError);
+  EXPECT_THROW(T_base_cameraOf({100.0, 0, 0, 0, 0, 0}), InputError);
   EXPECT_NO_THROW(T_base_cameraOf({0.1, -0.2, 0.3, 3.14159265, -3.14159265, 0.0}));
 }
 
@@ -39,7 +39,7 @@ TEST(CameraMounting, RefusesWhatIsNotSixNumbersWithTheirMeaning) {
   for (const auto& pose : {std::vector<double>{}, {0.1, 0.0, 0.0}, {0, 0, 0, 0, 0, 0, 0}}) try {
       T_base_cameraOf(pose);
       FAIL() << pose.size();
-    } catch (const ParameterError& error) {
+    } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("[x, y, z, yaw, pitch, roll]"), std::string::npos);
     }
 }

@@ -134,7 +134,7 @@ TEST(Parameters, AllFaultsComeInOneError) {
   try {
     reader.throwIfFaulty();
     FAIL() << "must throw";
-  } catch (const ParameterError& error) {
+  } catch (const InputError& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("/node/speed"), std::string::npos);
     EXPECT_NE(text.find("/node/count"), std::string::npos);

@@ -140,7 +140,7 @@ TEST(ClosedLoopFlight, RepeatsToTheBit) {
 TEST(ClosedLoopFlight, RefusesAVehicleThatIsFlownElsewhere) {
   auto scenario = shortFlight();
   scenario.vehicle.profile = "external";
-  EXPECT_THROW(flyOnce(scenario, 1, FlightParams()), simulation::ScenarioError);
+  EXPECT_THROW(flyOnce(scenario, 1, FlightParams()), InputError);
 }
 
 TEST(ClosedLoopFlight, RefusesBadParameters) {

@@ -48,7 +48,7 @@ class FlightTable : public testing::Test {
   static std::string error(const std::vector<std::string>& folders) {
     try {
       joinFlights(folders);
-    } catch (const TableError& e) {
+    } catch (const InputError& e) {
       return e.what();
     }
     return "";
@@ -116,7 +116,7 @@ TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
     std::ofstream(file) << text;
     try {
       readDraws(file);
-    } catch (const TableError& e) {
+    } catch (const InputError& e) {
       return e.what();
     }
     return "";

@@ -75,7 +75,7 @@ class LabelledFile : public testing::Test {
   std::string errorOf(const std::string& text) {
     try {
       read(text);
-    } catch (const TableError& error) {
+    } catch (const InputError& error) {
       return error.what();
     }
     return "";

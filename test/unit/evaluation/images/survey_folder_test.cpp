@@ -84,15 +84,15 @@ TEST_F(SurveyFolderTest, ALensStaysWhatItIs) {
 
 TEST_F(SurveyFolderTest, FoldersThatAreNoneAreErrorsWithTheirName) {
   SurveyFolder folder(folder_.string());
-  EXPECT_THROW(folder.readTable(), TableError) << "empty";
+  EXPECT_THROW(folder.readTable(), InputError) << "empty";
   std::ofstream(folder_ / "truth.csv") << "file,x\n1,2\n";
-  EXPECT_THROW(folder.readTable(), TableError) << "of something else";
+  EXPECT_THROW(folder.readTable(), InputError) << "of something else";
   SurveyFolder whole(folder_.string());
   whole.add(draw(false));
   whole.writeTable();
   fs::remove(folder_ / "calm_3.png");
   whole.readTable();
-  EXPECT_THROW(whole.load(0), TableError) << "an image is missing";
+  EXPECT_THROW(whole.load(0), InputError) << "an image is missing";
   EXPECT_THROW(SurveyFolder("/no/such/folder").writeTable(), std::runtime_error);
 }
 
@@ -102,7 +102,7 @@ TEST_F(SurveyFolderTest, CutRowsAreErrors) {
   saved.writeTable();
   const auto size = fs::file_size(folder_ / "truth.csv");
   fs::resize_file(folder_ / "truth.csv", size - 60);
-  EXPECT_THROW(SurveyFolder(folder_.string()).readTable(), TableError);
+  EXPECT_THROW(SurveyFolder(folder_.string()).readTable(), InputError);
 }
 
 TEST(SurveyImage, AutomaticGainsHaveSettled) {

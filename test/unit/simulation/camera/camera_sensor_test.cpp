@@ -314,7 +314,7 @@ TEST(CameraParams, ACalibrationFileTakesThePlaceOfTheFieldOfView) {
   EXPECT_EQ(frame->image.size(), cv::Size(320, 240));
   Scenario missing;
   missing.camera.calibration_file = (folder / "missing.yaml").string();
-  EXPECT_THROW(World(missing, 1), ScenarioError);
+  EXPECT_THROW(World(missing, 1), InputError);
 }
 
 TEST(CameraParams, RefusesWhatCannotBe) {
@@ -322,13 +322,13 @@ TEST(CameraParams, RefusesWhatCannotBe) {
                                       &CameraParams::drop_probability, &CameraParams::shot_noise_grey}) {
     Scenario scenario;
     scenario.camera.*field = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(World(scenario, 1), ScenarioError);
+    EXPECT_THROW(World(scenario, 1), InputError);
     scenario.camera.*field = -0.1;
-    EXPECT_THROW(World(scenario, 1), ScenarioError);
+    EXPECT_THROW(World(scenario, 1), InputError);
   }
   Scenario scenario;
   scenario.camera.antialiasing = "none";
-  EXPECT_THROW(World(scenario, 1), ScenarioError);
+  EXPECT_THROW(World(scenario, 1), InputError);
 }
 
 }  // namespace window_ingress::simulation::camera_sensor_test

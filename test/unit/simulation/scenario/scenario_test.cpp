@@ -30,7 +30,7 @@ class ScenarioFile : public testing::Test {
   std::string error(const std::string& text) {
     try {
       read(text);
-    } catch (const ScenarioError& e) {
+    } catch (const InputError& e) {
       return e.what();
     }
     return "no error";
@@ -91,7 +91,7 @@ TEST_F(ScenarioFile, AValueMayBeAskedForByItsPlaceInTheRange) {
   try {
     loadScenario(file_, 7, {{"start/distance", 0.5}});
     ADD_FAILURE() << "a key that there is not";
-  } catch (const ScenarioError& e) {
+  } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("start/distance: has no range to draw from"), std::string::npos);
   }
 }
@@ -145,7 +145,7 @@ TEST_F(ScenarioFile, ABadOptionIsAnErrorWhateverTheSeed) {
     for (const char* text :
          {"start: {distance_m: {one_of: [3, 500]}}", "start: {one_of: [{distance_m: 3}, {distanse_m: 4}]}",
           "decoys: {one_of: [[], [{y_m: 3, colour: 1}]]}", "vehicle: {one_of: [crisp, zeppelin]}"})
-      EXPECT_THROW(read(text, seed), ScenarioError) << text;
+      EXPECT_THROW(read(text, seed), InputError) << text;
   EXPECT_NE(error("start: {distance_m: {one_of: []}}").find("at least one value"), std::string::npos);
   EXPECT_NE(error("start: {distance_m: {one_of: 3}}").find("at least one value"), std::string::npos);
 }
@@ -230,7 +230,7 @@ TEST(Scenario, MissingFileSaysSo) {
   try {
     loadScenario("/nowhere/world.yaml", 1);
     FAIL();
-  } catch (const ScenarioError& e) {
+  } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("/nowhere/world.yaml: cannot be read"), std::string::npos);
   }
 }

@@ -276,7 +276,7 @@ TEST(Faults, WhatMakesNoSenseIsRefusedByName) {
     scenario.vehicle.profile = profile;
     try {
       World world(scenario, 1);
-    } catch (const ScenarioError& e) {
+    } catch (const InputError& e) {
       return e.what();
     }
     return "no error";
@@ -291,8 +291,8 @@ TEST(Faults, WhatMakesNoSenseIsRefusedByName) {
   EXPECT_NE(error(fault("odom", "off"), "external").find("odom off"), std::string::npos);
   EXPECT_EQ(error(fault("image", "off"), "external"), "no error");
   World world(scenarioWith({}), 1);
-  EXPECT_THROW(world.inject(fault("clock", "garbage")), ScenarioError);
-  EXPECT_THROW(world.inject(params), ScenarioError);
+  EXPECT_THROW(world.inject(fault("clock", "garbage")), InputError);
+  EXPECT_THROW(world.inject(params), InputError);
 }
 
 }  // namespace window_ingress::simulation::faults_test
