@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "window_ingress/parameters/yaml.hpp"
-#include "window_ingress/parameters/yaml_mapping.hpp"
+#include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::parameters {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const std::string& text) {
-  throw YamlError(file + ": " + text);
+  throw InputError(file + ": " + text);
 }
 
 YAML::Node load(const std::string& file) {

@@ -5,18 +5,12 @@
 #include <cstdlib>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 #include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/text/input_error.hpp"
 
 namespace window_ingress::parameters {
 namespace {
-
-std::vector<std::string> namesOf(const std::vector<NamedField>& fields) {
-  std::vector<std::string> names;
-  for (const NamedField& field : fields) names.push_back(field.name);
-  return names;
-}
 
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> parts;
@@ -44,57 +38,41 @@ double number(const std::string& text) {
   if (text == "false") return 0.0;
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value))
-    throw std::invalid_argument("'" + text + "' is no number");
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) throw InputError("'" + text + "' is no number");
   return value;
 }
 
 }  // namespace
 
-double FieldLister::nearest(double wanted, double before, NamedField::Kind kind, double minimum,
-                            double maximum) {
-  if (std::isnan(wanted)) return before;
-  const double inside = std::clamp(wanted, minimum, maximum);
-  return kind == NamedField::kNumber ? inside : std::round(inside);
+std::string toText(const Field& field) {
+  if (field.isSwitch()) return field.get() != 0.0 ? "true" : "false";
+  return field.isWhole() ? std::to_string(std::lround(field.get())) : shortest(field.get());
 }
 
-const NamedField* find(const std::vector<NamedField>& fields, const std::string& name) {
-  const auto found =
-      std::find_if(fields.begin(), fields.end(), [&](const NamedField& field) { return field.name == name; });
-  return found == fields.end() ? nullptr : &*found;
-}
-
-std::string toText(const NamedField& field) {
-  if (field.kind == NamedField::kSwitch) return field.get() != 0.0 ? "true" : "false";
-  return field.kind == NamedField::kWhole ? std::to_string(std::lround(field.get())) : shortest(field.get());
-}
-
-void assign(const std::vector<NamedField>& fields, const std::string& assignment) {
+void assign(const std::vector<Field>& fields, const std::string& assignment) {
   const std::size_t sign = assignment.find('=');
   const std::string name = assignment.substr(0, sign);
-  const NamedField* field = find(fields, name);
+  const Field* field = find(fields, name);
   if (sign == std::string::npos)
-    throw std::invalid_argument("'" + assignment + "': needs NAME=VALUE with the name of a number, like " +
-                                (fields.empty() ? "none" : fields.front().name));
-  if (!field) throw std::invalid_argument(name + ": unknown name" + didYouMean(name, namesOf(fields)));
-  const double value = number(assignment.substr(sign + 1));
-  RangeCheck check;
-  check(name, value, field->minimum, field->maximum);
-  if (!check.faults().empty()) throw std::invalid_argument(check.faults().front());
+    throw InputError("'" + assignment + "': needs NAME=VALUE with the name of a number, like " +
+                     (fields.empty() ? "none" : fields.front().name));
+  if (!field) throw InputError(name + ": unknown name" + didYouMean(name, keysOf(fields)));
+  double value = number(assignment.substr(sign + 1));
+  const std::string fault = faultOf({name, &value, field->minimum, field->maximum});
+  if (!fault.empty()) throw InputError(fault);
   field->set(value);
 }
 
-std::vector<NamedField> changed(const std::vector<NamedField>& fields,
-                                const std::vector<NamedField>& before) {
-  std::vector<NamedField> result;
-  for (const NamedField& field : fields) {
-    const NamedField* old = find(before, field.name);
+std::vector<Field> changed(const std::vector<Field>& fields, const std::vector<Field>& before) {
+  std::vector<Field> result;
+  for (const Field& field : fields) {
+    const Field* old = find(before, field.name);
     if (old && old->get() != field.get()) result.push_back(field);
   }
   return result;
 }
 
-std::string toYaml(const std::vector<NamedField>& fields, const std::string& path) {
+std::string toYaml(const std::vector<Field>& fields, const std::string& path) {
   std::ostringstream text;
   std::vector<std::string> open;
   const auto descend = [&](const std::vector<std::string>& groups) {
@@ -105,7 +83,7 @@ std::string toYaml(const std::vector<NamedField>& fields, const std::string& pat
       text << std::string(2 * open.size(), ' ') << groups[open.size()] << ":\n";
   };
   const std::vector<std::string> top = split(path);
-  for (const NamedField& field : fields) {
+  for (const Field& field : fields) {
     std::vector<std::string> groups = top, names = split(field.name);
     groups.insert(groups.end(), names.begin(), names.end() - 1);
     descend(groups);

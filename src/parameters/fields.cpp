@@ -1,15 +1,75 @@
 #include "window_ingress/parameters/fields.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <type_traits>
 
 namespace window_ingress::parameters {
+namespace {
 
-void RangeCheck::choice(const std::string& name, const std::string& value,
-                        const std::vector<std::string>& allowed) {
-  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
-  std::string words;
-  for (const auto& word : allowed) words += (words.empty() ? "" : ", ") + word;
-  faults_.push_back(prefix_ + name + " = " + value + " is none of " + words);
+bool isFinite(double number) { return std::isfinite(number); }
+
+template <typename Number>
+std::string rangeFault(const Field& field, Number value) {
+  if (isFinite(value) && value >= field.minimum && value <= field.maximum) return "";
+  std::ostringstream text;
+  text << field.name << " = " << value << " is not within " << field.minimum << " .. " << field.maximum;
+  return text.str();
+}
+
+std::string wordFault(const Field& field, const std::string& word) {
+  const auto& allowed = field.allowed;
+  const bool is_one = std::find(allowed.begin(), allowed.end(), word) != allowed.end();
+  return allowed.empty() || is_one ? "" : field.name + " = " + word + " is none of " + joined(allowed, ", ");
+}
+
+}  // namespace
+
+double Field::get() const {
+  return std::visit(
+      [](const auto* at) {
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(*at)>>) return static_cast<double>(*at);
+        return 0.0;
+      },
+      value);
+}
+
+void Field::set(double wanted) const {
+  if (std::isnan(wanted)) return;
+  const double inside = std::clamp(wanted, minimum, maximum);
+  if (auto* const* number = std::get_if<double*>(&value)) **number = inside;
+  if (auto* const* whole = std::get_if<int*>(&value)) **whole = static_cast<int>(std::lround(inside));
+  if (auto* const* is_on = std::get_if<bool*>(&value)) **is_on = std::lround(inside) != 0;
+}
+
+const Field* find(const std::vector<Field>& fields, const std::string& name) {
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+const char* kindOf(const Field& field) {
+  constexpr const char* kKinds[] = {"a number", "a whole number", "true or false", "a text",
+                                    "a list of numbers"};
+  return kKinds[field.value.index()];
+}
+
+std::string faultOf(const Field& field) {
+  if (auto* const* number = std::get_if<double*>(&field.value)) return rangeFault(field, **number);
+  if (auto* const* whole = std::get_if<int*>(&field.value)) return rangeFault(field, **whole);
+  if (auto* const* word = std::get_if<std::string*>(&field.value)) return wordFault(field, **word);
+  if (auto* const* list = std::get_if<std::vector<double>*>(&field.value))
+    return std::all_of((*list)->begin(), (*list)->end(), isFinite) ? ""
+                                                                   : field.name + ": must be finite numbers";
+  return "";
+}
+
+std::vector<std::string> faultsOf(const std::vector<Field>& fields) {
+  std::vector<std::string> faults;
+  for (const Field& field : fields)
+    if (std::string fault = faultOf(field); !fault.empty()) faults.push_back(std::move(fault));
+  return faults;
 }
 
 std::string joined(const std::vector<std::string>& texts, const char* between) {

@@ -66,6 +66,18 @@ std::string neighboursOf(const std::string& path, const std::vector<std::string>
 
 }  // namespace
 
+std::vector<std::string> keysOf(const std::vector<Field>& fields) {
+  std::vector<std::string> keys;
+  for (const Field& field : fields) {
+    for (auto end = field.name.find('/'); end != std::string::npos; end = field.name.find('/', end + 1)) {
+      const std::string group = field.name.substr(0, end);
+      if (std::find(keys.begin(), keys.end(), group) == keys.end()) keys.push_back(group);
+    }
+    keys.push_back(field.name);
+  }
+  return keys;
+}
+
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known) {
   if (const std::string now = whatBecameOf(path); !now.empty()) return now;
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {

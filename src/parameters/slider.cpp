@@ -10,13 +10,13 @@ constexpr double kTwoDecades = 100.0;
 
 }  // namespace
 
-Slider::Slider(const NamedField& field)
-    : kind_(field.kind),
+Slider::Slider(const Field& field)
+    : goes_by_ones_(field.isWhole() || field.isSwitch()),
       minimum_(field.minimum),
       maximum_(field.maximum),
       logarithmic_(field.minimum > 0.0 && field.maximum > kTwoDecades * field.minimum),
       last_(kSteps) {
-  if (kind_ != NamedField::kNumber && maximum_ - minimum_ <= kSteps) {
+  if (goes_by_ones_ && maximum_ - minimum_ <= kSteps) {
     last_ = static_cast<int>(maximum_ - minimum_);
     logarithmic_ = false;
   }
@@ -35,7 +35,7 @@ double Slider::valueAt(int position) const {
   const double part = static_cast<double>(position) / last_;
   const double value =
       logarithmic_ ? minimum_ * std::pow(maximum_ / minimum_, part) : minimum_ + part * (maximum_ - minimum_);
-  return kind_ == NamedField::kNumber ? value : std::round(value);
+  return goes_by_ones_ ? std::round(value) : value;
 }
 
 }  // namespace window_ingress::parameters

@@ -1,136 +1,112 @@
 #include "window_ingress/parameters/yaml.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <cmath>
-#include <utility>
+#include <ios>
+#include <type_traits>
 
-#include "window_ingress/parameters/yaml_mapping.hpp"
+#include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::parameters {
-
 namespace {
 
-bool isFinite(double value) { return std::isfinite(value); }
+/// Walks over a file, and knows which of its keys there may be.
+class YamlReader {
+ public:
+  YamlReader(const std::string& file, const std::vector<Field>& fields)
+      : file_(file), fields_(fields), keys_(keysOf(fields)) {}
+
+  void read(const YAML::Node& mapping, const std::string& path) {
+    for (const YamlEntry& entry : entriesOf(file_, mapping, path, faults)) {
+      const std::string here = path + entry.name;
+      if (const Field* field = find(fields_, here))
+        faults.collect([&] {
+          readValue(file_, entry.value, *field);
+          said.insert(here);
+        });
+      else if (std::find(keys_.begin(), keys_.end(), here) != keys_.end())
+        read(entry.value, here + "/");
+      else
+        faults.add(faultAt(file_, entry.key, here + ": unknown key" + didYouMean(here, keys_)));
+    }
+  }
+
+  YamlFaults faults;
+  std::set<std::string> said;
+
+ private:
+  const std::string& file_;
+  const std::vector<Field>& fields_;
+  std::vector<std::string> keys_;
+};
 
 }  // namespace
 
-struct YamlReader::Impl {
-  /// What the readers of one file share.
-  struct File {
-    std::vector<std::string> known;
-    std::set<std::string> said = {};
-    YamlFaults faults = {};
+YAML::Node loadYaml(const std::string& file) {
+  try {
+    return YAML::LoadFile(file);
+  } catch (const YAML::BadFile&) {
+    throw InputError(file + ": cannot be read; does it exist?");
+  } catch (const std::ios_base::failure&) {
+    throw InputError(file + ": cannot be read; a folder?");
+  } catch (const YAML::Exception& error) {
+    throw InputError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
+  }
+}
+
+YamlFault faultAt(const std::string& file, const YAML::Node& at, const std::string& text) {
+  const int line = std::max(0, at.Mark().line) + 1;
+  return {line, file + ":" + std::to_string(line) + ": " + text};
+}
+
+void YamlFaults::throwIfAny() const {
+  std::vector<std::string> lines;
+  for (const auto& [line, fault] : by_line_) lines.push_back(fault);
+  if (!lines.empty()) throw InputError(joined(lines, "\n"));
+}
+
+std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapping, const std::string& path,
+                                 YamlFaults& faults) {
+  const std::string place = path.empty() ? "" : path.substr(0, path.size() - 1) + ": ";
+  std::vector<YamlEntry> entries;
+  std::set<std::string> names;
+  if (!mapping.IsMap()) {
+    faults.add(faultAt(file, mapping, place + "must be a mapping of keys to values"));
+    return entries;
+  }
+  for (const auto& entry : mapping) {
+    if (!entry.first.IsScalar())
+      faults.add(faultAt(file, entry.first, place + "a key must be a word"));
+    else if (!names.insert(entry.first.Scalar()).second)
+      faults.add(
+          faultAt(file, entry.first, path + entry.first.Scalar() + ": stands here for the second time"));
+    else
+      entries.push_back({entry.first.Scalar(), entry.first, entry.second});
+  }
+  return entries;
+}
+
+void readValue(const std::string& file, const YAML::Node& node, const Field& field) {
+  const auto read = [&](auto* value) {
+    const auto before = *value;
+    try {
+      *value = node.as<std::decay_t<decltype(*value)>>();
+    } catch (const YAML::Exception&) {
+      throw faultAt(file, node, field.name + ": must be " + kindOf(field));
+    }
+    const std::string fault = faultOf(field);
+    if (fault.empty()) return;
+    *value = before;
+    throw faultAt(file, node, fault);
   };
-
-  std::shared_ptr<File> shared;
-  YamlMapping mapping;
-
-  YamlError fault(const std::string& name, const std::string& text) {
-    return mapping.fault(mapping.find(name), mapping.path() + text);
-  }
-
-  /// \param check of the value read, which is kept if this throws nothing
-  template <typename Value, typename Check>
-  void read(const std::string& name, Value& value, const char* expected, const Check& check) {
-    const YAML::Node node = mapping.find(name);
-    if (!node.IsDefined()) return;
-    shared->faults.collect([&] {
-      Value found{};
-      try {
-        found = node.as<Value>();
-      } catch (const YAML::Exception&) {
-        throw fault(name, name + ": must be " + expected);
-      }
-      check(found);
-      value = found;
-      shared->said.insert(mapping.path() + name);
-    });
-  }
-
-  template <typename... Limits>
-  auto within(const std::string& name, const Limits&... limits) {
-    return [this, &name, &limits...](const auto& value) {
-      RangeCheck check;
-      check(name, value, limits...);
-      if (!check.faults().empty()) throw fault(name, check.faults().front());
-    };
-  }
-};
-
-YamlReader::YamlReader(const std::string& file, const YAML::Node& mapping, std::vector<std::string> known) {
-  const auto shared = std::make_shared<Impl::File>(Impl::File{std::move(known)});
-  impl_.reset(new Impl{shared, YamlMapping(file, mapping, shared->faults)});
+  std::visit(read, field.value);
 }
 
-YamlReader::YamlReader(const std::string& file, const std::string& key, const YAML::Node& value)
-    : impl_(new Impl{std::make_shared<Impl::File>(), YamlMapping(file, key, value)}) {}
-
-YamlReader::YamlReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-
-YamlReader::~YamlReader() = default;
-
-void YamlReader::operator()(const std::string& name, double& value, double minimum, double maximum) {
-  impl_->read(name, value, "a number", impl_->within(name, minimum, maximum));
-}
-
-void YamlReader::operator()(const std::string& name, int& value, double minimum, double maximum) {
-  impl_->read(name, value, "a whole number", impl_->within(name, minimum, maximum));
-}
-
-void YamlReader::operator()(const std::string& name, bool& value) {
-  impl_->read(name, value, "true or false", impl_->within(name));
-}
-
-void YamlReader::operator()(const std::string& name, std::string& value) {
-  impl_->read(name, value, "a text", impl_->within(name));
-}
-
-void YamlReader::operator()(const std::string& name, std::vector<double>& value) {
-  impl_->read(name, value, "a list of numbers", [&](const std::vector<double>& numbers) {
-    if (!std::all_of(numbers.begin(), numbers.end(), isFinite))
-      throw impl_->fault(name, name + ": must be finite numbers");
-  });
-}
-
-void YamlReader::choice(const std::string& name, std::string& value,
-                        const std::vector<std::string>& allowed) {
-  impl_->read(name, value, "a text", [&](const std::string& word) {
-    RangeCheck check;
-    check.choice(name, word, allowed);
-    if (!check.faults().empty()) throw impl_->fault(name, check.faults().front());
-  });
-}
-
-std::unique_ptr<YamlReader> YamlReader::descend(const std::string& name) {
-  const YAML::Node node = impl_->mapping.find(name);
-  std::unique_ptr<YamlReader> child;
-  if (!node.IsDefined()) return child;
-  impl_->shared->faults.collect([&] {
-    const std::string& file = impl_->mapping.file();
-    YamlMapping mapping(file, node, impl_->shared->faults, impl_->mapping.path() + name + "/");
-    child.reset(new YamlReader(std::make_unique<Impl>(Impl{impl_->shared, std::move(mapping)})));
-  });
-  return child;
-}
-
-void YamlReader::refuseUnknownKeys() {
-  impl_->mapping.refuseUnknownKeys(
-      [&](const std::string& path) { return didYouMean(path, impl_->shared->known); }, impl_->shared->faults);
-}
-
-void YamlReader::throwIfFaulty() const { impl_->shared->faults.throwIfAny(); }
-
-const std::set<std::string>& YamlReader::said() const { return impl_->shared->said; }
-
-std::set<std::string> visitYamlFile(const std::string& file, std::vector<std::string> known,
-                                    const std::function<void(YamlReader&)>& visit) {
-  YamlReader reader(file, loadYaml(file), std::move(known));
-  visit(reader);
-  reader.refuseUnknownKeys();
-  reader.throwIfFaulty();
-  return reader.said();
+std::set<std::string> readYamlFile(const std::string& file, const std::vector<Field>& fields) {
+  YamlReader reader(file, fields);
+  reader.read(loadYaml(file), "");
+  reader.faults.throwIfAny();
+  return reader.said;
 }
 
 }  // namespace window_ingress::parameters

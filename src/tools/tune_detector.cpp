@@ -25,7 +25,7 @@ namespace {
 
 namespace options = boost::program_options;
 using namespace window_ingress;
-using parameters::NamedField;
+using parameters::Field;
 using tools::Bench;
 
 const char *const kStages = "stages", *const kSliders = "parameters";
@@ -103,7 +103,7 @@ class Desk {
  public:
   Desk(const Job& job, tools::TuningSource& source, Bench& bench)
       : job_(job), source_(source), bench_(bench) {
-    for (const NamedField& field : bench.fields()) {
+    for (const Field& field : bench.fields()) {
       const std::string group = groupOf(field);
       if (groups_.empty() || groups_.back() != group) groups_.push_back(group);
     }
@@ -123,12 +123,12 @@ class Desk {
 
  private:
   struct Bar {
-    const NamedField* field;
+    const Field* field;
     parameters::Slider slider;
     Desk* desk;
   };
 
-  static std::string groupOf(const NamedField& field) {
+  static std::string groupOf(const Field& field) {
     const std::size_t end = field.name.find('/');
     return end == std::string::npos ? "scores" : field.name.substr(0, end);
   }
@@ -149,7 +149,7 @@ class Desk {
     group_ = (group + static_cast<int>(groups_.size())) % static_cast<int>(groups_.size());
     cv::namedWindow(kSliders, cv::WINDOW_AUTOSIZE);
     bars_.clear();
-    for (const NamedField& field : bench_.fields())
+    for (const Field& field : bench_.fields())
       if (groupOf(field) == groups_[static_cast<std::size_t>(group_)])
         bars_.push_back({&field, parameters::Slider(field), this});
     for (Bar& bar : bars_) {
@@ -186,7 +186,7 @@ class Desk {
     cv::copyMakeBorder(sheet, sheet, 0, 26, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(24));
     cv::putText(sheet, line, {8, sheet.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(255), 1,
                 cv::LINE_AA);
-    std::vector<const NamedField*> shown;
+    std::vector<const Field*> shown;
     for (const Bar& bar : bars_) shown.push_back(bar.field);
     cv::imshow(kSliders, tools::valueTable(shown));
     cv::imshow(kStages, sheet);

@@ -15,7 +15,7 @@
 
 namespace window_ingress::tools {
 
-using parameters::NamedField;
+using parameters::Field;
 
 /// The detector with the settings of the moment.
 class Bench {
@@ -30,7 +30,7 @@ class Bench {
     if (reference_) detector_.setReference(*reference_);
   }
 
-  const std::vector<NamedField>& fields() const { return fields_; }
+  const std::vector<Field>& fields() const { return fields_; }
   void changed() { detector_.setParams(params_); }
 
   /// \return one line: what was found, and what it cost
@@ -72,7 +72,7 @@ class Bench {
 
   std::optional<detection::ReferenceAppearance> reference_;
   detection::DetectorParams params_;
-  std::vector<NamedField> fields_;  // refer to params_
+  std::vector<Field> fields_;  // refer to params_
   detection::WindowDetector detector_;
   detection::StageTimer watch_;
   bool found_ = false;

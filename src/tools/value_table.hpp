@@ -28,27 +28,27 @@ inline std::string unitOf(const std::string& field) {
   return "";
 }
 
-inline std::string valueOf(const parameters::NamedField& field) {
-  if (field.kind != parameters::NamedField::kNumber) return parameters::toText(field);
+inline std::string valueOf(const parameters::Field& field) {
+  if (field.isWhole() || field.isSwitch()) return parameters::toText(field);
   return formatted("%.4g", field.get());
 }
 
 /// "edges/floor = 4.5 grey levels a pixel", with the default behind it where it is another one.
-inline std::string valueText(const parameters::NamedField& field, const parameters::NamedField& as_default) {
+inline std::string valueText(const parameters::Field& field, const parameters::Field& as_default) {
   std::string text = field.name + " = " + valueOf(field);
   if (const std::string unit = unitOf(field.name); !unit.empty()) text += " " + unit;
   if (field.get() != as_default.get()) text += "  (default " + valueOf(as_default) + ")";
   return text;
 }
 
-inline cv::Mat valueTable(const std::vector<const parameters::NamedField*>& fields) {
+inline cv::Mat valueTable(const std::vector<const parameters::Field*>& fields) {
   constexpr int kRowPx = 20, kWidthPx = 700;
   cv::Mat table(static_cast<int>(fields.size()) * kRowPx + 10, kWidthPx, CV_8UC3, cv::Scalar::all(24));
   detection::DetectorParams defaults;
   const auto as_default = parameters::fieldsOf(defaults);
   int y = 18;
-  for (const parameters::NamedField* field : fields) {
-    const parameters::NamedField& other = *parameters::find(as_default, field->name);
+  for (const parameters::Field* field : fields) {
+    const parameters::Field& other = *parameters::find(as_default, field->name);
     const cv::Scalar colour = field->get() == other.get() ? cv::Scalar::all(220) : cv::Scalar(60, 220, 255);
     cv::putText(table, valueText(*field, other), {8, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, 1,
                 cv::LINE_AA);

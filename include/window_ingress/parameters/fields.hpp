@@ -1,5 +1,5 @@
 /// One list of fields per parameter struct, from which everything else is derived: range checks, reading from
-/// yaml, reading from the ROS parameter server, the tables of the documentation.
+/// yaml and from the ROS parameter server, dynamic_reconfigure, trackbars, the tables of the documentation.
 ///
 /// A parameter struct lists its fields once:
 ///
@@ -11,58 +11,86 @@
 ///       }
 ///     };
 ///
-/// `field(name, value, minimum, maximum)` for double and int, `field(name, value)` for bool and std::string,
-/// `field.choice(name, text, {allowed, ...})` for one of a few words,
-/// `field.group(name, params)` for a struct within,
-/// `field.list(name, items)` for a std::vector of structs (range checks and scenario files only).
-/// Names of nested fields are joined with '/', as ROS does.
+/// `field(name, value, minimum, maximum)` for double and int, `field(name, value)` for bool, std::string and
+/// lists of numbers, `field.choice(name, text, {allowed, ...})` for one of a few words, `field.group(name,
+/// params)` for a struct within, `field.list(name, items)` for a std::vector of structs (range checks and
+/// scenario files only). Names of nested fields are joined with '/', as ROS does.
 #pragma once
 
-#include <cmath>
-#include <sstream>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace window_ingress::parameters {
 
-/// Collects one text for each field that is not finite or out of its range.
-class RangeCheck {
+/// One field of a parameter struct.
+struct Field {
+  std::string name;  ///< whole: "edges/floor"
+  std::variant<double*, int*, bool*, std::string*, std::vector<double>*>
+      value;                              ///< of the struct that was listed
+  double minimum = 0.0, maximum = 1.0;    ///< of a number, both included
+  std::vector<std::string> allowed = {};  ///< of a text that is one of a few words
+
+  bool isWhole() const { return std::holds_alternative<int*>(value); }
+  bool isSwitch() const { return std::holds_alternative<bool*>(value); }
+  /// A number; a switch is 0 or 1; 0 for all else.
+  double get() const;
+  void set(double wanted) const;  ///< the nearest value that the field can hold; NaN changes nothing
+};
+
+/// Visitor that lists them.
+class FieldLister {
  public:
   template <typename Number>
-  void operator()(const std::string& name, const Number& value, double minimum, double maximum) {
-    const double number = static_cast<double>(value);
-    if (std::isfinite(number) && number >= minimum && number <= maximum) return;
-    std::ostringstream text;
-    text << prefix_ << name << " = " << value << " is not within " << minimum << " .. " << maximum;
-    faults_.push_back(text.str());
+  void operator()(const std::string& name, Number& value, double minimum, double maximum) {
+    fields.push_back({prefix_ + name, &value, minimum, maximum});
   }
   template <typename Value>
-  void operator()(const std::string&, const Value&) {}
-  void choice(const std::string& name, const std::string& value, const std::vector<std::string>& allowed);
+  void operator()(const std::string& name, Value& value) {
+    fields.push_back({prefix_ + name, &value});
+  }
+  void choice(const std::string& name, std::string& word, const std::vector<std::string>& allowed) {
+    fields.push_back({prefix_ + name, &word, 0.0, 1.0, allowed});
+  }
   template <typename Params>
-  void group(const std::string& name, const Params& params) {
+  void group(const std::string& name, Params& params) {
     const std::string outer = prefix_;
     prefix_ += name + "/";
     Params::visit(params, *this);
     prefix_ = outer;
   }
   template <typename Params>
-  void list(const std::string& name, const std::vector<Params>& items) {
+  void list(const std::string& name, std::vector<Params>& items) {
     for (std::size_t i = 0; i < items.size(); ++i) group(name + "[" + std::to_string(i) + "]", items[i]);
   }
-  const std::vector<std::string>& faults() const { return faults_; }
+  std::vector<Field> fields;
 
  private:
   std::string prefix_;
-  std::vector<std::string> faults_;
 };
+
+/// All fields of `params`, which must outlive the list.
+template <typename Params>
+std::vector<Field> fieldsOf(Params& params) {
+  FieldLister lister;
+  Params::visit(params, lister);
+  return lister.fields;
+}
+
+/// The field of this name, or null.
+const Field* find(const std::vector<Field>& fields, const std::string& name);
+
+/// What kind of value it has, for people: "a number", "true or false".
+const char* kindOf(const Field& field);
+
+/// Why the field cannot have the value that it has: "NAME = VALUE is not within ..". Empty if it can.
+std::string faultOf(const Field& field);
+std::vector<std::string> faultsOf(const std::vector<Field>& fields);  ///< of all fields that have one
 
 /// All fields of `params` that are out of range, one text each; empty if there are none.
 template <typename Params>
-std::vector<std::string> outOfRange(const Params& params) {
-  RangeCheck check;
-  Params::visit(params, check);
-  return check.faults();
+std::vector<std::string> outOfRange(Params params) {
+  return faultsOf(fieldsOf(params));
 }
 
 /// The texts as one line, for an error.

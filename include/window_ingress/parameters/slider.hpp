@@ -1,6 +1,6 @@
 #pragma once
 
-#include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::parameters {
 
@@ -10,14 +10,14 @@ class Slider {
  public:
   static constexpr int kSteps = 1000;  ///< at most
 
-  explicit Slider(const NamedField& field);
+  explicit Slider(const Field& field);
 
   int positions() const { return last_; }  ///< the last position; the first is 0
   int positionOf(double value) const;      ///< the nearest
   double valueAt(int position) const;      ///< of the ends: minimum and maximum, exactly
 
  private:
-  NamedField::Kind kind_;
+  bool goes_by_ones_;  // holds whole numbers only
   double minimum_, maximum_;
   bool logarithmic_;
   int last_;

@@ -13,13 +13,14 @@ constexpr double kFarthest_m = 2.0;    // from the middle of a small vehicle
 constexpr double kHalfTurn = 3.14160;  // [rad], rounded up
 const char* const kNames[] = {"x", "y", "z", "yaw", "pitch", "roll"};
 
-void checkRange(const std::vector<double>& pose) {
-  parameters::RangeCheck check;
+void checkRange(std::vector<double> pose) {
+  std::vector<parameters::Field> fields;
   for (std::size_t i = 0; i < 6; ++i) {
     const double most = i < 3 ? kFarthest_m : kHalfTurn;
-    check(std::string("pose: ") + kNames[i] + (i < 3 ? " [m]" : " [rad, not degrees]"), pose[i], -most, most);
+    const std::string unit = i < 3 ? " [m]" : " [rad, not degrees]";
+    fields.push_back({std::string("pose: ") + kNames[i] + unit, &pose[i], -most, most});
   }
-  if (!check.faults().empty()) throw InputError(parameters::joined(check.faults()));
+  refuseFaulty(parameters::faultsOf(fields));
 }
 
 }  // namespace

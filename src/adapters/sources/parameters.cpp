@@ -1,28 +1,49 @@
 #include "adapters/sources/parameters.hpp"
 
-#include <cmath>
+#include <algorithm>
+
+#include "window_ingress/parameters/key_list.hpp"
 
 namespace window_ingress::adapters {
 namespace {
 
+using parameters::Field;
 using XmlRpc::XmlRpcValue;
 
-// XmlRpcValue reads by non-const conversion only.
-template <typename Value>
-Value as(const XmlRpcValue& value) {
-  XmlRpcValue copy(value);
-  return static_cast<Value>(copy);
+// XmlRpcValue is read by conversions that are not const.
+std::string kindOf(XmlRpcValue& value);
+
+bool take(XmlRpcValue& from, double& value) {
+  const bool is_whole = from.getType() == XmlRpcValue::TypeInt;
+  if (!is_whole && from.getType() != XmlRpcValue::TypeDouble) return false;
+  value = is_whole ? static_cast<int&>(from) : static_cast<double&>(from);
+  return true;
+}
+bool take(XmlRpcValue& from, int& value) {
+  if (from.getType() != XmlRpcValue::TypeInt) return false;
+  value = static_cast<int&>(from);
+  return true;
+}
+bool take(XmlRpcValue& from, bool& value) {
+  if (from.getType() != XmlRpcValue::TypeBoolean) return false;
+  value = static_cast<bool&>(from);
+  return true;
+}
+bool take(XmlRpcValue& from, std::string& value) {
+  if (from.getType() != XmlRpcValue::TypeString) return false;
+  value = static_cast<std::string&>(from);
+  return true;
+}
+bool take(XmlRpcValue& from, std::vector<double>& value) {
+  if (from.getType() != XmlRpcValue::TypeArray) return false;
+  value.resize(static_cast<std::size_t>(from.size()));
+  for (int i = 0; i < from.size(); ++i)
+    if (!take(from[i], value[static_cast<std::size_t>(i)])) return false;
+  return true;
 }
 
-bool isNumber(const XmlRpcValue& value) {
-  return value.getType() == XmlRpcValue::TypeInt || value.getType() == XmlRpcValue::TypeDouble;
-}
-
-double number(const XmlRpcValue& value) {
-  return value.getType() == XmlRpcValue::TypeInt ? as<int>(value) : as<double>(value);
-}
-
-const char* typeName(const XmlRpcValue& value) {
+std::string kindOf(XmlRpcValue& value) {
+  double number = 0.0;
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
       return "true or false";
@@ -32,131 +53,76 @@ const char* typeName(const XmlRpcValue& value) {
       return "a number";
     case XmlRpcValue::TypeString:
       return "a text";
-    case XmlRpcValue::TypeArray:
-      return "a list";
     case XmlRpcValue::TypeStruct:
       return "a mapping";
+    case XmlRpcValue::TypeArray:
+      for (int i = 0; i < value.size(); ++i)
+        if (!take(value[i], number)) return "a list with " + kindOf(value[i]) + " in it";
+      return "a list";
     default:
       return "nothing";
   }
 }
 
-XmlRpcValue emptyStruct() {
-  XmlRpcValue value;
-  value.begin();  // makes it a struct
-  return value;
-}
+/// Walks over a tree, and knows which names there may be.
+class TreeReader {
+ public:
+  TreeReader(const std::string& name_space, const std::vector<Field>& fields)
+      : name_space_(name_space), fields_(fields), keys_(parameters::keysOf(fields)) {}
+
+  void read(XmlRpcValue& tree, const std::string& path, const std::set<std::string>& others) {
+    for (auto& [name, value] : tree) {
+      const std::string key = path + name;
+      if (others.count(key) > 0) continue;
+      if (const Field* field = parameters::find(fields_, key))
+        readField(value, *field);
+      else if (std::find(keys_.begin(), keys_.end(), key) == keys_.end())
+        faults.push_back("unknown parameter " + name_space_ + "/" + key + parameters::didYouMean(key, keys_));
+      else if (value.getType() == XmlRpcValue::TypeStruct)
+        read(value, key + "/", others);
+      else
+        mustBe("a mapping of names to values", key, value);
+    }
+  }
+
+  std::vector<std::string> faults;
+
+ private:
+  void mustBe(const std::string& kind, const std::string& key, XmlRpcValue& value) {
+    faults.push_back(name_space_ + "/" + key + " must be " + kind + ", not " + kindOf(value));
+  }
+  void readField(XmlRpcValue& value, const Field& field) {
+    if (!std::visit([&](auto* at) { return take(value, *at); }, field.value))
+      return mustBe(parameters::kindOf(field), field.name, value);
+    if (const std::string fault = faultOf(field); !fault.empty()) faults.push_back(name_space_ + "/" + fault);
+  }
+
+  const std::string& name_space_;
+  const std::vector<Field>& fields_;
+  std::vector<std::string> keys_;
+};
 
 }  // namespace
 
-ParameterReader::ParameterReader(const std::string& name_space, const XmlRpcValue& tree,
-                                 const std::vector<std::string>& known)
-    : name_space_(name_space), known_(known), tree_(tree) {}
-
-const XmlRpcValue* ParameterReader::find(const std::string& name) {
-  asked_.insert(name);
-  return tree_.hasMember(name) ? &tree_[name] : nullptr;
+std::vector<std::string> readTree(const std::string& name_space, XmlRpcValue tree,
+                                  const std::vector<Field>& fields, const std::set<std::string>& others) {
+  TreeReader reader(name_space, fields);
+  reader.read(tree, "", others);
+  return reader.faults;
 }
 
-void ParameterReader::wrongType(const std::string& name, const char* expected, const XmlRpcValue& found) {
-  faults_.push_back(name_space_ + "/" + name + " must be " + expected + ", not " + typeName(found));
-}
-
-void ParameterReader::checkRange(const std::string& name, double value, double minimum, double maximum) {
-  parameters::RangeCheck check;
-  check(name_space_ + "/" + name, value, minimum, maximum);
-  faults_.insert(faults_.end(), check.faults().begin(), check.faults().end());
-}
-
-void ParameterReader::operator()(const std::string& name, double& value, double minimum, double maximum) {
-  const XmlRpcValue* found = find(name);
-  if (!found) return;
-  if (!isNumber(*found)) return wrongType(name, "a number", *found);
-  value = number(*found);
-  checkRange(name, value, minimum, maximum);
-}
-
-void ParameterReader::operator()(const std::string& name, int& value, double minimum, double maximum) {
-  const XmlRpcValue* found = find(name);
-  if (!found) return;
-  if (found->getType() != XmlRpcValue::TypeInt) return wrongType(name, "a whole number", *found);
-  value = as<int>(*found);
-  checkRange(name, value, minimum, maximum);
-}
-
-void ParameterReader::operator()(const std::string& name, bool& value) {
-  const XmlRpcValue* found = find(name);
-  if (!found) return;
-  if (found->getType() != XmlRpcValue::TypeBoolean) return wrongType(name, "true or false", *found);
-  value = as<bool>(*found);
-}
-
-void ParameterReader::operator()(const std::string& name, std::string& value) {
-  const XmlRpcValue* found = find(name);
-  if (!found) return;
-  if (found->getType() != XmlRpcValue::TypeString) return wrongType(name, "a text", *found);
-  value = as<std::string>(*found);
-}
-
-void ParameterReader::choice(const std::string& name, std::string& value,
-                             const std::vector<std::string>& allowed) {
-  (*this)(name, value);
-  parameters::RangeCheck check;
-  check.choice(name_space_ + "/" + name, value, allowed);
-  faults_.insert(faults_.end(), check.faults().begin(), check.faults().end());
-}
-
-void ParameterReader::operator()(const std::string& name, std::vector<double>& value) {
-  const XmlRpcValue* found = find(name);
-  if (!found) return;
-  if (found->getType() != XmlRpcValue::TypeArray) return wrongType(name, "a list of numbers", *found);
-  std::vector<double> numbers;
-  for (int i = 0; i < found->size(); ++i) {
-    const XmlRpcValue& element = (*found)[i];
-    if (!isNumber(element) || !std::isfinite(number(element)))
-      return wrongType(name + "[" + std::to_string(i) + "]", "a finite number", element);
-    numbers.push_back(number(element));
-  }
-  value = numbers;
-}
-
-ParameterReader ParameterReader::descend(const std::string& name) {
-  const XmlRpcValue* found = find(name);
-  if (found && found->getType() != XmlRpcValue::TypeStruct)
-    wrongType(name, "a mapping of names to values", *found);
-  const bool usable = found && found->getType() == XmlRpcValue::TypeStruct;
-  ParameterReader child(name_space_ + "/" + name, usable ? *found : emptyStruct(), known_);
-  child.path_ = path_ + name + "/";
-  return child;
-}
-
-void ParameterReader::adopt(const ParameterReader& other) {
-  const std::vector<std::string> faults = other.faults();
-  faults_.insert(faults_.end(), faults.begin(), faults.end());
-}
-
-std::vector<std::string> ParameterReader::faults() const {
-  std::vector<std::string> faults = faults_;
-  XmlRpcValue tree(tree_);
-  for (auto& member : tree)
-    if (asked_.count(member.first) == 0)
-      faults.push_back("unknown parameter " + name_space_ + "/" + member.first +
-                       parameters::didYouMean(path_ + member.first, known_));
-  return faults;
-}
-
-void ParameterReader::throwIfFaulty() const {
-  const std::vector<std::string> all = faults();
-  if (!all.empty()) throw InputError(parameters::joined(all));
-}
-
-XmlRpcValue parameterTree(const ros::NodeHandle& nh) {
+std::vector<std::string> readFields(const ros::NodeHandle& nh, const std::vector<Field>& fields,
+                                    const std::set<std::string>& others) {
   XmlRpcValue tree;
-  if (!nh.getParam(nh.getNamespace(), tree)) return emptyStruct();
+  if (!nh.getParam(nh.getNamespace(), tree)) return {};
   if (tree.getType() != XmlRpcValue::TypeStruct)
-    throw InputError(nh.getNamespace() + " is " + typeName(tree) +
+    throw InputError(nh.getNamespace() + " is " + kindOf(tree) +
                      ", must be a mapping of names to values: these parameters stand below it");
-  return tree;
+  return readTree(nh.getNamespace(), tree, fields, others);
+}
+
+void refuseFaulty(const std::vector<std::string>& faults) {
+  if (!faults.empty()) throw InputError(parameters::joined(faults));
 }
 
 }  // namespace window_ingress::adapters

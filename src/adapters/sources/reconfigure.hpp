@@ -16,83 +16,43 @@
 
 namespace window_ingress::adapters {
 
-/// Visitor that keeps the joined name of the field it is at.
-class JoinedNames {
- protected:
-  std::string joined(const std::string& name) const { return prefix_ + name; }
-  template <typename Self, typename Params>
-  void visitGroup(Self& self, const std::string& name, Params& params) {
-    const std::string outer = prefix_;
-    prefix_ += name + "_";
-    std::remove_const_t<Params>::visit(params, self);
-    prefix_ = outer;
-  }
-
- private:
-  std::string prefix_;
-};
-
-/// Writes a struct into a message.
-class ConfigWriter : private JoinedNames {
- public:
-  void operator()(const std::string& name, double value, double, double) {
-    add(message.doubles, name, value);
-  }
-  void operator()(const std::string& name, int value, double, double) { add(message.ints, name, value); }
-  void operator()(const std::string& name, bool value) { add(message.bools, name, value); }
-  void operator()(const std::string& name, const std::string& value) { add(message.strs, name, value); }
-  template <typename Params>
-  void group(const std::string& name, const Params& params) {
-    visitGroup(*this, name, params);
-  }
-  dynamic_reconfigure::Config message;
-
- private:
-  template <typename List, typename Value>
-  void add(List& list, const std::string& name, const Value& value) {
-    list.emplace_back();
-    list.back().name = joined(name);
-    list.back().value = value;
-  }
-};
-
-/// Reads a struct from a message; what the message does not hold keeps its value.
-class ConfigReader : private JoinedNames {
- public:
-  explicit ConfigReader(const dynamic_reconfigure::Config& message) : message_(message) {}
-  void operator()(const std::string& name, double& value, double, double) {
-    find(message_.doubles, name, value);
-  }
-  void operator()(const std::string& name, int& value, double, double) { find(message_.ints, name, value); }
-  void operator()(const std::string& name, bool& value) { find(message_.bools, name, value); }
-  void operator()(const std::string& name, std::string& value) { find(message_.strs, name, value); }
-  template <typename Params>
-  void group(const std::string& name, Params& params) {
-    visitGroup(*this, name, params);
-  }
-
- private:
-  template <typename List, typename Value>
-  void find(const List& list, const std::string& name, Value& value) const {
-    const std::string wanted = joined(name);
-    const auto found =
-        std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.name == wanted; });
-    if (found != list.end()) value = static_cast<Value>(found->value);
-  }
-  const dynamic_reconfigure::Config& message_;
-};
-
-template <typename Params>
-dynamic_reconfigure::Config toConfigMsg(const Params& params) {
-  ConfigWriter writer;
-  Params::visit(params, writer);
-  return writer.message;
+/// The name of a field there.
+inline std::string joinedName(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
 }
 
+/// The numbers and switches of a struct as a message.
+template <typename Params>
+dynamic_reconfigure::Config toConfigMsg(Params params) {
+  dynamic_reconfigure::Config message;
+  const auto add = [](auto& list, const std::string& name, auto value) {
+    auto& entry = list.emplace_back();
+    entry.name = name;
+    entry.value = value;
+  };
+  for (const parameters::Field& field : parameters::fieldsOf(params)) {
+    const std::string name = joinedName(field.name);
+    if (const auto* number = std::get_if<double*>(&field.value)) add(message.doubles, name, **number);
+    if (const auto* whole = std::get_if<int*>(&field.value)) add(message.ints, name, **whole);
+    if (const auto* is_on = std::get_if<bool*>(&field.value)) add(message.bools, name, **is_on);
+  }
+  return message;
+}
+
+/// The struct as the message has it; what that does not hold keeps its value.
 template <typename Params>
 Params fromConfigMsg(const dynamic_reconfigure::Config& message, Params params) {
-  ConfigReader reader(message);
-  Params::visit(params, reader);
+  const auto find = [](const auto& list, const std::string& name, auto& value) {
+    for (const auto& entry : list)
+      if (entry.name == name) value = static_cast<std::decay_t<decltype(value)>>(entry.value);
+  };
+  for (const parameters::Field& field : parameters::fieldsOf(params)) {
+    const std::string name = joinedName(field.name);
+    if (const auto* number = std::get_if<double*>(&field.value)) find(message.doubles, name, **number);
+    if (const auto* whole = std::get_if<int*>(&field.value)) find(message.ints, name, **whole);
+    if (const auto* is_on = std::get_if<bool*>(&field.value)) find(message.bools, name, **is_on);
+  }
   return params;
 }
 

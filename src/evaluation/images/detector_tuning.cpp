@@ -10,7 +10,7 @@
 namespace window_ingress::evaluation {
 namespace {
 
-using parameters::NamedField;
+using parameters::Field;
 
 constexpr double kMinGain = 1e-6;
 constexpr double kNotWorth = 0.003;  // of merit: a key that brings less is left as it was
@@ -35,7 +35,7 @@ class Search {
         random_(options.seed) {
     const auto all = parameters::fieldsOf(params_);
     for (const std::string& name : options.names) {
-      const NamedField* field = parameters::find(all, name);
+      const Field* field = parameters::find(all, name);
       if (!field) throw std::invalid_argument("the detector has no parameter '" + name + "'");
       fields_.push_back(*field);
       start_.push_back(field->get());
@@ -62,20 +62,19 @@ class Search {
   Move draw() {
     Move move;
     move.field = random_() % fields_.size();
-    const NamedField& field = fields_[move.field];
-    if (field.kind == NamedField::kSwitch)
+    const Field& field = fields_[move.field];
+    if (field.isSwitch())
       move.factor = -1.0, move.summand = 1.0;
     else if (field.get() > 0.0 && uniform(0.0, 1.0) < 0.7)
       move.factor = std::exp(uniform(-1.0, 1.0) * std::log(kLargestFactor));
     else
       move.summand = uniform(-kLargestPart, kLargestPart) * (field.maximum - field.minimum);
-    if (field.kind == NamedField::kWhole)
-      move.summand += move.factor < 1.0 || move.summand < 0.0 ? -0.5 : 0.5;
+    if (field.isWhole()) move.summand += move.factor < 1.0 || move.summand < 0.0 ? -0.5 : 0.5;
     return move;
   }
 
   bool tries(const Move& move) {
-    const NamedField& field = fields_[move.field];
+    const Field& field = fields_[move.field];
     const double before = field.get();
     field.set(move.factor * before + move.summand);
     ++done_;
@@ -106,7 +105,7 @@ class Search {
   const detection::ReferenceAppearance* reference_;
   const TuningProgress& progress_;
   detection::DetectorParams params_;
-  std::vector<NamedField> fields_;  // refer to params_
+  std::vector<Field> fields_;  // refer to params_
   std::vector<double> start_;
   DetectionCounts best_;
   int trials_, done_ = 0;

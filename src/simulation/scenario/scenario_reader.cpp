@@ -7,14 +7,9 @@
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scenario/vehicle_profiles.hpp"
 #include "window_ingress/parameters/key_list.hpp"
-#include "window_ingress/parameters/yaml.hpp"
-#include "window_ingress/parameters/yaml_mapping.hpp"
+#include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::simulation {
-
-using parameters::YamlError;
-using parameters::YamlMapping;
-using parameters::YamlReader;
 
 namespace {
 
@@ -25,40 +20,43 @@ struct Draws {
   parameters::YamlFaults faults = {};
 };
 
-/// Visitor that fills a scenario from a yaml mapping. Beyond `parameters::YamlReader` it takes a range `[min,
-/// max]` for any number, `{one_of: [...]}` for any value, and lists of structs. Faults go to the draws.
+/// Visitor that fills a scenario from a yaml mapping. Beyond what stands in all parameter files it takes a
+/// range `[min, max]` for any number, `{one_of: [...]}` for any value, and lists of structs. Faults go to the
+/// draws.
 class ScenarioReader {
  public:
   ScenarioReader(const std::string& file, const YAML::Node& mapping, const std::string& path,
                  std::uint32_t seed, Draws& draws)
-      : mapping_(file, mapping, draws.faults, path), seed_(seed), draws_(draws) {}
+      : file_(file),
+        path_(path),
+        entries_(parameters::entriesOf(file, mapping, path, draws.faults)),
+        seed_(seed),
+        draws_(draws) {}
 
   template <typename Params>
   void fill(Params& params) {
     Params::visit(params, *this);
-    mapping_.refuseUnknownKeys(
-        [this](const std::string& path) {
-          return parameters::didYouMean(path, mapping_.asked()) + "; see doc/scenarios.md";
-        },
-        draws_.faults);
+    for (const auto& entry : entries_)
+      if (std::find(asked_.begin(), asked_.end(), path_ + entry.name) == asked_.end())
+        draws_.faults.add(faultAt(entry.key, entry.name + ": unknown key" +
+                                                 parameters::didYouMean(path_ + entry.name, asked_) +
+                                                 "; see doc/scenarios.md"));
   }
 
   template <typename Number>
   void operator()(const std::string& name, Number& value, double minimum, double maximum) {
     readDrawn(name, value, [&](const YAML::Node& node, Number& number) {
-      if (!node.IsSequence()) return readOne(name, node, number, minimum, maximum);
-      number = draw(mapping_.path() + name, readRange<Number>(name, node, minimum, maximum));
+      if (!node.IsSequence()) return readOne(node, {path_ + name, &number, minimum, maximum});
+      number = draw(path_ + name, readRange<Number>(name, node, minimum, maximum));
     });
   }
   template <typename Value>
   void operator()(const std::string& name, Value& value) {
-    readDrawn(name, value, [&](const YAML::Node& node, Value& one) { readOne(name, node, one); });
+    readDrawn(name, value, [&](const YAML::Node& node, Value& one) { readOne(node, {path_ + name, &one}); });
   }
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed) {
     readDrawn(name, value, [&](const YAML::Node& node, std::string& word) {
-      YamlReader reader(mapping_.file(), name, node);
-      reader.choice(name, word, allowed);
-      reader.throwIfFaulty();
+      readOne(node, {path_ + name, &word, 0.0, 1.0, allowed});
     });
   }
   template <typename Params>
@@ -68,7 +66,7 @@ class ScenarioReader {
   template <typename Params>
   void list(const std::string& name, std::vector<Params>& items) {
     readDrawn(name, items, [&](const YAML::Node& node, std::vector<Params>& listed) {
-      if (!node.IsSequence()) throw mapping_.fault(node, name + ": must be a list, or [] for none");
+      if (!node.IsSequence()) throw faultAt(node, name + ": must be a list, or [] for none");
       listed.clear();
       for (std::size_t i = 0; i < node.size(); ++i)
         below(name + "[" + std::to_string(i) + "]", node[i]).fill(listed.emplace_back());
@@ -77,7 +75,7 @@ class ScenarioReader {
 
  private:
   ScenarioReader below(const std::string& name, const YAML::Node& node) const {
-    return {mapping_.file(), node, mapping_.path() + name + "/", seed_, draws_};
+    return {file_, node, path_ + name + "/", seed_, draws_};
   }
 
   std::optional<double> quantileOf(const std::string& path) const {
@@ -92,25 +90,27 @@ class ScenarioReader {
     if (!node.IsMap() || node.size() != 1 || !node["one_of"].IsDefined()) return {node};
     const YAML::Node items = node["one_of"];
     if (!items.IsSequence() || items.size() == 0)
-      throw mapping_.fault(node, name + ": one_of must be a list of at least one value");
+      throw faultAt(node, name + ": one_of must be a list of at least one value");
     return {items.begin(), items.end()};
   }
 
   std::size_t drawOption(const std::string& name, std::size_t count) const {
     const double size = static_cast<double>(count);
-    if (const auto quantile = quantileOf(mapping_.path() + name))
+    if (const auto quantile = quantileOf(path_ + name))
       return static_cast<std::size_t>(std::min(*quantile * size, size - 1.0));
     return static_cast<std::size_t>(
-        RandomStream(seed_, mapping_.path() + name + " option").uniformInt(0, static_cast<int>(count) - 1));
+        RandomStream(seed_, path_ + name + " option").uniformInt(0, static_cast<int>(count) - 1));
   }
 
   // All options are read, so that a bad one is an error whatever the seed.
   template <typename Value, typename Read>
   void readDrawn(const std::string& name, Value& value, const Read& read) {
-    const YAML::Node node = mapping_.find(name);
-    if (!node.IsDefined()) return;
+    asked_.push_back(path_ + name);
+    const auto entry =
+        std::find_if(entries_.begin(), entries_.end(), [&](const auto& one) { return one.name == name; });
+    if (entry == entries_.end()) return;
     draws_.faults.collect([&] {
-      const auto options = optionsOf(name, node);
+      const auto options = optionsOf(name, entry->value);
       const std::size_t drawn = drawOption(name, options.size());
       const Value before = value;
       for (std::size_t i = 0; i < options.size(); ++i) {
@@ -121,23 +121,23 @@ class ScenarioReader {
     });
   }
 
-  // One value through the reader of all parameter files, for the same checks and words.
-  template <typename Value, typename... Limits>
-  void readOne(const std::string& name, const YAML::Node& node, Value& value, Limits... limits) const {
-    YamlReader reader(mapping_.file(), name, node);
-    reader(name, value, limits...);
-    reader.throwIfFaulty();
+  // As in all parameter files.
+  void readOne(const YAML::Node& node, const parameters::Field& field) const {
+    parameters::readValue(file_, node, field);
+  }
+  parameters::YamlFault faultAt(const YAML::Node& at, const std::string& text) const {
+    return parameters::faultAt(file_, at, path_ + text);
   }
 
   template <typename Number>
   std::pair<Number, Number> readRange(const std::string& name, const YAML::Node& node, double minimum,
                                       double maximum) const {
-    if (node.size() != 2) throw mapping_.fault(node, name + ": a range must have two ends, [min, max]");
+    if (node.size() != 2) throw faultAt(node, name + ": a range must have two ends, [min, max]");
     std::pair<Number, Number> range{};
-    readOne(name, node[0], range.first, minimum, maximum);
-    readOne(name, node[1], range.second, minimum, maximum);
+    readOne(node[0], {path_ + name, &range.first, minimum, maximum});
+    readOne(node[1], {path_ + name, &range.second, minimum, maximum});
     if (range.first > range.second)
-      throw mapping_.fault(node, name + ": the range's first end is the greater one; swap them");
+      throw faultAt(node, name + ": the range's first end is the greater one; swap them");
     return range;
   }
 
@@ -152,7 +152,10 @@ class ScenarioReader {
     return RandomStream(seed_, path).uniformInt(range.first, range.second);
   }
 
-  YamlMapping mapping_;
+  const std::string& file_;
+  std::string path_;
+  std::vector<parameters::YamlEntry> entries_;
+  std::vector<std::string> asked_;
   std::uint32_t seed_;
   Draws& draws_;
 };
@@ -193,12 +196,7 @@ Scenario readScenario(const std::string& file, std::uint32_t seed, const Quantil
 }  // namespace
 
 Scenario loadScenario(const std::string& file, std::uint32_t seed, const Quantiles& quantiles) {
-  Scenario scenario;
-  try {
-    scenario = readScenario(file, seed, quantiles);
-  } catch (const YamlError& error) {
-    throw InputError(error.what());
-  }
+  Scenario scenario = readScenario(file, seed, quantiles);
   auto& calibration_file = scenario.camera.calibration_file;
   if (!calibration_file.empty())
     calibration_file = (std::filesystem::path(file).parent_path() / calibration_file).string();

@@ -16,59 +16,33 @@
 
 namespace window_ingress::adapters::parameter_files_test {
 
-// Visitor that compares each field with a yaml mapping, and counts.
-class YamlComparison {
- public:
-  YamlComparison(const YAML::Node& mapping, const std::string& path) : mapping_(mapping), path_(path) {}
-  template <typename Number>
-  void operator()(const std::string& name, const Number& value, double, double) {
-    const YAML::Node node = take(name);
-    EXPECT_DOUBLE_EQ(node.as<double>(), value) << path_ << name;
-  }
-  void operator()(const std::string& name, bool value) {
-    const YAML::Node node = take(name);
-    EXPECT_EQ(node.as<bool>(), value) << path_ << name;
-  }
-  void operator()(const std::string& name, const std::string& value) {
-    const YAML::Node node = take(name);
-    EXPECT_EQ(node.as<std::string>(), value) << path_ << name;
-  }
-  void operator()(const std::string& name, const std::vector<double>& value) {
-    const YAML::Node node = take(name);
-    EXPECT_EQ(node.size(), value.size()) << path_ << name;
-  }
-  void choice(const std::string& name, const std::string& value, const std::vector<std::string>&) {
-    (*this)(name, value);
-  }
-  template <typename Params>
-  void group(const std::string& name, const Params& params) {
-    YamlComparison child(take(name), path_ + name + "/");
-    Params::visit(params, child);
-    child.expectNoOthers();
-  }
-  void expectNoOthers() const {
-    EXPECT_EQ(mapping_.size(), fields_) << path_ << " has keys that no field asks for";
-  }
+using parameters::Field;
 
- private:
-  YAML::Node take(const std::string& name) {
-    ++fields_;
-    const YAML::Node node = mapping_[name];
-    EXPECT_TRUE(node.IsDefined()) << path_ << name << " is missing";
-    return node.IsDefined() ? node : YAML::Node();
-  }
-  const YAML::Node mapping_;
-  std::string path_;
-  std::size_t fields_ = 0;
-};
+// The values of a file, by the whole names of their fields.
+void list(const YAML::Node& node, const std::string& path, std::map<std::string, YAML::Node>& values) {
+  if (!node.IsMap()) values[path] = node;
+  if (node.IsMap())
+    for (const auto& entry : node)
+      list(entry.second, path + (path.empty() ? "" : "/") + entry.first.as<std::string>(), values);
+}
 
 template <typename Params>
 void expectSameAsFile(const std::string& name) {
   const std::string file = WINDOW_INGRESS_SOURCE_DIR "/config/" + name;
-  YamlComparison comparison(YAML::LoadFile(file), name + ": ");
-  const Params params;
-  Params::visit(params, comparison);
-  comparison.expectNoOthers();
+  std::map<std::string, YAML::Node> values;
+  list(YAML::LoadFile(file), "", values);
+  Params params;
+  for (const Field& field : parameters::fieldsOf(params)) {
+    ASSERT_EQ(values.count(field.name), 1u) << name << ": " << field.name << " is missing";
+    const YAML::Node value = values[field.name];
+    std::visit(
+        [&](auto* at) {
+          EXPECT_EQ(value.as<std::decay_t<decltype(*at)>>(), *at) << name << ": " << field.name;
+        },
+        field.value);
+    values.erase(field.name);
+  }
+  for (const auto& [key, value] : values) ADD_FAILURE() << name << ": no field asks for " << key;
 }
 
 TEST(ParameterFiles, YamlIsTheDefault) {
@@ -113,31 +87,16 @@ TEST(Reconfigure, SchemaHasTheDefaultsOfTheStruct) {
   EXPECT_EQ(numbers(message(Config::__getDefault__())), numbers(toConfigMsg(detection::DetectorParams())));
 }
 
-// Visitor that collects the ranges under the joined names.
-class Ranges : private JoinedNames {
- public:
-  template <typename Number>
-  void operator()(const std::string& name, const Number&, double minimum, double maximum) {
-    lowest[joined(name)] = minimum;
-    highest[joined(name)] = maximum;
-  }
-  template <typename Value>
-  void operator()(const std::string&, const Value&) {}
-  template <typename Params>
-  void group(const std::string& name, const Params& params) {
-    visitGroup(*this, name, params);
-  }
-  std::map<std::string, double> lowest, highest;
-};
-
 TEST(Reconfigure, SchemaHasTheRangesOfTheStruct) {
-  Ranges ranges;
-  const detection::DetectorParams params;
-  detection::DetectorParams::visit(params, ranges);
-  ASSERT_GT(ranges.lowest.size(), 30u);
+  detection::DetectorParams params;
   const auto low = numbers(message(Config::__getMin__())), high = numbers(message(Config::__getMax__()));
-  for (const auto& [name, value] : ranges.lowest) EXPECT_DOUBLE_EQ(low.at(name), value) << name;
-  for (const auto& [name, value] : ranges.highest) EXPECT_DOUBLE_EQ(high.at(name), value) << name;
+  const auto fields = parameters::fieldsOf(params);
+  ASSERT_GT(fields.size(), 30u);
+  for (const Field& field : fields) {
+    if (field.isSwitch()) continue;
+    EXPECT_DOUBLE_EQ(low.at(joinedName(field.name)), field.minimum) << field.name;
+    EXPECT_DOUBLE_EQ(high.at(joinedName(field.name)), field.maximum) << field.name;
+  }
 }
 
 bool endsWith(const std::string& text, const std::string& end) {
@@ -158,23 +117,13 @@ TEST(Reconfigure, DescriptionsHaveUnitAndRange) {
   }
 }
 
-// Visitor that collects the names of the groups.
-struct GroupNames {
-  template <typename... Rest>
-  void operator()(const std::string&, Rest&&...) {}
-  template <typename Params>
-  void group(const std::string& name, const Params&) {
-    names.insert(name);
-  }
-  std::set<std::string> names;
-};
-
 TEST(Reconfigure, EveryStageHasAGroupWithItsParameters) {
-  GroupNames stages;
-  const detection::DetectorParams params;
-  detection::DetectorParams::visit(params, stages);
-  ASSERT_GT(stages.names.size(), 8u);
-  std::set<std::string> found;
+  detection::DetectorParams params;
+  std::set<std::string> stages, found;
+  for (const Field& field : parameters::fieldsOf(params))
+    if (const auto end = field.name.find('/'); end != std::string::npos)
+      stages.insert(field.name.substr(0, end));
+  ASSERT_GT(stages.size(), 8u);
   for (const auto& group : Config::__getGroupDescriptions__()) {
     if (group->id == 0) continue;
     found.insert(group->name);
@@ -182,7 +131,7 @@ TEST(Reconfigure, EveryStageHasAGroupWithItsParameters) {
     for (const auto& parameter : group->parameters)
       EXPECT_EQ(parameter.name.rfind(group->name + "_", 0), 0u) << parameter.name;
   }
-  EXPECT_EQ(found, stages.names);
+  EXPECT_EQ(found, stages);
 }
 
 TEST(Reconfigure, StructGoesThereAndBack) {

@@ -8,8 +8,8 @@ namespace window_ingress::tools::value_table_test {
 class ValueTable : public testing::Test {
  protected:
   detection::DetectorParams params_, defaults_;
-  std::vector<parameters::NamedField> fields_ = parameters::fieldsOf(params_);
-  std::vector<parameters::NamedField> as_default_ = parameters::fieldsOf(defaults_);
+  std::vector<parameters::Field> fields_ = parameters::fieldsOf(params_);
+  std::vector<parameters::Field> as_default_ = parameters::fieldsOf(defaults_);
   std::string text(const std::string& name) const {
     return valueText(*parameters::find(fields_, name), *parameters::find(as_default_, name));
   }
@@ -24,7 +24,7 @@ TEST_F(ValueTable, ValuesHaveTheirUnits) {
 }
 
 TEST_F(ValueTable, ShowsEveryFieldOfAGroup) {
-  std::vector<const parameters::NamedField*> few(3, &fields_.front()), many(30, &fields_.front());
+  std::vector<const parameters::Field*> few(3, &fields_.front()), many(30, &fields_.front());
   const auto ink = [](const cv::Mat& table) {
     cv::Mat channel;
     cv::extractChannel(table, channel, 0);

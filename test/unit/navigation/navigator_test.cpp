@@ -8,8 +8,6 @@
 #include <stdexcept>
 
 #include "navigation_samples.hpp"
-#include "window_ingress/configuration/navigator_node_params.hpp"
-#include "window_ingress/parameters/yaml.hpp"
 
 namespace window_ingress::navigation::navigator_test {
 
@@ -434,49 +432,6 @@ TEST(NavigatorParamsCheck, ListsEveryFault) {
       EXPECT_NE(text.find(name), std::string::npos) << text;
     }
   }
-}
-
-/// Sets every field to something that it is not.
-struct Poison {
-  void operator()(const std::string&, double& value, double, double) { value = -12345.0; }
-  void operator()(const std::string&, int& value, int, int) { value = -12345; }
-  void operator()(const std::string&, bool& value) { value = !value; }
-  void choice(const std::string&, std::string& value, const std::vector<std::string>&) { value = "neither"; }
-  template <typename Params>
-  void group(const std::string&, Params& params) {
-    Params::visit(params, *this);
-  }
-};
-
-/// Collects name and value of every field.
-struct FieldList {
-  std::set<std::string> names;
-  std::string prefix;
-  template <typename Value, typename... Range>
-  void operator()(const std::string& name, const Value& value, Range...) {
-    names.insert(prefix + name + "=" + std::to_string(value));
-  }
-  void choice(const std::string& name, const std::string& value, const std::vector<std::string>&) {
-    names.insert(prefix + name + "=" + value);
-  }
-  template <typename Params>
-  void group(const std::string& name, const Params& params) {
-    const std::string outer = prefix;
-    prefix += name + "/";
-    Params::visit(params, *this);
-    prefix = outer;
-  }
-};
-
-TEST(NavigatorParamsCheck, ShippedYamlHasEveryFieldAtItsDefault) {
-  configuration::NavigatorNodeParams defaults, poisoned;
-  Poison poison;
-  NavigatorParams::visit(poisoned.navigator, poison);
-  parameters::readYamlFile(WINDOW_INGRESS_SOURCE_DIR "/config/navigator.yaml", poisoned);
-  FieldList expected, shipped;
-  NavigatorParams::visit(defaults.navigator, expected);
-  NavigatorParams::visit(poisoned.navigator, shipped);
-  EXPECT_EQ(shipped.names, expected.names);
 }
 
 }  // namespace window_ingress::navigation::navigator_test

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "window_ingress/text/input_error.hpp"
+
 namespace window_ingress::parameters::calibration_file_test {
 
 const char* const kGood =
@@ -27,7 +29,7 @@ void expectRefused(const std::string& file, const std::string& word) {
   try {
     readCalibrationFile(file);
     FAIL() << word;
-  } catch (const std::runtime_error& error) {
+  } catch (const InputError& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find(file), std::string::npos) << text;
     EXPECT_NE(text.find(word), std::string::npos) << text;

@@ -44,7 +44,7 @@ TEST(FieldList, SetsAndGetsTheStructItself) {
 TEST(FieldList, KeepsWithinTheRange) {
   DetectorParams params;
   const auto fields = fieldsOf(params);
-  for (const NamedField& field : fields) {
+  for (const Field& field : fields) {
     const double before = field.get();
     field.set(std::nan(""));
     EXPECT_EQ(field.get(), before) << field.name;
@@ -96,12 +96,12 @@ TEST(FieldList, YamlReadsBackTheSame) {
   for (int i = 0; i < 50; ++i) {
     DetectorParams params, defaults;
     const auto fields = fieldsOf(params);
-    for (const NamedField& field : fields)
+    for (const Field& field : fields)
       if (uniform(random) < 0.3) field.set(field.minimum + uniform(random) * (field.maximum - field.minimum));
     const auto different = changed(fields, fieldsOf(defaults));
     std::ofstream(file) << toYaml(different, "window_detector/detector");
     DetectorParams read = configuration::readOverlay(file).window_detector.detector;
-    for (const NamedField& field : fieldsOf(read))
+    for (const Field& field : fieldsOf(read))
       EXPECT_EQ(field.get(), find(fields, field.name)->get()) << field.name;
   }
   std::filesystem::remove(file);

@@ -6,19 +6,20 @@
 
 namespace window_ingress::parameters::slider_test {
 
-NamedField field(NamedField::Kind kind, double minimum, double maximum) {
-  return {"field", kind, minimum, maximum, [] { return 0.0; }, [](double) {}};
+template <typename Value>
+Slider sliderOf(Value value, double minimum, double maximum) {
+  return Slider({"field", &value, minimum, maximum});
 }
 
 TEST(Slider, SwitchesAndSmallWholeNumbersGoOneByOne) {
-  EXPECT_EQ(Slider(field(NamedField::kSwitch, 0.0, 1.0)).positions(), 1);
-  const Slider slider(field(NamedField::kWhole, 2.0, 300.0));
+  EXPECT_EQ(sliderOf(true, 0.0, 1.0).positions(), 1);
+  const Slider slider = sliderOf(2, 2.0, 300.0);
   EXPECT_EQ(slider.positions(), 298);
   for (int value = 2; value <= 300; ++value) EXPECT_EQ(slider.valueAt(slider.positionOf(value)), value);
 }
 
 TEST(Slider, WideRangesGoByTheLogarithm) {
-  const Slider slider(field(NamedField::kNumber, 0.1, 1000.0));
+  const Slider slider = sliderOf(0.1, 0.1, 1000.0);
   EXPECT_NEAR(slider.valueAt(Slider::kSteps / 2), 10.0, 1e-9);
   EXPECT_EQ(slider.valueAt(-5), 0.1);
   EXPECT_EQ(slider.valueAt(Slider::kSteps + 5), 1000.0);
@@ -27,7 +28,7 @@ TEST(Slider, WideRangesGoByTheLogarithm) {
 // Of every parameter that there is: the ends are reached, it never falls, and the default is kept to a step.
 TEST(Slider, FitsEveryParameterOfTheDetector) {
   detection::DetectorParams params;
-  for (const NamedField& one : fieldsOf(params)) {
+  for (const Field& one : fieldsOf(params)) {
     const Slider slider(one);
     EXPECT_EQ(slider.positionOf(one.minimum), 0) << one.name;
     EXPECT_EQ(slider.positionOf(one.maximum), slider.positions()) << one.name;
@@ -37,8 +38,7 @@ TEST(Slider, FitsEveryParameterOfTheDetector) {
       EXPECT_GE(value, before) << one.name;
       EXPECT_EQ(slider.positionOf(value), position) << one.name;
       before = value;
-      if (one.kind == NamedField::kWhole && slider.positions() == Slider::kSteps)
-        break;  // steps may share a number
+      if (one.isWhole() && slider.positions() == Slider::kSteps) break;  // steps may share a number
     }
   }
 }

@@ -40,9 +40,7 @@ struct Read {
 
 Read read(const XmlRpc::XmlRpcValue& tree) {
   Read result;
-  ParameterReader reader("/node", tree);
-  Outer::visit(result.params, reader);
-  result.faults = reader.faults();
+  result.faults = readTree("/node", tree, parameters::fieldsOf(result.params));
   return result;
 }
 
@@ -128,11 +126,9 @@ TEST(Parameters, AllFaultsComeInOneError) {
   XmlRpc::XmlRpcValue tree = emptyTree();
   tree["speed"] = 5.0;
   tree["count"] = -1;
-  ParameterReader reader("/node", tree);
   Outer params;
-  Outer::visit(params, reader);
   try {
-    reader.throwIfFaulty();
+    refuseFaulty(readTree("/node", tree, parameters::fieldsOf(params)));
     FAIL() << "must throw";
   } catch (const InputError& error) {
     const std::string text = error.what();
@@ -145,11 +141,8 @@ TEST(Parameters, AllFaultsComeInOneError) {
 TEST(Parameters, NamesReadByOthersAreNoFault) {
   XmlRpc::XmlRpcValue tree = emptyTree();
   tree["tuning"]["x"] = 1;
-  ParameterReader reader("/node", tree);
-  reader.ignore({"tuning"});
   Outer params;
-  Outer::visit(params, reader);
-  EXPECT_TRUE(reader.faults().empty());
+  EXPECT_TRUE(readTree("/node", tree, parameters::fieldsOf(params), {"tuning"}).empty());
 }
 
 }  // namespace window_ingress::adapters::parameters_test

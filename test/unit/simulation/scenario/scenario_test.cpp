@@ -198,16 +198,19 @@ TEST_F(ScenarioFile, AKeyMayNotStandTwice) {
 
 TEST_F(ScenarioFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("start:\n  distance_m: 500\ndecoys:\n  - {y_m: far, colour: 1}\n"),
-            file_ + ":2: distance_m = 500 is not within 0.8 .. 15\n" + file_ + ":4: y_m: must be a number\n" +
-                file_ + ":4: decoys[0]/colour: unknown key; see doc/scenarios.md");
-  EXPECT_EQ(error("start:\n  distance_m: 500\n"), file_ + ":2: distance_m = 500 is not within 0.8 .. 15");
+            file_ + ":2: start/distance_m = 500 is not within 0.8 .. 15\n" + file_ +
+                ":4: decoys[0]/y_m: must be a number\n" + file_ +
+                ":4: decoys[0]/colour: unknown key; see doc/scenarios.md");
+  EXPECT_EQ(error("start:\n  distance_m: 500\n"),
+            file_ + ":2: start/distance_m = 500 is not within 0.8 .. 15");
   EXPECT_EQ(error("start:\n  distance_m: [1, 500]\n"),
-            file_ + ":2: distance_m = 500 is not within 0.8 .. 15");
-  EXPECT_NE(error("start:\n  distance_m: [5, 3]\n").find(":2: distance_m: the range's first end"),
+            file_ + ":2: start/distance_m = 500 is not within 0.8 .. 15");
+  EXPECT_NE(error("start:\n  distance_m: [5, 3]\n").find(":2: start/distance_m: the range's first end"),
             std::string::npos);
-  EXPECT_NE(error("start:\n  distance_m: [5]\n").find(":2: distance_m: a range must have two ends"),
+  EXPECT_NE(error("start:\n  distance_m: [5]\n").find(":2: start/distance_m: a range must have two ends"),
             std::string::npos);
-  EXPECT_NE(error("start:\n  distance_m: far\n").find(":2: distance_m: must be a number"), std::string::npos);
+  EXPECT_NE(error("start:\n  distance_m: far\n").find(":2: start/distance_m: must be a number"),
+            std::string::npos);
   EXPECT_NE(error("start:\n  distance_m: .nan\n").find("not within"), std::string::npos);
   EXPECT_NE(error("start:\n  distance_m: [.nan, 2]\n").find("not within"), std::string::npos);
   EXPECT_NE(error("camera: {width_px: 1.5}").find("must be a whole number"), std::string::npos);
@@ -221,8 +224,9 @@ TEST_F(ScenarioFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
   EXPECT_NE(error("").find("must be a mapping"), std::string::npos);
   EXPECT_NE(error("start: [\n").find("not valid yaml"), std::string::npos);
-  EXPECT_EQ(error("house: {wall_texture: straw}").find(file_ + ":1: wall_texture = straw is none of plaster"),
-            0u);
+  EXPECT_EQ(
+      error("house: {wall_texture: straw}").find(file_ + ":1: house/wall_texture = straw is none of plaster"),
+      0u);
   EXPECT_NE(error("window: {sill_m: 2.5}").find("reaches above house/eaves_m"), std::string::npos);
 }
 
