@@ -109,7 +109,7 @@ inline FlyJob jobOf(const FlyOptions& o) {
   if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
   job.seeds = seedsOf(job);
   if (o.jobs < 1 || o.jobs > 256) throw InputError("--jobs: give a number from 1 to 256");
-  if (!o.params.empty()) job.params = evaluation::readFlightParams(o.params);
+  if (!o.params.empty()) job.params = {configuration::readOverlay(o.params)};
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);
   makeFolder(o.output);

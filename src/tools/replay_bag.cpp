@@ -71,27 +71,24 @@ Options checked(Options o) {
 void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::endl; }
 
 adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
-  adapters::ReplayParams params;
-  params.topics = adapters::chooseTopics(bag, o.topics);
-  const configuration::Overlay overlay = configuration::readOverlay(o.params);
-  static_cast<evaluation::PerceptionParams&>(params) = evaluation::perceptionOf(overlay);
+  adapters::ReplayParams params{configuration::readOverlay(o.params), adapters::chooseTopics(bag, o.topics)};
+  estimation::PoseParams& pose = params.homography_pose.pose;
   adapters::ReferenceParams reference = o.reference;
-  tools::takeReference(o.params, overlay.window_detector.reference, reference.picture, reference.corners);
+  tools::takeReference(o.params, params.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) {
-    params.reference = adapters::loadReference(reference, params.detector);
+    params.reference = adapters::loadReference(reference, params.window_detector.detector);
     if (reference.corners.empty()) say(tools::kGuessedOpening);
   } else if ((params.reference = adapters::recordedReference(bag, params))) {
     say("the reference image is the bag's own");
   } else {
     say("no reference image, neither in the bag nor by --reference: windows are told by geometry alone");
   }
-  params.frames = overlay.vehicle.frames;
-  params.with_pose = !o.size.empty() || overlay.said.count("homography_pose/pose/opening_width_m") > 0;
+  params.with_pose = !o.size.empty() || params.said.count("homography_pose/pose/opening_width_m") > 0;
   if (o.size.empty()) return params;
   const std::vector<double> size = numbers("--window-size", o.size, 2);
-  params.pose.opening_width_m = size[0];
-  params.pose.opening_height_m = size[1];
-  const auto faults = parameters::outOfRange(params.pose);
+  pose.opening_width_m = size[0];
+  pose.opening_height_m = size[1];
+  const auto faults = parameters::outOfRange(pose);
   if (!faults.empty()) throw InputError("--window-size: " + parameters::joined(faults));
   return params;
 }

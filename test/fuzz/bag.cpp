@@ -11,7 +11,7 @@ void bag(const std::uint8_t* data, std::size_t size) {
     adapters::openBag(recorded, file.name());
     adapters::ReplayParams params;
     params.topics = adapters::chooseTopics(recorded, {});
-    params.image.max_pixels = 1 << 14;
+    params.window_detector.image.max_pixels = 1 << 14;
     params.with_pose = true;
     int frames = 0;
     adapters::replay(recorded, params, [&](const adapters::ReplayedFrame& frame) {

@@ -139,9 +139,7 @@ class Words {
 };
 
 void seeAsReplay(const rosbag::Bag& bag, const Facts& facts, Words& words) {
-  adapters::ReplayParams params;
-  params.topics = adapters::chooseTopics(bag, {});
-  static_cast<evaluation::PerceptionParams&>(params) = evaluation::perceptionOf(facts.overlay);
+  adapters::ReplayParams params{facts.overlay, adapters::chooseTopics(bag, {})};
   params.reference = facts.appearance();
   params.with_pose = true;
   adapters::replay(bag, params, [&](const adapters::ReplayedFrame& frame) {
@@ -237,7 +235,7 @@ void seeAsLoop(const rosbag::Bag& bag, const Facts& facts, const evaluation::Fli
 void fly(const std::string& scenario, const std::string& params_file, const std::string& file) {
   adapters::FlightBag bag(file);
   const auto result = evaluation::flyOnce(simulation::loadScenario(scenario, kSeed), kSeed,
-                                          evaluation::readFlightParams(params_file), {&bag});
+                                          {configuration::readOverlay(params_file)}, {&bag});
   std::cout << result.reason << std::endl;
 }
 
@@ -249,8 +247,7 @@ void see(const std::string& params_file, const std::string& file, const std::str
   Words replay(replay_file, facts), loop(loop_file, facts);
   seeAsReplay(bag, facts, replay);
   replay.close();
-  evaluation::FlightParams params = evaluation::readFlightParams(params_file);
-  seeAsLoop(bag, facts, params, loop);
+  seeAsLoop(bag, facts, {configuration::readOverlay(params_file)}, loop);
   loop.close();
 }
 

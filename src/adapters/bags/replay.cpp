@@ -87,9 +87,10 @@ void Replay::take(const rosbag::MessageInstance& message) {
   const std::string& topic = message.getTopic();
   if (topic == params_.topics.image) {
     if (const auto image = message.instantiate<sensor_msgs::Image>())
-      takeImage(image->header, [this, image] { return decode(image, params_.image); });
+      takeImage(image->header, [this, image] { return decode(image, params_.window_detector.image); });
     else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>())
-      takeImage(compressed->header, [this, compressed] { return decode(*compressed, params_.image); });
+      takeImage(compressed->header,
+                [this, compressed] { return decode(*compressed, params_.window_detector.image); });
   } else if (topic == params_.topics.camera_info) {
     if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) takeCamera(*info);
   } else if (topic == params_.topics.odom) {
@@ -116,7 +117,7 @@ void Replay::processAll() {
 }
 
 void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
-  const auto vehicle = fromMsg(message, params_.frames);
+  const auto vehicle = fromMsg(message, params_.vehicle.frames);
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
   noticeJump(message.header.stamp);
   const auto& T_odom_base = vehicle.value->T_odom_base;
@@ -128,7 +129,7 @@ void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec)
 }
 
 void Replay::takeImu(const sensor_msgs::Imu& message) {
-  const auto attitude = fromMsg(message, params_.frames.base);
+  const auto attitude = fromMsg(message, params_.vehicle.frames.base);
   if (!attitude) return refuse(params_.topics.imu, attitude.reason);
   noticeJump(message.header.stamp);
   eyes_.addAttitude(attitude.value->stamp_sec, attitude.value->R_odom_base);
@@ -174,7 +175,7 @@ void Replay::process(const WaitingImages::Image& waiting) {
   const double stamp_sec = frame.stamp.toSec();
   frame.has_odometry = odometry_.at(stamp_sec, estimation::TargetEstimator::kMaxPoseGapSec).has_value();
   frame.has_attitude = eyes_.knowsAttitude(stamp_sec);
-  const auto mounted = transforms_.between(params_.frames.base, waiting.header.frame_id);
+  const auto mounted = transforms_.between(params_.vehicle.frames.base, waiting.header.frame_id);
   const double begun_ms = 1e3 * steadyNowSec();
   eyes_.calibrate(frame.camera);
   frame.row.window = eyes_.detect(decoded.image, stamp_sec, mounted.value);
@@ -223,7 +224,7 @@ std::optional<detection::ReferenceAppearance> recordedReference(const rosbag::Ba
   for (const rosbag::MessageInstance& message :
        rosbag::View(bag, rosbag::TypeQuery("window_ingress/ReferenceImage")))
     if (const auto reference = message.instantiate<window_ingress::ReferenceImage>())
-      return makeReference(*reference, params.image, params.detector);
+      return makeReference(*reference, params.window_detector.image, params.window_detector.detector);
   return std::nullopt;
 }
 

@@ -18,11 +18,9 @@
 
 namespace window_ingress::adapters {
 
-struct ReplayParams : evaluation::PerceptionParams {
+struct ReplayParams : configuration::Overlay {
   BagTopics topics;  ///< as chosen by `chooseTopics`
-  FrameNames frames;
-  ImageLimits image;
-  std::optional<detection::ReferenceAppearance> reference;
+  std::optional<detection::ReferenceAppearance> reference = {};
   bool with_pose = false;  ///< the window's size is known
 };
 

@@ -67,7 +67,9 @@ void writeFacts(const std::filesystem::path& folder, const std::string& command,
                   {"begin", exactText(all.getBeginTime())},
                   {"seconds", (all.getEndTime() - all.getBeginTime()).toSec()}};
   facts["topics"] = topicsOf(bag, params.topics);
-  if (params.with_pose) facts["window_size_m"] = {params.pose.opening_width_m, params.pose.opening_height_m};
+  if (params.with_pose)
+    facts["window_size_m"] = {params.homography_pose.pose.opening_width_m,
+                              params.homography_pose.pose.opening_height_m};
   facts["has_reference"] = params.reference.has_value();
   facts["counts"] = countsOf(summary);
   evaluation::OutputFile file(folder / "replay.json");

@@ -108,9 +108,9 @@ std::string ReplayTables::compare(const ReplayedFrame& frame) {
   if (!frame.truth || !frame.camera) return std::string(7, ',');
   std::optional<Eigen::Isometry3d> estimate;
   if (frame.row.pose) estimate = frame.row.pose->best.T_camera_window;
-  const auto errors =
-      evaluation::compareWithTruth(frame.row.window, estimate, *frame.truth, *frame.camera,
-                                   {params_.pose.opening_width_m, params_.pose.opening_height_m});
+  const auto errors = evaluation::compareWithTruth(
+      frame.row.window, estimate, *frame.truth, *frame.camera,
+      {params_.homography_pose.pose.opening_width_m, params_.homography_pose.pose.opening_height_m});
   summary_.add(errors);
   return truthValues(errors);
 }

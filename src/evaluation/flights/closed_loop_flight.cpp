@@ -42,7 +42,7 @@ class Flight {
         params_(withFactsOf(world_, params)),
         perception_(params_),
         sight_(params_.sight, seed),
-        navigator_(params_.navigator) {
+        navigator_(params_.ingress_navigator.navigator) {
     if (!params_.without_images) showReference();
     timing_.lap(Stage::kOther);
   }
@@ -56,7 +56,7 @@ class Flight {
       timing_.lap(Stage::kPhysics);
       sense();
       if (world_.timeSec() < next_step_sec) continue;
-      next_step_sec += 1.0 / params_.step_rate_hz;
+      next_step_sec += 1.0 / params_.ingress_navigator.rate_hz;
       step();
       timing_.lap(Stage::kNavigator);
       keepTrack();

@@ -46,23 +46,14 @@ void tellPolicy(const simulation::Scenario& scenario, const std::set<std::string
 
 }  // namespace
 
-FlightParams readFlightParams(const std::string& file) {
-  const configuration::Overlay overlay = configuration::readOverlay(file);
-  FlightParams params;
-  static_cast<PerceptionParams&>(params) = perceptionOf(overlay);
-  params.navigator = overlay.ingress_navigator.navigator;
-  params.step_rate_hz = overlay.ingress_navigator.rate_hz;
-  params.said = overlay.said;
-  return params;
-}
-
 FlightParams withFactsOf(const simulation::World& world, FlightParams params) {
-  tellVehicle(world, params.said, params.navigator.vehicle);
-  params.tracker.needed = configuration::neededBy(params.navigator.vehicle);
-  tellOpening(world, params.said, params.pose);
-  tellPolicy(world.scenario(), params.said, params.navigator.commit);
+  navigation::NavigatorParams& navigator = params.ingress_navigator.navigator;
+  tellVehicle(world, params.said, navigator.vehicle);
+  params.homography_pose.tracker.needed = configuration::neededBy(navigator.vehicle);
+  tellOpening(world, params.said, params.homography_pose.pose);
+  tellPolicy(world.scenario(), params.said, navigator.commit);
   if (params.without_images)  // nothing shows it
-    params.navigator.commit.glass = "excluded", params.navigator.commit.unverified_opening = "allow";
+    navigator.commit.glass = "excluded", navigator.commit.unverified_opening = "allow";
   return params;
 }
 

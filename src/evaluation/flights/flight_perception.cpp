@@ -4,13 +4,9 @@
 
 namespace window_ingress::evaluation {
 
-PerceptionParams perceptionOf(const configuration::Overlay& overlay) {
-  return {overlay.window_detector.detector, overlay.window_detector.interior, overlay.homography_pose.pose,
-          overlay.homography_pose.filter, overlay.homography_pose.tracker};
-}
-
-FlightPerception::FlightPerception(const PerceptionParams& params)
-    : perception_(params.detector, params.interior), tracker_(params.pose, params.filter, params.tracker) {}
+FlightPerception::FlightPerception(const configuration::Overlay& nodes)
+    : perception_(nodes.window_detector.detector, nodes.window_detector.interior),
+      tracker_(nodes.homography_pose.pose, nodes.homography_pose.filter, nodes.homography_pose.tracker) {}
 
 void FlightPerception::calibrate(const std::optional<geometry::PinholeCamera>& camera) {
   camera_ = camera && camera->validate().empty() ? camera : std::nullopt;

@@ -12,24 +12,12 @@
 
 namespace window_ingress::evaluation {
 
-/// From the image to the target.
-struct PerceptionParams {
-  detection::DetectorParams detector;
-  openness::InteriorKltParams interior;
-  estimation::PoseParams pose;
-  estimation::FilterParams filter;
-  estimation::TargetEstimatorParams tracker;
-};
-
-/// What a user's file says to the nodes.
-PerceptionParams perceptionOf(const configuration::Overlay& overlay);
-
 /// What a flight in one process, or a recorded one, sees and knows of its target, put together as the nodes
 /// do it between them. It takes everything in the order in which it comes.
 class FlightPerception {
  public:
   /// \throws std::invalid_argument that lists every parameter out of range
-  explicit FlightPerception(const PerceptionParams& params);
+  explicit FlightPerception(const configuration::Overlay& nodes);
 
   void setReference(const detection::ReferenceAppearance& reference) { perception_.setReference(reference); }
   /// None, or one that cannot be used, withdraws the one before.

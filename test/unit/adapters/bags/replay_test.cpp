@@ -127,7 +127,7 @@ ReplayParams paramsFor(const rosbag::Bag& bag) {
   ReplayParams params;
   params.topics = chooseTopics(bag, {});
   params.with_pose = true;
-  params.pose.opening_width_m = 1.25;
+  params.homography_pose.pose.opening_width_m = 1.25;
   return params;
 }
 

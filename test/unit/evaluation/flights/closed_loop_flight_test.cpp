@@ -50,7 +50,7 @@ TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
   scenario.unverified_opening = "deny";
   scenario.time_limit_sec = 12.0;
   FlightParams params;
-  params.interior.enabled = false;
+  params.window_detector.interior.enabled = false;
   const auto flight = flyOnce(scenario, 1, params);
   EXPECT_EQ(flight.outcome, Outcome::kTimeout) << flight.reason;
   EXPECT_FALSE(flight.offset_y_m);
@@ -145,7 +145,7 @@ TEST(ClosedLoopFlight, RefusesAVehicleThatIsFlownElsewhere) {
 
 TEST(ClosedLoopFlight, RefusesBadParameters) {
   FlightParams params;
-  params.navigator.limits.speed_mps = -1.0;
+  params.ingress_navigator.navigator.limits.speed_mps = -1.0;
   EXPECT_THROW(flyOnce(shortFlight(), 1, params), std::invalid_argument);
 }
 
