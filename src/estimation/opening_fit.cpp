@@ -23,15 +23,8 @@ std::string text(const Side& side, const char* relation) {
 }  // namespace
 
 const char* toString(Fit fit) {
-  switch (fit) {
-    case Fit::kUnknown:
-      return "UNKNOWN";
-    case Fit::kGo:
-      return "GO";
-    case Fit::kNoGo:
-      return "NO_GO";
-  }
-  return "UNKNOWN";
+  constexpr const char* kNames[] = {"UNKNOWN", "GO", "NO_GO"};
+  return kNames[static_cast<std::size_t>(fit)];
 }
 
 FitVerdict fitVerdict(const SizeEstimate& opening, const geometry::OpeningSize& needed) {

@@ -78,25 +78,9 @@ PoseHints usable(const PoseHints& given) {
 }  // namespace
 
 const char* toString(PoseReject reject) {
-  switch (reject) {
-    case PoseReject::kNone:
-      return "none";
-    case PoseReject::kBadCamera:
-      return "bad_camera";
-    case PoseReject::kBadCorners:
-      return "bad_corners";
-    case PoseReject::kNotInFront:
-      return "not_in_front";
-    case PoseReject::kReprojection:
-      return "reprojection";
-    case PoseReject::kRange:
-      return "range";
-    case PoseReject::kTilt:
-      return "tilt";
-    case PoseReject::kNotFinite:
-      return "not_finite";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"none",         "bad_camera", "bad_corners", "not_in_front",
+                                    "reprojection", "range",      "tilt",        "not_finite"};
+  return kNames[static_cast<std::size_t>(reject)];
 }
 
 WindowPoseEstimator::WindowPoseEstimator(const PoseParams& params) : params_(params) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 
 namespace window_ingress::navigation {
 
@@ -116,9 +115,6 @@ constexpr bool isMoving(State state) {
 constexpr bool mayHaveVelocity(State state) {
   return isMoving(state) || state == State::kHold || state == State::kPassed;
 }
-
-/// The diagram (Mermaid) and the table of events as the text of doc/state_machine.md.
-std::string stateMachineDocument();
 
 namespace table_checks {
 

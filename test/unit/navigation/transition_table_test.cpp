@@ -118,6 +118,45 @@ TEST(TransitionTable, EveryLiveStateYieldsToThePilot) {
   }
 }
 
+/// Events that lead to the same state from nearly everywhere: in the table, not in the image.
+bool isEverywhere(Event event) {
+  return event == Event::kAbort || event == Event::kGiveUp || event == Event::kDisengaged;
+}
+
+void drawDiagram(std::ostringstream& text) {
+  text << "```mermaid\nstateDiagram-v2\n    [*] --> IDLE\n";
+  for (const auto& row : kTransitions) {
+    if (isEverywhere(row.event)) continue;
+    text << "    " << toString(row.from) << " --> " << toString(row.to) << ": " << toString(row.event)
+         << "\n";
+  }
+  text << "```\n";
+}
+
+void writeRows(std::ostringstream& text) {
+  text << "| from | event | to |\n|---|---|---|\n";
+  for (const auto& row : kTransitions) {
+    text << "| " << toString(row.from) << " | " << toString(row.event) << " | " << toString(row.to) << " |\n";
+  }
+}
+
+/// The diagram (Mermaid) and the table of events as the text of doc/state_machine.md.
+std::string stateMachineDocument() {
+  std::ostringstream text;
+  text << "# State machine of the navigator\n\n"
+          "Generated from `include/window_ingress/navigation/transition_table.hpp`; a unit test compares "
+          "this file "
+          "with the table\n(`WINDOW_INGRESS_UPDATE_DOC=1 unit_navigation "
+          "--gtest_filter='*DocumentIsUpToDate'` "
+          "writes it anew).\n\n"
+          "Left out of the picture, but in the table: *abort* and *give up* lead to ABORTED, *disengaged* to "
+          "IDLE.\n\n";
+  drawDiagram(text);
+  text << "\n";
+  writeRows(text);
+  return text.str();
+}
+
 TEST(TransitionTable, DocumentIsUpToDate) {
   const std::string file = WINDOW_INGRESS_SOURCE_DIR "/doc/state_machine.md";
   if (std::getenv("WINDOW_INGRESS_UPDATE_DOC")) std::ofstream(file) << stateMachineDocument();
