@@ -28,7 +28,6 @@ struct Navigator::Impl {
         monitor(params.input),
         limiter(params.limits),
         observer(params.vehicle, params.approach),
-        behaviours(params),
         reason(waiting()) {}
 
   NavigatorParams params;
@@ -38,8 +37,8 @@ struct Navigator::Impl {
   SetpointLimiter limiter;
   DisturbanceObserver observer;
   PendingYaw turn;
-  Behaviours behaviours;
   State state = State::kIdle;
+  std::unique_ptr<Behaviour> behaviour;  ///< of the state, if it has one
   std::string reason;
   MissionState memory;
   Setpoint last_setpoint;
@@ -57,7 +56,7 @@ struct Navigator::Impl {
   Decision decide(const NavigatorInput& input, const Situation& situation, const std::string& elsewhere);
   std::optional<Decision> overrule(const NavigatorInput& input, const Situation& situation) const;
   Decision behave(const Situation& situation) {
-    return behaviours.step(state, situation, memory).value_or(staying());
+    return behaviour ? behaviour->step(situation, memory) : staying();
   }
   Decision staying() const { return {{}, state == State::kPassed && !stands_down, std::nullopt, reason}; }
   void change(State to, const std::string& why);
@@ -169,7 +168,8 @@ std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
 void Navigator::Impl::change(State to, const std::string& why) {
   clock.enterState();
   reason = why;
-  behaviours.enter(to, state, clock.nowSec());
+  memory.was_near = memory.was_near || to == State::kApproach;
+  behaviour = behaviourOf(to, state, clock.nowSec(), !memory.was_near, params);
   if (to == State::kBackOff) ++memory.back_offs;
   if (to == State::kHold) observer.restart();  // what moves the vehicle now is not known to be wind
   state = to;
@@ -208,7 +208,6 @@ Reply Navigator::start(const NavigatorInput& input, double now_sec, const Missio
   self.observer.reset();
   self.turn.reset();
   self.home = Home();
-  self.behaviours.startMission();
   self.stands_down = false;
   self.limiter.stop();
   self.clock.startMission(now_sec);

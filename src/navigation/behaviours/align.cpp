@@ -54,11 +54,6 @@ Eigen::Vector3d StepPacer::along(const Eigen::Vector3d& velocity_odom_mps, doubl
   return std::clamp(velocity_odom_mps.dot(along_), -most_mps, most_mps) * along_;
 }
 
-void Align::enter(double now_sec) {
-  *this = Align(*params_);
-  ambiguous_since_sec_ = now_sec;
-}
-
 Decision Align::step(const Situation& situation, MissionState& memory) {
   if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const RelativeState relative = relate(*situation.vehicle, *situation.target);

@@ -56,13 +56,11 @@ class StepPacer {
 /// ALIGN (P15): yaw keeps the window in view, height follows its centre, and once the normal is trusted the
 /// vehicle moves sideways onto it. It never moves towards the window, and while the normal is not trusted it
 /// only changes height.
-class Align {
+class Align : public Behaviour {
  public:
-  explicit Align(const NavigatorParams& params) : params_(&params), probe_(params), pacer_(params) {}
-  explicit Align(NavigatorParams&&) = delete;  ///< they are looked at in every step
+  Align(const NavigatorParams& params, double now_sec) : Behaviour(params), ambiguous_since_sec_(now_sec) {}
 
-  void enter(double now_sec);
-  Decision step(const Situation& situation, MissionState& memory);
+  Decision step(const Situation& situation, MissionState& memory) override;
 
  private:
   Decision resolveSign(const Situation& situation, const MissionState& memory, const RelativeState& relative);
@@ -70,10 +68,9 @@ class Align {
   Decision moveOntoAxis(const Situation& situation, MissionState& memory, const RelativeState& relative);
   Decision probeForLeave(const Situation& situation, Decision decision);
 
-  const NavigatorParams* params_;
-  HeightProbe probe_;
-  StepPacer pacer_;
-  double ambiguous_since_sec_ = 0.0;
+  HeightProbe probe_{*params_};
+  StepPacer pacer_{*params_};
+  double ambiguous_since_sec_;
   std::optional<double> in_funnel_since_sec_;
 };
 

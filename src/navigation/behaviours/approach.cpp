@@ -21,8 +21,6 @@ double heldSec(bool condition, double now_sec, std::optional<double>& since_sec)
 
 }  // namespace
 
-void Approach::enter() { *this = Approach(*params_); }
-
 Decision Approach::step(const Situation& situation, MissionState& memory) {
   if (auto other = leaveOtherWindow(situation, memory)) return *other;
   const auto& target = *situation.target;

@@ -8,13 +8,11 @@ namespace window_ingress::navigation {
 /// APPROACH (P16): forward along the normal, still correcting sideways and in height. The forward speed
 /// shrinks to nothing at the wall of the funnel, and so that the vehicle can stop at the commit line as long
 /// as the criterion does not hold.
-class Approach {
+class Approach : public Behaviour {
  public:
-  explicit Approach(const NavigatorParams& params) : params_(&params), pacer_(params) {}
-  explicit Approach(NavigatorParams&&) = delete;  ///< they are looked at in every step
+  using Behaviour::Behaviour;
 
-  void enter();
-  Decision step(const Situation& situation, MissionState& memory);
+  Decision step(const Situation& situation, MissionState& memory) override;
 
  private:
   double forwardSpeed(const CommitCriterion& criterion, const RelativeState& relative) const;
@@ -24,8 +22,7 @@ class Approach {
   std::optional<Event> judge(const CommitCriterion& criterion, const RelativeState& relative,
                              const Situation& situation, std::string& reason);
 
-  const NavigatorParams* params_;
-  StepPacer pacer_;
+  StepPacer pacer_{*params_};
   std::optional<double> outside_since_sec_;
   std::optional<double> waiting_since_sec_;
   bool looks_ = false;  ///< at the line, to see whether the opening is open

@@ -12,9 +12,7 @@ bool hasRetriesLeft(const MissionState& memory, const NavigatorParams& params) {
 
 }  // namespace
 
-void BackOff::enter() { *this = BackOff(*params_); }
-
-Decision BackOff::step(const Situation& situation, const MissionState& memory) {
+Decision BackOff::step(const Situation& situation, MissionState& memory) {
   if (!memory.trusted) return withoutNormal(memory);
   const auto& target = *memory.trusted;
   const RelativeState relative = relate(*situation.vehicle, target);

@@ -46,6 +46,7 @@ struct MissionState {
   std::vector<std::uint32_t> given_up;          ///< numbers of windows that were left, in that order
   bool opening_asked = false;                   ///< the vehicle waits at the line for the operator's word
   bool opening_confirmed = false;               ///< the operator says that the window flown at is open
+  bool was_near = false;                        ///< has approached a window: what is above it may be eaves
   bool was_in_front = true;  ///< clear of the opening, when it was last known where the vehicle was
   int others = 0;            ///< how often one of these was flown at
   int back_offs = 0;
@@ -61,6 +62,19 @@ struct MissionState {
   void forgetWindow();
   /// Everything that lives in an odometry frame.
   void forgetPlaces();
+};
+
+/// What the vehicle does in one state, from the moment at which that is entered until it is left.
+class Behaviour {
+ public:
+  explicit Behaviour(const NavigatorParams& params) : params_(&params) {}
+  explicit Behaviour(NavigatorParams&&) = delete;  ///< they are looked at in every step
+  virtual ~Behaviour() = default;
+
+  virtual Decision step(const Situation& situation, MissionState& memory) = 0;
+
+ protected:
+  const NavigatorParams* params_;
 };
 
 /// On which side of the window the vehicle is, for when its place will be forgotten.

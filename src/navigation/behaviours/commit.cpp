@@ -1,7 +1,6 @@
 #include "navigation/behaviours/commit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/motion/moving_target.hpp"
@@ -55,8 +54,6 @@ bool seesCommitted(const Situation& situation, const TargetEstimate& committed) 
 }
 
 }  // namespace
-
-void Commit::enter() { *this = Commit(*params_); }
 
 Decision Commit::step(const Situation& situation, MissionState& memory) {
   refine(situation, memory);

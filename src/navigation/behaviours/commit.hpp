@@ -9,13 +9,11 @@ namespace window_ingress::navigation {
 /// Heading along the normal. Ends standing still behind the window; turns back only while the nose can still
 /// be stopped in front of the plane, once it could not only with twice the way to do so: half stopped, it
 /// would drift where it can neither pass nor turn.
-class Commit {
+class Commit : public Behaviour {
  public:
-  explicit Commit(const NavigatorParams& params) : params_(&params) {}
-  explicit Commit(NavigatorParams&&) = delete;  ///< they are looked at in every step
+  using Behaviour::Behaviour;
 
-  void enter();
-  Decision step(const Situation& situation, MissionState& memory);
+  Decision step(const Situation& situation, MissionState& memory) override;
 
   /// True, after odometry was gone, if the vehicle is through already, or if the criterion with the committed
   /// window still holds, grown by the drift since; in front of the plane only while the window is seen there.
@@ -29,7 +27,6 @@ class Commit {
   double forwardSpeed(const RelativeState& relative);
   double speedToExit(double room_m, const RelativeState& relative) const;
 
-  const NavigatorParams* params_;
   std::optional<Eigen::Vector3d>
       entry_odom_m_;             ///< the window at the commit: no series of updates leads far from it
   int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere

@@ -7,12 +7,7 @@ namespace {
 constexpr double kGoodInputSec = 0.2;  // inputs good, before going on
 }
 
-void Hold::enter(State from) {
-  *this = Hold(*params_);
-  from_ = from;
-}
-
-Decision Hold::step(const Situation& situation, const MissionState& memory) {
+Decision Hold::step(const Situation& situation, MissionState& memory) {
   held_sec_ += situation.dt_sec;
   const bool needs_image = from_ != State::kCommit;  // which flies on without
   const bool is_good = situation.vehicle && situation.setpoint_fault.empty() &&

@@ -12,12 +12,6 @@ constexpr int kMaxOthers = 8;
 constexpr double kMaxShiftToClimbM = 0.3;  // where the place is less certain, there may be eaves above it
 }  // namespace
 
-void Search::enter(bool may_climb) {
-  *this = Search(*params_);
-  may_climb_ = may_climb;
-  looks_back_ = true;
-}
-
 Decision Search::step(const Situation& situation, MissionState& memory) {
   const auto& vehicle = *situation.vehicle;
   const double height_m = vehicle.T_odom_base.translation().z();

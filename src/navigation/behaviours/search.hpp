@@ -7,17 +7,15 @@ namespace window_ingress::navigation {
 /// SEARCH (P14): turns in its place, first towards where the window was last seen, and looks from a greater
 /// height after each turn without success. It goes nowhere else. Once something is seen it
 /// stops turning away from it until enough images have shown it.
-class Search {
+class Search : public Behaviour {
  public:
   static constexpr double kMaxTurnPerImage = 0.25;  ///< part of the field of view, from image to image
 
-  explicit Search(const NavigatorParams& params) : params_(&params) {}
-  explicit Search(NavigatorParams&&) = delete;  ///< they are looked at in every step
-
   /// \param may_climb false after a mission has been near the window: what is above is then not known to be
   /// free
-  void enter(bool may_climb);
-  Decision step(const Situation& situation, MissionState& memory);
+  Search(const NavigatorParams& params, bool may_climb) : Behaviour(params), may_climb_(may_climb) {}
+
+  Decision step(const Situation& situation, MissionState& memory) override;
 
  private:
   Decision lookAt(const Situation& situation, const MissionState& memory);
@@ -26,13 +24,12 @@ class Search {
   double sweep(const VehicleState& vehicle, MissionState& memory);
   void countTurn(double heading_rad, MissionState& memory);
 
-  const NavigatorParams* params_;
-  bool may_climb_ = true;
+  bool may_climb_;
   std::optional<double> height_m_;
   std::optional<double> last_heading_rad_;
   double turned_rad_ = 0.0;
   double direction_ = 1.0;
-  bool looks_back_ = false;
+  bool looks_back_ = true;
   int turns_ = 0;
   int frames_ = 0;
 };

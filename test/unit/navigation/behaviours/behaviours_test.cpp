@@ -30,8 +30,7 @@ Situation situationAt(const Eigen::Vector3d& position_m, double now_sec, bool wi
 TEST(SearchBehaviour, TurnsWithoutMovingSidewaysAndClimbsAfterEachTurn) {
   MissionState memory;
   const NavigatorParams params = test::withoutGlass();
-  Search search(params);
-  search.enter(true);
+  Search search{params, true};
   double yaw = 0.0, height = 1.5, turned = 0.0;
   Decision decision;
   while (!decision.event) {
@@ -51,8 +50,7 @@ TEST(SearchBehaviour, DoesNotClimbWhereItsPlaceIsUncertain) {
   MissionState memory;
   memory.odometry_shift_m = 0.5;
   const NavigatorParams params = test::withoutGlass();
-  Search search(params);
-  search.enter(true);
+  Search search{params, true};
   double yaw = 0.0;
   for (Decision decision; !decision.event;) {
     decision = search.step(situationAt({-4, 1, 1.5}, 0.0, false, yaw), memory);
@@ -65,12 +63,11 @@ TEST(SearchBehaviour, NeverDescendsAndDoesNotClimbNearTheWindow) {
   MissionState memory;
   NavigatorParams params = test::withoutGlass();
   params.search.height_m = 3.0;
-  Search search(params);
-  search.enter(false);
+  Search search{params, false};
   EXPECT_EQ(search.step(situationAt({-4, 1, 1.5}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
-  search.enter(true);
+  search = Search(params, true);
   EXPECT_GT(search.step(situationAt({-4, 1, 1.5}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
-  search.enter(true);
+  search = Search(params, true);
   EXPECT_EQ(search.step(situationAt({-4, 1, 5.0}, 0.0, false), memory).wish.velocity_odom_mps.z(), 0.0);
 }
 
@@ -78,8 +75,7 @@ TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
   MissionState memory;
   for (const double yaw : {-1.0, 1.0}) {
     memory.window_odom_m = Eigen::Vector3d(0, 0, 1.5);
-    Search search{kDefaults};
-    search.enter(false);
+    Search search{kDefaults, false};
     const auto decision = search.step(situationAt({-4, 0, 1.5}, 0.0, false, yaw), memory);
     EXPECT_LT(decision.wish.yaw_rate_radps * yaw, 0.0);
   }
@@ -87,8 +83,7 @@ TEST(SearchBehaviour, LooksFirstWhereTheWindowWas) {
 
 TEST(SearchBehaviour, OneImageIsNoWindow) {
   MissionState memory;
-  Search search{kDefaults};
-  search.enter(true);
+  Search search{kDefaults, true};
   EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.0, true), memory).event);
   EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.1, false), memory).event);
   for (int i = 0; i < 2; ++i) EXPECT_FALSE(search.step(situationAt({-4, 0, 1.5}, 0.2, true), memory).event);
@@ -118,9 +113,8 @@ TEST(HeightProbe, GoesUpAndBackThenDownAndBackWithinItsAmplitude) {
 }
 
 TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
-  Align align{kDefaults};
+  Align align{kDefaults, 0.0};
   MissionState memory;
-  align.enter(0.0);
   bool climbed = false, gave_up = false;
   double height_m = 0.0;
   for (double now = 0.0; now < 60.0 && !gave_up; now += 0.05) {
@@ -139,9 +133,8 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
 
 TEST(AlignBehaviour, MakesRoomOnlyToMoveSideways) {
   for (const double lateral_m : {0.0, 1.0}) {
-    Align align{kDefaults};
+    Align align{kDefaults, 0.0};
     MissionState memory;
-    align.enter(0.0);
     const double forward_mps =
         align.step(situationAt({-1.5, lateral_m, 1.5}, 0.0, true), memory).wish.velocity_odom_mps.x();
     EXPECT_EQ(forward_mps<-0.1, lateral_m> 0.0) << forward_mps;
@@ -169,7 +162,6 @@ TEST(VelocityTowards, AsksForNoHarderBrakingThanTheVehicleHas) {
 
 TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   Approach approach{kDefaults};
-  approach.enter();
   MissionState memory;
   auto situation = situationAt({-3.0, 0.0, 0.0}, 1.0, true);
   EXPECT_NE(approach.step(situation, memory).event, Event::kMisaligned);
@@ -183,7 +175,6 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
 TEST(ApproachBehaviour, GoesBackToTheLineThatItWasBlownAcross) {
   Approach approach{kDefaults};
   MissionState memory;
-  approach.enter();
   const Decision beside = approach.step(situationAt({-0.8, 0.5, 1.5}, 1.0, true), memory);
   EXPECT_LT(beside.wish.velocity_odom_mps.x(), -0.3);
   const Decision before_it = approach.step(situationAt({-0.8, 0.0, 1.5}, 1.0, true), memory);
@@ -192,8 +183,7 @@ TEST(ApproachBehaviour, GoesBackToTheLineThatItWasBlownAcross) {
 
 TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
   MissionState memory;
-  Align align{kDefaults};
-  align.enter(0.0);
+  Align align{kDefaults, 0.0};
   auto situation = situationAt({-5.0, 0.0, 1.5}, 0.0, true);
   situation.target->T_odom_window.translation() = Eigen::Vector3d(5.0, 2.0, 1.5);
   memory.trusted = situation.target;
@@ -209,8 +199,7 @@ TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
   EXPECT_TRUE(memory.others_odom_m.front().isApprox(Eigen::Vector3d(0.0, 1.0, 1.5)));
   EXPECT_FALSE(memory.trusted || memory.window_odom_m) << "nothing may be flown by it any more";
 
-  Search search{kDefaults};
-  search.enter(false);
+  Search search{kDefaults, false};
   for (int i = 0; i < 10; ++i)
     EXPECT_FALSE(search.step(situationAt({-5.0, -1.0, 1.5}, 0.1 * i, false), memory).event);
   auto again = situationAt({-5.0, -1.0, 1.5}, 1.0, true);
@@ -225,8 +214,7 @@ TEST(OtherWindow, IsLeftRememberedAndNotTakenAgain) {
 TEST(OtherWindow, OnceAroundWithoutTheRightOneTheyGetAnotherChance) {
   MissionState memory;
   memory.others_odom_m.push_back({0.0, 0.0, 1.5});
-  Search search{kDefaults};
-  search.enter(false);
+  Search search{kDefaults, false};
   double yaw = 0.0;
   for (int i = 0; i < 10; ++i) search.step(situationAt({-4, 0, 1.5}, 0.0, true, yaw), memory);
   EXPECT_EQ(memory.others_odom_m.size(), 1u);
@@ -262,8 +250,7 @@ TEST(StepPacer, StepsSidewaysOrForwardAndLooksAfterEach) {
 TEST(SearchBehaviour, TurnsSlowerForLongExposuresAndFewImages) {
   NavigatorParams params = test::withoutGlass();
   const auto rateWith = [&](double image_period_sec) {
-    Search search(params);
-    search.enter(false);
+    Search search{params, false};
     auto situation = situationAt({-4, 0, 1.5}, 0.0, false);
     situation.image_period_sec = image_period_sec;
     MissionState memory;
@@ -280,7 +267,6 @@ TEST(BackOffBehaviour, GoesBackAlongTheAxisAndDoesNotTurnInTheReveal) {
   memory.trusted = test::targetAtOrigin(0.0);
   memory.trusted->T_odom_window.linear() = geometry::yawRotation(0.4);
   BackOff back_off{kDefaults};
-  back_off.enter();
   const auto inside = back_off.step(situationAt({0.05, 0.05, 1.5}, 0.0, false, 0.8), memory);
   EXPECT_EQ(inside.wish.yaw_rate_radps, 0.0);
   const Eigen::Vector3d normal(std::cos(0.4), std::sin(0.4), 0.0);
@@ -298,7 +284,6 @@ TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
   MissionState memory;
   memory.trusted = test::targetAtOrigin(0.0);
   BackOff back_off{kDefaults};
-  back_off.enter();
   EXPECT_EQ(back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false), memory).event, Event::kBackedOff);
   EXPECT_FALSE(
       back_off.step(situationAt({-2.6, 0, 1.5}, 0.0, false, 1.0), memory).event);  // not facing it yet
@@ -312,7 +297,6 @@ TEST(BackOffBehaviour, EndsByTheWindowOrItsAbsenceOrTooManyTries) {
 TEST(BackOffBehaviour, WithoutANormalItGoesNowhere) {
   MissionState memory;
   BackOff back_off{kDefaults};
-  back_off.enter();
   const auto decision = back_off.step(situationAt({-1.0, 0, 1.5}, 0.0, false), memory);
   EXPECT_EQ(decision.event, Event::kBackedOff);
   EXPECT_EQ(decision.wish.velocity_odom_mps.norm(), 0.0);
@@ -352,7 +336,6 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
   memory.committed = test::targetAtOrigin(0.0);
   memory.wind_odom_mps = Eigen::Vector3d(-0.4, 0.3, 0.0);
   Commit commit{kDefaults};
-  commit.enter();
   auto at_exit = situationAt({kDefaults.commit.exit_distance_m, 0.0, 1.5}, 0.0, false);
   const auto decision = commit.step(at_exit, memory);
   EXPECT_NEAR(decision.wish.velocity_odom_mps.x(), 0.4, 1e-9);
@@ -367,7 +350,6 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
     memory.committed = test::targetAtOrigin(0.0);
     memory.told_odom_mps = {told_mps, 0.0, 0.0};
     Commit commit{kDefaults};
-    commit.enter();
     return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
   };
   const auto& vehicle = kDefaults.vehicle;
@@ -382,7 +364,6 @@ TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
   MissionState memory;
   memory.committed = test::targetAtOrigin(0.0);
   Commit commit{kDefaults};
-  commit.enter();
   EXPECT_EQ(commit.step(situationAt({1.2, 0.0, 1.5}, 0.0, false), memory).event, Event::kCrossed);
   const auto blown_back = commit.step(situationAt({0.1, 0.0, 1.5}, 0.1, false), memory);
   EXPECT_FALSE(blown_back.event);
@@ -393,8 +374,7 @@ TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
   MissionState memory;
   memory.trusted = test::targetAtOrigin(0.0);
   for (const double distance_m : {0.5, 2.0}) {
-    Hold hold{kDefaults};
-    hold.enter(State::kApproach);
+    Hold hold{kDefaults, State::kApproach};
     const auto decision = hold.step(situationAt({-distance_m, 0.1, 1.5}, 0.0, false), memory);
     EXPECT_EQ(decision.event == Event::kWindowLost, distance_m < kDefaults.limits.wall_distance_m);
   }
@@ -404,8 +384,7 @@ TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyTheImagesAreMissing) {
   for (const auto from : {State::kAlign, State::kApproach, State::kSearch}) {
     MissionState memory;
     memory.trusted = test::targetAtOrigin(0.0);
-    Hold hold{kDefaults};
-    hold.enter(from);
+    Hold hold{kDefaults, from};
     std::optional<Event> event;
     for (double now = 0.0; now < 10.0 && !event; now += 0.03) {
       auto situation = situationAt({-1.0, 0, 1.5}, now, false);
@@ -417,9 +396,8 @@ TEST(HoldBehaviour, RetreatsBeforeItGivesUpWhereOnlyTheImagesAreMissing) {
 }
 
 /// The first event of a hold that began at 0 s with these inputs standing still, or none within 10 s.
-std::optional<Event> wayOutOf(State from, const MissionState& memory, bool with_vehicle, bool with_target) {
-  Hold hold{kDefaults};
-  hold.enter(from);
+std::optional<Event> wayOutOf(State from, MissionState memory, bool with_vehicle, bool with_target) {
+  Hold hold{kDefaults, from};
   for (double now = 0.0; now < 10.0; now += 0.03) {
     auto situation = situationAt({-0.8, 0, 1.5}, now, with_target);
     if (!with_vehicle) situation.vehicle.reset();
