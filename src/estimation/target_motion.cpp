@@ -1,7 +1,5 @@
 #include "window_ingress/estimation/target_motion.hpp"
 
-#include <cmath>
-
 namespace window_ingress::estimation {
 
 MotionModel::While MotionModel::over(double elapsed_sec) const {

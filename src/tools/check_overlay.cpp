@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "running_nodes.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace {
 
@@ -116,9 +116,8 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
   };
   if (contradicts("opening_width_m", pose.opening_width_m, size[0]) ||
       contradicts("opening_height_m", pose.opening_height_m, size[1])) {
-    std::ostringstream said;
-    said << pose.opening_width_m << "," << pose.opening_height_m;
-    warn("window_size " + text + " counts more than " + file + ", which says " + said.str());
+    warn(formatted("window_size %s counts more than %s, which says %g,%g", text.c_str(), file.c_str(),
+                   pose.opening_width_m, pose.opening_height_m));
   }
   pose.opening_width_m = size[0];
   pose.opening_height_m = size[1];
@@ -142,12 +141,11 @@ void checkAspect(double in_image, const estimation::PoseParams& opening) {
 void checkSpeeds(const configuration::Overlay& overlay) {
   const double speed = overlay.ingress_navigator.navigator.limits.speed_mps;
   const double guarded = overlay.setpoint_guard.max_speed_mps;
-  if (speed < guarded) return;
-  std::ostringstream text;
-  text << "setpoint_guard/max_speed_mps " << guarded
-       << " is not above ingress_navigator/navigator/limits/speed_mps " << speed
-       << ": all that is faster becomes zero";
-  warn(text.str());
+  if (speed >= guarded)
+    warn(
+        formatted("setpoint_guard/max_speed_mps %g is not above ingress_navigator/navigator/limits/speed_mps "
+                  "%g: all that is faster becomes zero",
+                  guarded, speed));
 }
 
 bool says(const configuration::Overlay& overlay, const std::string& group,
@@ -172,24 +170,21 @@ void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) 
   if (o.fly != "true" || says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"}))
     return;
   const auto& vehicle = overlay.vehicle;
-  std::ostringstream text;
-  text << "the vehicle's size is not said: it flies as one of " << 2.0 * vehicle.half_length_m << " x "
-       << 2.0 * vehicle.half_width_m << " x " << 2.0 * vehicle.half_height_m
-       << " m; measure it, propellers included, and say in the file of config:= vehicle: {half_length_m: L, "
-          "half_width_m: W, half_height_m: H}";
-  warn(text.str());
+  warn(
+      formatted("the vehicle's size is not said: it flies as one of %g x %g x %g m; measure it, propellers "
+                "included, and say in the file of config:= vehicle: {half_length_m: L, half_width_m: W, "
+                "half_height_m: H}",
+                2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
 }
 
 void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseParams& opening) {
   const double width_m = 2.0 * vehicle.half_width_m, height_m = 2.0 * vehicle.half_height_m;
   if (opening.scale_sigma > 0.0 || (width_m < opening.opening_width_m && height_m < opening.opening_height_m))
     return;
-  std::ostringstream text;
-  text << "the vehicle, " << width_m << " x " << height_m
-       << " m (twice vehicle/half_width_m, half_height_m), does not fit "
-       << "through the opening, " << opening.opening_width_m << " x " << opening.opening_height_m
-       << " m: measure both";
-  throw InputError(text.str());
+  throw InputError(
+      formatted("the vehicle, %g x %g m (twice vehicle/half_width_m, half_height_m), does not fit "
+                "through the opening, %g x %g m: measure both",
+                width_m, height_m, opening.opening_width_m, opening.opening_height_m));
 }
 
 void checkCameraPose(const std::string& text) {

@@ -29,13 +29,10 @@ struct Job {
 options::options_description describe(Job& job) {
   options::options_description description(
       "Usage: make_reference IMAGE [OPTION...]\n"
-      "Writes the image, a yaml file of the same name for config:=, and NAME_understood.png, which shows "
-      "the inner border "
-      "and the regions whose colours are compared.\nWithout --corners a window opens: click the four inner "
-      "corners of the "
-      "opening, top left first, then clockwise; drag to correct,\nf: fit them to the edges, u: undo, Enter: "
-      "save, q: "
-      "quit.\n\nOptions");
+      "Writes the image, a yaml file of the same name for config:=, and NAME_understood.png, which shows the "
+      "inner border and the regions whose colours are compared.\nWithout --corners a window opens: click the "
+      "four inner corners of the opening, top left first, then clockwise; drag to correct,\nf: fit them to "
+      "the edges, u: undo, Enter: save, q: quit.\n\nOptions");
   description.add_options()("help", "print this text")                                             //
       ("picture", options::value(&job.image), "photograph of the target with some wall round it")  //
       ("output", options::value(&job.output)->default_value(job.output), "image to write")         //

@@ -29,8 +29,7 @@ struct Options {
 po::options_description describe(Options& o) {
   po::options_description description(
       "Usage: survey_filter --output DIR [options]\n"
-      "Flies synthetic approaches (no images: borders with noise and lasting errors, odometry that "
-      "drifts,\n"
+      "Flies synthetic approaches (no images: borders with noise and lasting errors, odometry that drifts,\n"
       "attitude that is wrong) through estimator and filter and compares with the truth.\n"
       "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % band.\n"
       "\nOptions");
@@ -102,8 +101,7 @@ int survey(const Options& o) {
   tools::makeFolder(o.output);
   evaluation::OutputFile table(o.output + "/filter.csv");
   table << "run,time_s,flown_m,x_m,y_m,trusted,nees,position_error_m,yaw_error_deg,yaw_sigma_deg,relative_"
-           "yaw_deg,"
-           "filtered_yaw_deg,single_yaw_deg,width_error,width_sigma,apparent_width_m,nis\n";
+           "yaw_deg,filtered_yaw_deg,single_yaw_deg,width_error,width_sigma,apparent_width_m,nis\n";
   const SizeTold told = o.size == "known" ? SizeTold::kAll : SizeTold::kNothing;
   std::vector<AtWay> ways{AtWay(0.1), AtWay(0.25), AtWay(0.5), AtWay(0.75), AtWay(1.0)};
   double images = 0.0, nees = 0.0;

@@ -31,8 +31,7 @@ struct Options {
 po::options_description describe(Options& o) {
   po::options_description description(
       "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--glass N] [--scenario FILE.yaml...] "
-      "--output "
-      "DIR\n"
+      "--output DIR\n"
       "Approaches random windows and asks whether they are open. Writes DIR/openness.csv with a row an "
       "approach and\n"
       "prints a table with Wilson intervals (95 %). Exit code 1 if anything closed was ever called "

@@ -30,9 +30,8 @@ using tools::Bench;
 
 const char *const kStages = "stages", *const kSliders = "parameters";
 const char* const kKeys =
-    "keys: g/G next or previous group of parameters, n/p next or previous image, d defaults of this group, "
-    "s save, h "
-    "these keys, q or Esc quit";
+    "keys: g/G next or previous group of parameters, n/p next or previous image, d defaults of this group, s "
+    "save, h these keys, q or Esc quit";
 
 struct Job {
   std::string source, output, params, corners, topic, sheet;
@@ -45,8 +44,7 @@ struct Job {
 options::options_description describe(Job& job) {
   options::options_description description(
       std::string("Usage: tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
-                  "SOURCE: an image, a folder of images, a bag, or a topic "
-                  "of images (begins with '/').\n") +
+                  "SOURCE: an image, a folder of images, a bag, or a topic of images (begins with '/').\n") +
       kKeys + "\n\nOptions");
   description.add_options()("help", "print this text")      //
       ("source", options::value(&job.source), "see above")  //
@@ -73,8 +71,7 @@ void save(const std::string& file, const Bench& bench) {
   if (file.empty()) throw InputError("--output is missing: where to save");
   std::ofstream output(file);
   output << "# Written by tune_detector: what differs from the defaults. Give it as config:= to launch "
-            "files, as --params to "
-            "tools.\n"
+            "files, as --params to tools.\n"
          << bench.overlay();
   output.close();
   if (!output) throw InputError(file + ": cannot be written");

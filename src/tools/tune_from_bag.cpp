@@ -44,9 +44,8 @@ options::options_description describe(Job& job) {
       "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H "
       "[OPTION...]\n"
       "Tries settings of the detector on a part of the images and writes the keys it changed, if it is "
-      "better on the "
-      "rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong usage or "
-      "unreadable input.\n\nOptions");
+      "better on the rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
+      "usage or unreadable input.\n\nOptions");
   description.add_options()("help", "print this text")  //
       ("output", options::value(&job.output),
        "yaml file for the changed keys, to be given as config:= and --params")  //

@@ -5,7 +5,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <new>
 #include <stdexcept>

@@ -17,10 +17,8 @@ constexpr const char* kTruthColumns =
 constexpr const char* kOpennessColumns = ",openness,openness_log_odds,depth_behind_m";
 constexpr const char* kDetailColumns =
     "stamp,has_calibration,has_odometry,has_attitude,sides_seen,yaw_rad,sigma_u_rad,sign_trusted,theta_rad,"
-    "phi_rad,"
-    "psi_rad,opening_width_m,opening_height_m,left_side_px,right_side_px,filtered_age_sec,filtered_sign_"
-    "trusted,"
-    "filtered_weight,window_width_m,window_height_m,why_not_filtered\n";
+    "phi_rad,psi_rad,opening_width_m,opening_height_m,left_side_px,right_side_px,filtered_age_sec,filtered_"
+    "sign_trusted,filtered_weight,window_width_m,window_height_m,why_not_filtered\n";
 constexpr int kPoseDetails = 10, kFilterDetails = 5;
 
 std::string filteredValues(const std::optional<estimation::FilteredWindow>& filtered) {

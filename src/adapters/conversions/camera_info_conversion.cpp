@@ -55,8 +55,7 @@ std::string badDistortion(const sensor_msgs::CameraInfo& m) {
   if (wanted == 0)
     return "distortion model '" + m.distortion_model.substr(0, 40) +
            "' is not supported, only plumb_bob, equidistant (fisheye) and rational_polynomial; for others "
-           "use "
-           "rectified images (image_proc) and set vehicle/image_is_rectified";
+           "use rectified images (image_proc) and set vehicle/image_is_rectified";
   if (m.D.empty() && !isFisheye(m.distortion_model)) return "";
   if (m.D.size() != wanted)
     return "D holds " + text(m.D.size()) + " numbers, " + m.distortion_model + " has " + text(wanted);

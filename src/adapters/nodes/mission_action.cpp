@@ -2,7 +2,6 @@
 
 #include <std_msgs/UInt32.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

@@ -26,10 +26,9 @@ std::string withTwoDecimals(double value) { return formatted("%.2f", value); }
 
 Health consoleHealth() {
   if (!consoleIsStuck()) return {};
-  return {
-      Health::kWarn,
-      "the terminal or log of this node takes nothing more (Ctrl-S? disk full?): its lines are lost there, "
-      "not in /rosout"};
+  return {Health::kWarn,
+          "the terminal or log of this node takes nothing more (Ctrl-S? disk full?): its lines are lost "
+          "there, not in /rosout"};
 }
 
 }  // namespace
@@ -151,8 +150,8 @@ Health Diagnostics::clockHealth() {
   if (now_sec == 0.0 && steady_sec - started_sec_ < kSilenceSec) return {Health::kOk, "waiting for /clock"};
   if (now_sec == 0.0)
     return {Health::kError,
-            "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the "
-            "world, or set use_sim_time to false"};
+            "use_sim_time is set but nothing has come on /clock; play the bag with --clock, start the world, "
+            "or set use_sim_time to false"};
   if (steady_sec - clock_moved_sec_ > kUnhealthyClockSec)
     return {Health::kWarn,
             "/clock stands still since " + withTwoDecimals(steady_sec - clock_moved_sec_) + " s"};

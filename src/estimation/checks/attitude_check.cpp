@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -22,10 +22,9 @@ bool AttitudeCheck::see(const Eigen::Matrix3d& R_odom_base_imu, const Eigen::Mat
       agree ? std::min(std::max(in_a_row_, 0) + 1, kEnough) : std::max(std::min(in_a_row_, 0) - 1, -kEnough);
   if (in_a_row_ == kEnough) verdict_ = {FramesVerdict::kGood, ""};
   if (in_a_row_ > -kEnough) return agree;
-  char text[160];
-  std::snprintf(text, sizeof text, "attitude of the imu is %.0f deg off that of the odometry: other axes?",
-                apart_rad * geometry::kDegreesPerRad);
-  verdict_ = {FramesVerdict::kWrong, text};
+  verdict_ = {FramesVerdict::kWrong,
+              formatted("attitude of the imu is %.0f deg off that of the odometry: other axes?",
+                        apart_rad * geometry::kDegreesPerRad)};
   return false;
 }
 

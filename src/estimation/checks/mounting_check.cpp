@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "window_ingress/geometry/euler_angles.hpp"
@@ -55,10 +54,8 @@ std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
   const double largest = roll_pitch_yaw_rad.cwiseAbs().maxCoeff();
   for (int axis : {2, 1, 0}) {
     if (std::abs(roll_pitch_yaw_rad(axis)) < 0.5 * largest) continue;
-    char part[60];
-    std::snprintf(part, sizeof part, "%s%.0f deg in %s", text.empty() ? "" : " and ",
-                  geometry::kDegreesPerRad * roll_pitch_yaw_rad(axis), kAxes[axis]);
-    text += part;
+    text += formatted("%s%.0f deg in %s", text.empty() ? "" : " and ",
+                      geometry::kDegreesPerRad * roll_pitch_yaw_rad(axis), kAxes[axis]);
   }
   return "camera mounting turned by about " + text;
 }

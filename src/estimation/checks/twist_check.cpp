@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/median.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -141,11 +141,9 @@ void TwistCheck::judge() {
   if (better > 0) {
     verdict_ = {FramesVerdict::kWrong, kNames[better]};
   } else if (is_biased || (pieces_.size() >= kMinPieces && mean_squares > kMaxMeanSquares)) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "twist does not fit the way flown: off by %.0f %% and by %.2f m/s throughout",
-                  100.0 * all.misfit(), all.bias_mps);
-    verdict_ = {FramesVerdict::kWrong, text};
+    verdict_ = {FramesVerdict::kWrong,
+                formatted("twist does not fit the way flown: off by %.0f %% and by %.2f m/s throughout",
+                          100.0 * all.misfit(), all.bias_mps)};
   }
 }
 

@@ -191,7 +191,6 @@ std::optional<WindowHypothesis::Outcome> WindowHypothesis::update(const FilterPa
   const Eigen::LLT<Matrix> posterior(best.information);
   if (posterior.info() != Eigen::Success) return std::nullopt;
   Outcome outcome;
-  outcome.image_squares = 2.0 * best.cost;
   outcome.log_evidence = -best.cost - halfLogDeterminant(fit.noise()) - halfLogDeterminant(prior) -
                          halfLogDeterminant(posterior);
   if (!fit.setNoise(params, view.alone)) return std::nullopt;

@@ -40,9 +40,8 @@ class WindowHypothesis {
                const Eigen::Vector3d& camera_position);
 
   struct Outcome {
-    double squares = 0.0;        ///< normalised innovation squared of `FilterView::alone`
-    double log_evidence = 0.0;   ///< log density of the image given the belief before it
-    double image_squares = 0.0;  ///< normalised innovation squared of `FilterView::image`
+    double squares = 0.0;       ///< normalised innovation squared of `FilterView::alone`
+    double log_evidence = 0.0;  ///< log density of the image given the belief before it
   };
   /// Applies one image. Nothing, and nothing changed, if the belief puts the window behind the camera.
   std::optional<Outcome> update(const FilterParams& params, const FilterView& view);

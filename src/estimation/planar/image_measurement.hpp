@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "estimation/planar/predicted_opening.hpp"
 #include "window_ingress/detection/window_observation.hpp"

@@ -1,7 +1,6 @@
 #include "estimation/planar/refinement.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
 namespace window_ingress::estimation {
 namespace {

@@ -31,10 +31,9 @@ std::string withoutCommas(std::string text) {
 }  // namespace
 
 void writeCsv(const FlightLog& log, std::ostream& out) {
-  out << "time_s,state,x_m,y_m,z_m,heading_rad,vx_mps,vy_mps,vz_mps,set_x_mps,set_y_mps,set_z_mps,"
-         "set_yaw_radps,detected,trusted,age_s,error_x_m,error_y_m,error_z_m,error_yaw_rad,sigma_m,"
-         "sigma_yaw_rad,image_s,image_yaw_rad,image_trusted,image_width_m,image_height_m,image_left_px,image_"
-         "right_px,"
+  out << "time_s,state,x_m,y_m,z_m,heading_rad,vx_mps,vy_mps,vz_mps,set_x_mps,set_y_mps,set_z_mps,set_yaw_"
+         "radps,detected,trusted,age_s,error_x_m,error_y_m,error_z_m,error_yaw_rad,sigma_m,sigma_yaw_rad,"
+         "image_s,image_yaw_rad,image_trusted,image_width_m,image_height_m,image_left_px,image_right_px,"
          "predicted_miss_m,sighting,reason\n";
   for (const auto& r : log.records)
     out << formatted("%.4f,%s,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%d", r.time_sec,

@@ -14,8 +14,6 @@ constexpr const char* kNames[kStages] = {
 
 }  // namespace
 
-const char* toString(Stage stage) { return kNames[static_cast<std::size_t>(stage)]; }
-
 void FlightTiming::lap(Stage stage) {
   const auto now = Clock::now();
   spent_sec_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();

@@ -10,8 +10,6 @@ namespace window_ingress::evaluation {
 enum class Stage { kPhysics, kImage, kDetector, kPose, kNavigator, kOther };
 constexpr std::size_t kStages = 6;
 
-const char* toString(Stage stage);
-
 /// Wall time by stage. Looks on; a flight is the same with and without.
 class FlightTiming {
  public:

@@ -32,8 +32,7 @@ void OpennessTable::add(const OpennessResult& result) {
 std::string OpennessTable::markdown() const {
   std::string out =
       "| within the border | is | approaches | OPEN at the decision | CLOSED | UNKNOWN | ever OPEN | ever "
-      "CLOSED | "
-      "OPEN from, median m | ms an image |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "CLOSED | OPEN from, median m | ms an image |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [kind, row] : rows_)
     out += "| " + kind + " | " + (row.is_open ? "open" : "not open") + " | " + std::to_string(row.flights) +
            " | " + rate(row.open, row.flights) + " | " + rate(row.closed, row.flights) + " | " +

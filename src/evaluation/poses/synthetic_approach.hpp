@@ -35,10 +35,9 @@ struct ApproachScript {
 /// From `distance_m` and `off_axis_rad` onto the axis and then in, to `end_m` before the plane.
 ApproachScript ontoAxisAndIn(double distance_m, double off_axis_rad, double height_m, double end_m);
 
-/// An approach without images: what odometry, attitude estimator and an ideal border detector would say,
-/// with errors drawn as `FilterParams` states them (drift in place and heading, jitter, lasting errors of
-/// attitude and of corners) and white noise of each border sample. For Monte Carlo: some 10,000 images a
-/// second.
+/// An approach without images: what odometry, attitude estimator and an ideal border detector would say, with
+/// errors drawn as `FilterParams` states them (drift in place and heading, jitter, lasting errors of attitude
+/// and of corners) and white noise of each border sample. For Monte Carlo: some 10,000 images a second.
 class SyntheticApproach {
  public:
   SyntheticApproach(std::uint32_t seed, const ApproachScript& script, const estimation::FilterParams& errors,
@@ -90,7 +89,6 @@ class SyntheticApproach {
   Eigen::Vector3d position_m_, velocity_mps_ = Eigen::Vector3d::Zero();
   double heading_rad_ = 0.0, roll_rad_ = 0.0, pitch_rad_ = 0.0;
   Eigen::Vector2d attitude_bias_rad_;
-  Eigen::Vector3d mounting_yaw_rad_ = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 8, 1> bias_px_;
   Eigen::Vector3d bias_from_m_;
   std::vector<Odometry> odometry_;

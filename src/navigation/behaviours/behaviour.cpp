@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/mission/window_choice.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -18,15 +18,13 @@ constexpr double kMaxUnexplainedMps = 0.08;  // likewise, before a steady bias c
 constexpr double kShareAhead = 1.25, kMuchAcrossMps = 0.3;
 
 std::string whyNoOdometryToCommitBy(const MissionState& memory) {
-  char text[120] = "";
   if (memory.odometry_disagreement_mps > kMaxDisagreementMps)
-    std::snprintf(text, sizeof text, "odometry: its position and its velocity differ by %.2f m/s",
-                  memory.odometry_disagreement_mps);
-  else if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
-    std::snprintf(text, sizeof text,
-                  "odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
-                  memory.odometry_unexplained_mps);
-  return text;
+    return formatted("odometry: its position and its velocity differ by %.2f m/s",
+                     memory.odometry_disagreement_mps);
+  if (!memory.odometry_bias_known && memory.odometry_unexplained_mps > kMaxUnexplainedMps)
+    return formatted("odometry: its velocity is off by %.2f m/s, whether steadily is not known yet",
+                     memory.odometry_unexplained_mps);
+  return "";
 }
 
 /// How far the speed forward may be asked to rise beyond what it is while the speed across is to change by so

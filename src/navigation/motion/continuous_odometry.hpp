@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <optional>
-#include <vector>
 
 #include "window_ingress/navigation/navigation_types.hpp"
 
@@ -18,10 +17,9 @@ namespace window_ingress::navigation {
 /// seconds is taken off. It is fixed in the body in the long run, and stays as it was in the world for the
 /// first seconds after a turn: what has been more even of late counts. Where a window is seen, it tells which
 /// of the two errs: what the position slides by, the window is seen to slide by in odom. If it stays, the
-/// velocity errs, the position is believed, and of the velocity what it was off by of late is taken off.
-/// A heading that turns faster than any
-/// vehicle is corrected by the turn; whether the axes of the positions have turned along (the estimator was
-/// reset) or not (its attitude alone is wrong) the next motion shows.
+/// velocity errs, the position is believed, and of the velocity what it was off by of late is taken off. A
+/// heading that turns faster than any vehicle is corrected by the turn; whether the axes of the positions
+/// have turned along (the estimator was reset) or not (its attitude alone is wrong) the next motion shows.
 class ContinuousOdometry {
  public:
   static constexpr double kUnexplainedM = 0.05;  ///< within a second
