@@ -99,8 +99,7 @@ class CornerClicks {
     cv::imshow(kWindow, canvas);
   }
 
-  // Beside the image, so that no corner is ever covered: what is under the mouse, and what everything
-  // means.
+  // Beside the image, so that no corner is ever covered: what is under the mouse, and what everything means.
   void drawPanel(cv::Mat panel) const {
     cv::Mat part, lens;
     cv::getRectSubPix(image_, cv::Size(kLens, kLens),

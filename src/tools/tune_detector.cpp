@@ -1,6 +1,5 @@
 /// Trackbars over the detector's stages, on images, a bag or a live camera; saves the yaml that nodes and
-/// tools load. See
-/// --help.
+/// tools load. See --help.
 #include <boost/program_options.hpp>
 #include <fstream>
 #include <iostream>

@@ -1,6 +1,5 @@
 /// Fits thresholds of the detector to images whose windows are known, and says what that is worth on
-/// others. See
-/// --help.
+/// others. See --help.
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cstdio>

@@ -81,12 +81,11 @@ struct MissionPolicy {
 /// the stamps.
 ///
 /// Holds whatever comes in:
-/// - the setpoint is finite and within the limits; its changes too, except that velocity may be taken away at
-/// once;
+/// - the setpoint is finite and within the limits; so are its changes, but for velocity that is taken away;
 /// - without fresh, finite odometry the setpoint is zero in the same step;
 /// - no velocity towards the window unless its estimate is fresh and trusted and the vehicle within the
-/// funnel; COMMIT
-///   alone flies on without sight, for a bounded time, by the commit criterion that held when it began;
+///   funnel; COMMIT alone flies on without sight, for a bounded time, by the commit criterion that held when
+///   it began;
 /// - no sideways velocity by an estimate whose sign is not trusted.
 class Navigator {
  public:

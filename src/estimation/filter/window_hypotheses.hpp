@@ -29,8 +29,7 @@ class WindowHypotheses {
 
   /// Time passes, the camera flies a way, and an image is applied to all hypotheses.
   /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
-  /// an
-  ///         outlier to all
+  /// an outlier to all
   std::optional<WindowHypothesis::Outcome> apply(const FilterView& view, double elapsed_sec, double way_m);
 
   /// True if the mirror image is dead, or too near to matter.

@@ -52,8 +52,7 @@ PoseChainResult chainResult(const SurveyImage& sample,
 std::string poseChainColumns();
 std::string poseChainRow(const PoseChainResult& result);  ///< no line end
 
-/// Images grouped by their distance, rounded to a metre. For people: errors of the pose, then of the
-/// borders.
+/// Images grouped by their distance, rounded to a metre. For people: errors of the pose, then of the borders.
 std::string poseChainTable(const std::vector<PoseChainResult>& results);
 
 }  // namespace window_ingress::evaluation

@@ -5,8 +5,8 @@
 namespace window_ingress::navigation {
 
 /// SEARCH (P14): turns in its place, first towards where the window was last seen, and looks from a greater
-/// height after each turn without success. It goes nowhere else. Once something is seen it
-/// stops turning away from it until enough images have shown it.
+/// height after each turn without success. It goes nowhere else. Once something is seen it stops turning away
+/// from it until enough images have shown it.
 class Search : public Behaviour {
  public:
   static constexpr double kMaxTurnPerImage = 0.25;  ///< part of the field of view, from image to image

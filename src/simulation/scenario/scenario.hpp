@@ -100,8 +100,7 @@ struct Scenario {
 std::vector<std::string> faultsOf(const Scenario& scenario);
 
 /// Where within its range a key's value lies, 0 to 1, by the key's path ("window/width_m",
-/// "faults[0]/at_sec"); of
-/// `{one_of: [...]}` which of the values. What is not named is drawn from the seed.
+/// "faults[0]/at_sec"); of `{one_of: [...]}` which of the values. What is not named is drawn from the seed.
 using Quantiles = std::map<std::string, double>;
 
 /// Reads a scenario. Any number may be a fixed value or a range `[min, max]` that is drawn from the seed,

@@ -11,10 +11,12 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest);
 
 /// How an autopilot turns a velocity setpoint into an acceleration, each step and all axes alike:
 ///
-///     r' = a,  a -> (gain * setpoint - r) / setpoint_time_constant, limited in size and in change  (shaping)
-///     e' = r - v                                                   (how far the vehicle lags behind where r
-///     leads) acceleration = feed_forward * a + (r + hold * e - v) / velocity_time_constant + trim trim' =
-///     integral / velocity_time_constant * (r - v)
+///     r' = a,  a -> (gain * setpoint - r) / setpoint_time_constant, limited in size and in change
+///     e' = r - v
+///     acceleration = feed_forward * a + (r + hold * e - v) / velocity_time_constant + trim
+///     trim' = integral / velocity_time_constant * (r - v)
+///
+/// r is the shaped setpoint, e how far the vehicle lags behind where r leads.
 ///
 /// v is the velocity as the vehicle estimates it. Without limits of the shaping, r is the setpoint. The trim
 /// rests while the acceleration is at its limit, and learns less from errors beyond 0.3 m/s: little wind-up.

@@ -31,13 +31,12 @@ struct Air {
 ///
 /// - Behind the wall's front, wind and gusts fall to `inside_part`, which they reach 0.3 m into the room.
 /// - Draught: full between the borders of the opening (5 cm soft edges). Downstream a free jet: its edges
-/// widen by
-///   0.1 m a metre, its core ends after five hydraulic diameters and falls as 1/x from there. Upstream a sink
-///   after DallaValle: V A / (A + 10 r^2), r the distance to the opening, A its area, towards the opening.
+///   widen by 0.1 m a metre, its core ends after five hydraulic diameters and falls as 1/x from there.
+///   Upstream a sink after DallaValle: V A / (A + 10 r^2), r the distance to the opening, A its area, towards
+///   the opening.
 /// - Wall: `wall_push_mps2` exp(-gap / `wall_push_length_m`) towards the wall's face on the vehicle's side,
-/// where
-///   there is wall. An assumed shape: measurements near walls agree on suction that is gone within some rotor
-///   radii, not on a law.
+///   where there is wall. An assumed shape: measurements near walls agree on suction that is gone within some
+///   rotor radii, not on a law.
 class Wind {
  public:
   Wind(const WindParams& params, const WallInAir& wall, double vehicle_half_length_m, std::uint32_t seed);
