@@ -252,24 +252,6 @@ TEST_F(NavigatorSteps, BacksOffAndSearchesWhenTheWindowIsLost) {
   EXPECT_EQ(output.setpoint.velocity_odom_mps.head<2>().norm(), 0.0);
 }
 
-TEST_F(NavigatorSteps, YieldsToThePilotInEveryState) {
-  for (int walked = 0; walked < 5; ++walked) {
-    Navigator navigator(params_);
-    now_ += 100.0;
-    start(navigator, kFar);
-    if (walked > 0) steps(navigator, kFar, 4);
-    if (walked > 1) steps(navigator, kFar, 60);
-    if (walked > 2) walk(navigator, kFar, kLine);
-    if (walked > 3) steps(navigator, kLine, 20, false);
-    auto input = inputAt(walked > 2 ? kLine : kFar, now_);
-    input.engaged = false;
-    const auto output = navigator.step(input, now_);
-    EXPECT_EQ(output.state, State::kIdle);
-    EXPECT_FALSE(output.enabled);
-    EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
-  }
-}
-
 TEST_F(NavigatorSteps, NeverFliesAtAWindowFromBehind) {
   Navigator navigator(params_);
   start(navigator, kFar);

@@ -309,16 +309,6 @@ TEST(Scenario, FaultsOfAnImpossibleWorldAreListed) {
   EXPECT_EQ(faultsOf(scenario).size(), 1u);
 }
 
-TEST(Scenario, ShippedFilesLoadForManySeeds) {
-  int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kSource + "/config/scenarios")) {
-    ++files;
-    for (std::uint32_t seed = 0; seed < 50; ++seed)
-      EXPECT_NO_THROW(loadScenario(entry.path().string(), seed));
-  }
-  EXPECT_GE(files, 3);
-}
-
 // Collects, for each section of the documentation, the rows that it must have.
 class DocumentedKeys {
  public:

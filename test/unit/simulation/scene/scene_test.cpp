@@ -62,20 +62,6 @@ TEST(Mesh, FacesOfABoxLookOutwards) {
   }
 }
 
-TEST(Texture, SameSeedSamePatternAndPatternsWrapAround) {
-  for (const Texture texture :
-       {Texture::kPlaster, Texture::kBrick, Texture::kGrass, Texture::kWood, Texture::kPoster}) {
-    const cv::Mat image = makeTexture(texture, 5);
-    EXPECT_EQ(cv::norm(image, makeTexture(texture, 5), cv::NORM_INF), 0.0);
-    EXPECT_GT(cv::norm(image, makeTexture(texture, 6), cv::NORM_INF), 0.0);
-    EXPECT_EQ(image.rows & (image.rows - 1), 0) << "a power of two";
-  }
-  const cv::Mat plaster = makeTexture(Texture::kPlaster, 5);
-  const double seam = cv::norm(plaster.col(0), plaster.col(plaster.cols - 1), cv::NORM_L1) / plaster.rows;
-  const double within = cv::norm(plaster.col(99), plaster.col(100), cv::NORM_L1) / plaster.rows;
-  EXPECT_LT(seam, 2.0 * within + 1.0);
-}
-
 TEST(Lens, WithoutDistortionItSharesTheImageAndWithItSeesWider) {
   geometry::PinholeCamera camera = geometry::PinholeCamera::fromFieldOfView(64, 48, 1.2);
   cv::Mat image(48, 64, CV_8UC3, cv::Scalar(1, 2, 3)), same;

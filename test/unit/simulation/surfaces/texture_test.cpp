@@ -8,9 +8,9 @@
 
 namespace window_ingress::simulation::texture_test {
 
-const std::vector<Texture> kTiling{Texture::kSiding,  Texture::kStone,  Texture::kPaint, Texture::kPlaster,
-                                   Texture::kBrick,   Texture::kGrass,  Texture::kHedge, Texture::kTiles,
-                                   Texture::kLouvres, Texture::kPaving, Texture::kClouds};
+const std::vector<Texture> kTiling{Texture::kSiding,  Texture::kStone,  Texture::kPaint,  Texture::kPlaster,
+                                   Texture::kBrick,   Texture::kGrass,  Texture::kHedge,  Texture::kTiles,
+                                   Texture::kLouvres, Texture::kPaving, Texture::kClouds, Texture::kWood};
 const std::vector<Texture> kPictures{Texture::kGlass, Texture::kPoster, Texture::kCurtain,
                                      Texture::kPrintedWindow, Texture::kView};
 
