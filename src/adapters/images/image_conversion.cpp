@@ -18,41 +18,24 @@ namespace {
 
 namespace enc = sensor_msgs::image_encodings;
 
-struct Encoding {
-  const char* name;
-  int bytes_per_pixel;
-  bool sixteen_bit;
-  const char* read_as;     // what cv_bridge is told it is
-  const char* convert_to;  // what it is converted to
-};
-
 constexpr const char* kMono = "mono8";
 constexpr const char* kColour = "bgr8";
-constexpr std::array<Encoding, 23> kEncodings{{
-    {"mono8", 1, false, "mono8", kMono},
-    {"8UC1", 1, false, "mono8", kMono},
-    {"bgr8", 3, false, "bgr8", kColour},
-    {"8UC3", 3, false, "bgr8", kColour},
-    {"rgb8", 3, false, "rgb8", kColour},
-    {"bgra8", 4, false, "bgra8", kColour},
-    {"8UC4", 4, false, "bgra8", kColour},
-    {"rgba8", 4, false, "rgba8", kColour},
-    {"mono16", 2, true, "mono16", kMono},
-    {"16UC1", 2, true, "mono16", kMono},
-    {"bgr16", 6, true, "bgr16", kColour},
-    {"rgb16", 6, true, "rgb16", kColour},
-    {"bgra16", 8, true, "bgra16", kColour},
-    {"rgba16", 8, true, "rgba16", kColour},
-    {"bayer_rggb8", 1, false, "bayer_rggb8", kColour},
-    {"bayer_bggr8", 1, false, "bayer_bggr8", kColour},
-    {"bayer_gbrg8", 1, false, "bayer_gbrg8", kColour},
-    {"bayer_grbg8", 1, false, "bayer_grbg8", kColour},
-    {"bayer_rggb16", 2, true, "bayer_rggb16", kColour},
-    {"bayer_bggr16", 2, true, "bayer_bggr16", kColour},
-    {"bayer_gbrg16", 2, true, "bayer_gbrg16", kColour},
-    {"bayer_grbg16", 2, true, "bayer_grbg16", kColour},
-    {"yuv422", 2, false, "yuv422", kColour},
-}};
+
+struct Encoding {
+  const char* name;
+  const char* read_as = name;  // what cv_bridge is told it is
+
+  bool isSixteenBit() const { return enc::bitDepth(read_as) == 16; }
+  int bytesPerPixel() const { return enc::numChannels(read_as) * enc::bitDepth(read_as) / 8; }
+  const char* convertTo() const { return enc::isMono(read_as) ? kMono : kColour; }
+};
+
+constexpr std::array<Encoding, 23> kEncodings{
+    {{"mono8"},        {"8UC1", "mono8"}, {"bgr8"},        {"8UC3", "bgr8"}, {"rgb8"},
+     {"bgra8"},        {"8UC4", "bgra8"}, {"rgba8"},       {"mono16"},       {"16UC1", "mono16"},
+     {"bgr16"},        {"rgb16"},         {"bgra16"},      {"rgba16"},       {"bayer_rggb8"},
+     {"bayer_bggr8"},  {"bayer_gbrg8"},   {"bayer_grbg8"}, {"bayer_rggb16"}, {"bayer_bggr16"},
+     {"bayer_gbrg16"}, {"bayer_grbg16"},  {"yuv422"}}};
 
 const Encoding* find(const std::string& name) {
   const auto found =
@@ -78,7 +61,8 @@ std::string tooLarge(std::uint64_t width, std::uint64_t height, const ImageLimit
 }
 
 std::string badLayout(const sensor_msgs::Image& message, const Encoding& encoding) {
-  const std::uint64_t row = std::uint64_t{message.width} * encoding.bytes_per_pixel;
+  const std::uint64_t row =
+      std::uint64_t{message.width} * static_cast<std::uint64_t>(encoding.bytesPerPixel());
   const std::uint64_t bytes = std::uint64_t{message.height} * message.step;
   if (message.step < row)
     return "step of " + std::to_string(message.step) + " bytes is below the " + std::to_string(row) +
@@ -86,27 +70,27 @@ std::string badLayout(const sensor_msgs::Image& message, const Encoding& encodin
   if (message.data.size() != bytes)
     return "data holds " + std::to_string(message.data.size()) + " bytes, step * height is " +
            std::to_string(bytes);
-  if (encoding.sixteen_bit && message.step % 2 != 0) return "step of a 16-bit image is odd";
-  if (encoding.sixteen_bit && message.is_bigendian) return "big-endian 16-bit images are not supported";
+  if (encoding.isSixteenBit() && message.step % 2 != 0) return "step of a 16-bit image is odd";
+  if (encoding.isSixteenBit() && message.is_bigendian) return "big-endian 16-bit images are not supported";
   if (std::string(encoding.name) == "yuv422" && message.width % 2 != 0) return "yuv422 needs an even width";
   return "";
 }
 
 // The message under the name that cv_bridge knows; the bytes are shared.
 cv_bridge::CvImageConstPtr share(const sensor_msgs::ImageConstPtr& message, const Encoding& encoding) {
-  if (message->encoding == encoding.read_as) return cv_bridge::toCvShare(message, encoding.convert_to);
+  if (message->encoding == encoding.read_as) return cv_bridge::toCvShare(message, encoding.convertTo());
   const int type = enc::numChannels(encoding.read_as) == 1
-                       ? (encoding.sixteen_bit ? CV_16UC1 : CV_8UC1)
+                       ? (encoding.isSixteenBit() ? CV_16UC1 : CV_8UC1)
                        : CV_MAKETYPE(CV_8U, enc::numChannels(encoding.read_as));
   const cv::Mat bytes(static_cast<int>(message->height), static_cast<int>(message->width), type,
                       const_cast<unsigned char*>(message->data.data()), message->step);
   auto named = boost::make_shared<cv_bridge::CvImage>(message->header, encoding.read_as, bytes);
-  if (std::string(encoding.read_as) == encoding.convert_to) return named;
-  return cv_bridge::cvtColor(named, encoding.convert_to);
+  if (std::string(encoding.read_as) == encoding.convertTo()) return named;
+  return cv_bridge::cvtColor(named, encoding.convertTo());
 }
 
 std::string unusedRange(const sensor_msgs::Image& message, const Encoding& encoding) {
-  if (!encoding.sixteen_bit) return "";
+  if (!encoding.isSixteenBit()) return "";
   std::uint16_t highest = 0;
   for (std::size_t i = 1; i < message.data.size(); i += 2)
     highest = std::max<std::uint16_t>(highest, message.data[i]);

@@ -5,35 +5,24 @@
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {
-namespace {
-
-nav_msgs::Odometry odometryMsg(const Eigen::Isometry3d& T_odom_base, const Eigen::Vector3d& velocity_odom_mps,
-                               const Eigen::Vector3d& angular_velocity_base_radps) {
-  nav_msgs::Odometry message;
-  message.pose.pose = toPoseMsg(T_odom_base);
-  message.twist.twist.linear = toVectorMsg(T_odom_base.linear().transpose() * velocity_odom_mps);
-  message.twist.twist.angular = toVectorMsg(angular_velocity_base_radps);
-  return message;
-}
-
-}  // namespace
-
-nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const ros::Time& stamp,
-                                 const FrameNames& frames, bool twist_in_odom) {
-  nav_msgs::Odometry message =
-      odometryMsg(sample.T_odom_base, sample.velocity_odom_mps, sample.angular_velocity_base_radps);
-  if (twist_in_odom) message.twist.twist.linear = toVectorMsg(sample.velocity_odom_mps);
-  message.header = headerOf(stamp, frames.odom);
-  message.child_frame_id = frames.base;
-  return message;
-}
 
 nav_msgs::Odometry toOdometryMsg(const simulation::VehicleTruth& truth, const ros::Time& stamp,
                                  const FrameNames& frames) {
-  nav_msgs::Odometry message =
-      odometryMsg(truth.T_odom_base, truth.velocity_odom_mps, truth.angular_velocity_base_radps);
+  nav_msgs::Odometry message;
   message.header = headerOf(stamp, frames.odom);
   message.child_frame_id = frames.base;
+  message.pose.pose = toPoseMsg(truth.T_odom_base);
+  message.twist.twist.linear = toVectorMsg(truth.T_odom_base.linear().transpose() * truth.velocity_odom_mps);
+  message.twist.twist.angular = toVectorMsg(truth.angular_velocity_base_radps);
+  return message;
+}
+
+nav_msgs::Odometry toOdometryMsg(const simulation::OdometrySample& sample, const ros::Time& stamp,
+                                 const FrameNames& frames, bool twist_in_odom) {
+  const simulation::VehicleTruth told{sample.T_odom_base, sample.velocity_odom_mps,
+                                      sample.angular_velocity_base_radps};
+  nav_msgs::Odometry message = toOdometryMsg(told, stamp, frames);
+  if (twist_in_odom) message.twist.twist.linear = toVectorMsg(sample.velocity_odom_mps);
   return message;
 }
 
