@@ -25,6 +25,14 @@ bool sizesAgree(const WindowPlace& a, const WindowPlace& b) {
   return !a.on_wall || !b.on_wall || areAlike(a.size, b.size);
 }
 
+// Where neither was measured: both are as far away as the size looked for says, and another distance is
+// another size. A large loop near the camera is not the window behind it.
+bool distancesAgree(const WindowPlace& a, const WindowPlace& b, const Eigen::Vector3d& eye_m) {
+  if (a.on_wall || b.on_wall) return true;
+  const double further = (a.position_m - eye_m).norm() / (b.position_m - eye_m).norm();
+  return std::max(further, 1.0 / further) < kSizeRatio;
+}
+
 double apartM(const KnownWindow& a, const KnownWindow& b) {
   return (a.place.position_m - b.place.position_m).norm();
 }
@@ -50,12 +58,14 @@ double FacadeMap::squares(const KnownWindow& window, const WindowPlace& place, d
                         std::pow(kSightsOverFilter * params_.odom_drift_m_per_sqrt_sec, 2) * since_sec);
 }
 
-void FacadeMap::associate(double stamp_sec, std::vector<Sight>& sights) const {
+void FacadeMap::associate(const FacadeView& view, std::vector<Sight>& sights) const {
+  const Eigen::Vector3d eye_m = view.from.T_odom_camera.translation();
   std::vector<std::tuple<double, std::uint32_t, Sight*>> pairs;
   for (const KnownWindow& window : windows_)
     for (Sight& sight : sights)
-      if (const double squares = this->squares(window, sight.place, stamp_sec);
-          squares < kMaxSquares && sizesAgree(window.place, sight.place))
+      if (const double squares = this->squares(window, sight.place, view.stamp_sec);
+          squares < kMaxSquares && sizesAgree(window.place, sight.place) &&
+          distancesAgree(window.place, sight.place, eye_m))
         pairs.emplace_back(squares, window.id, &sight);
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [squares, id, sight] : pairs) {
@@ -123,7 +133,7 @@ void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
     if (const auto place = placeOf(seen.corners, view.from, wall, looked_for))
       sights.push_back({&seen, *place});
   followed_id_.reset();
-  associate(view.stamp_sec, sights);
+  associate(view, sights);
   for (Sight& sight : sights) learn(view.stamp_sec, sight);
   noteSideBySide(sights);
   merge(view.stamp_sec);

@@ -69,7 +69,7 @@ class FacadeMap {
     WindowPlace place;
     std::uint32_t id = 0;  ///< of the window it belongs to
   };
-  void associate(double stamp_sec, std::vector<Sight>& sights) const;
+  void associate(const FacadeView& view, std::vector<Sight>& sights) const;
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
   void merge(double stamp_sec);

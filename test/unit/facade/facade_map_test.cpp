@@ -99,6 +99,19 @@ TEST(FacadeMap, DoesNotTakeAPaneForItsWindow) {
     EXPECT_NEAR(window.place.size.width_m, window.sights > 15 ? 1.2 : 0.55, 0.06);
 }
 
+TEST(FacadeMap, DoesNotTakeALargeLoopForTheWindowBehindIt) {
+  std::mt19937 random(11);
+  test::WindowRow row, loop;
+  row.count = loop.count = 1;
+  loop.size = {4.0, 3.3};  // as far away as 1.5 m, if it had the size looked for
+  FacadeMap map{FacadeParams()};
+  for (int n = 0; n < 20; ++n)
+    map.see((n < 10 ? loop : row).look(10.0 + 0.1 * n, row.from({-5.0, 0.0, 1.5}), -1, random), std::nullopt,
+            row.size);
+  ASSERT_EQ(confirmed(map), 2);
+  EXPECT_NEAR(map.windows().back().place.position_m.x(), 0.0, 0.3);
+}
+
 TEST(FacadeMap, KeepsItsSizeHoweverMuchIsSeen) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> anywhere(0.0, 600.0);
