@@ -15,8 +15,6 @@ constexpr double kEnoughM2ps = 0.2;  // a second of acceleration to 0.8 m/s
 constexpr double kGustsM2ps = 0.9;   // three times what gusts of 0.3 m/s that last a second turn, squared
 constexpr double kMinShareGone = 0.6;
 constexpr double kModelError = 0.15;  // of the change of velocity that a vehicle is still asked for
-constexpr double kChangeMps =
-    0.9;  // what is steered against changes no faster than by this at the vehicle's limit
 
 Eigen::Vector3d verticalOf(const Eigen::Vector3d& velocity_mps) { return {0.0, 0.0, velocity_mps.z()}; }
 
@@ -48,7 +46,6 @@ void DisturbanceObserver::restart() {
   response_.restart();
   climb_.restart();
   disturbance_mps_.setZero();
-  steered_against_mps_.setZero();
   gust_mps_.setZero();
   gusts_m2ps_.setZero();
   watched_sec_ = 0.0;
@@ -99,8 +96,6 @@ void DisturbanceObserver::update(const Eigen::Vector3d& measured_mps, const Eige
   const Eigen::Vector3d surprise_mps = measured_mps - model_mps - disturbance_mps_;
   disturbance_mps_ += share(dt_sec, kWindSec) * clipped(surprise_mps, max_wind_mps_);
   disturbance_mps_ = clipped(disturbance_mps_, max_wind_mps_);
-  steered_against_mps_ +=
-      share(dt_sec, kChangeMps / response_.accelerationMps2()) * (disturbance_mps_ - steered_against_mps_);
   const double to_come_mps = (commanded_mps - model_mps).norm();
   const Eigen::Vector3d gust_mps =
       shortened(clipped(surprise_mps, kStrongestGustMps), kModelError * to_come_mps);

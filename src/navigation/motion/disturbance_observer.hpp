@@ -26,8 +26,8 @@ class DisturbanceObserver {
   void reset();
   /// \param measured_mps of the vehicle, \param commanded_mps the setpoint before; both odom axes
   void update(const Eigen::Vector3d& measured_mps, const Eigen::Vector3d& commanded_mps, double dt_sec);
-  /// At most `max_wind_mps` long; smoothed the more the more slowly the vehicle gains speed: it would swing.
-  const Eigen::Vector3d& disturbance() const { return steered_against_mps_; }
+  /// At most `max_wind_mps` long.
+  const Eigen::Vector3d& disturbance() const { return disturbance_mps_; }
   /// Mean square of what remains beyond it and beyond what the model may err by, over `kGustMemorySec`:
   /// gusts. Whatever the vehicle is told meanwhile counts, for it is told most while gusts carry it off.
   Eigen::Matrix3d gusts() const;
@@ -55,7 +55,6 @@ class DisturbanceObserver {
   double max_wind_mps_;
   ResponseEstimator response_, climb_;
   Eigen::Vector3d disturbance_mps_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d steered_against_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gust_mps_ = Eigen::Vector3d::Zero();  ///< smoothed: noise carries nobody away
   Directions directions_;
   Eigen::Matrix3d gusts_m2ps_ = Eigen::Matrix3d::Zero();

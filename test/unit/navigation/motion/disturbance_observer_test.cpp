@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,21 @@ TEST(DisturbanceObserver, TakesSteadyWindAwayFromFastAndSlowVehicles) {
     EXPECT_LT((observe.disturbance() - vehicle.wind).norm(), 0.01) << lag_sec;
     EXPECT_LT(vehicle.worst_mps, 1.2) << lag_sec;
   }
+}
+
+// What is steered against later than the vehicle answers pushes it the way of a gust that has turned round.
+TEST(DisturbanceObserver, KnowsTheWindOfNowWhereTheVehicleGainsSpeedSlowly) {
+  constexpr double kStep = 1.0 / 30.0, kGainMps2 = 0.5, kWindMps = 0.2, kShownSec = 30.0;
+  auto observe = observer();
+  double speed_mps = 0.0;
+  for (double t = 0.0; t < kShownSec + 2.0 * DisturbanceObserver::kWindSec; t += kStep) {
+    const double told_mps = std::fmod(t, 6.0) < 3.0 ? 0.75 : 0.0;
+    speed_mps += std::clamp(told_mps - speed_mps, -kGainMps2 * kStep, kGainMps2 * kStep);
+    observe.update({0.0, speed_mps + (t < kShownSec ? kWindMps : -kWindMps), 0.0}, {0.0, told_mps, 0.0},
+                   kStep);
+  }
+  ASSERT_LT(observe.response().accelerationMps2(), 1.0);
+  EXPECT_LT(observe.disturbance().y(), -0.5 * kWindMps);
 }
 
 TEST(DisturbanceObserver, IsBounded) {
