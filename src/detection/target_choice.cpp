@@ -73,7 +73,7 @@ std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, co
 
 std::optional<RefinedBorders> TargetChoice::bordersNear(const Quadrilateral& place, const View& view) const {
   if (!view.camera) return std::nullopt;
-  const auto ring = reference_.surroundingsOf(place, view.image, view.camera);
+  const auto ring = reference_.surroundingsOf(place, view.image, view.camera, RingMatcher::kFollowedStartPx);
   return ring ? fitWhere(*ring, view) : std::nullopt;
 }
 
@@ -81,7 +81,8 @@ std::optional<RefinedBorders> TargetChoice::bordersNear(const Quadrilateral& pla
 // window has in common with the reference is aligned, too, and its borders contradict that.
 std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                            RefinedBorders& fitted) {
-  const auto ring = reference_.surroundingsOf(fitted.corners, view.image, view.camera);
+  const auto ring =
+      reference_.surroundingsOf(fitted.corners, view.image, view.camera, RingMatcher::kFoundStartPx);
   if (!ring) return std::nullopt;
   if (!rival.correlation)
     if (auto fault = reference_.objectionTo(*ring, view.image, rival.appearance)) return fault;

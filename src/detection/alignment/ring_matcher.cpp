@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
 constexpr double kRoughStartPx = 15.0;          ///< at which an alignment begins where a place is rough
-constexpr double kNearStartPx = 100.0;          ///< and where it is known by its borders
 constexpr std::size_t kPlaces = 10;             ///< that are aligned
 constexpr std::size_t kFinePlaces = 2;          ///< and of these, to the last
 constexpr int kVariants = 2;                    ///< rough loops of one place from which it is aligned
@@ -78,10 +77,10 @@ void RingMatcher::keep(const ScoredCandidate& rival) {
 }
 
 std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                                  const geometry::Quadrilateral& quad) {
+                                                  const geometry::Quadrilateral& quad, double coarsest_px) {
   if (!known() || image.channels() != model_.channels()) return std::nullopt;
   alignment_.set(model_, image, camera);
-  return alignment_.align(quad, kFinestPx, kNearStartPx);
+  return alignment_.align(quad, kFinestPx, coarsest_px);
 }
 
 const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,

@@ -11,6 +11,10 @@ namespace window_ingress::detection {
 /// compared, the best are moved to where the ring fits best.
 class RingMatcher {
  public:
+  /// Resolutions at which an alignment begins: of borders that a search found, which may be off by some
+  /// pixels, and of borders that are followed [px a mean side].
+  static constexpr double kFoundStartPx = 30.0, kFollowedStartPx = 100.0;
+
   /// See RingModel.
   void learn(const cv::Mat& image, const geometry::Quadrilateral& opening, double colour = 1.0,
              const std::optional<OpeningAspect>& aspect = std::nullopt, bool framed = false) {
@@ -26,9 +30,9 @@ class RingMatcher {
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
 
-  /// Where it fits best near this place, which was found by its borders; nothing where it does not.
+  /// Where it fits best near this place; nothing where it does not. \param coarsest_px one of the above
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
-                                       const geometry::Quadrilateral& quad);
+                                       const geometry::Quadrilateral& quad, double coarsest_px);
   /// How well it fits there, in the image of the last call, also where that is less sharp than the
   /// reference's.
   RingMatch judged(const geometry::Quadrilateral& quad);

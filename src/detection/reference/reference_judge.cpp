@@ -193,9 +193,10 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const AlignedRing& ring, co
 
 std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadrilateral& corners,
                                                           const cv::Mat& image,
-                                                          const geometry::PinholeCamera* camera) {
+                                                          const geometry::PinholeCamera* camera,
+                                                          double coarsest_px) {
   if (!compares(image)) return std::nullopt;
-  const auto ring = ring_.alignedAt(inChannels(image), camera, corners);
+  const auto ring = ring_.alignedAt(inChannels(image), camera, corners, coarsest_px);
   if (!ring || ring->match.correlation < min_correlation_) return std::nullopt;
   return ring;
 }

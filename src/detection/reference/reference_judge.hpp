@@ -58,9 +58,9 @@ class ReferenceJudge {
                                        const std::optional<AppearanceMatch>& frame) const;
 
   /// Where what lies round a window near this place fits best; nothing where there is something else behind
-  /// its frame, as behind a gate.
+  /// its frame, as behind a gate. \param coarsest_px see RingMatcher
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
-                                            const geometry::PinholeCamera* camera);
+                                            const geometry::PinholeCamera* camera, double coarsest_px);
 
   /// The same of surroundings that `surroundingsOf` found last; haze that took their contrasts is none.
   std::optional<Rejection> objectionTo(const AlignedRing& ring, const cv::Mat& image,

@@ -195,10 +195,12 @@ TEST(WindowTracker, ThePaintOfAFrameMayGoOnIntoTheReveal) {
 
 TEST(RingMatcher, TellsHowWellAPlaceFits) {
   Known known{PatchedWall(3)};
-  const auto right = known.judge.alignedAt(known.image, nullptr, test::grown(known.opening, 2.0));
+  const auto right = known.judge.alignedAt(known.image, nullptr, test::grown(known.opening, 2.0),
+                                           RingMatcher::kFoundStartPx);
   ASSERT_TRUE(right);
   EXPECT_GT(right->match.correlation, 0.8);
-  const auto wrong = known.judge.alignedAt(known.image, nullptr, test::rectangle(40, 60, 160, 150));
+  const auto wrong = known.judge.alignedAt(known.image, nullptr, test::rectangle(40, 60, 160, 150),
+                                           RingMatcher::kFoundStartPx);
   EXPECT_LT(wrong ? wrong->match.correlation : 0.0, 0.5);
 }
 
@@ -211,7 +213,7 @@ TEST(RingMatcher, AnUnsharpViewIsNotAPaleOne) {
   cv::GaussianBlur(sharp, unsharp, cv::Size(), 2.2);
   sharp.convertTo(pale, -1, 0.45, 60.0);
   const auto judged = [&](const cv::Mat& image) {
-    const auto ring = known.judge.alignedAt(image, nullptr, opening);
+    const auto ring = known.judge.alignedAt(image, nullptr, opening, RingMatcher::kFoundStartPx);
     return ring ? known.judge.judged(ring->quad) : RingMatch();
   };
   const RingMatch blurred = judged(unsharp), faded = judged(pale);
