@@ -25,7 +25,7 @@ constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
 constexpr double kMinCorrelation = 0.05;     ///< at a level, to go on
 constexpr double kDependent = 3.0;  ///< samples that share their noise, for one that has noise of its own
-constexpr float kDim = 40.0F;       ///< of a darker ring the noise shows in the logarithms [grey levels]
+constexpr float kDimRing = 40.0F;   ///< of a darker ring the noise shows in the logarithms [grey levels]
 constexpr double kFloorPx = 0.03;   ///< no side is claimed to be known better than this
 /// Of a frame: how far it is out of true, and how far it stands out of the opening's plane [sides].
 constexpr double kOutOfTrue = 0.0003, kStandsOut = 0.005;
@@ -74,7 +74,7 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
 
 RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   double seen = view_.look(quad, side_px);
-  if (view_.meanLog() < logOf(kDim)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
+  if (view_.meanLog() < logOf(kDimRing)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
   return judgement_.of(view_, seen);
 }
 
