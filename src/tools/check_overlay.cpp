@@ -189,8 +189,9 @@ void checkFits(const navigation::VehicleParams& vehicle, const estimation::PoseP
 
 void checkCameraPose(const std::string& text) {
   if (text.empty()) return;
+  const std::vector<double> pose = tools::numbers("camera_pose", text, 6);
   try {
-    adapters::T_base_cameraOf(tools::numbers("camera_pose", text, 6));
+    adapters::T_base_cameraOf(pose);
   } catch (const InputError& error) {
     throw InputError("camera_pose " + text + ": " + error.what());
   }

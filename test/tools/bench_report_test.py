@@ -49,7 +49,7 @@ def test_ratios_are_ours_over_the_peer(tmp_path):
 
 
 def test_a_slow_track_breaks_the_bound(tmp_path):
-    write_times(tmp_path, track_ms=1.3)
+    write_times(tmp_path, track_ms=2.6)
     done = run(tmp_path)
     assert done.returncode == 1
     assert "track on brick_wall" in done.stderr

@@ -292,7 +292,7 @@ def test_a_scenario_that_cannot_be_ends_the_launch_before_anything_starts(tmp_pa
     scenario = tmp_path / "scenario.yaml"
     scenario.write_text("start:\n  distanse_m: 4\n  distance_m: 99\n")
     said = refusal(ROOT / f"launch/{name}.launch", f"scenario:={scenario}")
-    assert f"{scenario}:2: start/distanse_m: unknown key" in said and f"{scenario}:3: distance_m = 99 is not within" in said
+    assert f"{scenario}:2: start/distanse_m: unknown key" in said and f"{scenario}:3: start/distance_m = 99 is not within" in said
 
 
 def test_the_demo_says_why_it_did_not_fly():
