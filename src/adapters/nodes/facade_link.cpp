@@ -1,7 +1,7 @@
 #include "adapters/nodes/facade_link.hpp"
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/markers/markers.hpp"
+#include "adapters/markers/window_markers.hpp"
 #include "adapters/sources/attitude_source.hpp"
 #include "adapters/sources/guarded.hpp"
 

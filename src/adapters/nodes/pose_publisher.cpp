@@ -5,7 +5,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/markers/marker_sketch.hpp"
-#include "adapters/markers/markers.hpp"
+#include "adapters/markers/window_markers.hpp"
 
 namespace window_ingress::adapters {
 

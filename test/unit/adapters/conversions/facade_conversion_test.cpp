@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/markers/markers.hpp"
+#include "adapters/markers/window_markers.hpp"
 #include "window_row.hpp"
 
 namespace window_ingress::adapters::facade_conversion_test {

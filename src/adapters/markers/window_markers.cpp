@@ -1,4 +1,4 @@
-#include "adapters/markers/markers.hpp"
+#include "adapters/markers/window_markers.hpp"
 
 #include <algorithm>
 #include <cmath>

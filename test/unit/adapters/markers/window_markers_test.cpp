@@ -1,4 +1,4 @@
-#include "adapters/markers/markers.hpp"
+#include "adapters/markers/window_markers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "adapters/markers/marker_colours.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
-namespace window_ingress::adapters::markers_test {
+namespace window_ingress::adapters::window_markers_test {
 
 using visualization_msgs::Marker;
 
@@ -147,4 +147,4 @@ TEST(OpeningPolygon, HasTheCornersOfTheOpening) {
   EXPECT_NEAR(polygon.points[2].z, corner.z(), 1e-5);
 }
 
-}  // namespace window_ingress::adapters::markers_test
+}  // namespace window_ingress::adapters::window_markers_test
