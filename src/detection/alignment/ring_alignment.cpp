@@ -17,7 +17,7 @@ using geometry::Quadrilateral;
 
 constexpr int kCoarseSteps = 10, kFineSteps = 6, kLastSteps = 20;
 constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of the level]
-constexpr int kPatience = 3;          ///< steps without a better correlation, and it ends
+constexpr int kPatience = 5;          ///< steps without a better correlation, and it ends
 constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
 constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
 constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
