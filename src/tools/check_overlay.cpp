@@ -14,6 +14,7 @@
 #include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
+#include "input_faults.hpp"
 #include "launch_arguments.hpp"
 #include "navigation/mission/mission_rules.hpp"
 #include "params_file.hpp"
@@ -130,12 +131,10 @@ void checkAspect(double in_image, const estimation::PoseParams& opening) {
   constexpr double kMaxRatio = 1.25;
   const double said = opening.opening_width_m / opening.opening_height_m;
   if (opening.scale_sigma > 0.0 || std::max(in_image / said, said / in_image) <= kMaxRatio) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "the opening, " << opening.opening_width_m << " x " << opening.opening_height_m << " m, is " << said
-       << " times as wide as it is high, in the reference image " << in_image
-       << " times: measure both sides, look at the corners";
-  warn(text.str());
+  warn(formatted(
+      "the opening, %g x %g m, is %.3g times as wide as it is high, in the reference image %.3g times: "
+      "measure both sides, look at the corners",
+      opening.opening_width_m, opening.opening_height_m, said, in_image));
 }
 
 void checkSpeeds(const configuration::Overlay& overlay) {
@@ -206,27 +205,6 @@ void checkNavigator(const std::string& file, const navigation::NavigatorParams& 
   }
 }
 
-/// All that is wrong, to be told at once.
-class Faults {
- public:
-  template <typename Step>
-  bool collect(const Step& step) {
-    try {
-      step();
-      return true;
-    } catch (const InputError& fault) {
-      texts_.push_back(fault.what());
-    }
-    return false;
-  }
-  void throwIfAny() const {
-    if (!texts_.empty()) throw InputError(parameters::joined(texts_, "\n"));
-  }
-
- private:
-  std::vector<std::string> texts_;
-};
-
 void checkInstalled(const std::string& package) {
   std::vector<std::string> all;
   if (package.empty() || !ros::package::getAll(all) ||
@@ -239,7 +217,7 @@ void checkInstalled(const std::string& package) {
       ", on Debian build it in your workspace; or start another driver (rehearse.launch: camera:=false)");
 }
 
-void checkLaunch(const Options& o, Faults& faults) {
+void checkLaunch(const Options& o, tools::InputFaults& faults) {
   const auto words = tools::wordsOfParent();
   const auto file = tools::launchFileOf(words, o.launch_folder);
   if (file.empty()) return;
@@ -260,7 +238,7 @@ std::string existing(const std::string& file) {
 }
 
 void checkOverlay(const Options& o, const std::string& file, configuration::Overlay& overlay,
-                  Faults& faults) {
+                  tools::InputFaults& faults) {
   double aspect = 0.0;
   faults.collect([&] { aspect = checkReference(o, file, overlay.window_detector); });
   faults.collect([&] { checkTransport(o, overlay); });
@@ -281,7 +259,7 @@ int check(const Options& o) {
                             o.window_size.empty() && o.camera_pose.empty() && o.needs_window_size.empty() &&
                             o.scenario.empty() && o.launch_folder.empty();
   if (asks_nothing) throw InputError("no file given; see --help");
-  Faults faults;
+  tools::InputFaults faults;
   if (!o.launch_folder.empty()) checkLaunch(o, faults);
   const std::string file = given(o.file);
   configuration::Overlay overlay;
