@@ -64,6 +64,19 @@ std::string neighboursOf(const std::string& path, const std::vector<std::string>
   return names.size() > kFew ? "" : listed;
 }
 
+// All keys of that name, of the node that the path begins with if it has any: which of them is meant nobody
+// knows.
+std::vector<std::string> namesakesOf(const std::string& nearest, const std::string& path,
+                                     const std::vector<std::string>& known) {
+  const std::string node = path.substr(0, path.find('/') + 1);
+  const bool within = nearest.compare(0, node.size(), node) == 0;
+  std::vector<std::string> namesakes;
+  for (const auto& key : known)
+    if (nameOf(key) == nameOf(nearest) && (!within || key.compare(0, node.size(), node) == 0))
+      namesakes.push_back(key);
+  return namesakes;
+}
+
 }  // namespace
 
 std::vector<std::string> keysOf(const std::vector<Field>& fields) {
@@ -85,8 +98,11 @@ std::string didYouMean(const std::string& path, const std::vector<std::string>& 
   });
   if (nearest == known.end() || 3 * unlikeness(path, *nearest).first > nameOf(path).size())
     return neighboursOf(path, known);
-  const bool is_neighbour = groupOf(path) == groupOf(*nearest);
-  return "; did you mean '" + (is_neighbour ? nameOf(*nearest) : inYaml(*nearest)) + "'?";
+  if (groupOf(path) == groupOf(*nearest)) return "; did you mean '" + nameOf(*nearest) + "'?";
+  std::string meant;
+  for (const auto& key : namesakesOf(*nearest, path, known))
+    meant += (meant.empty() ? "'" : " or '") + inYaml(key) + "'";
+  return "; did you mean " + meant + "?";
 }
 
 }  // namespace window_ingress::parameters

@@ -1,6 +1,7 @@
 #include "window_ingress/parameters/yaml.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <ios>
 #include <type_traits>
 
@@ -39,6 +40,21 @@ class YamlReader {
   const std::vector<Field>& fields_;
   std::vector<std::string> keys_;
 };
+
+// Whether ROS, too, reads what is no text here as none: in quotes, as "1e-3" and as "y" it is a text there,
+// and "010" is eight.
+bool isPlainForRos(const YAML::Node& node) {
+  if (node.IsSequence()) return std::all_of(node.begin(), node.end(), isPlainForRos);
+  const std::string& text = node.Scalar();
+  if (node.Tag() == "!" || text.find_first_not_of("yYnN") == std::string::npos) return false;
+  if (text.find_first_of("0123456789") == std::string::npos) return true;
+  const auto first = text.find_first_not_of("+-");
+  const auto exponent = text.find_first_of("eE");
+  const bool is_octal = text[first] == '0' && first + 1 < text.size() && std::isdigit(text[first + 1]) != 0;
+  const bool is_text = exponent != std::string::npos &&
+                       (text.find('.') > exponent || text.find_first_of("+-", exponent) != exponent + 1);
+  return !is_octal && !is_text;
+}
 
 }  // namespace
 
@@ -94,7 +110,10 @@ void readValue(const std::string& file, const YAML::Node& node, const Field& fie
     } catch (const YAML::Exception&) {
       throw faultAt(file, node, field.name + ": must be " + kindOf(field));
     }
-    const std::string fault = faultOf(field);
+    std::string fault = faultOf(field);
+    if (!std::is_same_v<std::decay_t<decltype(*value)>, std::string> && !isPlainForRos(node))
+      fault = field.name + ": must be " + kindOf(field) +
+              "; ROS reads this otherwise: no quotes, no zero in front, 1.0e-3 for 1e-3";
     if (fault.empty()) return;
     *value = before;
     throw faultAt(file, node, fault);

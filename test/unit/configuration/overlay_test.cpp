@@ -9,6 +9,7 @@
 
 #include "window_ingress/parameters/key_list.hpp"
 #include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::configuration::overlay_test {
 
@@ -67,6 +68,15 @@ TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
   EXPECT_EQ(error("unheard_of: 1\n"), file_ +
                                           ":1: unheard_of: unknown key; there is vehicle, window_detector, "
                                           "homography_pose, ingress_navigator, setpoint_guard, world");
+}
+
+// Lifted out of its group, a name says nothing of which one was meant.
+TEST_F(OverlayFile, NamesAllKeysThatAreCalledSo) {
+  const std::string said = error("ingress_navigator: {navigator: {speed_mps: 0.4}}\n");
+  for (const char* group : {"limits", "approach", "commit"})
+    EXPECT_NE(said.find(formatted("'ingress_navigator: {navigator: {%s: {speed_mps: ..}}}'", group)),
+              std::string::npos)
+        << said;
 }
 
 TEST_F(OverlayFile, SaysWhereTheVehicleIsNow) {

@@ -87,6 +87,19 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_NE(error("- 1\n").find("must be a mapping"), std::string::npos);
 }
 
+// Nodes read the same file through ROS, and refuse these as texts, or read "010" as eight.
+TEST_F(YamlFile, RefusesWhatRosReadsOtherwise) {
+  for (const char* value : {"\"0.5\"", "'1'", "1e-1", "1.0e1", "010"})
+    EXPECT_NE(
+        error(std::string("speed_mps: ") + value + "\n").find(":1: speed_mps: must be a number; ROS reads"),
+        std::string::npos)
+        << value;
+  EXPECT_NE(error("fast: y\n").find("must be true or false; ROS reads"), std::string::npos);
+  EXPECT_NE(error("corners: [1, \"2\"]\n").find("must be a list of numbers; ROS reads"), std::string::npos);
+  EXPECT_DOUBLE_EQ(read("speed_mps: 1.0e-1\nfast: False\nname: \"1e-1\"\ncorners: [0, 0.5, -1]\n").speed_mps,
+                   0.1);
+}
+
 TEST_F(YamlFile, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
   EXPECT_EQ(error("speeed_mps: 1\ninner: {count: 11, cuont: 1}\nfast: 7\ncorners: 1\nfast: true\n[a]: 1\n"),
             file_ + ":1: speeed_mps: unknown key; did you mean 'speed_mps'?\n" +   //
