@@ -71,6 +71,8 @@ void check(const Options& o) {
   if (o.output.empty()) throw InputError("--output is missing; see --help");
   if (o.inputs.empty()) throw InputError("no image given; see --help");
   if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0)) throw InputError("--rate: needs images a second, above 0");
+  if (!o.size.empty() && o.camera.empty())
+    throw InputError("--window-size needs --camera: no pose without it");
   if (!o.corners.empty() && o.reference.empty()) throw InputError("--reference-corners needs --reference");
 }
 
@@ -187,7 +189,7 @@ int run(const Options& o) {
   evaluation::OutputFile output, candidates;
   begin(output, o.output, evaluation::detectionColumns() + finder.columns());
   if (!o.candidates.empty()) begin(candidates, o.candidates, evaluation::candidateColumns());
-  int unreadable = 0, found = 0;
+  int unreadable = 0, found = 0, not_compared = 0;
   tools::Progress progress("detect_images", "images", images.size());
   for (const std::string& file : images) {
     const cv::Mat image = readImage(file);
@@ -200,6 +202,7 @@ int run(const Options& o) {
     } else {
       row = process(image, job, finder);
       found += row.window.has_value();
+      not_compared += job.reference && row.window && !row.window->has_appearance;
       if (candidates.is_open())
         candidates << evaluation::candidateRows(evaluation::csvField(file), finder.trace());
       if (!o.overlay.empty()) writeOverlay(file, image, finder, row, o.overlay);
@@ -210,6 +213,9 @@ int run(const Options& o) {
   }
   output.finish();
   if (candidates.is_open()) candidates.finish();
+  if (not_compared > 0)
+    std::cerr << "detect_images: warning: " << not_compared
+              << " found by geometry alone: image and reference must both have colours, or both none\n";
   std::cout << "a window in " << found << " of " << images.size() << " images; see " << o.output
             << (o.overlay.empty() ? "" : " and " + o.overlay) << std::endl;
   return unreadable ? 1 : 0;

@@ -115,6 +115,24 @@ def test_missing_camera_file_is_named(tmp_path, image):
     assert_refused(result, 2, camera)
 
 
+def test_size_without_camera_is_refused_as_it_brings_no_pose(tmp_path, image):
+    result = run("detect_images", "--output", tmp_path / "out.csv", "--window-size", "1,1", image)
+    assert_refused(result, 2, "--window-size needs --camera")
+
+
+def test_grey_image_beside_a_coloured_reference_is_said_to_be_found_by_geometry_alone(tmp_path):
+    picture = numpy.full((240, 320, 3), 160, numpy.uint8)
+    cv2.rectangle(picture, (80, 60), (240, 180), (0, 120, 240), 12)
+    cv2.rectangle(picture, (86, 66), (234, 174), (30, 30, 30), -1)
+    coloured, grey = tmp_path / "coloured.png", tmp_path / "grey.png"
+    cv2.imwrite(str(coloured), picture)
+    cv2.imwrite(str(grey), cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY))
+    arguments = ("--output", tmp_path / "out.csv", "--reference", coloured,
+                 "--reference-corners", "86,66,234,66,234,174,86,174")
+    assert "geometry alone" not in run("detect_images", *arguments, coloured).stderr
+    assert "warning: 1 found by geometry alone" in run("detect_images", *arguments, grey).stderr
+
+
 def test_bad_parameter_file_is_named_with_line_and_key(tmp_path, image):
     params = tmp_path / "params.yaml"
     params.write_text("window_detector:\n  detector: {no_such_key: 1}\n")
