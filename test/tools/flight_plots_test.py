@@ -97,6 +97,7 @@ def test_a_log_as_fly_writes_it_is_drawn_with_its_states(tmp_path):
 def test_the_last_line_says_how_it_ended(log, tmp_path):
     done = run("plot_flight", log, "--output", tmp_path / "a.png", "--window-size", "1.2,1.0", "--title", "my flight")
     assert done.returncode == 0, done.stderr
+    assert f"plot_flight: see {tmp_path / 'a.png'}" in done.stderr
     assert "crossed at 5.00 s" in done.stdout and "actual miss 5.0 cm, predicted at most 12.0 cm" in done.stdout
     assert "APPROACH 3.0 s" in done.stdout and done.stdout.endswith("; ended in PASSED: 6.9 s flown\n")
     cut = run("plot_flight", log, "--output", tmp_path / "b.png", "--from", "1", "--to", "3")

@@ -22,3 +22,4 @@ def save(tool, figure, file):
         figure.savefig(file, dpi=80)
     except (OSError, ValueError) as error:
         fail(1, f"{tool}: {file}: cannot write: {error}")
+    print(f"{tool}: see {file}", file=sys.stderr)
