@@ -8,6 +8,7 @@
 #include "estimation/target_checks.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
 namespace {
@@ -234,7 +235,10 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
   const bool used = last_.pose.estimate
                         ? filter_.update(*last_.pose.estimate, window, image.camera, *T_odom_camera)
                         : filter_.update(window, image.camera, *T_odom_camera);
-  return used ? "" : "gated out by the filter";
+  if (used) return "";
+  const auto [width_m, height_m] = lookedFor();
+  return formatted("gated out: fits what was seen before, or an opening of %.2f x %.2f m, badly", width_m,
+                   height_m);
 }
 
 // That of the IMU, unless it has none or is in other axes.

@@ -113,6 +113,15 @@ TEST(TargetEstimator, FindsOutASizeThatIsNotKnown) {
   EXPECT_EQ(target->approach_forbidden, "");
 }
 
+TEST(TargetEstimator, SaysThatWidthAndHeightDoNotFit) {
+  estimation::PoseParams swapped;
+  swapped.opening_width_m = 1.0;
+  swapped.opening_height_m = 1.2;
+  const auto track = flownSideways(swapped, TargetEstimatorParams(), kMounting);
+  EXPECT_NE(track.lastUpdate().why_not.find("an opening of 1.00 x 1.20 m"), std::string::npos)
+      << track.lastUpdate().why_not;
+}
+
 TEST(TargetEstimator, TellsAnotherWindowByItsSizeAndForgetsItWithItsIdentity) {
   estimation::PoseParams twice;  // looking for one twice as large
   twice.opening_width_m = 2.4;
