@@ -297,7 +297,9 @@ def test_a_scenario_that_cannot_be_ends_the_launch_before_anything_starts(tmp_pa
 
 def test_the_demo_says_why_it_did_not_fly():
     nowhere = subprocess.run([ROOT / "scripts/demo", "--scenario", "/nowhere.yaml"], capture_output=True, text=True, timeout=60, check=False)
-    assert nowhere.returncode != 0 and "/nowhere.yaml" in nowhere.stderr and "building" not in nowhere.stdout
+    assert nowhere.returncode == 2 and "/nowhere.yaml" in nowhere.stderr and "building" not in nowhere.stdout
+    mistyped = subprocess.run([ROOT / "scripts/demo", "--sead", "3"], capture_output=True, text=True, timeout=60, check=False)
+    assert mistyped.returncode == 2 and "unknown option '--sead'" in mistyped.stderr
 
 
 def test_contradictions_are_said(tmp_path):
