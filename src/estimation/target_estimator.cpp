@@ -225,7 +225,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
         !other.empty())
       return other;
   // A camera that is not mounted as said may give no pose at all.
-  if (is_whole && T_odom_camera)
+  if (T_odom_camera)
     checks_->frames.mounting().see(window, image.camera, *T_odom_camera * image.T_base_camera->inverse(),
                                    *image.T_base_camera);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;

@@ -122,6 +122,7 @@ MountingCheck::MountingCheck(const PoseParams& pose, const FilterParams& filter,
 void MountingCheck::forgetPlaces() {
   filter_.forgetPlaces();
   images_.clear();
+  last_.reset();
   refused_ = 0;
   trial_.reset();
 }
@@ -148,8 +149,8 @@ void MountingCheck::startAnewForAnotherTarget(std::uint32_t seen_id) {
 }
 
 bool MountingCheck::isFarFromLast(const Image& image) const {
-  if (images_.empty()) return true;
-  const Image& last = images_.back();
+  if (!last_) return true;
+  const Image& last = *last_;
   const double spacing_m =
       kImageSpacingM * (verdict_.state == FramesVerdict::kGood ? kGoodSpacingFactor : 1.0);
   const double elapsed_sec = image.window.stamp_sec - last.window.stamp_sec;
@@ -159,11 +160,13 @@ bool MountingCheck::isFarFromLast(const Image& image) const {
 
 void MountingCheck::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
                         const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera) {
-  if (!window.whole() || !geometry::isValidPose(T_odom_base) || !geometry::isValidPose(T_base_camera)) return;
+  if (!geometry::isValidPose(T_odom_base) || !geometry::isValidPose(T_base_camera)) return;
+  if (!window.whole() && !filter_.state(window.stamp_sec)) return;
   startAnewForAnotherTarget(window.target_id);
   const Image image{window, camera, T_odom_base, T_base_camera};
   if (!isFarFromLast(image)) return;
-  keep(image);
+  if (window.whole()) keep(image);
+  last_ = image;
   if (feed(filter_, image, T_odom_base * T_base_camera)) {
     refused_ = 0;
     return judge();
@@ -193,7 +196,7 @@ bool MountingCheck::feed(WindowFilter& filter, const Image& image,
 }
 
 void MountingCheck::judge() {
-  const auto found = filter_.state(images_.back().window.stamp_sec);
+  const auto found = filter_.state(last_->window.stamp_sec);
   if (!found || found->updates < kMinUpdates) return;
   trial_.reset();
   if (found->size.log_covariance(1, 1) < kMeasuredSigma * kMeasuredSigma) measured_size_ = found->size;

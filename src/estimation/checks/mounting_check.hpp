@@ -23,7 +23,8 @@ class MountingCheck {
   /// \param size what the opening is said to be; zero covariance: known, and so to be verified
   MountingCheck(const PoseParams& pose, const FilterParams& filter, const SizeEstimate& size);
 
-  /// Only whole windows say something.
+  /// A filter begins with a whole window and goes on with what is left of it: a camera turned aside has the
+  /// window at the image's border.
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
            const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera);
   void clear();
@@ -56,7 +57,8 @@ class MountingCheck {
   FilterParams filter_params_;
   SizeEstimate said_, open_;
   WindowFilter filter_;
-  std::deque<Image> images_;
+  std::deque<Image> images_;   ///< whole windows, for other setups
+  std::optional<Image> last_;  ///< whole or not
   int refused_ = 0;
   std::uint32_t target_id_ = 0;
   bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
