@@ -5,19 +5,10 @@
 #include <limits>
 
 #include "navigation/motion/moving_target.hpp"
+#include "navigation/motion/stopping.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
-
-double stoppingSpeed(double distance_m, double braking_mps2, double response_sec) {
-  if (!(distance_m > 0.0)) return 0.0;
-  return braking_mps2 *
-         (std::sqrt(response_sec * response_sec + 2.0 * distance_m / braking_mps2) - response_sec);
-}
-
-double stoppingDistance(double speed_mps, double braking_mps2, double response_sec) {
-  return std::abs(speed_mps) * response_sec + speed_mps * speed_mps / (2.0 * braking_mps2);
-}
 
 namespace {
 
@@ -49,7 +40,7 @@ double commitDistance(const RelativeState& relative, const geometry::OpeningSize
                       const NavigatorParams& params) {
   const auto& vehicle = params.vehicle;
   const double speed_mps = std::max(params.commit.speed_mps, relative.velocity_window_mps.x());
-  const double stop_m = stoppingDistance(speed_mps, vehicle.braking_mps2, vehicle.response_sec);
+  const double stop_m = stoppingDistance(speed_mps, vehicle);
   return std::max(viewDistance(relative, opening, pitch_rad, vehicle) + params.commit.view_margin_m,
                   vehicle.half_length_m + stop_m);
 }

@@ -10,13 +10,6 @@
 
 namespace window_ingress::navigation {
 
-/// Fastest speed from which the vehicle still stops within `distance_m`, answering after `response_sec`:
-/// v * response + v^2 / (2 * braking) = distance. 0 for distances that are not positive.
-double stoppingSpeed(double distance_m, double braking_mps2, double response_sec);
-
-/// Way until standing still: v * response + v^2 / (2 * braking) [m].
-double stoppingDistance(double speed_mps, double braking_mps2, double response_sec);
-
 /// Distance of the body's centre to the plane at which the vehicle commits: the opening, off-centre by the
 /// present error (half of the opening at most) and with the camera pitched as given, is about to outgrow the
 /// field of view; or, if that is nearer, where the vehicle can just stop before its nose is in the opening.

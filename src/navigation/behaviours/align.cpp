@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "navigation/motion/stopping.hpp"
+
 namespace window_ingress::navigation {
 namespace {
 constexpr double kNearAxisM = 0.3;
@@ -50,7 +52,7 @@ Eigen::Vector3d StepPacer::pace(const Eigen::Vector3d& velocity_odom_mps,
 }
 
 Eigen::Vector3d StepPacer::along(const Eigen::Vector3d& velocity_odom_mps, double left_m) const {
-  const double most_mps = stoppingSpeed(left_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
+  const double most_mps = stoppingSpeed(left_m, params_->vehicle);
   return std::clamp(velocity_odom_mps.dot(along_), -most_mps, most_mps) * along_;
 }
 

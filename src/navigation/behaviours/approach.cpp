@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "navigation/mission/opening_policy.hpp"
+#include "navigation/motion/stopping.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -67,8 +68,7 @@ double Approach::forwardSpeed(const CommitCriterion& criterion, const RelativeSt
   const double end_m = criterion.holds ? params_->vehicle.half_length_m : criterion.commit_distance_m;
   const double room_m = relative.distance() - end_m;
   if (room_m < 0.0) return velocityTowards(room_m, params_->back_off.speed_mps, *params_);
-  return std::min(speed_mps,
-                  stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec));
+  return std::min(speed_mps, stoppingSpeed(room_m, params_->vehicle));
 }
 
 double Approach::asideM(const CommitCriterion& criterion, const Situation& situation) const {

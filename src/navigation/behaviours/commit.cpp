@@ -4,6 +4,7 @@
 
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/motion/moving_target.hpp"
+#include "navigation/motion/stopping.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
@@ -36,7 +37,7 @@ bool canStop(const RelativeState& relative, const TargetEstimate& target, const 
              const NavigatorParams& params, double reserve = 1.0) {
   const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
   const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
-  const double stop_m = stoppingDistance(speed_mps, params.vehicle.braking_mps2, params.vehicle.response_sec);
+  const double stop_m = stoppingDistance(speed_mps, params.vehicle);
   return relative.distance() - params.vehicle.half_length_m > reserve * stop_m;
 }
 
@@ -129,7 +130,7 @@ void Commit::heedForbidden(const TargetEstimate& target) {
 double Commit::forwardSpeed(const RelativeState& relative) {
   const double room_m = params_->commit.exit_distance_m + relative.distance();
   if (room_m < 0.1) is_through_ = true;
-  const double stop_mps = stoppingSpeed(room_m, params_->vehicle.braking_mps2, params_->vehicle.response_sec);
+  const double stop_mps = stoppingSpeed(room_m, params_->vehicle);
   return std::min(std::max(stop_mps, 0.1), params_->commit.speed_mps);
 }
 

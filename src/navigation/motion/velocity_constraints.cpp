@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "navigation/behaviours/position_hold.hpp"
+#include "navigation/motion/stopping.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -95,9 +96,8 @@ Eigen::Vector3d permittedByState(const Eigen::Vector3d& velocity, State state, c
 }
 
 double withinHeights(double climb_mps, double height_m, const NavigatorParams& params) {
-  const auto& [braking, response] = std::pair(params.vehicle.braking_mps2, params.vehicle.response_sec);
-  const double up = stoppingSpeed(params.limits.max_height_m - height_m, braking, response);
-  const double down = stoppingSpeed(height_m - params.limits.min_height_m, braking, response);
+  const double up = stoppingSpeed(params.limits.max_height_m - height_m, params.vehicle);
+  const double down = stoppingSpeed(height_m - params.limits.min_height_m, params.vehicle);
   return std::clamp(climb_mps, -down, up);
 }
 
@@ -110,8 +110,7 @@ Eigen::Vector3d withinFence(const Eigen::Vector3d& velocity, const Eigen::Vector
   const double away_m = outward.norm();
   if (away_m < 1e-6) return velocity;
   outward /= away_m;
-  const double most_mps = stoppingSpeed(params.limits.fence_radius_m - away_m, params.vehicle.braking_mps2,
-                                        params.vehicle.response_sec);
+  const double most_mps = stoppingSpeed(params.limits.fence_radius_m - away_m, params.vehicle);
   return velocity - std::max(0.0, velocity.dot(outward) - most_mps) * outward;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::commit_criterion_test {
@@ -24,15 +25,6 @@ CommitCriterion criterionOf(const RelativeState& relative, const geometry::Openi
   return evaluateCommitCriterion(input, NavigatorParams());
 }
 
-TEST(StoppingSpeed, IsTheInverseOfTheStoppingDistance) {
-  for (double speed = 0.05; speed < 3.0; speed += 0.1) {
-    EXPECT_NEAR(stoppingSpeed(stoppingDistance(speed, 1.2, 0.3), 1.2, 0.3), speed, 1e-12);
-  }
-  EXPECT_EQ(stoppingSpeed(0.0, 1.2, 0.3), 0.0);
-  EXPECT_EQ(stoppingSpeed(-1.0, 1.2, 0.3), 0.0);
-  EXPECT_EQ(stoppingSpeed(std::nan(""), 1.2, 0.3), 0.0);
-}
-
 TEST(CommitDistance, IsWhereTheOpeningOutgrowsTheView) {
   NavigatorParams params;
   params.vehicle.half_length_m = 0.05;
@@ -49,7 +41,7 @@ TEST(CommitDistance, IsWhereTheOpeningOutgrowsTheView) {
 TEST(CommitDistance, LeavesRoomToStopBeforeTheOpening) {
   NavigatorParams params;
   params.commit.speed_mps = 2.0;
-  const double stop = stoppingDistance(2.0, params.vehicle.braking_mps2, params.vehicle.response_sec);
+  const double stop = stoppingDistance(2.0, params.vehicle);
   EXPECT_DOUBLE_EQ(commitDistance(at(5.0), kOpening, 0.0, params), stop + params.vehicle.half_length_m);
 }
 

@@ -10,6 +10,7 @@
 #include "navigation/behaviours/commit.hpp"
 #include "navigation/behaviours/hold.hpp"
 #include "navigation/behaviours/search.hpp"
+#include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::behaviours_test {
@@ -353,8 +354,7 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
     return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
   };
   const auto& vehicle = kDefaults.vehicle;
-  const double needed_m =
-      vehicle.half_length_m + stoppingDistance(0.95, vehicle.braking_mps2, vehicle.response_sec);
+  const double needed_m = vehicle.half_length_m + stoppingDistance(0.95, vehicle);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kContractUnmet);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.95), std::nullopt);
   EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "window_ingress/navigation/commit_criterion.hpp"
+#include "navigation/motion/stopping.hpp"
 
 namespace window_ingress::navigation::response_estimator_test {
 
@@ -38,7 +38,10 @@ TEST(ResponseEstimator, FindsTheLagOfTheVehicleInWind) {
 // Response and limit of acceleration together say how far a vehicle goes before it stands.
 TEST(ResponseEstimator, KnowsHowFarAVehicleOfLittleAccelerationGoes) {
   const auto stop_m = [](double acceleration_mps2, double response_sec) {
-    return stoppingDistance(0.8, acceleration_mps2, response_sec);
+    VehicleParams vehicle;
+    vehicle.braking_mps2 = acceleration_mps2;
+    vehicle.response_sec = response_sec;
+    return stoppingDistance(0.8, vehicle);
   };
   for (const double acceleration_mps2 : {0.5, 0.6, 1.0}) {
     const ResponseEstimator found = flown(0.2, acceleration_mps2, 12.0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::velocity_constraints_test {
@@ -128,8 +129,7 @@ TEST_F(VelocityConstraints, TheFenceLeavesRoomToStop) {
     memory_.home_odom_m = situation_.vehicle->T_odom_base.translation() -
                           Eigen::Vector3d(params_.limits.fence_radius_m - left_m, 0.0, 0.0);
     const double outward = permitted(State::kCommit).x();
-    EXPECT_LE(stoppingDistance(outward, params_.vehicle.braking_mps2, params_.vehicle.response_sec),
-              std::max(0.0, left_m) + 1e-9);
+    EXPECT_LE(stoppingDistance(outward, params_.vehicle), std::max(0.0, left_m) + 1e-9);
     EXPECT_NEAR(permitted(State::kCommit).y(), kWish.y(), 1e-12);
     EXPECT_EQ(permittedVelocity(-kWish, State::kCommit, situation_, memory_, params_).x(), -kWish.x());
   }
