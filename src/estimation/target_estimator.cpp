@@ -237,7 +237,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
                         : filter_.update(window, image.camera, *T_odom_camera);
   if (used) return "";
   const auto [width_m, height_m] = lookedFor();
-  return formatted("gated out: fits what was seen before, or an opening of %.2f x %.2f m, badly", width_m,
+  return formatted("gated out: does not fit what was seen before, or an opening of %.2f x %.2f m", width_m,
                    height_m);
 }
 

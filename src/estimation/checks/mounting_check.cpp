@@ -150,12 +150,11 @@ void MountingCheck::startAnewForAnotherTarget(std::uint32_t seen_id) {
 
 bool MountingCheck::isFarFromLast(const Image& image) const {
   if (!last_) return true;
-  const Image& last = *last_;
   const double spacing_m =
       kImageSpacingM * (verdict_.state == FramesVerdict::kGood ? kGoodSpacingFactor : 1.0);
-  const double elapsed_sec = image.window.stamp_sec - last.window.stamp_sec;
+  const double elapsed_sec = image.window.stamp_sec - last_->stamp_sec;
   return elapsed_sec < 0.0 || elapsed_sec > kSpacingSec ||
-         (image.T_odom_base.translation() - last.T_odom_base.translation()).norm() >= spacing_m;
+         (image.T_odom_base.translation() - last_->position_m).norm() >= spacing_m;
 }
 
 void MountingCheck::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
@@ -166,7 +165,7 @@ void MountingCheck::see(const detection::WindowObservation& window, const geomet
   const Image image{window, camera, T_odom_base, T_base_camera};
   if (!isFarFromLast(image)) return;
   if (window.whole()) keep(image);
-  last_ = image;
+  last_ = Place{window.stamp_sec, T_odom_base.translation()};
   if (feed(filter_, image, T_odom_base * T_base_camera)) {
     refused_ = 0;
     return judge();
@@ -175,7 +174,7 @@ void MountingCheck::see(const detection::WindowObservation& window, const geomet
   if (trial_ || refused_ >= kRefusedUntilRestart) tryNextSetups();
 }
 
-// The last one is where the next spacing is measured from; those before it are thinned out.
+// The last one is always there; those before it are thinned out.
 void MountingCheck::keep(const Image& image) {
   if (images_.size() > 1) {
     const Image& last = images_[images_.size() - 2];
@@ -196,7 +195,7 @@ bool MountingCheck::feed(WindowFilter& filter, const Image& image,
 }
 
 void MountingCheck::judge() {
-  const auto found = filter_.state(last_->window.stamp_sec);
+  const auto found = filter_.state(last_->stamp_sec);
   if (!found || found->updates < kMinUpdates) return;
   trial_.reset();
   if (found->size.log_covariance(1, 1) < kMeasuredSigma * kMeasuredSigma) measured_size_ = found->size;

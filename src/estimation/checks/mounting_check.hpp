@@ -57,8 +57,12 @@ class MountingCheck {
   FilterParams filter_params_;
   SizeEstimate said_, open_;
   WindowFilter filter_;
-  std::deque<Image> images_;   ///< whole windows, for other setups
-  std::optional<Image> last_;  ///< whole or not
+  std::deque<Image> images_;  ///< whole windows, for other setups
+  struct Place {
+    double stamp_sec;
+    Eigen::Vector3d position_m;
+  };
+  std::optional<Place> last_;  ///< where the last image looked at was taken, whole or not
   int refused_ = 0;
   std::uint32_t target_id_ = 0;
   bool size_is_fault_ = false;    ///< the verdict is about the window, not about the mounting
