@@ -106,6 +106,7 @@ void Navigator::Impl::remember(const Situation& situation, const NavigatorInput&
     memory.odometry_shift_m = monitor.odometry().shiftM();
     memory.odometry_unexplained_mps = monitor.odometry().unexplainedMps();
     memory.odometry_bias_known = monitor.odometry().isBiasKnown();
+    memory.bringPlaceBack(monitor.odometry().carriedM());
     memory.odometry_drift_m_per_sqrt_sec = monitor.odometry().driftMPerSqrtSec();
     home.follow(*situation.vehicle, memory);
   }

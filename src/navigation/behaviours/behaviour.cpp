@@ -53,6 +53,11 @@ void MissionState::forgetWindow() {
   others_odom_m.clear();
 }
 
+void MissionState::bringPlaceBack(const Eigen::Vector3d& carried_m) {
+  if (place_odom_m) *place_odom_m += carried_m - odometry_carried_m;
+  odometry_carried_m = carried_m;
+}
+
 void MissionState::forgetPlaces() {
   forgetWindow();
   committed.reset();

@@ -33,10 +33,11 @@ struct MissionState {
   Eigen::Vector3d wind_odom_mps = Eigen::Vector3d::Zero();  ///< velocity added to what is commanded
   Eigen::Matrix3d gusts_odom = Eigen::Matrix3d::Zero();     ///< mean square of what comes and goes [m^2/s^2]
   double gusts_watched_sec = 0.0;                           ///< over this time
-  double odometry_disagreement_mps = 0.0;       ///< between its position and its velocity, of late
-  double odometry_shift_m = 0.0;                ///< by which its positions were set right so far
-  double odometry_unexplained_mps = 0.0;        ///< what of it is no steady bias of the velocity
-  double odometry_drift_m_per_sqrt_sec = 0.0;   ///< of its position beside its velocity, as measured
+  double odometry_disagreement_mps = 0.0;      ///< between its position and its velocity, of late
+  double odometry_shift_m = 0.0;               ///< by which its positions were set right so far
+  double odometry_unexplained_mps = 0.0;       ///< what of it is no steady bias of the velocity
+  double odometry_drift_m_per_sqrt_sec = 0.0;  ///< of its position beside its velocity, as measured
+  Eigen::Vector3d odometry_carried_m = Eigen::Vector3d::Zero();  ///< as told last
   bool odometry_bias_known = false;             ///< it has been watched for long enough to know of one
   std::optional<Eigen::Vector3d> home_odom_m;   ///< where the mission began
   std::optional<double> keeping_since_sec;      ///< a place is wanted
@@ -60,6 +61,8 @@ struct MissionState {
   void giveUpWindow(const TargetEstimate& window);
   /// Which window is flown at, and which not: one of them may have been misjudged.
   void forgetWindow();
+  /// To where it was when the vehicle began to keep it, once it is known how it was carried off meanwhile.
+  void bringPlaceBack(const Eigen::Vector3d& carried_m);
   /// Everything that lives in an odometry frame.
   void forgetPlaces();
 };

@@ -16,6 +16,8 @@ constexpr double kSecond = 1.0, kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
+constexpr std::size_t kSteadyPieces = 8;              // longer than a slide lasts
+constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more do pieces of it differ
 constexpr double kToldM2 = 0.02;  // of differences that a window was seen beside, squared: enough to judge by
 constexpr double kWindowMovesAlong = 0.3;  // of the difference, if it is the position that errs
 // For so long more is no error of a velocity; with its steady bias, and without.
@@ -155,6 +157,7 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   judgeVelocity();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
   if (pieces_.size() >= kFirstPieces) judgePieces();
+  if (!is_bias_known_) judgeBias();
 }
 
 void ContinuousOdometry::see(double stamp_sec, const Eigen::Vector3d& window_odom_m) {
@@ -207,6 +210,21 @@ void ContinuousOdometry::judgePieces() {
   for (const Difference& piece : pieces_)
     for (const int axis : {0, 1}) errors_mps.push_back(std::abs((piece.*axes_ - usual_.*axes_)[axis]));
   drift_m_per_sqrt_sec_ = kSigmaOfMedian * geometry::median(errors_mps) * std::sqrt(kPieceSec);
+}
+
+// A bias, in the end, is what half of the pieces are like, or so many that no slide lasts as long.
+void ContinuousOdometry::judgeBias() {
+  const Eigen::Vector3d usual_mps = usual_.*axes_;
+  const double alike_mps = std::max(kAlikeMps, kAlikeShare * usual_mps.head<2>().norm());
+  std::size_t alike = 0;
+  Eigen::Vector3d carried_m = Eigen::Vector3d::Zero();
+  for (const Difference& piece : pieces_) {
+    if ((piece.*axes_ - usual_mps).head<2>().norm() > alike_mps) continue;
+    ++alike;
+    carried_m.head<2>() -= kPieceSec * piece.smooth_mps.head<2>();
+  }
+  is_bias_known_ = pieces_.size() == kPieces || alike >= kSteadyPieces;
+  if (is_bias_known_ && is_erring_) carried_m_ = carried_m;
 }
 
 // Axes of `smooth`; nothing as long as it may be a slide.

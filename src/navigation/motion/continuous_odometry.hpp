@@ -55,7 +55,10 @@ class ContinuousOdometry {
   double unexplainedMps() const;
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return isBiasKnown() ? drift_m_per_sqrt_sec_ : 0.0; }
-  bool isBiasKnown() const { return pieces_.size() == kPieces; }
+  bool isBiasKnown() const { return is_bias_known_; }
+  /// The way by which a vehicle that kept its place was carried off, back [m], level, axes of `smooth`: while
+  /// a bias might have been a slide, the velocity was believed. Zero until it is known, the same ever after.
+  const Eigen::Vector3d& carriedM() const { return carried_m_; }
   /// Whether the window has shown that the position is right where the two differ.
   bool isVelocityWorse() const { return is_velocity_worse_; }
 
@@ -99,6 +102,7 @@ class ContinuousOdometry {
   Eigen::Vector3d middleMps(Axes axes) const;
   Eigen::Vector3d latePiecesMps() const;
   void judgePieces();
+  void judgeBias();
   Eigen::Vector3d usualMps(const Eigen::Matrix3d& R_smooth_base) const;
   Eigen::Vector3d steadyMps(const Eigen::Matrix3d& R_smooth_base) const;
   void shiftIfUnexplained(VehicleState& smooth);
@@ -112,15 +116,16 @@ class ContinuousOdometry {
   std::optional<Turn> turn_;
   double heading_error_rad_ = 0.0;
   bool is_erring_ = false;  ///< the two frames differ
-  bool is_velocity_worse_ = false;
+  bool is_velocity_worse_ = false, is_bias_known_ = false;
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  ///< of the frame, so far
-  std::optional<Sample> piece_;                        ///< where the present piece of the way began
-  std::deque<Sample> differences_;                     ///< of the last second, positions without shifts
-  std::optional<Sighting> sighting_, piece_sighting_;  ///< the latest; that of when the piece began
-  std::deque<Difference> pieces_;                      ///< the latest
-  Difference usual_;                                   ///< middle value of them
-  Axes axes_ = &Difference::base_mps;                  ///< in which they are more even
+  Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();    ///< of the frame, so far
+  std::optional<Sample> piece_;                          ///< where the present piece of the way began
+  std::deque<Sample> differences_;                       ///< of the last second, positions without shifts
+  std::optional<Sighting> sighting_, piece_sighting_;    ///< the latest; that of when the piece began
+  std::deque<Difference> pieces_;                        ///< the latest
+  Difference usual_;                                     ///< middle value of them
+  Eigen::Vector3d carried_m_ = Eigen::Vector3d::Zero();  ///< against what the velocity said
+  Axes axes_ = &Difference::base_mps;                    ///< in which they are more even
   double drift_m_per_sqrt_sec_ = 0.0;
 };
 

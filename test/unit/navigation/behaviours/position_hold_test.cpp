@@ -37,6 +37,14 @@ TEST(PositionHold, AVehicleThatIsPushedOnGetsAPlaceAllTheSame) {
   EXPECT_NEAR(now - 10.0, kSettleSec + 0.1, 0.11);
 }
 
+TEST(PositionHold, IsBroughtBackByWhatTheVehicleWasCarriedOffByOnce) {
+  MissionState memory;
+  memory.bringPlaceBack({9, 0, 0});  // before there was a place
+  rememberPlace(true, standingAt({1, 2, 1}), HoldParams(), memory);
+  for (int i = 0; i < 3; ++i) memory.bringPlaceBack({9.5, 0.3, 0});
+  EXPECT_LT((*memory.place_odom_m - Eigen::Vector3d(1.5, 2.3, 1)).norm(), 1e-12);
+}
+
 TEST(PositionHold, IsForgottenWhenNotWantedAndWithItsOdometry) {
   const HoldParams params;
   MissionState memory;

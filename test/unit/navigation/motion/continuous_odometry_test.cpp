@@ -231,6 +231,23 @@ TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
     worst_m = std::max(worst_m, curve.errorM(continuous.add(curve.step())));
   }
   EXPECT_LT(worst_m, ContinuousOdometry::kUnexplainedM + 0.03);
+  EXPECT_TRUE(continuous.isBiasKnown());
+  EXPECT_LT(continuous.carriedM().norm(), 0.05);
+}
+
+TEST(ContinuousOdometry, WhatLastsLongerThanASlideIsABiasAndWhatItCarriedTheVehicleOffByIsKnown) {
+  Curve curve;
+  curve.bias_base = {0.15, -0.2, 0.0};
+  ContinuousOdometry continuous;
+  VehicleState smooth;
+  while (!continuous.isBiasKnown() && curve.time < 20.0) {
+    EXPECT_EQ(continuous.carriedM().norm(), 0.0);
+    smooth = *continuous.add(curve.step());
+  }
+  EXPECT_NEAR(curve.time, 14.2, 0.3);
+  const Eigen::Vector3d astray_m = smooth.T_odom_base.translation() - curve.position;
+  EXPECT_GT(astray_m.norm(), 0.9);
+  EXPECT_LT((continuous.carriedM() - astray_m).norm(), 0.1);
 }
 
 TEST(ContinuousOdometry, WhatIsNotSteadyYetIsUnexplained) {
