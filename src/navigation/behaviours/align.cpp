@@ -14,10 +14,14 @@ constexpr double kProbeMps = 0.4;
 constexpr double kWellInFunnel = 0.15;  // of its openness
 }  // namespace
 
+void HeightProbe::beginAt(double height_m) {
+  if (!start_m_) start_m_ = height_m;
+}
+
 double HeightProbe::climb(double height_m) {
   constexpr double kReachedM = 0.05;
   const auto& align = params_->align;
-  if (!start_m_) start_m_ = height_m;
+  beginAt(height_m);
   const double side = count_ % 2 == 0 ? 1.0 : -1.0;
   const double turning_m = std::clamp(*start_m_ + side * align.probe_amplitude_m,
                                       params_->limits.min_height_m, params_->limits.max_height_m);
@@ -123,14 +127,16 @@ Decision Align::moveOntoAxis(const Situation& situation, MissionState& memory,
     in_funnel_since_sec_ = situation.now_sec;
   }
   if (!in_funnel_since_sec_ || situation.now_sec - *in_funnel_since_sec_ < kFunnelDwellSec) return decision;
-  if (is_forbidden) return probeForLeave(situation, decision);
+  if (is_forbidden) return probeForLeave(situation, relative, decision);
   decision.event = Event::kAligned;
   return decision;
 }
 
 // Motion may yet show the size of the opening, or that the frames are as they are said to be.
-Decision Align::probeForLeave(const Situation& situation, Decision decision) {
-  decision.wish.velocity_odom_mps.z() = probe_.climb(situation.vehicle->T_odom_base.translation().z());
+Decision Align::probeForLeave(const Situation& situation, const RelativeState& relative, Decision decision) {
+  const double height_m = situation.vehicle->T_odom_base.translation().z();
+  probe_.beginAt(height_m - relative.vertical());
+  decision.wish.velocity_odom_mps.z() = probe_.climb(height_m);
   decision.reason = "approach forbidden: " + situation.target->approach_forbidden;
   if (probe_.isExhausted()) decision.event = Event::kGiveUp;
   return decision;

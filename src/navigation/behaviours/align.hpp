@@ -20,6 +20,8 @@ class HeightProbe {
   bool isExhausted() const { return count_ >= params_->align.max_probes; }
   int count() const { return count_; }
 
+  /// One that has not begun leaves from this height, and comes back to it; else from where it is asked first.
+  void beginAt(double height_m);
   /// Upward velocity of the probe at this height.
   double climb(double height_m);
 
@@ -66,7 +68,7 @@ class Align : public Behaviour {
   Decision resolveSign(const Situation& situation, const MissionState& memory, const RelativeState& relative);
   bool isNearAxis(const RelativeState& relative, const CommitCriterion& criterion, bool is_forbidden) const;
   Decision moveOntoAxis(const Situation& situation, MissionState& memory, const RelativeState& relative);
-  Decision probeForLeave(const Situation& situation, Decision decision);
+  Decision probeForLeave(const Situation& situation, const RelativeState& relative, Decision decision);
 
   HeightProbe probe_{*params_};
   StepPacer pacer_{*params_};

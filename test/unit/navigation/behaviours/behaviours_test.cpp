@@ -132,6 +132,22 @@ TEST(AlignBehaviour, ProbesInsteadOfGoingOnWhileTheApproachIsForbidden) {
   EXPECT_TRUE(gave_up);
 }
 
+TEST(AlignBehaviour, AProbeThatBeginsAnewStaysAroundTheAxis) {
+  Align align{kDefaults, 0.0};
+  MissionState memory;
+  constexpr double kAxisM = 1.5;
+  double height_m = kAxisM, highest_m = height_m, lowest_m = height_m;
+  for (int i = 0; i < 2000; ++i) {
+    auto situation = situationAt({-3.0, 0.0, height_m}, 0.05 * i, true);
+    if (i % 35 > 0) situation.target->approach_forbidden = "size not known";
+    height_m += 0.05 * align.step(situation, memory).wish.velocity_odom_mps.z();
+    highest_m = std::max(highest_m, height_m), lowest_m = std::min(lowest_m, height_m);
+  }
+  EXPECT_GT(highest_m, kAxisM + 0.3);
+  EXPECT_LT(highest_m, kAxisM + kDefaults.align.probe_amplitude_m + 0.1);
+  EXPECT_GT(lowest_m, kAxisM - kDefaults.align.probe_amplitude_m - 0.1);
+}
+
 TEST(AlignBehaviour, MakesRoomOnlyToMoveSideways) {
   for (const double lateral_m : {0.0, 1.0}) {
     Align align{kDefaults, 0.0};
