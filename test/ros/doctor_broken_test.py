@@ -36,7 +36,7 @@ class DoctorBrokenTest(unittest.TestCase):
         expected = ("/camera/image_raw: is a sensor_msgs/CompressedImage, window_detector reads sensor_msgs/Image",
                     "tf: camera_optical_frame does not look forward: its z axis is (+0.00, +0.00, +1.00) in base_link",
                     "/cmd_vel: nobody takes setpoints", "cmd_vel:=ITS_TOPIC",
-                    "window_detector: no reference image", "rosrun window_ingress make_reference IMAGE")
+                    "window_detector: no reference image", "mend: ingress reference IMAGE")
         for _ in range(4):  # nodes learn of each other one by one
             code, said = doctor()
             if all(words in said for words in expected):

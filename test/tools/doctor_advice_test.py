@@ -215,12 +215,20 @@ def test_a_guard_that_died_is_the_cause_of_what_is_not_passed_on(doctor, capsys)
     assert "ERROR  setpoint_guard is not running" in out and out.count("mend: ") == 1
 
 
+def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_found(doctor, capsys):
+    said_by(doctor, ingress_navigator__mission=(1, "ABORTED: window not found in 3 turns"), homography_pose__target=(
+        2, "a window is seen in 186 images, and used in none: it is 1.20 times as wide as it is high, the opening, said to be 1.00 x 1.20 m, 0.83 times"))
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
+    assert lines[0].startswith("ERROR  homography_pose: target: a window is seen in 186 images") and lines[1].startswith("       mend: measure the opening's")
+    assert lines[2] == "       follows: ingress_navigator: mission: ABORTED: window not found in 3 turns" and lines[3].startswith("1 finding(s) to mend")
+
+
 @pytest.mark.parametrize("called, launch, wanted", [
-    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/run make_reference IMAGE"),
-    ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; rosrun window_ingress make_reference IMAGE")])
+    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/ingress reference IMAGE"),
+    ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; ingress reference IMAGE")])
 def test_mends_are_commands_as_the_user_runs_them(doctor, monkeypatch, called, launch, wanted):
     monkeypatch.setenv("WINDOW_INGRESS_RUN", called)
-    assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/run make_reference IMAGE", launch) == wanted
+    assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/ingress reference IMAGE", launch) == wanted
 
 
 @pytest.mark.parametrize("words", [["--seconds", "abc"], ["--seconds", "-1"], ["--seconds", "nan"], ["--nope"]])

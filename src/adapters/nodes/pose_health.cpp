@@ -49,4 +49,23 @@ Health consistencyHealth(const estimation::Consistency& consistency) {
   return {consistency.consistent ? Health::kOk : Health::kWarn, text};
 }
 
+void UnusedImages::add(const std::string& why_not, const window_ingress::ApparentOpening& opening) {
+  ++count;
+  why = why_not;
+  if (opening.aspect > 0.0) aspect = opening.aspect, aspect_sigma = opening.aspect_sigma;
+}
+
+Health targetHealth(const UnusedImages& unused, const geometry::OpeningSize& wanted) {
+  constexpr int kMany = 20;
+  constexpr double kSigmas = 4.0, kLeastMisfit = 0.02;
+  if (unused.count < kMany) return {};
+  const std::string seen = formatted("a window is seen in %d images, and used in none: ", unused.count);
+  const double said = wanted.width_m / wanted.height_m, misfit = std::abs(unused.aspect / said - 1.0);
+  if (unused.aspect == 0.0 || misfit < std::max(kLeastMisfit, kSigmas * unused.aspect_sigma / said))
+    return {Health::kError, seen + unused.why};
+  return {Health::kError, seen + formatted("it is %.2f times as wide as it is high, the opening, said to be "
+                                           "%.2f x %.2f m, %.2f times",
+                                           unused.aspect, wanted.width_m, wanted.height_m, said)};
+}
+
 }  // namespace window_ingress::adapters

@@ -57,6 +57,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   diagnostics_.add("clocks", [this] { return clocksHealth(tracker_.clockOffset(), odom_clock_); });
   diagnostics_.add("consistency", [this] { return consistencyHealth(consistency_); });
   diagnostics_.add("openness", [this] { return opennessHealth(tracker_.openness()); });
+  diagnostics_.add("target", [this] { return targetHealth(unused_, sizeSaid()); });
   if (params_.lockstep) {
     lockstep_.emplace(
         nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
@@ -152,7 +153,7 @@ void PoseNode::processPending(bool however_old) {
 void PoseNode::process(const window_ingress::WindowDetection& message) {
   window_ingress::WindowPose out;
   out.header = message.header;
-  out.size = toMsg(geometry::OpeningSize{params_.pose.opening_width_m, params_.pose.opening_height_m});
+  out.size = toMsg(sizeSaid());
   Refusal unused = estimate(message, out);
   out.openness = toMsg(tracker_.openness());
   if (const auto& measured = tracker_.measuredSize()) out.measured_size = toMsg(*measured);
@@ -167,6 +168,10 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   } else if (unused.reason.empty()) {
     unused = {window_ingress::FilteredPose::REFUSED, "no image has contributed lately"};
   }
+  if (state)
+    unused_ = UnusedImages();
+  else if (message.detected)
+    unused_.add(unused.reason, out.image.apparent);
   out.filtered.header.frame_id = vehicle_.frames.odom;
   out.filtered.reject = unused.reject;
   out.filtered.reason = unused.reason;
@@ -237,6 +242,7 @@ void PoseNode::forget() {
   pending_.reset();
   tracker_.reset();
   consistency_ = estimation::Consistency();
+  unused_ = UnusedImages();
   publisher_.clear(ros::Time::now());
   facade_.tellAnew(ros::Time::now());
 }

@@ -60,6 +60,9 @@ class PoseNode : public Node {
   }
   void restartIfClockJumpedBack();
   Health mountingHealth() const;
+  geometry::OpeningSize sizeSaid() const {
+    return {params_.pose.opening_width_m, params_.pose.opening_height_m};
+  }
 
   navigation::VehicleParams vehicle_;
   PoseNodeParams params_;
@@ -74,6 +77,7 @@ class PoseNode : public Node {
   CameraSource camera_;
   estimation::TargetEstimator tracker_;
   estimation::Consistency consistency_;
+  UnusedImages unused_;
   double odometry_stamp_sec_ = -1.0;
   ros::Time forgotten_;  // what is no younger tells of a world that is gone
   window_ingress::WindowDetectionConstPtr pending_;

@@ -57,4 +57,31 @@ TEST(ConsistencyHealth, WarnsOfAFilterAtOddsWithItsImages) {
   EXPECT_EQ(consistencyHealth(contradicted).level, Health::kWarn);
 }
 
+UnusedImages seenInVain(int count, double aspect) {
+  window_ingress::ApparentOpening opening;
+  opening.aspect = aspect;
+  opening.aspect_sigma = 0.003;
+  UnusedImages unused;
+  for (int i = 0; i < count; ++i) unused.add("gated out", opening);
+  unused.add("gated out", window_ingress::ApparentOpening());
+  return unused;
+}
+
+TEST(TargetHealth, NamesTheShapeThatIsSeenAndTheOneThatIsSaid) {
+  EXPECT_EQ(targetHealth(seenInVain(5, 1.2), {1.0, 1.2}).level, Health::kOk);
+  const Health swapped = targetHealth(seenInVain(30, 1.2), {1.0, 1.2});
+  EXPECT_EQ(swapped.level, Health::kError);
+  EXPECT_TRUE(says(swapped, "31 images")) << swapped.text;
+  EXPECT_TRUE(says(swapped, "1.20 times as wide as it is high")) << swapped.text;
+  EXPECT_TRUE(says(swapped, "1.00 x 1.20 m, 0.83 times")) << swapped.text;
+}
+
+TEST(TargetHealth, SaysWhyWhereTheShapeIsRight) {
+  for (const double aspect : {1.2, 0.0}) {  // 0: no image shows it
+    const Health right = targetHealth(seenInVain(30, aspect), {1.2, 1.0});
+    EXPECT_EQ(right.level, Health::kError);
+    EXPECT_TRUE(says(right, "used in none: gated out")) << right.text;
+  }
+}
+
 }  // namespace window_ingress::adapters::pose_health_test
