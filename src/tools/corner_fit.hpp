@@ -45,10 +45,9 @@ inline double shortestSide(const geometry::Quadrilateral& quad) {
   return shortest_px;
 }
 
-/// A side that finds no edge, or one that lies further away than anybody clicks, is not the one that is
-/// meant.
-inline CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners,
-                        double radius_px = kFitRadiusPx) {
+/// To the strongest edges within `radius_px` on the screen. A side that finds none, or one that lies further
+/// away than anybody clicks, is not the one that is meant.
+inline CornerFit fittedWithin(double radius_px, const cv::Mat& image, const std::vector<double>& corners) {
   geometry::Quadrilateral quad;
   for (std::size_t i = 0; i < 4; ++i) quad[i] = {corners[2 * i], corners[2 * i + 1]};
   const auto clicked = geometry::canonical(quad);
@@ -65,17 +64,25 @@ inline CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners
   for (std::size_t side = 0; side < 4; ++side) {
     const double moved_px = sideMovedPx(*clicked, borders->corners, side);
     if (!(moved_px <= most_px))
-      return noFit(formatted("the %s side would move by %.1f px, more than %.1f: is it on the inner edge?",
-                             kSides[side], moved_px, most_px));
+      return noFit(
+          formatted("the %s side would move by %.1f px, more than %.1f, so it lies beside the inner edge",
+                    kSides[side], moved_px, most_px));
     fit.said += formatted("%s%s %.1f px", side == 0 ? "" : ", ", kSides[side], moved_px);
   }
   for (const auto& corner : borders->corners) fit.corners.insert(fit.corners.end(), {corner.x(), corner.y()});
   return fit;
 }
 
+/// A deep frame has two edges side by side, and the further one may be the stronger: what lies near comes
+/// first.
+inline CornerFit fitted(const cv::Mat& image, const std::vector<double>& corners) {
+  const CornerFit near = fittedWithin(kNearPx, image, corners);
+  return near.corners.empty() ? fittedWithin(kFitRadiusPx, image, corners) : near;
+}
+
 /// How far corners that are saved as they are lie from the edges near them; none are near poor corners.
 inline CornerFit besideEdges(const cv::Mat& image, const std::vector<double>& corners) {
-  CornerFit fit = fitted(image, corners, kNearPx);
+  CornerFit fit = fittedWithin(kNearPx, image, corners);
   fit.said = (fit.corners.empty() ? "poor corners: " : "beside the edges near them: ") + fit.said;
   return fit;
 }

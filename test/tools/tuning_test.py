@@ -278,6 +278,20 @@ def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
     assert not (tmp_path / "a.png").exists()
 
 
+def test_the_corners_of_the_page_are_fitted_in_a_deep_frame(tmp_path):
+    """Four pixels beside the front edge lies that of the shaded side of the frame, which is the stronger."""
+    said_there = re.search(r"ingress reference photo.jpg --output window.png --corners (\S+) --fit", (ROOT / "doc/window.md").read_text(encoding="utf-8"))[1]
+    left, top, right, _, _, bottom, *_ = (int(number) for number in said_there.split(","))
+    image = numpy.full((480, 640, 3), 190, numpy.uint8)
+    for grow, colour in ((16, (60, 160, 215)), (0, (50, 135, 190)), (-4, (60, 60, 45))):
+        image[top - grow:bottom + grow + 1, left - grow:right + grow + 1] = colour
+    cv2.imwrite(str(tmp_path / "photo.png"), image)
+    code, said, errors = run("make_reference", tmp_path / "photo.png", "--output", tmp_path / "a.png", "--fit", "--corners", said_there)
+    assert code == 0, errors
+    moved = re.search(r"moved by the fit: top (\S+) px, right (\S+) px, bottom (\S+) px, left (\S+) px", said)
+    assert max(map(float, moved.groups())) < 1.0, said
+
+
 @pytest.mark.parametrize("off, said", [((6, 0), "poor corners: "), ((25, 9), "poor corners: "), ((1, 0), "")])
 def test_corners_that_are_saved_beside_the_edges_are_said_to_be(labelled, tmp_path, off, said):
     corners = [(x + off[0], y + off[1]) for x, y in corners_at(*VIEWS[0])]
