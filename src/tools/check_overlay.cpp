@@ -226,7 +226,9 @@ void checkLaunch(const Options& o, tools::InputFaults& faults) {
   if (!o.fly.empty()) nodes = {"/window_detector", "/homography_pose"};
   if (o.fly == "true") nodes.insert(nodes.end(), {"/ingress_navigator", "/setpoint_guard"});
   faults.collect([&] { tools::checkNoneRuns(words, nodes); });
-  if (!tools::startsNothing(words)) faults.collect([&] { checkInstalled(o.needs_package); });
+  if (tools::startsNothing(words)) return;
+  faults.collect([&] { tools::checkFilesAreThere(words, file); });
+  faults.collect([&] { checkInstalled(o.needs_package); });
 }
 
 // Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is

@@ -106,19 +106,46 @@ inline std::filesystem::path launchFileOf(const std::vector<std::string>& words,
   return is_ours ? file : fs::path();
 }
 
-/// \param words of the command that starts this launch file
-/// \throws InputError with a line for each argument that cannot be
-inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& file) {
+/// The words NAME:=VALUE.
+inline std::vector<std::pair<std::string, std::string>> assignmentsIn(const std::vector<std::string>& words) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const auto& word : words)
     if (const auto assigned = word.find(":="); assigned != std::string::npos)
       given.emplace_back(word.substr(0, assigned), word.substr(assigned + 2));
+  return given;
+}
+
+/// The files that are not there, of one or of several with blanks between.
+inline std::vector<std::string> missingOf(const std::string& files) {
+  std::vector<std::string> missing;
+  if (std::filesystem::exists(files)) return missing;
+  std::istringstream stream(files);
+  for (std::string file; stream >> file;)
+    if (file[0] == '/' && !std::filesystem::exists(file)) missing.push_back(file);
+  return missing;
+}
+
+/// \throws InputError that names each file of arguments whose text wants an "existing" one, and that is not
+/// there
+inline void checkFilesAreThere(const std::vector<std::string>& words, const std::filesystem::path& launch) {
+  std::vector<std::string> faults;
+  for (const auto& argument : argumentsOf(launch))
+    for (const auto& [name, value] : assignmentsIn(words))
+      if (name == argument.name && argument.doc.rfind("existing ", 0) == 0)
+        for (const auto& file : missingOf(value))
+          faults.push_back(launch.filename().string() + ": " + name + ":=" + file + ": no such file");
+  if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
+}
+
+/// \param words of the command that starts this launch file
+/// \throws InputError with a line for each argument that cannot be
+inline void checkLaunchArguments(const std::vector<std::string>& words, const std::filesystem::path& file) {
   const auto known = argumentsOf(file);
   std::vector<std::string> names;
   for (const auto& argument : known) names.push_back(argument.name);
   const std::string launch = file.filename().string();
   std::vector<std::string> faults;
-  for (const auto& [name, value] : given) {
+  for (const auto& [name, value] : assignmentsIn(words)) {
     if (!std::regex_match(name, std::regex("[A-Za-z]\\w*"))) continue;  // __name, /topic
     const auto argument = std::find(names.begin(), names.end(), name);
     if (argument == names.end()) {

@@ -287,6 +287,15 @@ def test_a_driver_that_is_not_installed_ends_the_launch_before_anything_starts(n
     assert "check_overlay: the package usb_cam is not installed: apt install ros-noetic-usb-cam" in done.stderr
 
 
+@pytest.mark.parametrize("name, argument", [("replay", "bag:={0}/there.bag {0}/none.bag"), ("rehearse", "video:={0}/none.bag"), ("view", "bag:={0}/none.bag")])
+def test_a_recording_that_is_not_there_is_named_before_anything_starts(tmp_path, name, argument):
+    (tmp_path / "there.bag").write_text("")
+    done = run("roslaunch", "window_ingress", f"{name}.launch", argument.format(tmp_path))
+    assert done.returncode == 1 and "started with pid" not in done.stdout
+    assert f"{name}.launch: {argument.split(':=')[0]}:={tmp_path}/none.bag: no such file\n" in done.stderr, done.stderr
+    assert "there.bag" not in done.stderr
+
+
 @pytest.mark.parametrize("name", ["sim", "demo", "external", "board", "check_frames"])
 def test_a_scenario_that_cannot_be_ends_the_launch_before_anything_starts(tmp_path, name):
     scenario = tmp_path / "scenario.yaml"
@@ -420,6 +429,9 @@ def test_a_rehearsal_commands_nobody_and_stands_in_for_what_a_webcam_lacks():
     assert remaps(with_odometry, "ingress_navigator")["odom"] == "/t265/odom" and with_odometry["params"]["/rehearsal/odometry"] is False
     assert not {"/usb_cam", "/rviz"} & set(with_odometry["nodes"])
     assert with_odometry["params"]["/homography_pose/pose/opening_width_m"] == 0.8
+    by_video = dump("rehearse", "video:=/tmp/hand.mp4", "camera_frame:=eye")
+    assert "/play_video" in by_video["nodes"] and "/usb_cam" not in by_video["nodes"]
+    assert by_video["params"]["/play_video/video"] == "/tmp/hand.mp4" and by_video["params"]["/play_video/frame"] == "eye"
 
 
 def test_a_debugger_goes_before_the_nodes_but_not_before_the_guard():
