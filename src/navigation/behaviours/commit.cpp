@@ -10,7 +10,7 @@
 namespace window_ingress::navigation {
 namespace {
 
-constexpr int kDisagreementsToTurnBack = 3;
+constexpr int kInARow = 3;                // sightings that say the same are believed
 constexpr double kMaxUpdateJumpM = 0.15;  // updates on the way that differ more are ignored
 constexpr double kStoppedMps = 0.15;
 constexpr double kReserve = 2.0;     // of the way to stop, to turn back from beyond the point of no return
@@ -92,11 +92,11 @@ void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec
   if (isBroken(criterion, *params_)) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + (criterion.unmet.empty() ? carriedOff(criterion) : criterion.unmet);
-  } else if (disagreements_ >= kDisagreementsToTurnBack) {
+  } else if (disagreements_ >= kInARow) {
     decision.event = Event::kContractUnmet;
     decision.reason =
         formatted("turning back: the window is seen %.2f m away from where it was", disagreement_m_);
-  } else if (forbidden_ >= kDisagreementsToTurnBack) {
+  } else if (forbidden_ >= kInARow) {
     decision.event = Event::kContractUnmet;
     decision.reason = "turning back: " + why_forbidden_;
   } else if (blind_sec > params_->commit.max_blind_sec) {
@@ -115,8 +115,8 @@ void Commit::refine(const Situation& situation, MissionState& memory) {
     memory.committed = situation.target;
     memory.committed_sec = situation.now_sec;
     disagreements_ = 0;
-  } else if (situation.target_is_new) {
-    ++disagreements_;
+  } else if (situation.target_is_new && ++disagreements_ >= kInARow && is_bound_) {
+    entry_odom_m_ = situation.target->T_odom_window.translation();
   }
 }
 

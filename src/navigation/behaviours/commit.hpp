@@ -5,10 +5,11 @@
 namespace window_ingress::navigation {
 
 /// COMMIT: through the opening on `MissionState::committed`, which is frozen in odom; sightings on the way
-/// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back.
-/// Heading along the normal. Ends standing still behind the window; turns back only while the nose can still
-/// be stopped in front of the plane, once it could not only with twice the way to do so: half stopped, it
-/// would drift where it can neither pass nor turn.
+/// that agree with it refine it, a few in a row that do not, or that forbid the approach, turn it back. Past
+/// the point of no return it follows them: then it is odometry that went elsewhere. Heading along the normal.
+/// Ends standing still behind the window; turns back only while the nose can still be stopped in front of the
+/// plane, once it could not only with twice the way to do so: half stopped, it would drift where it can
+/// neither pass nor turn.
 class Commit : public Behaviour {
  public:
   using Behaviour::Behaviour;
@@ -28,7 +29,7 @@ class Commit : public Behaviour {
   double speedToExit(double room_m, const RelativeState& relative) const;
 
   std::optional<Eigen::Vector3d>
-      entry_odom_m_;             ///< the window at the commit: no series of updates leads far from it
+      entry_odom_m_;             ///< the window at the commit: no series of small updates leads far from it
   int disagreements_ = 0;        ///< new sightings in a row that put the window elsewhere
   double disagreement_m_ = 0.0;  ///< of the last sighting
   int forbidden_ = 0;            ///< new sightings in a row that say not to fly there

@@ -225,6 +225,7 @@ void ContinuousOdometry::judgeBias() {
   }
   is_bias_known_ = pieces_.size() == kPieces || alike >= kSteadyPieces;
   if (is_bias_known_ && is_erring_) carried_m_ = carried_m;
+  if (is_bias_known_ && usual_mps.head<2>().norm() > kNoticeableMps) is_velocity_worse_ = true;
 }
 
 // Axes of `smooth`; nothing as long as it may be a slide.

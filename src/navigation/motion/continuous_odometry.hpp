@@ -13,13 +13,14 @@ namespace window_ingress::navigation {
 /// Places that were known before (the window, above all) stay where they are beside the vehicle. Without such
 /// errors both frames are the same to the bit.
 ///
-/// A steady difference of the velocity (an estimator's bias) is no slide: the middle value of the last
-/// seconds is taken off. It is fixed in the body in the long run, and stays as it was in the world for the
-/// first seconds after a turn: what has been more even of late counts. Where a window is seen, it tells which
-/// of the two errs: what the position slides by, the window is seen to slide by in odom. If it stays, the
-/// velocity errs, the position is believed, and of the velocity what it was off by of late is taken off. A
-/// heading that turns faster than any vehicle is corrected by the turn; whether the axes of the positions
-/// have turned along (the estimator was reset) or not (its attitude alone is wrong) the next motion shows.
+/// A steady difference of the velocity (an estimator's bias) is no slide: what has lasted for longer than one
+/// is taken off, the middle value of the last seconds, and beside it the position is believed. It is fixed in
+/// the body in the long run, and stays as it was in the world for the first seconds after a turn: what has
+/// been more even of late counts. Where a window is seen, it tells which of the two errs: what the position
+/// slides by, the window is seen to slide by in odom. If it stays, the velocity errs, the position is
+/// believed, and of the velocity what it was off by of late is taken off. A heading that turns faster than
+/// any vehicle is corrected by the turn; whether the axes of the positions have turned along (the estimator
+/// was reset) or not (its attitude alone is wrong) the next motion shows.
 class ContinuousOdometry {
  public:
   static constexpr double kUnexplainedM = 0.05;  ///< within a second

@@ -376,6 +376,28 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
   EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);
 }
 
+// A heading that was wrong and comes back puts the window elsewhere in odom, in the last metre.
+TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
+  for (const double distance_m : {0.8, 2.5}) {
+    MissionState memory;
+    memory.committed = test::targetAtOrigin(0.0);
+    memory.told_odom_mps = {0.95, 0.0, 0.0};
+    Commit commit{kDefaults};
+    Decision decision;
+    for (int i = 0; i < 6; ++i) {
+      auto situation = situationAt({-distance_m, 0.0, 1.5}, 0.05 * i, i > 0);
+      if (i > 0) situation.target->T_odom_window.translation().y() += 0.3;
+      EXPECT_EQ(decision.event, std::nullopt);
+      decision = commit.step(situation, memory);
+      const bool turns_back = i >= 3 && distance_m > 2.0;
+      EXPECT_EQ(decision.event.has_value(), turns_back) << decision.reason;
+      if (turns_back) break;
+      EXPECT_NEAR(memory.committed->T_odom_window.translation().y(), i < 4 ? 0.0 : 0.3, 1e-9);
+    }
+    EXPECT_EQ(decision.wish.velocity_odom_mps.y() > 0.1, distance_m < 2.0);
+  }
+}
+
 TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
   MissionState memory;
   memory.committed = test::targetAtOrigin(0.0);
