@@ -50,7 +50,7 @@ std::pair<std::size_t, std::size_t> unlikeness(const std::string& path, const st
 
 // The few keys that could stand beside it; nothing where there are many.
 std::string neighboursOf(const std::string& path, const std::vector<std::string>& known) {
-  constexpr std::size_t kFew = 8;
+  constexpr std::size_t kFew = 16;
   const std::string group = path.substr(0, path.size() - nameOf(path).size());
   std::vector<std::string> names;
   std::string listed;

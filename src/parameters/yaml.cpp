@@ -56,6 +56,12 @@ bool isPlainForRos(const YAML::Node& node) {
   return !is_octal && !is_text;
 }
 
+// What stands there, for people.
+std::string found(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  return node.IsSequence() ? "a list" : node.IsMap() ? "a mapping" : "empty";
+}
+
 }  // namespace
 
 YAML::Node loadYaml(const std::string& file) {
@@ -87,7 +93,7 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
   std::vector<YamlEntry> entries;
   std::set<std::string> names;
   if (!mapping.IsMap()) {
-    faults.add(faultAt(file, mapping, place + "must be a mapping of keys to values"));
+    faults.add(faultAt(file, mapping, place + "must be a mapping of keys to values, not " + found(mapping)));
     return entries;
   }
   for (const auto& entry : mapping) {
@@ -96,6 +102,9 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
     else if (!names.insert(entry.first.Scalar()).second)
       faults.add(
           faultAt(file, entry.first, path + entry.first.Scalar() + ": stands here for the second time"));
+    else if (entry.second.IsNull())  // its own mark is that of what follows
+      faults.add(faultAt(file, entry.first,
+                         path + entry.first.Scalar() + ": is empty; give it a value, or leave it out"));
     else
       entries.push_back({entry.first.Scalar(), entry.first, entry.second});
   }
@@ -108,7 +117,7 @@ void readValue(const std::string& file, const YAML::Node& node, const Field& fie
     try {
       *value = node.as<std::decay_t<decltype(*value)>>();
     } catch (const YAML::Exception&) {
-      throw faultAt(file, node, field.name + ": must be " + kindOf(field));
+      throw faultAt(file, node, field.name + ": must be " + kindOf(field) + ", not " + found(node));
     }
     std::string fault = faultOf(field);
     if (!std::is_same_v<std::decay_t<decltype(*value)>, std::string> && !isPlainForRos(node))

@@ -68,6 +68,8 @@ TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
   EXPECT_EQ(error("unheard_of: 1\n"), file_ +
                                           ":1: unheard_of: unknown key; there is vehicle, window_detector, "
                                           "homography_pose, ingress_navigator, setpoint_guard, world");
+  EXPECT_NE(error("vehicle: {propellers: 4}\n").find("there is half_length_m, half_width_m, half_height_m, "),
+            std::string::npos);
 }
 
 // Lifted out of its group, a name says nothing of which one was meant.
@@ -110,7 +112,7 @@ TEST_F(OverlayFile, SaysWhatBecameOfFormerKeys) {
 
 TEST_F(OverlayFile, RefusesANodeThatHoldsNoMapping) {
   EXPECT_EQ(error("ingress_navigator: 5\n"),
-            file_ + ":1: ingress_navigator: must be a mapping of keys to values");
+            file_ + ":1: ingress_navigator: must be a mapping of keys to values, not '5'");
 }
 
 TEST_F(OverlayFile, ShippedOnesAreGood) {

@@ -77,10 +77,14 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("fast: true\nspeed: 1\n"), file_ + ":2: speed: unknown key; did you mean 'speed_mps'?");
   EXPECT_EQ(error("inner:\n  cuont: 1\n"), file_ + ":2: inner/cuont: unknown key; did you mean 'count'?");
   EXPECT_EQ(error("count: 1\n"), file_ + ":1: count: unknown key; did you mean 'inner: {count: ..}'?");
-  EXPECT_EQ(error("inner: 1\n"), file_ + ":1: inner: must be a mapping of keys to values");
+  EXPECT_EQ(error("inner: 1\n"), file_ + ":1: inner: must be a mapping of keys to values, not '1'");
   EXPECT_EQ(error("corners: [1, .nan]\n"), file_ + ":1: corners: must be finite numbers");
-  EXPECT_EQ(error("speed_mps: quick\n"), file_ + ":1: speed_mps: must be a number");
-  EXPECT_EQ(error("inner: {count: 1.5}\n"), file_ + ":1: inner/count: must be a whole number");
+  EXPECT_EQ(error("speed_mps: quick\n"), file_ + ":1: speed_mps: must be a number, not 'quick'");
+  EXPECT_EQ(error("inner: {count: 1.5}\n"), file_ + ":1: inner/count: must be a whole number, not '1.5'");
+  EXPECT_EQ(error("speed_mps: [1]\n"), file_ + ":1: speed_mps: must be a number, not a list");
+  for (const char* text : {"fast: true\nspeed_mps:\n\nname: x\n", "fast: true\nspeed_mps: # quick\n"})
+    EXPECT_EQ(error(text), file_ + ":2: speed_mps: is empty; give it a value, or leave it out");
+  EXPECT_EQ(error("inner:\nfast: true\n"), file_ + ":1: inner: is empty; give it a value, or leave it out");
   EXPECT_NE(error("speed_mps: .nan\n").find("not within"), std::string::npos);
   EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: stands here for the second time");
   EXPECT_NE(error("a: [1, 2\n").find("not valid yaml"), std::string::npos);
@@ -105,8 +109,8 @@ TEST_F(YamlFile, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
             file_ + ":1: speeed_mps: unknown key; did you mean 'speed_mps'?\n" +   //
                 file_ + ":2: inner/count = 11 is not within 0 .. 10\n" +           //
                 file_ + ":2: inner/cuont: unknown key; did you mean 'count'?\n" +  //
-                file_ + ":3: fast: must be true or false\n" +                      //
-                file_ + ":4: corners: must be a list of numbers\n" +               //
+                file_ + ":3: fast: must be true or false, not '7'\n" +             //
+                file_ + ":4: corners: must be a list of numbers, not '1'\n" +      //
                 file_ + ":5: fast: stands here for the second time\n" +            //
                 file_ + ":6: a key must be a word");
 }

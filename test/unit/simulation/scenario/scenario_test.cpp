@@ -199,8 +199,9 @@ TEST_F(ScenarioFile, AKeyMayNotStandTwice) {
 TEST_F(ScenarioFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("start:\n  distance_m: 500\ndecoys:\n  - {y_m: far, colour: 1}\n"),
             file_ + ":2: start/distance_m = 500 is not within 0.8 .. 15\n" + file_ +
-                ":4: decoys[0]/y_m: must be a number\n" + file_ +
-                ":4: decoys[0]/colour: unknown key; see doc/scenarios.md");
+                ":4: decoys[0]/y_m: must be a number, not 'far'\n" + file_ +
+                ":4: decoys[0]/colour: unknown key; there is y_m, z_m, width_m, height_m, "
+                "frame_width_m, frame, surround, closed_by, bars; see doc/scenarios.md");
   EXPECT_EQ(error("start:\n  distance_m: 500\n"),
             file_ + ":2: start/distance_m = 500 is not within 0.8 .. 15");
   EXPECT_EQ(error("start:\n  distance_m: [1, 500]\n"),
