@@ -84,10 +84,11 @@ evaluation::FlightResult fly(const FlyJob& job, std::uint32_t seed, evaluation::
   return flight;
 }
 
-void printProgress(int done, int total, int passed, double seconds) {
+// \param before how many there were before `done` of `left` were flown
+void printProgress(int before, int done, int left, int passed, double seconds) {
   const double a_minute = 60.0 * done / std::max(1e-3, seconds);
-  std::fprintf(stderr, "%d of %d flights, %d passed, %.1f a minute, %.0f s left\n", done, total, passed,
-               a_minute, 60.0 * (total - done) / std::max(1e-3, a_minute));
+  std::fprintf(stderr, "%d of %d flights, %d passed, %.1f a minute, %.0f s left\n", before + done,
+               before + left, passed, a_minute, 60.0 * (left - done) / std::max(1e-3, a_minute));
 }
 
 void printTiming(const evaluation::FlightTiming& timing) {
@@ -108,8 +109,8 @@ std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
                        ", which is not among those asked for");
   if (flights.empty()) return flights;
   const std::uint32_t seed = flights.back().seed;
-  std::fprintf(stderr, "%zu of %zu flights are there; seed %u is flown again to compare\n", flights.size(),
-               job.seeds.size(), seed);
+  std::fprintf(stderr, "%zu of %zu flights are there%s; seed %u is flown again to compare\n", flights.size(),
+               job.seeds.size(), flights.size() == job.seeds.size() ? ", none is left to fly" : "", seed);
   const auto again = evaluation::flyOnce(job.scenario(seed), seed, job.params, {});
   if (evaluation::csvRow(again) != evaluation::csvRow(flights.back()))
     throw InputError("--resume: seed " + std::to_string(seed) + " flown again ends otherwise than in " +
@@ -138,13 +139,13 @@ int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResult
     return flight;
   };
   int flown = 0;
-  const int passed_before = results.passed();  // those of a campaign that is resumed
+  const int before = static_cast<int>(job.seeds.size() - seeds.size());  // of a campaign that is resumed
   const auto began = std::chrono::steady_clock::now();
-  const auto report = [&](const evaluation::FlightResult& flight, int done, int total) {
+  const auto report = [&](const evaluation::FlightResult& flight, int done, int left) {
     results.add(flight);
     flown = done;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    printProgress(done, total, results.passed() - passed_before, spent.count());
+    printProgress(before, done, left, results.passed(), spent.count());
   };
   try {
     evaluation::flyAll(seeds, job.asked.jobs, flyTimed, report);

@@ -87,8 +87,10 @@ def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
     wanted = ["--seeds", f"1..{flown + 5}"]
     resumed = fly(scenario, out, *wanted, "--resume")
     assert f"{flown} of {flown + 5} flights are there; seed " in resumed.stderr.splitlines()[0]  # before it flies
-    counts = re.findall(r"^(\d+) of \d+ flights, (\d+) passed", resumed.stderr, flags=re.M)
-    assert resumed.returncode == 0 and counts and all(int(passed) <= int(done) for done, passed in counts), resumed.stderr
+    counts = [[*map(int, found)] for found in re.findall(r"^(\d+) of (\d+) flights, (\d+) passed", resumed.stderr, flags=re.M)]
+    assert resumed.returncode == 0 and [done for done, *_ in counts] == [flown + i for i in range(1, 6)], resumed.stderr
+    assert all(passed <= done <= of == flown + 5 for done, of, passed in counts), resumed.stderr
+    assert f"{flown + 5} of {flown + 5} flights are there, none is left to fly; seed " in fly(scenario, out, *wanted, "--resume").stderr
     assert fly(scenario, tmp_path / "whole", *wanted).returncode == 0
     for name in FILES:
         assert (out / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
@@ -118,6 +120,7 @@ def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     command[command.index("1..2")] = "1..4"
     assert run(*command, "--resume").returncode == 0  # as after Ctrl-C: summed up, and not all of them
     assert json.loads((tmp_path / "short/summary.json").read_text())["seeds"] == "1..4"
+    assert run(*command, "--resume").stderr == "campaign: all flights are there, none is left to fly\n"
 
 
 def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
