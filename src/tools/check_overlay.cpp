@@ -77,7 +77,8 @@ double checkReference(const Options& o, const std::string& file,
                       const configuration::DetectorNodeParams& detector) {
   configuration::ReferenceParams reference = detector.reference;
   const std::string image = given(o.reference), corners = given(o.corners);
-  const std::string from = image.empty() && corners.empty() ? file + ": window_detector/" : "";
+  const bool in_file = image.empty() && corners.empty();
+  const std::string from = in_file ? file + ": window_detector/" : "";
   if (!image.empty()) reference.picture = image, reference.corners.clear();
   if (!corners.empty()) reference.corners = tools::numbers("reference_corners", corners, 8);
   if (reference.picture.empty()) {
@@ -88,8 +89,8 @@ double checkReference(const Options& o, const std::string& file,
     return 0.0;
   }
   if (!std::filesystem::path(reference.picture).is_absolute())
-    throw InputError(from + "reference '" + reference.picture +
-                     "': give it with its whole path, as $PWD/...: nodes run in a folder of their own");
+    throw InputError((in_file ? from + "reference/picture: " : "reference:=") + reference.picture + ": " +
+                     tools::wholePathOf(reference.picture));
   try {
     const auto opening = adapters::loadReference(reference, detector.detector).opening();
     if (!reference.corners.empty()) return geometry::aspectRatio(opening);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ class InputFaults {
       step();
       return true;
     } catch (const InputError& fault) {
-      texts_.push_back(fault.what());
+      add(fault.what());
     }
     return false;
   }
@@ -26,6 +27,12 @@ class InputFaults {
   }
 
  private:
+  // Unless one that is told already says it, with more words before.
+  void add(const std::string& text) {
+    const auto says_it = [&](const std::string& told) { return told.find(text) != std::string::npos; };
+    if (std::none_of(texts_.begin(), texts_.end(), says_it)) texts_.push_back(text);
+  }
+
   std::vector<std::string> texts_;
 };
 

@@ -69,6 +69,11 @@ inline bool isNumber(const std::string& text) {
   return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() && *end == '\0';
 }
 
+/// What to do about a relative path: nodes run in a folder of their own.
+inline std::string wholePathOf(const std::string& file) {
+  return "give its whole path, as " + (std::filesystem::current_path() / file).string();
+}
+
 /// Why this cannot be the argument's value; empty if nothing speaks against it. Its text lists the words
 /// there are ("one of a, b; ..") or wants a whole path; else the default tells a switch and a number.
 inline std::string whyNot(const LaunchArgument& argument, const std::string& value) {
@@ -83,7 +88,7 @@ inline std::string whyNot(const LaunchArgument& argument, const std::string& val
   if (isNumber(argument.standard)) return isNumber(value) ? "" : "give a number";
   const bool is_path = !value.empty() && value != argument.standard && value[0] != '/';
   if (!is_path || argument.doc.find("whole path") == std::string::npos) return "";
-  return "give its whole path, as " + (std::filesystem::current_path() / value).string();
+  return wholePathOf(value);
 }
 
 /// The launch file in `folder` that roslaunch is given; empty if these are not the words of roslaunch, or it

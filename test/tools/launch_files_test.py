@@ -267,6 +267,7 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path):
     for fault in ("reference:=none.png: give its whole path", "window_size: '1' is not 2 numbers",
                   "must not be below vehicle/braking_mps2", "does not fit through the opening"):
         assert fault in said
+    assert said.count("give its whole path") == 1, said
 
 
 def test_images_by_a_transport_that_is_not_there_end_the_launch(tmp_path):
