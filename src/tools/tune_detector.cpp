@@ -19,6 +19,7 @@
 #include "tuning_source.hpp"
 #include "value_table.hpp"
 #include "window_ingress/parameters/slider.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace {
 
@@ -86,8 +87,8 @@ int runHeadless(const Job& job, tools::TuningSource& source, Bench& bench) {
     milliseconds.push_back(bench.milliseconds());
     found += bench.found();
   }
-  std::cout << "windows in " << found << " of " << source.count() << " images, median "
-            << evaluation::quantile(milliseconds, 0.5) << " ms\n";
+  std::cout << formatted("windows in %d of %d images, median %.1f ms\n", found, source.count(),
+                         evaluation::quantile(milliseconds, 0.5));
   if (!job.sheet.empty() && !cv::imwrite(job.sheet, bench.sheet(source.image(), job.width)))
     throw InputError(job.sheet + ": cannot be written");
   if (!job.output.empty()) save(job.output, bench);

@@ -105,7 +105,7 @@ def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
     code, said, errors = run("tune_detector", labelled, "--headless", "--set", "edges/floor=4.5", "--set", "preprocess/equalise=true",
                              "--set", "max_candidates=30", "--output", saved, "--sheet", sheet)
     assert code == 0, errors
-    assert "windows in 12 of 14 images, median" in said
+    assert re.search(r"windows in 12 of 14 images, median \d+\.\d ms\n", said), said
     assert "a.png (1 of 14): window, score" in said and "lines" in said
     assert "wall_x.png (13 of 14): no window" in said
     assert yaml.safe_load(saved.read_text()) == {"window_detector": {"detector": {
