@@ -49,13 +49,18 @@ def test_what_report_cannot_read_is_said_with_what_can(tmp_path):
 def test_help_has_one_shape(words):
     """What it does, usage, options, one example whose options there are, exit codes."""
     _, does, example = ingress.COMMANDS[words]
-    done = run(INGRESS, *words.split(), "--help")
+    done = run(INGRESS, *words.split(), "--help", cwd=ROOT)
     assert done.returncode == 0 and not done.stderr
     lines = done.stdout.splitlines()
     assert lines[0] == f"ingress {words}: {does}" and any(line.lower().startswith(f"usage: ingress {words} ") for line in lines), done.stdout
     assert f"Example: ingress {words} {example}" in lines and done.stdout.lower().count("exit code") == 1, done.stdout
     options = set(re.findall(r"(?<![\w-])--[a-z][\w-]*", done.stdout.replace(example, "")))
     assert set(re.findall(r"--[a-z][\w-]*", example)) <= options, done.stdout
+
+
+def test_the_example_names_files_of_the_package_as_they_are_found_from_anywhere(tmp_path):
+    example = next(line for line in run(INGRESS, "fly", "--help", cwd=tmp_path).stdout.splitlines() if line.startswith("Example: "))
+    assert os.path.isfile(example.split("--scenario ")[1].split()[0]), example
 
 
 def test_every_tool_has_a_command():
