@@ -29,6 +29,8 @@ class FlyResults {
       std::filesystem::remove(folder_ / of_the_whole);
     rows_ << evaluation::csvHeader() << "\n";
     tracks_ << evaluation::trackHeader() << "\n";
+    rows_.finish();  // whoever ends it before the first flight leaves files that can be gone on with
+    tracks_.finish();
   }
   void add(const evaluation::FlightResult& flight) {
     rows_ << evaluation::csvRow(flight) << "\n" << std::flush;

@@ -5,6 +5,7 @@ import pathlib
 import re
 import signal
 import subprocess
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIO = "time_limit_sec: 1.0\nstart: {distance_m: [2, 3]}\ncamera: {width_px: 64, height_px: 48}\n"
@@ -121,6 +122,23 @@ def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     assert run(*command, "--resume").returncode == 0  # as after Ctrl-C: summed up, and not all of them
     assert json.loads((tmp_path / "short/summary.json").read_text())["seeds"] == "1..4"
     assert run(*command, "--resume").stderr == "campaign: all flights are there, none is left to fly\n"
+
+
+def test_a_campaign_that_is_broken_off_before_its_first_flight_has_ended_goes_on(tmp_path):
+    scenario, out = scenario_in(tmp_path), tmp_path / "out"
+    scenario.write_text("time_limit_sec: 60.0\n")  # of the usual camera: takes seconds
+    command = [str(word) for word in (ROOT / "tools/campaign", "--output", out, "--seeds", "1..2", "--shards", "2", scenario)]
+    campaign = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    shards = [out / f"short/shards/{i}_of_2/flights.csv" for i in (1, 2)]
+    end = time.monotonic() + 30.0
+    while time.monotonic() < end and not all(file.is_file() and file.stat().st_size for file in shards):
+        time.sleep(0.05)
+    campaign.send_signal(signal.SIGINT)
+    assert "campaign: broken off; go on with --resume\n" in campaign.communicate(timeout=60)[1] and campaign.returncode == 1
+    assert not [line for line in run("ps", "-eo", "args").stdout.splitlines() if "bin/fly" in line and str(out) in line], "flies on"
+    scenario.write_text(SCENARIO)
+    resumed = run(*command, "--resume")
+    assert resumed.returncode == 0 and "| short | 2 |" in resumed.stdout, resumed.stderr
 
 
 def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
