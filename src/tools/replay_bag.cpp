@@ -84,6 +84,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
     say("no reference image, neither in the bag nor by --reference: windows are told by geometry alone");
   }
   params.with_pose = !o.size.empty() || params.said.count("homography_pose/pose/opening_width_m") > 0;
+  if (!params.with_pose) say("nobody says the opening's size (--window-size W,H): corners, but no poses");
   if (o.size.empty()) return params;
   const std::vector<double> size = numbers("--window-size", o.size, 2);
   pose.opening_width_m = size[0];
