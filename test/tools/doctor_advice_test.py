@@ -4,6 +4,7 @@ import importlib.util
 import os
 import pathlib
 import re
+import socket
 import subprocess
 import types
 
@@ -140,11 +141,24 @@ def test_time_is_that_of_a_clock_which_runs_and_is_heeded(doctor, monkeypatch, c
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default: simulated if name == "/use_sim_time" else default)
     system = object.__new__(doctor.System)
     system.graph = types.SimpleNamespace(publishers={"/clock": clocks} if clocks else {})
-    system.clock = types.SimpleNamespace(times=[0.0] * heard)
+    system.clock, system.said = types.SimpleNamespace(times=[0.0] * heard), {}
     report = doctor.Report()
     doctor.check_clock(system, report)
     report.say()
     assert capsys.readouterr().out.startswith(said)
+
+
+def test_a_world_that_waits_for_the_detector_is_not_mended_by_another_clock(doctor, monkeypatch, capsys):
+    monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default: True)
+    system = seen(doctor, {"/clock": "rosgraph_msgs/Clock"}, {"world: speed": 1})
+    system.said["world: speed"].message = "waiting for subscribers of image_raw and odom"
+    system.clock = types.SimpleNamespace(times=[])
+    report = doctor.Report()
+    doctor.check_clock(system, report)
+    report.say()
+    said = capsys.readouterr().out
+    assert "from /camera, waiting for subscribers of image_raw and odom: time stands still" in said
+    assert "image_transport: raw" in said and "use_sim_time false" not in said
 
 
 def said_by(doctor, *, alive=("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"), simulated_without_clock=False, **said):
@@ -229,6 +243,17 @@ def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_foun
 def test_mends_are_commands_as_the_user_runs_them(doctor, monkeypatch, called, launch, wanted):
     monkeypatch.setenv("WINDOW_INGRESS_RUN", called)
     assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/ingress reference IMAGE", launch) == wanted
+
+
+@pytest.mark.parametrize("host, warned", [("localhost", False), (socket.gethostname(), False), ("drone", True)])
+def test_only_a_master_elsewhere_asks_for_this_machines_address(doctor, monkeypatch, capsys, host, warned):
+    for name in ("ROS_IP", "ROS_HOSTNAME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://{host}:11311")
+    report = doctor.Report()
+    doctor.check_network(types.SimpleNamespace(graph=types.SimpleNamespace(nodes=lambda: [])), report)
+    report.say()
+    assert ("neither ROS_IP nor ROS_HOSTNAME" in capsys.readouterr().out) == warned
 
 
 @pytest.mark.parametrize("words", [["--seconds", "abc"], ["--seconds", "-1"], ["--seconds", "nan"], ["--nope"]])
