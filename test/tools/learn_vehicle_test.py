@@ -56,3 +56,5 @@ def test_no_bag_is_said_in_one_line(tmp_path):
     (tmp_path / "no.bag").write_text("nothing")
     done = learn(tmp_path / "no.bag", tmp_path / "mine.yaml")
     assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
+    done = learn(tmp_path / "none.bag", tmp_path / "mine.yaml")
+    assert done.returncode == 2 and done.stderr == f"learn_vehicle: {tmp_path}/none.bag: No such file or directory\n"
