@@ -105,6 +105,7 @@ def test_the_users_file_lies_over_the_frames_and_without_flying_nothing_commands
 def test_only_what_has_no_default_is_listed_as_required(file):
     done = run("roslaunch", "--ros-args", file)
     assert done.returncode == 0, done.stderr
+    assert "undocumented" not in done.stdout, done.stdout
     listed = done.stdout.partition("Required Arguments:")[2].partition("Optional Arguments:")[0]
     assert sorted(line.split(":")[0].strip() for line in listed.splitlines() if line.strip()) == sorted(
         text.split(":=")[0] for text in NEEDED.get(file.stem, []))
