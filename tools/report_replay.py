@@ -113,7 +113,7 @@ def cards(replay):
     size = replay.facts.get("window_size_m")
     all_cards = [("window found", share(found, images), found == 0),
                  ("pose from one image", share(posed, images) if size else "no size given", not posed),
-                 ("filtered, side certain", share(trusted, images) if size else "no size given", not trusted),
+                 ("filtered, sign known", share(trusted, images) if size else "no size given", not trusted),
                  ("an image takes", f"{quantile(replay.milliseconds, 0.5):.2f} ms, 95 %: {quantile(replay.milliseconds, 0.95):.2f} ms", False),
                  ("without calibration", counts["without_calibration"], counts["without_calibration"]),
                  ("without odometry", counts["without_odometry"], counts["without_odometry"]),
@@ -146,8 +146,8 @@ def yaw_chart(replay):
     yaw, sigma = (column(replay.details, name, 180 / math.pi) for name in ("yaw_rad", "sigma_u_rad"))
     sure = [row["sign_trusted"] == "1" for row in replay.details]
     chart.band([y - 3 * s if s < 30 else NAN for y, s in zip(yaw, sigma)], [y + 3 * s for y, s in zip(yaw, sigma)], "#1f5fa8")
-    chart.points("side certain", [y if s else NAN for y, s in zip(yaw, sure)], "#1f5fa8")
-    chart.points("side open", [NAN if s else y for y, s in zip(yaw, sure)], "#ffa500")
+    chart.points("sign known", [y if s else NAN for y, s in zip(yaw, sure)], "#1f5fa8")
+    chart.points("sign unknown", [NAN if s else y for y, s in zip(yaw, sure)], "#ffa500")
     if "truth_yaw_rad" in replay.frames[0]:
         chart.line("truth", column(replay.frames, "truth_yaw_rad", 180 / math.pi), "#000000")
     return chart.svg()

@@ -54,6 +54,13 @@ def test_links_lead_somewhere(document):
         assert not anchor or anchor in anchors(target.read_text()), f"{document.name}: {link}"
 
 
+def test_one_thing_has_one_name():
+    """The glossary's: sign known, sign unknown."""
+    files = [*DOCUMENTS, *(file for folder in ("src", "tools", "nodes") for file in (ROOT / folder).rglob("*") if file.is_file() and file.suffix != ".pyc")]
+    others = re.compile(r"\b(sign open|side (open|certain))\b")
+    assert not [f"{file}: {found[0]}" for file in files for found in others.finditer(file.read_text(encoding="utf-8"))]
+
+
 def files_named(cell, *folders):
     """Names in backquotes that look like files; one without a folder lies beside the one before."""
     folder = ""
