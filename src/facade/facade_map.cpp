@@ -39,6 +39,7 @@ double apartM(const KnownWindow& a, const KnownWindow& b) {
 
 // What is known of two that are one.
 void absorb(KnownWindow& window, const KnownWindow& twin) {
+  if (window.id == 0) window.id = twin.id;
   window.place = fused(window.place, twin.place);
   window.last_seen_sec = std::max(window.last_seen_sec, twin.last_seen_sec);
   window.sights += twin.sights;
@@ -66,32 +67,32 @@ void FacadeMap::associate(const FacadeView& view, std::vector<Sight>& sights) co
       if (const double squares = this->squares(window, sight.place, view.stamp_sec);
           squares < kMaxSquares && sizesAgree(window.place, sight.place) &&
           distancesAgree(window.place, sight.place, eye_m))
-        pairs.emplace_back(squares, window.id, &sight);
+        pairs.emplace_back(squares, window.key, &sight);
   std::sort(pairs.begin(), pairs.end());
-  for (const auto& [squares, id, sight] : pairs) {
-    const auto is_taken = [id = id](const Sight& other) { return other.id == id; };
-    if (sight->id == 0 && std::none_of(sights.begin(), sights.end(), is_taken)) sight->id = id;
+  for (const auto& [squares, key, sight] : pairs) {
+    const auto is_taken = [key = key](const Sight& other) { return other.key == key; };
+    if (sight->key == 0 && std::none_of(sights.begin(), sights.end(), is_taken)) sight->key = key;
   }
 }
 
 void FacadeMap::learn(double stamp_sec, Sight& sight) {
-  KnownWindow* window = find(sight.id);
+  KnownWindow* window = withKey(sight.key);
   if (window == nullptr) {
     if (windows_.size() >= kMaxWindows) return;
     windows_.emplace_back();
     window = &windows_.back();
-    window->id = sight.id = ++last_id_;
+    window->key = sight.key = ++last_key_;
     window->place = sight.place;
   } else {
     window->place = fused(window->place, sight.place);
   }
   window->last_seen_sec = stamp_sec;
-  ++window->sights;
+  if (++window->sights >= kMinSights && window->id == 0) window->id = ++last_id_;
   window->score = sight.seen->score;
   window->may_be_target = sight.seen->may_be_target;
   if (sight.seen->has_appearance)
     window->bhattacharyya = std::min(sight.seen->bhattacharyya, window->bhattacharyya.value_or(1.0));
-  if (sight.seen->is_target) followed_id_ = sight.id;
+  if (sight.seen->is_target) followed_key_ = sight.key;
 }
 
 bool FacadeMap::isOfSize(const KnownWindow& window, const geometry::OpeningSize& looked_for) {
@@ -101,7 +102,7 @@ bool FacadeMap::isOfSize(const KnownWindow& window, const geometry::OpeningSize&
 void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {
   for (const Sight& a : sights)
     for (const Sight& b : sights)
-      if (a.id != 0 && a.id < b.id) apart_.emplace(a.id, b.id);
+      if (a.key != 0 && a.key < b.key) apart_.emplace(a.key, b.key);
 }
 
 // The older one stays.
@@ -110,10 +111,10 @@ void FacadeMap::merge(double stamp_sec) {
     for (std::size_t k = windows_.size(); --k > i;) {
       KnownWindow &older = windows_[i], &younger = windows_[k];
       const double width_m = std::min(older.place.size.width_m, younger.place.size.width_m);
-      if (apart_.count({older.id, younger.id}) != 0 || apartM(older, younger) > kSameSpot * width_m ||
+      if (apart_.count({older.key, younger.key}) != 0 || apartM(older, younger) > kSameSpot * width_m ||
           squares(older, younger.place, stamp_sec) > kMaxSquares || !sizesAgree(older.place, younger.place))
         continue;
-      if (followed_id_ == younger.id) followed_id_ = older.id;
+      if (followed_key_ == younger.key) followed_key_ = older.key;
       absorb(older, younger);
       windows_.erase(windows_.begin() + static_cast<std::ptrdiff_t>(k));
     }
@@ -132,7 +133,7 @@ void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
   for (const detection::SeenWindow& seen : view.windows)
     if (const auto place = placeOf(seen.corners, view.from, wall, looked_for))
       sights.push_back({&seen, *place});
-  followed_id_.reset();
+  followed_key_ = 0;
   associate(view, sights);
   for (Sight& sight : sights) learn(view.stamp_sec, sight);
   noteSideBySide(sights);
@@ -155,9 +156,22 @@ const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) con
 }
 
 const KnownWindow* FacadeMap::find(std::uint32_t id) const {
+  if (id == 0) return nullptr;
   const auto it = std::find_if(windows_.begin(), windows_.end(),
                                [id](const KnownWindow& window) { return window.id == id; });
   return it == windows_.end() ? nullptr : &*it;
+}
+
+KnownWindow* FacadeMap::withKey(std::uint32_t key) {
+  const auto it = std::find_if(windows_.begin(), windows_.end(),
+                               [key](const KnownWindow& window) { return window.key == key; });
+  return it == windows_.end() ? nullptr : &*it;
+}
+
+std::optional<std::uint32_t> FacadeMap::followed() const {
+  for (const KnownWindow& window : windows_)
+    if (window.key == followed_key_ && isConfirmed(window)) return window.id;
+  return std::nullopt;
 }
 
 KnownWindow* FacadeMap::find(std::uint32_t id) {

@@ -15,7 +15,9 @@ namespace window_ingress::facade {
 
 /// A window that was seen, and what is known of it.
 struct KnownWindow {
-  std::uint32_t id = 0;  ///< from 1; never given to another one, but after a reset
+  std::uint32_t id = 0;  ///< its number: from 1, once enough images have shown it; never given to another
+                         ///< one, but after a reset
+  std::uint32_t key = 0;  ///< from 1, of the first image that showed it; the older one's is less
   WindowPlace place;
   double last_seen_sec = 0.0;
   int sights = 0;                       ///< images that showed it
@@ -55,20 +57,21 @@ class FacadeMap {
 
   /// The window that one at this place is; nothing if it is none of those known.
   const KnownWindow* at(const WindowPlace& place, double stamp_sec) const;
-  /// The window of the last image's target.
-  std::optional<std::uint32_t> followed() const { return followed_id_; }
+  /// The window of the last image's target, once it has a number.
+  std::optional<std::uint32_t> followed() const;
   KnownWindow* find(std::uint32_t id);
   const KnownWindow* find(std::uint32_t id) const;
-  bool isConfirmed(const KnownWindow& window) const { return window.sights >= kMinSights; }
-  const std::vector<KnownWindow>& windows() const { return windows_; }  ///< in the order of their numbers
+  bool isConfirmed(const KnownWindow& window) const { return window.id != 0; }
+  const std::vector<KnownWindow>& windows() const { return windows_; }  ///< the oldest first
 
  private:
   static constexpr int kMinSights = 3;  ///< images that must show a window before it has a number
   struct Sight {
     const detection::SeenWindow* seen = nullptr;
     WindowPlace place;
-    std::uint32_t id = 0;  ///< of the window it belongs to
+    std::uint32_t key = 0;  ///< of the window it belongs to
   };
+  KnownWindow* withKey(std::uint32_t key);
   void associate(const FacadeView& view, std::vector<Sight>& sights) const;
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
@@ -78,9 +81,10 @@ class FacadeMap {
 
   FacadeParams params_;
   std::vector<KnownWindow> windows_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> apart_;  // seen side by side, lower number first
-  std::optional<std::uint32_t> followed_id_;
-  std::uint32_t last_id_ = 0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>>
+      apart_;                       // keys of those seen side by side, the lower first
+  std::uint32_t followed_key_ = 0;  // 0: none
+  std::uint32_t last_id_ = 0, last_key_ = 0;
 };
 
 }  // namespace window_ingress::facade

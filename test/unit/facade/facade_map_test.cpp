@@ -65,6 +65,18 @@ TEST(FacadeMap, ForgetsWhatWasSeenButOnce) {
   EXPECT_TRUE(map.windows().empty());
 }
 
+TEST(FacadeMap, NumbersNothingThatWasSeenButOnce) {
+  std::mt19937 random(8);
+  const test::WindowRow row;
+  FacadeMap map{FacadeParams()};
+  for (double stamp_sec = 10.0; stamp_sec < 40.0; stamp_sec += 3.0)
+    map.see(row.look(stamp_sec, row.from({-5.0, 0.0, 1.5}), -1, random), kWall, row.size);
+  walkAlong(map, row, kWall, 50.0, 1);
+  std::uint32_t highest = 0;
+  for (const KnownWindow& window : map.windows()) highest = std::max(highest, window.id);
+  EXPECT_EQ(highest, 5u);
+}
+
 TEST(FacadeMap, TakesTwoThatComeToLieInOnePlaceForOneUnlessTheyWereSeenSideBySide) {
   std::mt19937 random(7);
   test::WindowRow row;
