@@ -11,39 +11,6 @@ using DetectionMsg = window_ingress::WindowDetection;
 using RowMajor2d = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
 constexpr std::size_t kMaxInteriorPoints = 1000;  // what a detector sends stays far below
 
-static_assert(same(DetectionMsg::TOP_LEFT, geometry::kTopLeft) &&
-              same(DetectionMsg::TOP_RIGHT, geometry::kTopRight) &&
-              same(DetectionMsg::BOTTOM_RIGHT, geometry::kBottomRight) &&
-              same(DetectionMsg::BOTTOM_LEFT, geometry::kBottomLeft));
-static_assert(same(DetectionMsg::TOP, geometry::kTop) && same(DetectionMsg::RIGHT, geometry::kRight) &&
-              same(DetectionMsg::BOTTOM, geometry::kBottom) && same(DetectionMsg::LEFT, geometry::kLeft));
-
-using detection::RejectReason;
-static_assert(same(DetectionMsg::OK, RejectReason::kNone) &&
-              same(DetectionMsg::BAD_IMAGE, RejectReason::kBadImage) &&
-              same(DetectionMsg::NO_CANDIDATE, RejectReason::kNoCandidate) &&
-              same(DetectionMsg::CORNERS, RejectReason::kCorners) &&
-              same(DetectionMsg::AREA_SMALL, RejectReason::kAreaSmall) &&
-              same(DetectionMsg::AREA_LARGE, RejectReason::kAreaLarge) &&
-              same(DetectionMsg::ASPECT, RejectReason::kAspect) &&
-              same(DetectionMsg::SOLIDITY, RejectReason::kSolidity) &&
-              same(DetectionMsg::ANGLE, RejectReason::kAngle) &&
-              same(DetectionMsg::BORDER, RejectReason::kBorder) &&
-              same(DetectionMsg::LINE_SUPPORT, RejectReason::kLineSupport) &&
-              same(DetectionMsg::CONTRAST, RejectReason::kContrast) &&
-              same(DetectionMsg::REFINEMENT, RejectReason::kRefinement) &&
-              same(DetectionMsg::OUTER_BORDER, RejectReason::kOuterBorder) &&
-              same(DetectionMsg::DUPLICATE, RejectReason::kDuplicate) &&
-              same(DetectionMsg::PANE, RejectReason::kPane) &&
-              same(DetectionMsg::APPEARANCE, RejectReason::kAppearance) &&
-              same(DetectionMsg::OTHER_ASPECT, RejectReason::kOtherAspect) &&
-              same(DetectionMsg::OTHER_FRAME, RejectReason::kOtherFrame) &&
-              same(DetectionMsg::UNLIKE, RejectReason::kUnlike) &&
-              same(DetectionMsg::SCORE, RejectReason::kScore) &&
-              same(DetectionMsg::OUTSCORED, RejectReason::kOutscored) &&
-              same(DetectionMsg::BUDGET, RejectReason::kBudget) &&
-              detection::kRejectReasons == DetectionMsg::BUDGET + 1);
-
 template <typename Numbers>
 bool allFinite(const Numbers& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });

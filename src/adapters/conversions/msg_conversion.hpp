@@ -36,12 +36,6 @@ namespace window_ingress::adapters {
 
 using configuration::FrameNames;
 
-/// Constants of the messages are the enums of the core.
-template <typename Enum>
-constexpr bool same(int constant, Enum value) {
-  return constant == static_cast<int>(value);
-}
-
 /// A converted message, or why it cannot be used.
 template <typename Value>
 struct Converted {

@@ -7,37 +7,9 @@
 namespace window_ingress::adapters {
 namespace {
 
-using ImagePoseMsg = window_ingress::ImagePose;
 using ChecksMsg = window_ingress::SystemChecks;
 using OpennessMsg = window_ingress::Openness;
 using StateMsg = window_ingress::IngressState;
-
-static_assert(same(ImagePoseMsg::OK, estimation::PoseReject::kNone) &&
-              same(ImagePoseMsg::BAD_CAMERA, estimation::PoseReject::kBadCamera) &&
-              same(ImagePoseMsg::BAD_CORNERS, estimation::PoseReject::kBadCorners) &&
-              same(ImagePoseMsg::NOT_IN_FRONT, estimation::PoseReject::kNotInFront) &&
-              same(ImagePoseMsg::REPROJECTION, estimation::PoseReject::kReprojection) &&
-              same(ImagePoseMsg::RANGE, estimation::PoseReject::kRange) &&
-              same(ImagePoseMsg::TILT, estimation::PoseReject::kTilt) &&
-              same(ImagePoseMsg::NOT_FINITE, estimation::PoseReject::kNotFinite));
-static_assert(same(ChecksMsg::FIT_UNKNOWN, estimation::Fit::kUnknown) &&
-              same(ChecksMsg::FIT_GO, estimation::Fit::kGo) &&
-              same(ChecksMsg::FIT_NO_GO, estimation::Fit::kNoGo));
-static_assert(same(ChecksMsg::FRAMES_OPEN, estimation::FramesVerdict::kOpen) &&
-              same(ChecksMsg::FRAMES_GOOD, estimation::FramesVerdict::kGood) &&
-              same(ChecksMsg::FRAMES_WRONG, estimation::FramesVerdict::kWrong));
-static_assert(same(OpennessMsg::UNKNOWN, openness::Openness::kUnknown) &&
-              same(OpennessMsg::OPEN, openness::Openness::kOpen) &&
-              same(OpennessMsg::CLOSED, openness::Openness::kClosed));
-static_assert(same(StateMsg::IDLE, navigation::State::kIdle) &&
-              same(StateMsg::SEARCH, navigation::State::kSearch) &&
-              same(StateMsg::ALIGN, navigation::State::kAlign) &&
-              same(StateMsg::APPROACH, navigation::State::kApproach) &&
-              same(StateMsg::COMMIT, navigation::State::kCommit) &&
-              same(StateMsg::PASSED, navigation::State::kPassed) &&
-              same(StateMsg::BACK_OFF, navigation::State::kBackOff) &&
-              same(StateMsg::HOLD, navigation::State::kHold) &&
-              same(StateMsg::ABORTED, navigation::State::kAborted));
 
 bool isFinite(const geometry_msgs::PoseWithCovariance& m) {
   return std::all_of(m.covariance.begin(), m.covariance.end(),

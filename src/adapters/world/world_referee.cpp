@@ -12,16 +12,7 @@ namespace {
 
 constexpr double kJudgePeriodSec = 0.05, kVerdictPeriodSec = 1.0;
 
-constexpr bool same(int constant, simulation::Outcome outcome) {
-  return constant == static_cast<int>(outcome);
-}
 using VerdictMsg = window_ingress::FlightVerdict;
-static_assert(same(VerdictMsg::RUNNING, simulation::Outcome::kRunning) &&
-              same(VerdictMsg::PASSED, simulation::Outcome::kPassed) &&
-              same(VerdictMsg::COLLISION, simulation::Outcome::kCollision) &&
-              same(VerdictMsg::FALSE_INGRESS, simulation::Outcome::kFalseIngress) &&
-              same(VerdictMsg::ABORTED, simulation::Outcome::kAborted) &&
-              same(VerdictMsg::TIMEOUT, simulation::Outcome::kTimeout));
 
 }  // namespace
 

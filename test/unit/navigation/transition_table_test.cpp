@@ -10,6 +10,55 @@
 
 namespace window_ingress::navigation::transition_table_test {
 
+constexpr bool isDeterministic() {
+  for (std::size_t i = 0; i < kTransitions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (kTransitions[i].from == kTransitions[j].from && kTransitions[i].event == kTransitions[j].event)
+        return false;
+    }
+  }
+  return true;
+}
+
+constexpr bool reachesEveryState() {
+  bool reached[kStateCount] = {true};  // IDLE
+  for (std::size_t pass = 0; pass < kStateCount; ++pass) {
+    for (const auto& row : kTransitions) {
+      if (reached[static_cast<std::size_t>(row.from)]) reached[static_cast<std::size_t>(row.to)] = true;
+    }
+  }
+  for (const bool state : reached) {
+    if (!state) return false;
+  }
+  return true;
+}
+
+constexpr bool leadsTo(State from, Event event, State to) {
+  const auto state = next(from, event);
+  return state.has_value() && *state == to;
+}
+
+constexpr bool everyLiveStateAborts() {
+  for (std::size_t i = 0; i < kStateCount; ++i) {
+    const auto state = static_cast<State>(i);
+    if (!isEnd(state) && !leadsTo(state, Event::kAbort, State::kAborted)) return false;
+  }
+  return true;
+}
+
+constexpr bool everyMovingStateHoldsOnStaleInput() {
+  for (std::size_t i = 0; i < kStateCount; ++i) {
+    const auto state = static_cast<State>(i);
+    if (isMoving(state) && !leadsTo(state, Event::kInputStale, State::kHold)) return false;
+  }
+  return true;
+}
+
+static_assert(isDeterministic(), "two rows for one state and event");
+static_assert(reachesEveryState(), "a state that no row leads to");
+static_assert(everyLiveStateAborts(), "a state that cannot be aborted");
+static_assert(everyMovingStateHoldsOnStaleInput(), "a moving state that ignores stale input");
+
 State stateAt(std::size_t i) { return static_cast<State>(i); }
 Event eventAt(std::size_t i) { return static_cast<Event>(i); }
 
