@@ -8,6 +8,8 @@
 namespace window_ingress::estimation {
 namespace {
 
+constexpr double kFadesSecPerSec = 2e-4;  // beyond any quartz, little in a flight
+
 constexpr double kStretchSec = 2.0, kLongestGapSec = 0.5;
 constexpr std::size_t kMinSights = 10, kMaxSights = 400;
 constexpr double kMinRateSpread = 0.08;   // rad/s, root mean square about the mean
@@ -23,6 +25,15 @@ bool isFinite(const ClockCheck::Sight& sight) {
 }
 
 }  // namespace
+
+double SenderClock::atReceiver(double stamp_sec, double arrival_sec) {
+  const double ahead_sec = stamp_sec - arrival_sec;
+  if (!std::isfinite(ahead_sec) || ahead_sec > kMaxSec) return stamp_sec;
+  const double elapsed_sec = std::clamp(arrival_sec - arrival_sec_, 0.0, 1.0);
+  arrival_sec_ = arrival_sec;
+  ahead_sec_ = std::max({0.0, ahead_sec_ - kFadesSecPerSec * elapsed_sec, ahead_sec});
+  return stamp_sec - aheadSec();
+}
 
 void ClockCheck::see(const Sight& sight, const Eigen::Vector2d& window_odom_m) {
   if (!isFinite(sight) || !window_odom_m.allFinite()) return;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "window_ingress/geometry/quadrilateral.hpp"
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -1,7 +1,10 @@
 #include "window_ingress/geometry/euler_angles.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::geometry {
 
@@ -18,6 +21,13 @@ Eigen::Matrix3d rotationFromEuler(const EulerAngles& angles) {
   return (AngleAxisd(angles.psi_rad, Vector3d::UnitZ()) * AngleAxisd(angles.phi_rad, Vector3d::UnitY()) *
           AngleAxisd(angles.theta_rad, Vector3d::UnitX()))
       .toRotationMatrix();
+}
+
+std::string yawText(double yaw_rad, double sigma_rad, bool sign_trusted) {
+  if (!std::isfinite(yaw_rad) || !std::isfinite(sigma_rad)) return "yaw not finite";
+  const double sigma_deg = std::clamp(sigma_rad * kDegreesPerRad, 0.0, 180.0);
+  return formatted(sigma_deg < 0.095 ? "yaw %+.2f +-%.2f deg%s" : "yaw %+.1f +-%.1f deg%s",
+                   yaw_rad * kDegreesPerRad, sigma_deg, sign_trusted ? "" : ", sign unknown");
 }
 
 }  // namespace window_ingress::geometry

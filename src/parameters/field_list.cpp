@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "window_ingress/parameters/key_list.hpp"
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::parameters {
 namespace {

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "simulation/camera/reference_image.hpp"
-#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::simulation {

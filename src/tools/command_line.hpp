@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/text/input_error.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {

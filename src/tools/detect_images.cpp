@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,11 @@
 #include "evaluation/output_file.hpp"
 #include "params_file.hpp"
 #include "progress.hpp"
-#include "window_finder.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/detection/window_tracker.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
-#include "window_ingress/geometry/yaw_text.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 
 namespace fs = std::filesystem;
@@ -30,6 +31,50 @@ using tools::numbers;
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Looks for the window in each image by itself, or follows it from image to image.
+class WindowFinder {
+ public:
+  /// \param sequence_hz the images are a sequence of so many a second; 0: each stands alone
+  WindowFinder(const detection::DetectorParams& params,
+               const std::optional<detection::ReferenceAppearance>& reference, double sequence_hz)
+      : frame_sec_(sequence_hz > 0.0 ? 1.0 / sequence_hz : 0.0) {
+    if (sequence_hz > 0.0)
+      tracker_.emplace(params);
+    else
+      detector_.emplace(params);
+    if (reference && tracker_) tracker_->setReference(*reference);
+    if (reference && detector_) detector_->setReference(*reference);
+  }
+
+  std::optional<detection::WindowObservation> find(const cv::Mat& image,
+                                                   const geometry::PinholeCamera* camera) {
+    if (detector_) return detector_->detect(image, 0.0, camera);
+    detection::TrackInput input;
+    input.image = image;
+    input.stamp_sec = frame_sec_ * static_cast<double>(++frames_);
+    input.camera = camera;
+    return tracker_->update(input);
+  }
+
+  void skip() { ++frames_; }
+  const detection::DetectionTrace& trace() const {
+    return detector_ ? detector_->trace() : tracker_->trace();
+  }
+
+  std::string columns() const { return tracker_ ? ",target_id,visible_sides" : ""; }
+  std::string values(const evaluation::DetectionRow& row) const {
+    if (!tracker_) return "";
+    if (!row.window) return ",,";
+    return "," + std::to_string(row.window->target_id) + "," + std::to_string(row.window->visibleSides());
+  }
+
+ private:
+  double frame_sec_;
+  long frames_ = 0;
+  std::optional<detection::WindowDetector> detector_;
+  std::optional<detection::WindowTracker> tracker_;
+};
 
 struct Options {
   std::vector<std::string> inputs;
@@ -144,7 +189,7 @@ Job prepare(const Options& o) {
   return job;
 }
 
-evaluation::DetectionRow process(const cv::Mat& image, const Job& job, tools::WindowFinder& finder) {
+evaluation::DetectionRow process(const cv::Mat& image, const Job& job, WindowFinder& finder) {
   evaluation::DetectionRow row;
   const bool fits = job.camera && job.camera->width == image.cols && job.camera->height == image.rows;
   const auto start = Clock::now();
@@ -163,7 +208,7 @@ evaluation::DetectionRow process(const cv::Mat& image, const Job& job, tools::Wi
   return row;
 }
 
-void writeOverlay(const std::string& file, const cv::Mat& image, const tools::WindowFinder& finder,
+void writeOverlay(const std::string& file, const cv::Mat& image, const WindowFinder& finder,
                   const evaluation::DetectionRow& row, const std::string& folder) {
   cv::Mat canvas;
   detection::drawDetection(image, finder.trace(), row.window ? &*row.window : nullptr, canvas,
@@ -185,7 +230,7 @@ int run(const Options& o) {
   check(o);
   const std::vector<std::string> images = listImages(o.inputs);
   const Job job = prepare(o);
-  tools::WindowFinder finder(job.params, job.reference, o.track ? o.rate_hz : 0.0);
+  WindowFinder finder(job.params, job.reference, o.track ? o.rate_hz : 0.0);
   evaluation::OutputFile output, candidates;
   begin(output, o.output, evaluation::detectionColumns() + finder.columns());
   if (!o.candidates.empty()) begin(candidates, o.candidates, evaluation::candidateColumns());

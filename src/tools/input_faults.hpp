@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "window_ingress/parameters/fields.hpp"
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 

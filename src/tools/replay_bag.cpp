@@ -10,15 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "adapters/bags/detection_strip.hpp"
 #include "adapters/bags/replay.hpp"
-#include "adapters/bags/replay_facts.hpp"
-#include "adapters/bags/replay_tables.hpp"
-#include "adapters/images/detector_node.hpp"
-#include "adapters/sources/parameters.hpp"
+#include "adapters/bags/replay_output.hpp"
+#include "adapters/images/reference_source.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
 #include "progress.hpp"
+#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace fs = std::filesystem;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "adapters/images/reference_source.hpp"
-#include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "display.hpp"
 #include "evaluation/statistics.hpp"

@@ -11,7 +11,6 @@
 
 #include "adapters/bags/labelled_bag.hpp"
 #include "adapters/images/reference_source.hpp"
-#include "adapters/sources/parameters.hpp"
 #include "command_line.hpp"
 #include "evaluation/images/detector_tuning.hpp"
 #include "params_file.hpp"

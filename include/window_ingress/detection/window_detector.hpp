@@ -3,7 +3,6 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <string>
 
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/detection_trace.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "window_ingress/estimation/opening_fit.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/target_motion.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/openness/openness_verdict.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "adapters/bags/recorded_transforms.hpp"
-#include "adapters/bags/replay_facts.hpp"
+#include "adapters/bags/replay_output.hpp"
 #include "adapters/bags/waiting_images.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/images/reference_source.hpp"

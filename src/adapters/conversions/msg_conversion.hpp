@@ -24,7 +24,7 @@
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/estimation/frames_verdict.hpp"
-#include "window_ingress/estimation/opening_fit.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 #include "window_ingress/estimation/window_filter.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/facade/facade_memory.hpp"

@@ -8,7 +8,7 @@
 #include "adapters/sources/guarded.hpp"
 #include "adapters/sources/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"
-#include "window_ingress/geometry/yaw_text.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "adapters/sources/guarded.hpp"
-#include "adapters/sources/parameters.hpp"
 
 namespace window_ingress::adapters {
 namespace {

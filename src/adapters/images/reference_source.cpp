@@ -5,7 +5,6 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "adapters/sources/parameters.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 

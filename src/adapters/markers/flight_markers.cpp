@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "adapters/markers/marker_colours.hpp"
 #include "adapters/markers/marker_sketch.hpp"
 #include "window_ingress/navigation/commit_criterion.hpp"
 

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
@@ -24,7 +25,7 @@
 #include "adapters/sources/engagement.hpp"
 #include "adapters/sources/lockstep.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
-#include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 
 namespace window_ingress::adapters {
@@ -61,10 +62,7 @@ class NavigatorNode : public Node {
   navigation::Reply abortMission(const std::string& why);
   std::string whyFlying() const;
   bool isLeftToOthers() const;
-  bool start(Trigger::Request& request, Trigger::Response& response);
-  bool abort(Trigger::Request& request, Trigger::Response& response);
-  bool reset(Trigger::Request& request, Trigger::Response& response);
-  bool confirmOpening(Trigger::Request& request, Trigger::Response& response);
+  navigation::Reply reset();
   bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   template <typename Response>
   bool answer(const char* service, const navigation::Reply& reply, Response& response);
@@ -104,7 +102,7 @@ class NavigatorNode : public Node {
 
   ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
   ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
-  ros::ServiceServer start_, abort_, reset_, confirm_opening_, enable_;
+  std::vector<ros::ServiceServer> services_;
   std::optional<MissionAction> action_;  // not in lockstep: nobody asks there
   ros::SteadyTimer timer_;
 };

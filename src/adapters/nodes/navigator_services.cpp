@@ -6,14 +6,15 @@ namespace window_ingress::adapters {
 using navigation::State;
 
 void NavigatorNode::advertiseServices(ros::NodeHandle& pnh) {
-  using Request = Trigger::Request;
-  using Response = Trigger::Response;
-  start_ = pnh.advertiseService<NavigatorNode, Request, Response>("start", &NavigatorNode::start, this);
-  abort_ = pnh.advertiseService<NavigatorNode, Request, Response>("abort", &NavigatorNode::abort, this);
-  reset_ = pnh.advertiseService<NavigatorNode, Request, Response>("reset", &NavigatorNode::reset, this);
-  confirm_opening_ = pnh.advertiseService<NavigatorNode, Request, Response>(
-      "confirm_opening", &NavigatorNode::confirmOpening, this);
-  enable_ = pnh.advertiseService("enable", &NavigatorNode::enable, this);
+  const auto advertise = [this, &pnh](const char* name, std::function<navigation::Reply()> act) {
+    services_.push_back(pnh.advertiseService<Trigger::Request, Trigger::Response>(
+        name, [=](Trigger::Request&, Trigger::Response& response) { return answer(name, act(), response); }));
+  };
+  advertise("start", [this] { return startMission({}); });
+  advertise("abort", [this] { return abortMission("aborted by the operator"); });
+  advertise("reset", [this] { return reset(); });
+  advertise("confirm_opening", [this] { return navigator_.confirmOpening(); });
+  services_.push_back(pnh.advertiseService("enable", &NavigatorNode::enable, this));
 }
 
 navigation::Reply NavigatorNode::startMission(const navigation::MissionPolicy& policy) {
@@ -48,14 +49,6 @@ bool NavigatorNode::isLeftToOthers() const {
   return is_disabled_ && (last_.state == State::kIdle || last_.state == State::kPassed);
 }
 
-bool NavigatorNode::start(Trigger::Request&, Trigger::Response& response) {
-  return answer("start", startMission({}), response);
-}
-
-bool NavigatorNode::abort(Trigger::Request&, Trigger::Response& response) {
-  return answer("abort", abortMission("aborted by the operator"), response);
-}
-
 // In flight it is aborted first: zeros go on as after ~abort.
 bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   is_disabled_ = !request.data;
@@ -69,13 +62,9 @@ bool NavigatorNode::enable(std_srvs::SetBool::Request& request, std_srvs::SetBoo
 }
 
 // How a mission ended is published before it is forgotten, however soon the reset comes.
-bool NavigatorNode::reset(Trigger::Request&, Trigger::Response& response) {
+navigation::Reply NavigatorNode::reset() {
   if (!lockstep_ && navigation::isEnd(navigator_.state())) step();
-  return answer("reset", navigator_.reset(), response);
-}
-
-bool NavigatorNode::confirmOpening(Trigger::Request&, Trigger::Response& response) {
-  return answer("confirm_opening", navigator_.confirmOpening(), response);
+  return navigator_.reset();
 }
 
 template <typename Response>

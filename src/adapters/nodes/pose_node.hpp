@@ -18,12 +18,12 @@
 #include "adapters/nodes/pose_health.hpp"
 #include "adapters/nodes/pose_publisher.hpp"
 #include "adapters/nodes/run_node.hpp"
+#include "adapters/sources/attitude_source.hpp"
 #include "adapters/sources/camera_source.hpp"
 #include "adapters/sources/diagnostics.hpp"
 #include "adapters/sources/lockstep.hpp"
-#include "adapters/sources/tf_attitude.hpp"
 #include "window_ingress/configuration/pose_node_params.hpp"
-#include "window_ingress/estimation/sender_clock.hpp"
+#include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::adapters {

@@ -5,6 +5,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +16,21 @@
 #include "window_ingress/estimation/pose_buffer.hpp"
 
 namespace window_ingress::adapters {
+
+/// The vehicle's attitude at the time of an image, from tf. A transform may come later than the image:
+/// that one goes without, and only what lasts is told.
+class TfAttitude {
+ public:
+  TfAttitude(const tf2_ros::Buffer& tf, const std::string& odom_frame, const std::string& base_frame);
+
+  std::optional<Eigen::Quaterniond> at(double stamp_sec);
+  Health health() const;
+
+ private:
+  const tf2_ros::Buffer& tf_;
+  std::string odom_frame_, base_frame_, fault_;
+  double known_sec_, asked_sec_;  // when it was last known and last asked for, on the steady clock
+};
 
 /// Where the camera is mounted on the vehicle, as tf says now, or why it is not known.
 Converted<Eigen::Isometry3d> mountingOf(const tf2_ros::Buffer& tf, const std::string& base_frame,

@@ -1,7 +1,6 @@
 #include "adapters/sources/lockstep.hpp"
 
 #include "adapters/sources/guarded.hpp"
-#include "adapters/sources/parameters.hpp"
 
 namespace window_ingress::adapters {
 namespace {

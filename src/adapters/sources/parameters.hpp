@@ -11,7 +11,7 @@
 
 #include "window_ingress/navigation/vehicle_params.hpp"
 #include "window_ingress/parameters/fields.hpp"
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 

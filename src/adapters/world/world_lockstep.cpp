@@ -2,8 +2,6 @@
 
 #include <ros/console.h>
 
-#include "adapters/sources/parameters.hpp"
-
 namespace window_ingress::adapters {
 
 void refuseInLockstep(const simulation::Scenario& scenario) {

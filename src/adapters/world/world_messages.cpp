@@ -1,7 +1,6 @@
 #include "adapters/world/world_messages.hpp"
 
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/sources/parameters.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::adapters {

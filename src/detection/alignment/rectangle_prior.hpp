@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 
 #include "detection/alignment/homography_sums.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "detection/alignment/ring_match.hpp"
+#include "detection/alignment/ring_score.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"

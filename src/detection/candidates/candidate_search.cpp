@@ -1,7 +1,6 @@
 #include "detection/candidates/candidate_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/side_support.hpp"

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <optional>
 #include <vector>
 
-#include "detection/candidates/blob_masks.hpp"
 #include "detection/candidates/candidate.hpp"
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/canny_edges.hpp"

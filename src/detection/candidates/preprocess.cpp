@@ -16,6 +16,9 @@ constexpr double kPaintSigmaPx = 1.2;  ///< its smoothing: of chromaticities, da
 constexpr double kClipLimit = 2.0;     ///< of the equalisation [mean bin counts]
 constexpr int kTiles = 6;              ///< of the equalisation, each way
 
+constexpr double kSigmaPx = 1.0;         ///< of the smoothing: differences between channels are noisy
+constexpr double kMeanOver = 1.0 / 3.0;  ///< side of the square of the mean, in longer sides of the level
+
 }  // namespace
 
 SearchLevel Preprocess::run(const cv::Mat& image) {
@@ -79,6 +82,22 @@ void Preprocess::equalise(cv::Mat& image) {
   clahe->apply(lightness, lightness);
   cv::insertChannel(lightness, lab_, 0);
   cv::cvtColor(lab_, image, cv::COLOR_Lab2BGR);
+}
+
+void BlobMasks::take(const cv::Mat& level, int channel) {
+  cv::extractChannel(level, channel_, channel);
+  cv::GaussianBlur(channel_, channel_, cv::Size(), kSigmaPx, kSigmaPx, cv::BORDER_REPLICATE);
+  const int side = static_cast<int>(kMeanOver * std::max(level.cols, level.rows)) | 1;
+  cv::boxFilter(channel_, mean_, -1, cv::Size(side, side));
+}
+
+const cv::Mat& BlobMasks::run(Sign sign, double contrast) {
+  if (sign == Sign::kAbove)
+    cv::subtract(channel_, mean_, difference_);
+  else
+    cv::subtract(mean_, channel_, difference_);
+  cv::compare(difference_, contrast, mask_, cv::CMP_GT);
+  return mask_;
 }
 
 }  // namespace window_ingress::detection

@@ -1,7 +1,6 @@
 #include "detection/reference/reference_judge.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "detection/candidates/candidate_gates.hpp"

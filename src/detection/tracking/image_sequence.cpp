@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "window_ingress/detection/border_refinement.hpp"
-#include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::detection {

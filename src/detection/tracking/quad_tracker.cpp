@@ -1,7 +1,6 @@
 #include "detection/tracking/quad_tracker.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "detection/borders/lines.hpp"

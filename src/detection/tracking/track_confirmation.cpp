@@ -1,7 +1,6 @@
 #include "detection/tracking/track_confirmation.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "detection/quads.hpp"
 #include "detection/tracking/image_sequence.hpp"

@@ -6,7 +6,6 @@
 
 #include "detection/quads.hpp"
 #include "detection/tracking/window_tracker_impl.hpp"
-#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::detection {
 namespace {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "detection/tracking/appearance_gate.hpp"
 #include "detection/tracking/appearance_monitor.hpp"
 #include "detection/tracking/image_sequence.hpp"
 #include "detection/tracking/quad_tracker.hpp"

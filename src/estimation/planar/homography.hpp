@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "estimation/planar/refinement.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -23,5 +25,18 @@ Eigen::Matrix3d rotationFromHomography(const Eigen::Matrix3d& homography);
 /// Pose of the window frame (x into the opening, y left, z up) from its homography; t_z > 0 decides the sign
 /// of s. Nothing if H is singular, not finite or puts the centre into the camera's plane.
 std::optional<Eigen::Isometry3d> poseFromHomography(const Eigen::Matrix3d& homography);
+
+/// Width over height of the opening, relative to that of the size the homography was made with. Of
+/// H = s [r1 r2 t], r1 and r2 have one length for the true size, so |h1| / |h2| is by what the assumed ratio
+/// is too small.
+double aspectCorrection(const Eigen::Matrix3d& homography);
+
+/// Where a fit starts: the pose by the homography of the believed size (P11, P12), and, where the belief lets
+/// the width move alone, the width that makes r1 and r2 equally long. Nothing without a homography.
+std::optional<FitPoint> startFromHomography(const RefinementProblem& problem);
+
+/// Width over height from this image alone (gravity helps if it is known): the likeliest, with the pose
+/// fitted beside it. Nothing without a homography or where the fit fails.
+std::optional<MeasuredAspect> measureAspect(const RefinementProblem& problem);
 
 }  // namespace window_ingress::estimation

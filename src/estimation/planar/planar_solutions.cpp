@@ -1,12 +1,19 @@
 #include "estimation/planar/planar_solutions.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
-#include "estimation/planar/opening_aspect.hpp"
+#include "estimation/planar/homography.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
 namespace {
+
+constexpr int kPoseParameters = 6;
+// 99 % of sums of 0, 1, .. 8 squares are smaller.
+constexpr std::array<double, 9> kChiSquared99{6.63, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81, 18.48, 20.09};
 
 constexpr double kSameRotationRad = 1e-3;
 
@@ -21,7 +28,27 @@ std::optional<FitPoint> startOf(const RefinementProblem& problem) {
   return FitPoint{problem.prior->T_camera_window, Eigen::Vector2d::Zero()};
 }
 
+constexpr double kStraySigma = 0.03;       // of a side's length
+constexpr double kMinStrayEvidence = 7.5;  // for a stray border [nats]
+
+// Where keystone alone knows the yaw far worse, the more evidence is needed: what looks like a stray border
+// is then more likely keystone's own noise.
+double neededEvidence(const WindowPoseEstimate& all) {
+  return kMinStrayEvidence + 2.0 * std::log(std::max(1.0, all.sigma_u_rad / all.yaw_sigma_rad));
+}
+
 }  // namespace
+
+double misfitOf(const RefinementProblem& problem, const PlanarSolution& best) {
+  const int spare = problem.image.size() + (problem.prior ? kPoseParameters : 0) - kPoseParameters;
+  const double beyond = 2.0 * best.cost - kChiSquared99[std::clamp(spare, 0, 8)];
+  return 1.0 + std::max(0.0, beyond) / std::max(1, spare);
+}
+
+void widen(double factor, PlanarSolution& solution) {
+  solution.covariance *= factor;
+  solution.opening_log_covariance *= factor;
+}
 
 Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T_camera_window) {
   const Eigen::Vector3d sight = T_camera_window.translation().normalized();
@@ -44,6 +71,19 @@ std::optional<PlanarSolutions> planarSolutions(const RefinementProblem& problem)
   if (second && areSame(*first, *second)) second.reset();
   if (second && second->cost < first->cost) std::swap(*first, *second);
   return PlanarSolutions{*first, second};
+}
+
+std::optional<StrayBorder> withoutStrayBorder(const RefinementProblem& problem,
+                                              const WindowPoseEstimate& all) {
+  if (!problem.size_root.isZero(0.0) || !all.aspect || misfitOf(problem, all.best) <= 1.0)
+    return std::nullopt;
+  const bool is_narrow = all.aspect->ratio < problem.opening.width_m / problem.opening.height_m;
+  RefinementProblem freed = problem;
+  freed.size_root =
+      Eigen::Vector2d(is_narrow ? kStraySigma : 0.0, is_narrow ? 0.0 : kStraySigma).asDiagonal();
+  const auto solutions = planarSolutions(freed);
+  if (!solutions || solutions->best.cost + neededEvidence(all) > all.best.cost) return std::nullopt;
+  return StrayBorder{freed, *solutions};
 }
 
 }  // namespace window_ingress::estimation

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <set>
-#include <string>
-
 #include "evaluation/flights/flight_perception.hpp"
 #include "evaluation/flights/projected_detector.hpp"
 #include "simulation/world.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "evaluation/csv.hpp"
-#include "evaluation/images/detection_table.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"

@@ -5,12 +5,49 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/images/survey_view.hpp"
+#include "simulation/camera/camera_motion.hpp"
+#include "simulation/scenario/camera_params.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "simulation/scene/scene.hpp"
+#include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::evaluation {
+
+/// Where a survey looks at the window from. Everything is drawn evenly between its ends.
+struct ViewRange {
+  double nearest_m = 2.0,
+         farthest_m = 8.0;  ///< horizontal distance of the camera from the opening's centre [m]
+  double off_axis_rad = 0.7853981633974483;  ///< to either side of the opening's normal, at most [rad]
+  double margin_px = 4.0;                    ///< the opening lies that far within the image, at least [px]
+  bool still = false;                        ///< the camera does not move
+};
+
+/// A view of the window: where the camera is, and how it moves while it exposes.
+struct SurveyView {
+  double distance_m = 0.0, off_axis_rad = 0.0;
+  simulation::CameraMotion motion;
+};
+
+/// Draws a view as a flight has it: 0.4 m above or below the opening's centre at most, tilted and rolled by
+/// up to 0.15 rad, moving at 0.25 m/s and turning at 0.08 rad/s a axis (standard deviations, at most twice
+/// that). The opening lies anywhere in the image, but whole; where there is none, the place where it would
+/// be. Views from which anything hides a part of its border are drawn again. The same seed gives the same
+/// view. \throws std::runtime_error if no such view is found
+SurveyView drawView(const simulation::Scenario& scenario, const simulation::Scene& scene,
+                    const geometry::PinholeCamera& camera, const ViewRange& range, std::uint32_t seed);
+
+/// True if nothing of the scene lies between the eye and the front inner border of the opening.
+bool borderIsFree(const simulation::Mesh& mesh, const Eigen::Vector3d& eye,
+                  const geometry::OpeningSize& opening);
+
+/// Image of a rectangle `behind_m` behind the plane of the window, around the same axis, as the shutter sees
+/// it: each corner at the time at which its row is exposed.
+std::optional<geometry::Quadrilateral> projectMoving(const geometry::PinholeCamera& camera,
+                                                     const simulation::CameraMotion& motion,
+                                                     double readout_sec, const geometry::OpeningSize& size,
+                                                     double behind_m);
 
 /// The borders of the window in one image, canonical order, in pixels of the image as it came.
 struct SurveyTruth {

@@ -12,11 +12,10 @@
 #include "simulation/scenario/fault_params.hpp"
 #include "simulation/scenario/house_params.hpp"
 #include "simulation/scenario/sensor_params.hpp"
-#include "simulation/scenario/sway_params.hpp"
 #include "simulation/scenario/vehicle_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::simulation {
 

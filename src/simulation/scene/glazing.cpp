@@ -1,5 +1,6 @@
 #include "simulation/scene/glazing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -9,6 +10,12 @@ namespace window_ingress::simulation {
 namespace {
 
 constexpr int kCells = 16;  // along each side of a pane: between their corners the mirrored part is linear
+
+constexpr double kRefractiveIndex = 1.52;
+
+double square(double value) { return value * value; }
+
+double ofBothFaces(double of_one) { return 2.0 * of_one / (1.0 + of_one); }
 
 // From clip coordinates to those of a texture that is the whole image.
 Eigen::Matrix4d textureFromClip() {
@@ -25,6 +32,21 @@ Eigen::Vector3d pointOn(const Pane& pane, int across, int up) {
 }
 
 }  // namespace
+
+double paneReflectance(double cos_incidence) {
+  const double n = kRefractiveIndex, outside = std::clamp(cos_incidence, 0.0, 1.0);
+  const double within = std::sqrt(1.0 - (1.0 - outside * outside) / (n * n));
+  const double across = square((outside - n * within) / (outside + n * within));
+  const double along = square((n * outside - within) / (n * outside + within));
+  return 0.5 * (ofBothFaces(across) + ofBothFaces(along));
+}
+
+Eigen::Isometry3d mirrorAt(double x_m) {
+  Eigen::Isometry3d mirror = Eigen::Isometry3d::Identity();
+  mirror.linear()(0, 0) = -1.0;
+  mirror.translation().x() = 2.0 * x_m;
+  return mirror;
+}
 
 cv::Rect partAround(const geometry::PinholeCamera& camera,
                     const std::vector<Eigen::Vector3d>& points_camera) {

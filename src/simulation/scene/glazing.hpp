@@ -6,10 +6,17 @@
 #include <vector>
 
 #include "simulation/rendering/gl_functions.hpp"
-#include "simulation/scene/glass.hpp"
+#include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::simulation {
+
+/// Part of the light that a pane of window glass mirrors, both faces together: Fresnel's law for light
+/// without polarisation, and all that goes to and fro between the faces.
+double paneReflectance(double cos_incidence);
+
+/// In front of the plane and behind it change places.
+Eigen::Isometry3d mirrorAt(double x_m);
 
 /// The panes of a scene, all in one plane. What they mirror is an image of its own, taken by the mirrored
 /// camera with the same pixels; laid over what is seen through them, each point by its own part.

@@ -8,6 +8,8 @@
 namespace window_ingress::simulation {
 namespace {
 
+constexpr double kRoomHalfWidth_m = 2.6, kRoomHeight_m = 2.6, kSideWall_m = 0.2;
+
 bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
   const double beside_m = 0.5 * (poster.width_m + scenario.window.width_m) + scenario.window.frame_width_m;
   const double above_m = 0.5 * (poster.height_m + scenario.window.height_m) + scenario.window.frame_width_m;
@@ -15,6 +17,64 @@ bool reachesInto(const PosterParams& poster, const Scenario& scenario) {
 }
 
 }  // namespace
+
+Rectangle frontWall(const Scenario& scenario) {
+  const double half_m = 0.5 * scenario.house.width_m, ground_m = -scenario.windowCentreHeight();
+  return {-half_m, half_m, ground_m, ground_m + scenario.house.eaves_m};
+}
+
+Rectangle targetOpening(const Scenario& scenario) {
+  return Rectangle::around(0, 0, scenario.window.width_m, scenario.window.height_m);
+}
+
+Rectangle openingOf(const DecoyParams& decoy) {
+  return Rectangle::around(decoy.y_m, decoy.z_m, decoy.width_m, decoy.height_m);
+}
+
+Rectangle openingOf(const Scenario& scenario, const DoorParams& door) {
+  const double ground_m = -scenario.windowCentreHeight();
+  return {door.y_m - 0.5 * door.width_m, door.y_m + 0.5 * door.width_m, ground_m, ground_m + door.height_m};
+}
+
+std::vector<Rectangle> clearHoles(const Scenario& scenario) {
+  std::vector<Rectangle> holes;
+  if (scenario.window.showsRoom()) holes.push_back(targetOpening(scenario));
+  for (const auto& decoy : scenario.decoys)
+    if (decoy.showsRoom()) holes.push_back(openingOf(decoy));
+  return holes;
+}
+
+std::vector<Rectangle> wallHoles(const Scenario& scenario) {
+  std::vector<Rectangle> holes;
+  if (scenario.window.present) holes.push_back(targetOpening(scenario));
+  for (const auto& decoy : scenario.decoys) holes.push_back(openingOf(decoy));
+  for (const auto& door : scenario.doors) holes.push_back(openingOf(scenario, door));
+  return holes;
+}
+
+// Wide enough for all that opens into it.
+Rectangle roomWalls(const Scenario& scenario) {
+  const Rectangle wall = frontWall(scenario);
+  const double half_m =
+      std::max(std::min(kRoomHalfWidth_m, wall.left_m - kSideWall_m), 0.5 * scenario.window.width_m);
+  const double least_top_m = 0.5 * scenario.window.height_m + 0.05;
+  Rectangle room{-half_m, half_m, wall.bottom_m, std::max(wall.bottom_m + kRoomHeight_m, least_top_m)};
+  for (const auto& hole : clearHoles(scenario)) {
+    room.right_m = std::min(room.right_m, hole.right_m - kSideWall_m);
+    room.left_m = std::max(room.left_m, hole.left_m + kSideWall_m);
+    room.top_m = std::max(room.top_m, hole.top_m + 0.05);
+  }
+  room.right_m = std::max(room.right_m, wall.right_m);
+  room.left_m = std::min(room.left_m, wall.left_m);
+  room.top_m = std::min(room.top_m, wall.top_m);
+  return room;
+}
+
+Rectangle backWindow(const Scenario& scenario) {
+  const Rectangle room = roomWalls(scenario);
+  const double height_m = std::min(1.3, 0.5 * (room.top_m - room.bottom_m));
+  return Rectangle::around(0.15, 0.5 * (room.top_m + room.bottom_m) + 0.15, 1.9, height_m);
+}
 
 Scene buildScene(const Scenario& scenario) {
   const HouseParams& house = scenario.house;

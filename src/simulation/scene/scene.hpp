@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "simulation/scenario/scenario.hpp"
-#include "simulation/scene/glass.hpp"
 #include "simulation/scene/obstacle.hpp"
 #include "simulation/surfaces/mesh.hpp"
 
@@ -15,6 +14,12 @@ namespace window_ingress::simulation {
 struct Fog {
   Eigen::Vector3d colour;  ///< red, green, blue, 0..1
   double density_per_m;
+};
+
+/// A clear pane in the front wall: shows the room behind it and mirrors what is before it.
+struct Pane {
+  double x_m;                  ///< window frame
+  Eigen::AlignedBox2d face_m;  ///< y and z
 };
 
 /// What is to be seen and what is in the way, in the axes of the target's window frame.

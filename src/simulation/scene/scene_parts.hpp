@@ -68,7 +68,7 @@ void addSolidWall(std::vector<Obstacle>& obstacles, const std::string& name, con
 void addSolid(Scene& scene, const std::string& name, const Eigen::AlignedBox3d& solid,
               const Surface& surface);
 
-// --- what stands where (scene_layout.cpp)
+// --- what stands where (scene.cpp)
 constexpr double kOverhang_m = 0.45;  // of the roof
 /// The roof, as something to run into.
 Eigen::AlignedBox3d roofBox(const Scenario& scenario);

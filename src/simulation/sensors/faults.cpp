@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "simulation/scenario/scenario.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 

@@ -1,6 +1,7 @@
 #include "simulation/surfaces/texture.hpp"
 
 #include <algorithm>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "simulation/surfaces/texture_patterns.hpp"
@@ -87,28 +88,12 @@ cv::Mat makeTexture(Texture texture, std::uint32_t seed) {
 }
 
 double tileSize_m(Texture texture) {
-  switch (texture) {
-    case Texture::kPlaster:
-    case Texture::kPaint:
-    case Texture::kStone:
-      return 2.0;
-    case Texture::kSiding:
-      return 1.2;
-    case Texture::kLouvres:
-      return 0.4;
-    case Texture::kGrass:
-      return 2.5;
-    case Texture::kPaving:
-      return 1.6;
-    case Texture::kTiles:
-      return 2.4;
-    case Texture::kHedge:
-      return 2.0;
-    case Texture::kClouds:
-      return 60.0;
-    default:
-      return 1.0;
-  }
+  static const std::map<Texture, double> sizes_m{
+      {Texture::kPlaster, 2.0}, {Texture::kPaint, 2.0},  {Texture::kStone, 2.0},  {Texture::kSiding, 1.2},
+      {Texture::kLouvres, 0.4}, {Texture::kGrass, 2.5},  {Texture::kPaving, 1.6}, {Texture::kTiles, 2.4},
+      {Texture::kHedge, 2.0},   {Texture::kClouds, 60.0}};
+  const auto size = sizes_m.find(texture);
+  return size == sizes_m.end() ? 1.0 : size->second;
 }
 
 }  // namespace window_ingress::simulation

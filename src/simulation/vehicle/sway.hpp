@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "simulation/scenario/sway_params.hpp"
+#include "simulation/scenario/house_params.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
 
 namespace window_ingress::simulation {

@@ -12,7 +12,7 @@
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters::calibration_faults_test {
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "window_ingress/parameters/key_list.hpp"
-#include "window_ingress/text/input_error.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::configuration::overlay_test {

@@ -1,9 +1,9 @@
-#include "window_ingress/estimation/opening_fit.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
+
+#include "window_ingress/estimation/size_estimate.hpp"
 
 namespace window_ingress::estimation::opening_fit_test {
 

@@ -1,9 +1,9 @@
-#include "window_ingress/geometry/yaw_text.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "window_ingress/geometry/euler_angles.hpp"
 
 namespace window_ingress::geometry::yaw_text_test {
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "window_ingress/text/input_error.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::parameters::calibration_file_test {
 

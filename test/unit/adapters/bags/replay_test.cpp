@@ -14,9 +14,7 @@
 #include <sstream>
 #include <vector>
 
-#include "adapters/bags/detection_strip.hpp"
-#include "adapters/bags/replay_facts.hpp"
-#include "adapters/bags/replay_tables.hpp"
+#include "adapters/bags/replay_output.hpp"
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/nodes/camera_mounting.hpp"
 #include "adapters/world/world_messages.hpp"

@@ -7,8 +7,6 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "adapters/images/compressed_size.hpp"
-
 namespace window_ingress::adapters::image_conversion_test {
 
 const ImageLimits kLimits;

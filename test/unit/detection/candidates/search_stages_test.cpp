@@ -3,7 +3,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "detection/candidates/blob_masks.hpp"
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/contour_polygons.hpp"
 #include "detection/candidates/preprocess.hpp"

@@ -1,8 +1,8 @@
-#include "detection/tracking/appearance_gate.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "detection/tracking/appearance_monitor.hpp"
 
 namespace window_ingress::detection::appearance_gate_test {
 

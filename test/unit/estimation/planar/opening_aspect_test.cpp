@@ -1,4 +1,3 @@
-#include "estimation/planar/opening_aspect.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
-#include "estimation/planar/stray_border.hpp"
-
 #include <gtest/gtest.h>
 
 #include "../pose_fixtures.hpp"
+#include "estimation/planar/planar_solutions.hpp"
 
 namespace window_ingress::estimation::stray_border_test {
 

@@ -1,9 +1,8 @@
-#include "evaluation/images/survey_view.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "evaluation/images/survey_image.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "window_ingress/estimation/opening_fit.hpp"
+#include "window_ingress/estimation/size_estimate.hpp"
 
 namespace window_ingress::evaluation::filter_survey_test {
 

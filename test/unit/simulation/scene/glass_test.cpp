@@ -1,12 +1,11 @@
 /// Clear panes: how much they mirror, where the mirrored things seem to stand, and that they are solid.
-#include "simulation/scene/glass.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "../view.hpp"
+#include "simulation/scene/glazing.hpp"
 #include "simulation/scene/scene.hpp"
 #include "simulation/world.hpp"
 

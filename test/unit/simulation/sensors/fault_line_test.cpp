@@ -1,11 +1,10 @@
-#include "simulation/sensors/fault_line.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "simulation/random_stream.hpp"
+#include "simulation/sensors/faults.hpp"
 
 namespace window_ingress::simulation::fault_line_test {
 

@@ -1,13 +1,61 @@
-#include "adapters/bags/replay_tables.hpp"
+#include "adapters/bags/replay_output.hpp"
+
+#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "evaluation/csv.hpp"
+#include "window_ingress/detection/debug_image.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string useOf(const std::string& topic, const BagTopics& topics) {
+  if (topic == topics.image) return "image";
+  if (topic == topics.camera_info) return "camera-info";
+  if (topic == topics.odom) return "odom";
+  if (topic == topics.imu) return "imu";
+  if (topic == topics.truth) return "truth";
+  return topic == "/tf_static" ? "camera mounting" : "";
+}
+
+Json topicsOf(const rosbag::Bag& bag, const BagTopics& used) {
+  std::map<std::string, std::string> types;
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections())
+    types[connection->topic] = connection->datatype;
+  Json topics = Json::array();
+  for (const auto& [topic, type] : types)
+    topics.push_back({{"topic", topic},
+                      {"type", type},
+                      {"messages", messagesIn(bag, topic)},
+                      {"used_as", useOf(topic, used)}});
+  return topics;
+}
+
+Json countsOf(const ReplaySummary& summary) {
+  return {{"images", summary.images},
+          {"without_calibration", summary.images - summary.calibrated},
+          {"without_odometry", summary.images - summary.with_odometry},
+          {"without_attitude", summary.images - summary.with_attitude},
+          {"jumps_back_in_time", summary.jumps},
+          {"messages_refused", summary.refused},
+          {"refused_because", summary.reasons}};
+}
+
+std::string shellQuoted(const std::string& argument) {
+  constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@%";
+  if (!argument.empty() && argument.find_first_not_of(kPlain) == std::string::npos) return argument;
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
 
 constexpr const char* kFilteredColumns =
     ",filtered_qx,filtered_qy,filtered_qz,filtered_qw,filtered_tx,filtered_ty,filtered_tz,filtered_sigma_x,"
@@ -70,7 +118,48 @@ std::string filterDetails(const std::optional<estimation::FilteredWindow>& filte
 /// The time that an image took is not of the bag: its column stays empty.
 std::string withoutMilliseconds(const std::string& values) { return values.substr(0, values.rfind(',') + 1); }
 
+constexpr int kWidestPx = 640, kQuality = 80;
+
+std::string named(std::size_t number) { return formatted("pictures/%05zu.jpg", number); }
+
+std::string captionOf(const ReplayedFrame& frame) {
+  if (!frame.row.window) return "no window: " + frame.row.reject_reason;
+  if (!frame.row.pose) return "window";
+  return geometry::yawText(frame.row.pose->yaw_rad, frame.row.pose->yaw_sigma_rad,
+                           frame.row.pose->sign_trusted);
+}
+
 }  // namespace
+
+std::size_t messagesIn(const rosbag::Bag& bag, const std::string& topic) {
+  return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
+}
+
+void writeFacts(const std::filesystem::path& folder, const std::string& command, const rosbag::Bag& bag,
+                const ReplayParams& params, const ReplaySummary& summary) {
+  rosbag::View all(bag);
+  Json facts;
+  facts["command"] = command;
+  facts["bag"] = {{"file", bag.getFileName()},
+                  {"bytes", bag.getSize()},
+                  {"begin", exactText(all.getBeginTime())},
+                  {"seconds", (all.getEndTime() - all.getBeginTime()).toSec()}};
+  facts["topics"] = topicsOf(bag, params.topics);
+  if (params.with_pose)
+    facts["window_size_m"] = {params.homography_pose.pose.opening_width_m,
+                              params.homography_pose.pose.opening_height_m};
+  facts["has_reference"] = params.reference.has_value();
+  facts["counts"] = countsOf(summary);
+  evaluation::OutputFile file(folder / "replay.json");
+  file << facts.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+  file.finish();
+}
+
+std::string commandLine(int argc, char** argv) {
+  std::string text = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
+  for (int i = 1; i < argc; ++i) text += " " + shellQuoted(argv[i]);
+  return text;
+}
 
 std::string exactText(const ros::Time& stamp) { return formatted("%u.%09u", stamp.sec, stamp.nsec); }
 
@@ -111,6 +200,38 @@ std::string ReplayTables::compare(const ReplayedFrame& frame) {
       {params_.homography_pose.pose.opening_width_m, params_.homography_pose.pose.opening_height_m});
   summary_.add(errors);
   return truthValues(errors);
+}
+
+DetectionStrip::DetectionStrip(const std::filesystem::path& folder, std::size_t images)
+    : folder_(folder), step_(std::max<std::size_t>(1, (images + kMax - 1) / kMax)) {
+  std::filesystem::remove_all(folder / "pictures");
+  std::filesystem::create_directories(folder / "pictures");
+  list_.open(folder / "strip.csv");
+  list_ << "stamp,file,shown,caption\n";
+}
+
+const char* DetectionStrip::whyShown(const ReplayedFrame& frame) {
+  const bool is_found = frame.row.window.has_value(), is_first = seen_ == 0;
+  const bool changed = !is_first && is_found != was_found_;
+  was_found_ = is_found;
+  const bool is_due = seen_++ % step_ == 0;
+  if (changed && changes_++ < kMaxChanges) return is_found ? "found" : "lost";
+  return is_due ? "time" : nullptr;
+}
+
+void DetectionStrip::add(const ReplayedFrame& frame) {
+  const char* why = whyShown(frame);
+  if (!why || frame.image.empty() || !frame.perception) return;
+  detection::drawDetection(frame.image, frame.perception->trace(),
+                           frame.row.window ? &*frame.row.window : nullptr, canvas_);
+  const double scale = std::min(1.0, static_cast<double>(kWidestPx) / canvas_.cols);
+  cv::Mat small;
+  cv::resize(canvas_, small, {}, scale, scale, cv::INTER_AREA);
+  const std::string file = named(seen_);
+  evaluation::writeImage(folder_ / file, small, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  list_ << exactText(frame.stamp) << "," << file << "," << why << ","
+        << evaluation::csvField(captionOf(frame)) << "\n";
+  list_.finish();
 }
 
 }  // namespace window_ingress::adapters
