@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "adapters/sources/guarded.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {

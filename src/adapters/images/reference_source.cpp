@@ -1,12 +1,14 @@
 #include "adapters/images/reference_source.hpp"
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {

@@ -1,6 +1,7 @@
 #include "adapters/sources/lockstep.hpp"
 
 #include "adapters/sources/guarded.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
