@@ -8,8 +8,6 @@
 namespace window_ingress::detection {
 namespace {
 
-using geometry::Quadrilateral;
-
 constexpr int kRefinementTries = 6;
 constexpr double kLocatedRadiusPx = 2.5;  ///< reach of the fit of borders that were located
 constexpr double kSearchRadius = 1.5;     ///< likewise, of what the search found [px of its level]
@@ -71,7 +69,8 @@ std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, co
   return refinement_.run(view.image, {ring.quad, kLocatedRadiusPx, ring.sides, kAlignedStrayPx}, view.camera);
 }
 
-std::optional<RefinedBorders> TargetChoice::bordersNear(const Quadrilateral& place, const View& view) const {
+std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrilateral& place,
+                                                        const View& view) const {
   if (!view.camera) return std::nullopt;
   const auto ring = reference_.surroundingsOf(place, view.image, view.camera, RingMatcher::kFollowedStartPx);
   return ring ? fitWhere(*ring, view) : std::nullopt;

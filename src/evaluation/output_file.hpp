@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "window_ingress/text/text.hpp"
+
 namespace window_ingress::evaluation {
 
 [[noreturn]] inline void cannotBeWritten(const std::filesystem::path& file) {
@@ -34,6 +36,15 @@ class OutputFile : public std::ofstream {
  private:
   std::filesystem::path file_;
 };
+
+/// An image as its pixels lie in the file. \throws InputError that names it
+inline cv::Mat readImage(const std::filesystem::path& file) {
+  cv::Mat image;
+  if (std::filesystem::exists(file))  // OpenCV warns by itself of a file that is not there
+    image = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (image.empty()) throw InputError(file.string() + ": cannot be read as an image");
+  return image;
+}
 
 /// An image, in the format that the name says. \throws std::runtime_error that names it
 inline void writeImage(const std::filesystem::path& file, const cv::Mat& image,

@@ -1,6 +1,5 @@
 /// Draws the stages of the detector on one image, as the paper's figures 1 and 2, on one sheet.
 #include <boost/program_options.hpp>
-#include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -57,21 +56,14 @@ Subject photograph(const Job& job) {
   return subject;
 }
 
-Subject read(const Job& job) {
-  Subject subject;
-  if (std::filesystem::exists(job.image))  // OpenCV warns by itself of a file that is not there
-    subject.image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (subject.image.empty()) throw InputError(job.image + ": cannot be read as an image");
-  return subject;
-}
-
 int run(const Job& job) {
   if (job.output.empty()) throw InputError("--output is missing; see --help");
   if (job.scenario.empty() == job.image.empty())
     throw InputError("give either a scenario or an image; see --help");
   job.view.check();
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
-  const Subject subject = job.image.empty() ? photograph(job) : read(job);
+  const Subject subject =
+      job.image.empty() ? photograph(job) : Subject{evaluation::readImage(job.image), std::nullopt};
   const cv::Mat sheet = evaluation::stageSheet(
       subject.image, params, subject.reference ? &*subject.reference : nullptr, job.cell_width_px);
   evaluation::writeImage(job.output, sheet, {cv::IMWRITE_JPEG_QUALITY, kQuality});

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "evaluation/flights/flight_log.hpp"
 #include "evaluation/flights/flight_picture.hpp"
 #include "evaluation/flights/flight_table.hpp"
 #include "evaluation/output_file.hpp"

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iostream>
 #include <opencv2/highgui.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <sstream>
@@ -16,6 +15,7 @@
 #include "command_line.hpp"
 #include "corner_fit.hpp"
 #include "display.hpp"
+#include "evaluation/output_file.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {
@@ -192,9 +192,7 @@ int run(const Job& job) {
   if (std::error_code none; fs::equivalent(job.image, job.output, none))
     throw InputError("--output " + job.output + " is the photograph itself; give another name");
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
-  cv::Mat image;
-  if (fs::exists(job.image)) image = cv::imread(job.image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (image.empty()) throw InputError(job.image + ": cannot be read as an image");
+  const cv::Mat image = evaluation::readImage(job.image);
   std::vector<double> corners;
   if (!job.corners.empty()) {
     corners = tools::numbers("--corners", job.corners, 8);

@@ -1,11 +1,13 @@
 /// What the file behind --params holds for tools that look at images.
 #pragma once
 
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
+#include "window_ingress/parameters/field_list.hpp"
 
 namespace window_ingress::tools {
 
@@ -30,6 +32,21 @@ inline detection::DetectorParams readParams(const std::string& file, std::string
   const configuration::Overlay overlay = configuration::readOverlay(file);
   takeReference(file, overlay.window_detector.reference, image, corners);
   return overlay.window_detector.detector;
+}
+
+/// Writes all that differs from the defaults, so that it replaces the file that was started from.
+/// \return that \throws InputError
+inline std::string saveParams(const std::string& file, const std::string& about,
+                              detection::DetectorParams params) {
+  detection::DetectorParams defaults;
+  const std::string overlay =
+      parameters::toYaml(parameters::changed(parameters::fieldsOf(params), parameters::fieldsOf(defaults)),
+                         "window_detector/detector");
+  std::ofstream output(file);
+  output << "# Written by " << about << "\n" << overlay;
+  output.close();
+  if (!output) throw InputError(file + ": cannot be written");
+  return overlay;
 }
 
 }  // namespace window_ingress::tools

@@ -1,7 +1,6 @@
 /// Trackbars over the detector's stages, on images, a bag or a live camera; saves the yaml that nodes and
 /// tools load. See --help.
 #include <boost/program_options.hpp>
-#include <fstream>
 #include <iostream>
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgproc.hpp>
@@ -68,13 +67,11 @@ options::options_description describe(Job& job) {
 
 void save(const std::string& file, const Bench& bench) {
   if (file.empty()) throw InputError("--output is missing: where to save");
-  std::ofstream output(file);
-  output << "# Written by tune_detector: what differs from the defaults. Give it as config:= to launch "
-            "files, as --params to tools.\n"
-         << bench.overlay();
-  output.close();
-  if (!output) throw InputError(file + ": cannot be written");
-  std::cout << "written: " << file << "\n" << bench.overlay() << std::flush;
+  const std::string about =
+      "tune_detector: what differs from the defaults. Give it as config:= to launch files, as --params to "
+      "tools.";
+  const std::string overlay = tools::saveParams(file, about, bench.params());
+  std::cout << "written: " << file << "\n" << overlay << std::flush;
 }
 
 int runHeadless(const Job& job, tools::TuningSource& source, Bench& bench) {

@@ -3,7 +3,6 @@
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -21,7 +20,6 @@ namespace {
 namespace options = boost::program_options;
 using namespace window_ingress;
 using evaluation::DetectionCounts;
-using evaluation::LabelledImage;
 using parameters::fieldsOf;
 
 struct Job {
@@ -34,7 +32,7 @@ struct Job {
   double held_out = 0.4;
 };
 
-using Images = std::vector<LabelledImage>;
+using Images = std::vector<evaluation::LabelledImage>;
 
 options::options_description describe(Job& job) {
   options::options_description description(
@@ -129,17 +127,6 @@ std::string diff(const detection::DetectorParams& start, const detection::Detect
   return text;
 }
 
-// The overlay says all that differs from the defaults: it replaces the file that was started from.
-void write(const std::string& file, const detection::DetectorParams& tuned, const std::string& about) {
-  detection::DetectorParams defaults, after = tuned;
-  std::ofstream output(file);
-  output << "# Written by tune_from_bag. " << about << "\n"
-         << parameters::toYaml(parameters::changed(fieldsOf(after), fieldsOf(defaults)),
-                               "window_detector/detector");
-  output.close();
-  if (!output) throw InputError(file + ": cannot be written");
-}
-
 int run(const Job& job) {
   check(job);
   adapters::ReferenceParams wanted = job.reference;
@@ -169,7 +156,8 @@ int run(const Job& job) {
                 changes.empty() ? "no setting was better" : "not better on the images held out");
     return 1;
   }
-  write(job.output, tuned, "Held out: " + after.text() + "; before: " + before.text() + ".");
+  tools::saveParams(job.output,
+                    "tune_from_bag. Held out: " + after.text() + "; before: " + before.text() + ".", tuned);
   std::printf("written: %s\n", job.output.c_str());
   return 0;
 }

@@ -30,6 +30,7 @@ class Bench {
     if (reference_) detector_.setReference(*reference_);
   }
 
+  const detection::DetectorParams& params() const { return params_; }
   const std::vector<Field>& fields() const { return fields_; }
   void changed() { detector_.setParams(params_); }
 
@@ -52,12 +53,6 @@ class Bench {
   }
   bool found() const { return found_; }
   double milliseconds() const { return milliseconds_; }
-
-  std::string overlay() const {
-    detection::DetectorParams defaults;
-    return parameters::toYaml(parameters::changed(fields_, parameters::fieldsOf(defaults)),
-                              "window_detector/detector");
-  }
 
  private:
   std::string times() const {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "evaluation/poses/noisy_borders.hpp"
-#include "evaluation/poses/pose_methods.hpp"
 #include "evaluation/poses/pose_survey.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/geometry/frames.hpp"

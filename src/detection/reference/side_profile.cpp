@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3f;
-using geometry::Quadrilateral;
 
 constexpr double kProfileSkip = 0.08;  ///< left out at both ends of a side
 constexpr int kFewestAcross = 12;
@@ -81,8 +80,9 @@ double SideProfile::largestChange(double from, double to, double* place) const {
   return most;
 }
 
-void measureSides(const cv::Mat& image, const Quadrilateral& ideal, const geometry::PinholeCamera* lens,
-                  const ProfileReach& reach, std::array<SideProfile, 4>& sides) {
+void measureSides(const cv::Mat& image, const geometry::Quadrilateral& ideal,
+                  const geometry::PinholeCamera* lens, const ProfileReach& reach,
+                  std::array<SideProfile, 4>& sides) {
   const geometry::UnitSquare map(ideal);
   const double width = 2.0 * reach.aspect / (1.0 + reach.aspect), height = 2.0 / (1.0 + reach.aspect);
   const double length = reach.inward + reach.outward;

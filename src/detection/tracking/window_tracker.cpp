@@ -10,8 +10,6 @@
 namespace window_ingress::detection {
 namespace {
 
-using geometry::Quadrilateral;
-
 constexpr double kReshape = 0.25;        ///< unforeseen change of its size and roll [window sides/s]
 constexpr double kWarp = 0.08;           ///< unforeseen change of aspect, skew and keystone [window sides/s]
 constexpr double kAdaptCertainty = 0.8;  ///< only above this the reference follows the light, 0 to 1
@@ -37,7 +35,7 @@ void WindowTracker::Impl::begin(const TrackInput& input) {
 
 // What is followed there stays; what is followed elsewhere does not.
 void WindowTracker::Impl::heedExpected(const TrackInput& input) {
-  const Quadrilateral place = undistorted(*input.expected, images.lens());
+  const geometry::Quadrilateral place = undistorted(*input.expected, images.lens());
   if (tracking) {
     frames_elsewhere = identity.isSame(motion.quad(), place) ? 0 : frames_elsewhere + 1;
     if (frames_elsewhere < kElsewhereFrames) return;

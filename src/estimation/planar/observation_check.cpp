@@ -9,12 +9,11 @@ namespace window_ingress::estimation {
 namespace {
 
 using detection::WindowObservation;
-using geometry::Quadrilateral;
 
 constexpr double kMinSidePx = 4.0;
 constexpr double kMinCornerAngleRad = 0.15;  // interior angles stay this far from 0 and pi
 
-bool isNearImage(const Quadrilateral& corners, const geometry::PinholeCamera& camera) {
+bool isNearImage(const geometry::Quadrilateral& corners, const geometry::PinholeCamera& camera) {
   const double margin = std::max(camera.width, camera.height);
   return std::all_of(corners.begin(), corners.end(),
                      [&](const auto& p) { return camera.contains(p, -margin); });

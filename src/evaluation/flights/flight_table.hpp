@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
+#include "evaluation/flights/flight_observer.hpp"
 #include "evaluation/flights/flight_summary.hpp"
 #include "simulation/scenario/scenario.hpp"
 
@@ -34,5 +36,17 @@ using FlightDraws = std::map<std::uint32_t, simulation::Quantiles>;
 /// A csv file with a header `seed,KEY,...` (paths of keys with a range, as in `simulation::Quantiles`) and a
 /// row a flight. \throws InputError that names file and line
 FlightDraws readDraws(const std::string& file);
+
+/// Every step of a flight.
+class FlightLog : public FlightObserver {
+ public:
+  void onStep(const FlightRecord& record, const navigation::NavigatorOutput&) override {
+    records.push_back(record);
+  }
+  std::vector<FlightRecord> records;
+};
+
+/// As csv with a header.
+void writeCsv(const FlightLog& log, std::ostream& out);
 
 }  // namespace window_ingress::evaluation

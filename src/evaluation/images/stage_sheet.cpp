@@ -16,7 +16,6 @@ namespace window_ingress::evaluation {
 namespace {
 
 using detection::DetectorParams;
-using geometry::Quadrilateral;
 
 constexpr int kSheetColumns = 3, kSmallest_px = 64;
 constexpr double kBackground = 0.35;  ///< brightness of the image behind what was found in it
@@ -31,7 +30,7 @@ struct Canvas {
   static Eigen::Vector2d at(const Eigen::Vector2d& p) {
     return kZoom * p + Eigen::Vector2d::Constant(0.5 * (kZoom - 1));
   }
-  void draw(const Quadrilateral& q, const cv::Scalar& colour) {
+  void draw(const geometry::Quadrilateral& q, const cv::Scalar& colour) {
     detection::drawQuad(image, {at(q[0]), at(q[1]), at(q[2]), at(q[3])}, colour, 1);
   }
   static constexpr double kZoom = 2.0;

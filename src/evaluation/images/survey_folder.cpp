@@ -42,12 +42,6 @@ std::string rowOf(const SurveyImage& sample) {
          numbers(sample.reference.empty() ? none : sample.reference_corners);
 }
 
-cv::Mat readImage(const std::string& file) {
-  const cv::Mat image = cv::imread(file, cv::IMREAD_COLOR);
-  if (image.empty()) throw InputError(file + ": cannot be read as an image");
-  return image;
-}
-
 std::string calibrationOf(const geometry::PinholeCamera& camera) {
   const auto list = [](const auto& values) {
     std::string text;

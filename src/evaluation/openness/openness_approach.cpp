@@ -8,9 +8,6 @@
 namespace window_ingress::evaluation {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-
 constexpr double kSeen_px = 3.0;  // of each corner from the image's border
 
 const geometry::OpeningSize kNeeded{0.6, 0.34};
@@ -31,7 +28,7 @@ OpennessApproach::OpennessApproach(const OpennessRange& range, const geometry::O
 }
 
 Eigen::Isometry3d OpennessApproach::noisyTurn(double sigma_rad) {
-  const Vector3d turn = random_.normals(sigma_rad);
+  const Eigen::Vector3d turn = random_.normals(sigma_rad);
   const double angle = turn.norm();
   if (angle < 1e-12) return Eigen::Isometry3d::Identity();
   return Eigen::Isometry3d(Eigen::AngleAxisd(angle, turn / angle));
@@ -49,7 +46,7 @@ std::optional<detection::WindowObservation> OpennessApproach::look(const geometr
   if (!window) return std::nullopt;
   for (int i = 0; i < 4; ++i) {
     auto& [visible, sigma_px, sigma_rad, a, b] = window->edges[i];
-    const Vector2d along = (b - a).normalized(), outwards(along.y(), -along.x());
+    const Eigen::Vector2d along = (b - a).normalized(), outwards(along.y(), -along.x());
     a += border_bias_px_[i] * outwards;
     b += border_bias_px_[i] * outwards;
   }

@@ -16,10 +16,9 @@ namespace window_ingress::evaluation {
 /// What is set up wrongly. All of it is unknown to those who are fed.
 struct FrameFaults {
   Eigen::Vector3d mounting_rad = Eigen::Vector3d::Zero();  ///< the camera is turned about the body's x, y, z
-  std::string mounting_axes =
-      "right";                     ///< right; optical (no optical frame: identity); left, right_side, behind
-  std::string twist = "body";      ///< body; world, swapped (x and y), ned (y and z mirrored)
-  bool mirrored_odometry = false;  ///< x and y of the position exchanged
+  std::string mounting_axes = "right";  ///< right; optical: an identity; left, right_side, behind
+  std::string twist = "body";           ///< body; world, swapped (x and y), ned (y and z mirrored)
+  bool mirrored_odometry = false;       ///< x and y of the position exchanged
 };
 
 /// A way through points in the window's frame at nearly constant speed.
@@ -43,8 +42,7 @@ class SyntheticApproach {
   SyntheticApproach(std::uint32_t seed, const ApproachScript& script, const estimation::FilterParams& errors,
                     const FrameFaults& faults = {});
 
-  static constexpr double kSampleSigmaPx =
-      0.5;  ///< of one of the samples, one a pixel, that a border is fitted to
+  static constexpr double kSampleSigmaPx = 0.5;  ///< of each sample of a border, one a pixel
   static constexpr double kOdometryRateHz = 50.0;
 
   /// \return false at the end of the way

@@ -10,11 +10,10 @@ namespace {
 
 constexpr int kAlong = 4, kAcross = 4;  // half of the patch [px]
 constexpr int kValues = (2 * kAlong + 1) * (2 * kAcross + 1);
+using Patch = std::array<float, kValues>;
 constexpr int kSteps = 8;
 constexpr double kArrived_px = 0.02, kFurthest_px = 4.0;  // of a step; of the way from the guess
 constexpr double kLikeness = 0.8;                         // correlation of the two patches
-
-using Patch = std::array<float, kValues>;
 
 float at(const cv::Mat& grey, float x, float y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
@@ -59,6 +58,12 @@ double dot(const Patch& a, const Patch& b) {
   for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i] * b[i]);
   return sum;
 }
+
+constexpr int kSide = OpeningCells::kSide;
+constexpr int kShrink = 2;        // of the image: faint edges part regions, noise does not
+constexpr int kReach_px = 8;      // of a point to the regions beside its edge
+constexpr double kFilled = 0.75;  // of a cell's pixels
+constexpr double kDarkest = 16.0, kBrightest = 244.0;  // mean of a region in which an edge would be seen
 
 }  // namespace
 
@@ -109,6 +114,52 @@ std::optional<cv::Point2f> followAcross(const cv::Mat& key, const cv::Mat& now, 
   if (!cut(now, place, edge.normal, after)) return std::nullopt;
   const double likeness = dot(before, after) / std::sqrt(dot(before, before) * dot(after, after) + 1e-9);
   return likeness > kLikeness ? std::optional(place) : std::nullopt;
+}
+
+void SmoothRegions::find(const cv::Mat& grey, double most_slope) {
+  cv::pyrDown(grey, small_);
+  cv::GaussianBlur(small_, small_, {3, 3}, 0.0);
+  slopes_.take(small_);
+  slopes_.flatterThan(kShrink * most_slope, is_smooth_);
+  cv::erode(is_smooth_, is_smooth_, cv::Mat());  // closes gaps of up to two of its pixels in edges
+  fillCells(cv::connectedComponents(is_smooth_, labels_, 4, CV_32S));
+}
+
+void SmoothRegions::fillCells(int regions) {
+  brightness_.assign(static_cast<std::size_t>(regions), 0.0);
+  pixels_.assign(static_cast<std::size_t>(regions), 0);
+  for (int y = 0; y < small_.rows; ++y)
+    for (int x = 0; x < small_.cols; ++x) {
+      const auto label = static_cast<std::size_t>(labels_.at<int>(y, x));
+      brightness_[label] += small_.at<unsigned char>(y, x);
+      ++pixels_[label];
+    }
+  cells_of_.assign(static_cast<std::size_t>(regions), 0);
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const int left = column * small_.cols / kSide, right = (column + 1) * small_.cols / kSide;
+      const int top = row * small_.rows / kSide, bottom = (row + 1) * small_.rows / kSide;
+      within_.assign(static_cast<std::size_t>(regions), 0);
+      for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) ++within_[static_cast<std::size_t>(labels_.at<int>(y, x))];
+      within_[0] = 0;  // edges
+      const auto most = std::max_element(within_.begin(), within_.end());
+      const auto label = static_cast<std::size_t>(most - within_.begin());
+      const double mean = brightness_[label] / std::max(1, pixels_[label]);
+      if (*most > kFilled * (right - left) * (bottom - top) && mean > kDarkest && mean < kBrightest)
+        cells_of_[label] |= std::uint64_t{1} << (row * kSide + column);
+    }
+}
+
+std::uint64_t SmoothRegions::cellsBeside(const cv::Point2f& point) const {
+  const int x = static_cast<int>(std::lround(point.x / kShrink));
+  const int y = static_cast<int>(std::lround(point.y / kShrink));
+  constexpr int kReach = kReach_px / kShrink;
+  std::uint64_t beside = 0;
+  for (int row = std::max(0, y - kReach); row <= std::min(labels_.rows - 1, y + kReach); ++row)
+    for (int column = std::max(0, x - kReach); column <= std::min(labels_.cols - 1, x + kReach); ++column)
+      beside |= cells_of_[static_cast<std::size_t>(labels_.at<int>(row, column))];
+  return beside;
 }
 
 }  // namespace window_ingress::openness

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "openness/interior/edge_flow.hpp"
-#include "openness/interior/smooth_regions.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::openness {

@@ -5,8 +5,6 @@
 namespace window_ingress::simulation {
 namespace {
 
-using Eigen::Vector3d;
-
 // Where the furniture stands.
 struct Floor {
   Rectangle room;
@@ -34,7 +32,7 @@ void addPicture(const Floor& floor, Scene& scene) {
   scene.mesh.addBox(box(back_m - 0.008, back_m, {-0.25, 0.8, level_m + 1.2, level_m + 1.95}),
                     painted({90, 70, 50}));
   scene.mesh.addPicture({back_m - 0.012, 0.75, level_m + 1.25}, {0, -0.95, 0}, {0, 0, 0.65},
-                        {Texture::kPoster, Vector3d::Constant(255)});
+                        {Texture::kPoster, Eigen::Vector3d::Constant(255)});
 }
 
 void addTable(const Floor& floor, Scene& scene) {

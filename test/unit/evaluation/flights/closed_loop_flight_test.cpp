@@ -7,7 +7,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "evaluation/flights/flight_log.hpp"
 #include "evaluation/flights/flight_table.hpp"
 
 namespace window_ingress::evaluation::closed_loop_flight_test {
