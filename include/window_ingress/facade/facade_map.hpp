@@ -15,9 +15,9 @@ namespace window_ingress::facade {
 
 /// A window that was seen, and what is known of it.
 struct KnownWindow {
-  std::uint32_t id = 0;  ///< its number: from 1, once enough images have shown it; never given to another
-                         ///< one, but after a reset
-  std::uint32_t key = 0;  ///< from 1, of the first image that showed it; the older one's is less
+  std::uint32_t id = 0;   ///< from 1, once enough images have shown it; never given to another one, but after
+                          ///< a reset
+  std::uint32_t key = 0;  ///< from 1, since the first image that showed it; the older one's is less
   WindowPlace place;
   double last_seen_sec = 0.0;
   int sights = 0;                       ///< images that showed it
