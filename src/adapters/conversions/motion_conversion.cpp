@@ -60,15 +60,6 @@ geometry_msgs::Transform toTransformMsg(const Eigen::Isometry3d& pose) {
   return tf2::eigenToTransform(pose).transform;
 }
 
-geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
-                                        const estimation::Matrix6d& covariance) {
-  geometry_msgs::PoseWithCovariance message;
-  message.pose = toPoseMsg(pose);
-  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = covariance;
-  std::copy(rows.data(), rows.data() + rows.size(), message.covariance.begin());
-  return message;
-}
-
 geometry_msgs::Vector3 toVectorMsg(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
   return tf2::toMsg(vector, message);

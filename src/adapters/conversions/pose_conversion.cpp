@@ -66,6 +66,15 @@ estimation::TargetMotion fromMsg(const window_ingress::WindowMotion& message) {
 
 }  // namespace
 
+geometry_msgs::PoseWithCovariance toMsg(const Eigen::Isometry3d& pose,
+                                        const estimation::Matrix6d& covariance) {
+  geometry_msgs::PoseWithCovariance message;
+  message.pose = toPoseMsg(pose);
+  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = covariance;
+  std::copy(rows.data(), rows.data() + rows.size(), message.covariance.begin());
+  return message;
+}
+
 window_ingress::ImagePose toMsg(const estimation::PoseResult& result) {
   window_ingress::ImagePose message;
   message.reject = static_cast<std::uint8_t>(result.reject);
