@@ -22,7 +22,7 @@ class Unusable(Exception):
 
 
 def calibration(file):
-    """\return the camera_info that the calibrator's file says"""
+    """The camera_info that the calibrator's file says."""
     file = os.path.expanduser(file.replace("file://", "", 1))
     if not os.path.isfile(file):
         raise Unusable(f"calibration {file}: no such file; calibrate the camera that took the video (doc/window.md), or give calibration:=")

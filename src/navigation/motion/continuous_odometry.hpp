@@ -64,6 +64,9 @@ class ContinuousOdometry {
   bool isVelocityWorse() const { return is_velocity_worse_; }
 
  private:
+  static constexpr double kSecond = 1.0;
+  static constexpr double kMostOfVelocityMps =
+      0.5;  ///< no velocity is off by more for long, before its bias is known
   static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
   /// What position and velocity differ by, as of one piece of the way or as usual.
   struct Difference {
@@ -93,6 +96,7 @@ class ContinuousOdometry {
     double misfit_m2 = 0.0, misfit_turned_m2 = 0.0;
   };
 
+  static Eigen::Matrix3d uprightOf(const VehicleState& vehicle);
   VehicleState inSmooth(const VehicleState& odometry) const;
   bool headingComesBack(double turned_rad) const;
   void judgeTurn(const VehicleState& odometry);
