@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "estimation/target_checks.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::estimation {
@@ -14,6 +15,15 @@ std::string otherWindowText(double factor) {
 std::string contradictedText(const Consistency& consistency) {
   return formatted("%d of %d images contradict the window that was made out: of another size than told?",
                    consistency.refused, consistency.refused + consistency.images);
+}
+
+// More than any heading that is off for long: it was turned a moment ago, or the camera is mounted askew.
+std::string turnedText(const CameraTurn& camera) {
+  constexpr double kMaxTurnRad = 0.09, kCertainSigmas = 2.0;
+  const double turn_rad = camera.turn_rad.y(), sigma_rad = std::sqrt(camera.covariance(1, 1));
+  if (!(std::abs(turn_rad) - kCertainSigmas * sigma_rad > kMaxTurnRad)) return "";
+  return formatted("camera's yaw or odometry's heading off by about %.0f deg",
+                   std::abs(turn_rad) * geometry::kDegreesPerRad);
 }
 
 }  // namespace
@@ -70,6 +80,7 @@ std::string TargetEstimator::approachForbidden(const FilteredWindow& window) con
   const FramesVerdict frames = checks_->frames.verdict();
   if (frames.state == FramesVerdict::kWrong) return frames.what;
   if (const auto factor = otherWindow()) return otherWindowText(*factor);
+  if (auto turned = turnedText(window.camera_turn); !turned.empty()) return turned;
   if (window.consistency.contradicted) return contradictedText(window.consistency);
   const FitVerdict verdict = fit(window);
   if (verdict.fit == Fit::kGo) return "";

@@ -18,16 +18,13 @@ namespace {
 constexpr double kExpectedSquares = 8.0;
 constexpr double kMeanOver = 30.0;            // images
 constexpr double kRestartMeanSquares = 20.0;  // over those; beyond it the filter starts anew
+constexpr double kFixedYawSigmaRad = 0.005;   // after a jump, or images that contradicted
 constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
 constexpr double kSystematicRenewalSec = 20.0;  // at one place
 constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
 constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
 constexpr double kSureOfHeight = 0.2;           // relative
 constexpr double kHeldSigmaGrowth = 1.5;        // the restart may have had a reason
-
-Eigen::Vector3d upInCamera(const Eigen::Isometry3d& T_odom_camera) {
-  return T_odom_camera.linear().transpose().col(2);
-}
 
 CameraTurn cameraTurn(const WindowHypothesis& window) {
   return {-window.state().values.segment<3>(WindowState::kPitchBias),
@@ -37,21 +34,19 @@ CameraTurn cameraTurn(const WindowHypothesis& window) {
 }  // namespace
 
 struct WindowFilter::Impl {
-  Impl(const FilterParams& p, const std::optional<SizeEstimate>& size)
-      : params(p), nominal_size(size), viewpoints(FilterParams::kSystematicRenewalM), beliefs(p) {}
+  Impl(const FilterParams& p, const std::optional<SizeEstimate>& size) : params(p), nominal_size(size) {}
 
   FilterParams params;
   std::optional<SizeEstimate> nominal_size, held_size;
-  Viewpoints viewpoints;
-  WindowHypotheses beliefs;
+  YawBias yaw_bias{0.0, params.mounting_yaw_sigma_rad};  // to begin with
+  Viewpoints viewpoints{FilterParams::kSystematicRenewalM};
+  WindowHypotheses beliefs{params};
   ConsistencyMonitor consistency;
   OdometrySmoother path;
   std::uint32_t target_id = 0;
-  double stamp_sec = 0.0;
-  double interval_sec = 1.0;
+  double stamp_sec = 0.0, interval_sec = 1.0;
   Eigen::Vector3d camera_position = Eigen::Vector3d::Zero();
-  int updates = 0;
-  int outliers = 0;
+  int updates = 0, outliers = 0;
   double mean_squares = kExpectedSquares;
 
   bool sizeIsKnown() const { return !nominal_size || nominal_size->log_covariance.isZero(0.0); }
@@ -65,7 +60,7 @@ struct WindowFilter::Impl {
   }
 
   void forgetPlaces() {
-    holdSize();
+    hold();
     path.clear();
     beliefs.clear();
     forgetImages();
@@ -74,17 +69,24 @@ struct WindowFilter::Impl {
   void reset() {
     forgetPlaces();
     held_size.reset();
+    yaw_bias = {0.0, params.mounting_yaw_sigma_rad};
   }
 
-  // A filter that was at odds with its images has no size worth keeping.
-  void holdSize() {
-    if (beliefs.empty() || sizeIsKnown()) return;
+  // A filter that was at odds with its images has nothing worth keeping.
+  void hold() {
+    if (beliefs.empty()) return;
     held_size.reset();
     if (!beliefs.areUnambiguous() || mean_squares > kRestartMeanSquares) return;
+    if (params.yaw_bias_lasts) yaw_bias = believed().yawBias();
     SizeEstimate found = believed().size();
-    if (found.log_covariance.trace() > kMaxHeldSigma * kMaxHeldSigma) return;
+    if (sizeIsKnown() || found.log_covariance.trace() > kMaxHeldSigma * kMaxHeldSigma) return;
     found.log_covariance *= kHeldSigmaGrowth * kHeldSigmaGrowth;
     held_size = found;
+  }
+
+  // Where odometry turned a moment ago, what is seen then must not pass for an error that lasts.
+  void fixYawBias() {
+    if (params.yaw_bias_lasts) yaw_bias.sigma_rad = std::min(yaw_bias.sigma_rad, kFixedYawSigmaRad);
   }
 
   SizeEstimate priorSize(const geometry::OpeningSize& fitted) const {
@@ -128,10 +130,11 @@ struct WindowFilter::Impl {
   // What was believed before is kept until a new start succeeds.
   bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
     if (!estimate) return false;
-    holdSize();
+    hold();
+    if (!beliefs.empty()) fixYawBias();
     const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
     const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
-    if (!beliefs.start(T_odom_window, priorSize(estimate->opening), alone)) return false;
+    if (!beliefs.start(T_odom_window, priorSize(estimate->opening), yaw_bias, alone)) return false;
     forgetImages();
     accept(stamp, alone);
     return true;
@@ -159,8 +162,9 @@ struct WindowFilter::Impl {
     if (!geometry::isValidPose(T_odom_camera) || !camera.validate().empty() || !isInOrder(window.stamp_sec) ||
         (window.whole() && (!geometry::isFinite(window.corners) || !geometry::isConvex(window.corners))))
       return false;
-    if (!isUpright(window, upInCamera(T_odom_camera))) return false;
-    const auto ordered = upright(window, upInCamera(T_odom_camera));
+    const Eigen::Vector3d up_camera = T_odom_camera.linear().transpose().col(2);
+    if (!isUpright(window, up_camera)) return false;
+    const auto ordered = upright(window, up_camera);
     const auto shared = ImageMeasurement::make(ordered, camera, noiseAt(T_odom_camera.translation()));
     const auto first = ImageMeasurement::make(ordered, camera, noise());
     if (!shared || !first) return false;
@@ -237,7 +241,8 @@ struct WindowFilter::Impl {
     out.covariance = covarianceOf(window);
     out.hypothesis_weight = std::exp(hypotheses.front().log_weight);
     out.updates = updates;
-    out.sign_trusted = beliefs.areUnambiguous() && window.yawSigma() < params.trusted_yaw_sigma_rad;
+    out.sign_trusted =
+        beliefs.areUnambiguous() && window.yawFromSightSigma(camera_position) < params.trusted_yaw_sigma_rad;
     if (hypotheses.size() > 1) {
       const WindowHypothesis other = predicted(hypotheses[1].window, age_sec);
       out.alternative =
@@ -285,6 +290,10 @@ std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
 }
 
 void WindowFilter::reset() { impl_->reset(); }
-void WindowFilter::forgetPlaces() { impl_->forgetPlaces(); }
+
+void WindowFilter::forgetPlaces() {
+  impl_->forgetPlaces();
+  impl_->fixYawBias();
+}
 
 }  // namespace window_ingress::estimation

@@ -9,7 +9,9 @@ struct FilterParams {
   double odom_position_sigma_m = 0.01;     ///< noise of each camera position, latency included [m]
   double odom_attitude_sigma_rad = 0.004;  ///< noise of each camera attitude, latency included [rad]
   double attitude_bias_sigma_rad = 0.02;  ///< lasting error of roll and pitch, camera mounting included [rad]
-  double mounting_yaw_sigma_rad = 0.005;  ///< lasting error of the camera's yaw on the vehicle [rad]
+  double mounting_yaw_sigma_rad =
+      0.03;  ///< lasting error of the camera's yaw on the vehicle, and of odometry's heading beside its
+             ///< positions: an autopilot's compass is 3 to 5 degrees off [rad]
   double drift_m_per_sqrt_m = 0.03;  ///< odometry's random walk of position over distance flown [m/sqrt(m)]
   double drift_rad_per_sqrt_sec = 0.002;  ///< odometry's random walk of heading over time [rad/sqrt(s)]
   double target_speed_mps =
@@ -24,6 +26,7 @@ struct FilterParams {
   double systematic_sigma_px = 0.15;     // `PoseParams::systematic_sigma_px`
   double drift_m_per_sqrt_sec = 0.01;    // config/vehicle.yaml
   double attitude_bias_time_sec = 20.0;  // how long the lasting error of roll and pitch lasts
+  bool yaw_bias_lasts = true;            // what was found of it outlives a new start
   double trusted_yaw_sigma_rad = 0.06;   // largest of a trusted hypothesis
   int outliers_until_restart = 5;        // in a row
 

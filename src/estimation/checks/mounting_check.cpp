@@ -30,6 +30,7 @@ constexpr int kSetupsAnImage = 4;
 FilterParams openParams(FilterParams filter) {
   filter.attitude_bias_sigma_rad = filter.mounting_yaw_sigma_rad = kPriorSigmaRad;
   filter.attitude_bias_time_sec = kLastingSec;
+  filter.yaw_bias_lasts = false;
   filter.trusted_yaw_sigma_rad = 0.5;
   filter.outliers_until_restart = 1000;
   return filter;

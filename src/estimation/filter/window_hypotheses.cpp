@@ -21,18 +21,18 @@ double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)
 }  // namespace
 
 bool WindowHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size,
-                             const FilterView& view) {
+                             const YawBias& yaw_bias, const FilterView& view) {
   const Eigen::Vector3d position = view.T_odom_camera.translation();
-  WindowHypothesis window(params_, T_odom_window, size, position);
+  WindowHypothesis window(params_, T_odom_window, size, yaw_bias, position);
   auto outcome = window.update(params_, view);
   if (!passesGate(outcome, params_)) {
-    window = WindowHypothesis(params_, window.mirrored(position).T_odom_window(), size, position);
+    window = WindowHypothesis(params_, window.mirrored(position).T_odom_window(), size, yaw_bias, position);
     outcome = window.update(params_, view);
   }
   if (!passesGate(outcome, params_)) return false;
   hypotheses_.assign(1, {window, 0.0});
   may_split_ = true;
-  addMirrorImage(view, size, outcome->squares);
+  addMirrorImage(view, size, yaw_bias, outcome->squares);
   settle(position);
   return true;
 }
@@ -40,15 +40,16 @@ bool WindowHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeE
 // The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
 // Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
 // belief.
-void WindowHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate& size, double squares) {
+void WindowHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate& size,
+                                      const YawBias& yaw_bias, double squares) {
   const WindowHypothesis& window = hypotheses_.front().window;
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   const Eigen::Isometry3d image = window.mirrored(position).T_odom_window();
-  WindowHypothesis other(params_, image, size, position);
+  WindowHypothesis other(params_, image, size, yaw_bias, position);
   auto outcome = other.update(params_, view);
   if (!outcome || window.distanceTo(other) < kMergeDistance) {
-    if (std::abs(window.yawFromSight(position)) < kSplitSigmas * window.yawSigma()) return;
-    other = WindowHypothesis(params_, image, size, position, window.yawSigma());
+    if (std::abs(window.yawFromSight(position)) < kSplitSigmas * window.yawFromSightSigma(position)) return;
+    other = window.mirrored(position);
     outcome = other.update(params_, view);
   }
   if (!outcome) return;
@@ -119,7 +120,8 @@ void WindowHypotheses::mergeOrDrop() {
 void WindowHypotheses::split(const Eigen::Vector3d& camera_position) {
   if (hypotheses_.size() != 1 || !may_split_) return;
   const WindowHypothesis window = hypotheses_.front().window;
-  const double angle = std::abs(window.yawFromSight(camera_position)), sigmas = angle / window.yawSigma();
+  const double angle = std::abs(window.yawFromSight(camera_position));
+  const double sigmas = angle / window.yawFromSightSigma(camera_position);
   if (2.0 * angle < kHarmlessYawRad || sigmas < kSplitSigmas) return;
   const double other = upperTail(sigmas);
   if (other < kMinWeight) return;

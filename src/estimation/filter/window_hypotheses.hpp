@@ -25,7 +25,8 @@ class WindowHypotheses {
   /// Begins anew with a pose from one image, and with its mirror image.
   /// \return false, and nothing changed, if no upright window next to that pose, or to its mirror image,
   /// explains the image
-  bool start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size, const FilterView& view);
+  bool start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size, const YawBias& yaw_bias,
+             const FilterView& view);
 
   /// Time passes, the camera flies a way, and an image is applied to all hypotheses.
   /// \return what the image was to the hypothesis that it fits best; nothing, and nothing changed, if it is
@@ -36,7 +37,8 @@ class WindowHypotheses {
   bool areUnambiguous() const;
 
  private:
-  void addMirrorImage(const FilterView& view, const SizeEstimate& size, double squares);
+  void addMirrorImage(const FilterView& view, const SizeEstimate& size, const YawBias& yaw_bias,
+                      double squares);
   void settle(const Eigen::Vector3d& camera_position);
   void normalise();
   void mergeOrDrop();

@@ -17,7 +17,7 @@ using Weight = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 
 constexpr int kMaxDescents = 20;
 constexpr double kConverged = 1e-5;  // of a step's squared Mahalanobis length
-constexpr double kPriorPositionSigmaM = 3.0;
+constexpr double kPriorPositionSigmaM = 3.0, kPriorYawSigmaRad = 0.7;
 constexpr double kStandingSigma = 1e-6;  // heights per second: beyond all doubt, yet invertible
 
 template <typename Llt>
@@ -117,18 +117,18 @@ double leastCostNear(const FitState& point) {
 }  // namespace
 
 WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
-                                   const SizeEstimate& size, const Eigen::Vector3d& anchor_m,
-                                   double yaw_sigma_rad) {
+                                   const SizeEstimate& size, const YawBias& yaw_bias,
+                                   const Eigen::Vector3d& anchor_m) {
   const double inverse_height = 1.0 / size.size.height_m;
   state_.anchor_m = anchor_m;
   state_.values << inverse_height * (T_odom_window.translation() - anchor_m),
-      geometry::yawOf(T_odom_window.linear()), 0.0, 0.0, 0.0,
+      geometry::yawOf(T_odom_window.linear()), 0.0, yaw_bias.rad, 0.0,
       std::log(size.size.width_m / size.size.height_m), inverse_height, Eigen::Vector3d::Zero();
   const double speed = inverse_height * params.target_speed_mps;
   Vector sigma = Vector::Zero();
   sigma.tail<3>().setConstant(std::max(speed, kStandingSigma));
-  sigma.head<7>() << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), yaw_sigma_rad,
-      params.attitude_bias_sigma_rad, params.mounting_yaw_sigma_rad, params.attitude_bias_sigma_rad;
+  sigma.head<7>() << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), kPriorYawSigmaRad,
+      params.attitude_bias_sigma_rad, yaw_bias.sigma_rad, params.attitude_bias_sigma_rad;
   covariance_ = sigma.cwiseAbs2().asDiagonal();
   Eigen::Matrix2d aspect_and_scale;
   aspect_and_scale << 1.0, -1.0, 0.0, -inverse_height;
@@ -239,12 +239,21 @@ double WindowHypothesis::yawFromSight(const Eigen::Vector3d& camera_position) co
   return wrapAngle(state_.yaw() - std::atan2(sight.y(), sight.x()));
 }
 
-WindowHypothesis WindowHypothesis::mirrored(const Eigen::Vector3d& camera_position) const {
+Eigen::RowVector4d WindowHypothesis::yawFromSightByPose(const Eigen::Vector3d& camera_position) const {
   const Eigen::Vector2d sight = (state_.position() - camera_position).head<2>();
+  return {sight.y() / sight.squaredNorm(), -sight.x() / sight.squaredNorm(), 0.0, 1.0};
+}
+
+double WindowHypothesis::yawFromSightSigma(const Eigen::Vector3d& camera_position) const {
+  const auto slope = yawFromSightByPose(camera_position);
+  return std::sqrt(slope.dot(poseCovariance() * slope.transpose()));
+}
+
+WindowHypothesis WindowHypothesis::mirrored(const Eigen::Vector3d& camera_position) const {
   WindowHypothesis out = *this;
   out.state_.values(WindowState::kYaw) = wrapAngle(state_.yaw() - 2.0 * yawFromSight(camera_position));
-  Eigen::RowVector4d yaw_by_pose;
-  yaw_by_pose << -2.0 * sight.y() / sight.squaredNorm(), 2.0 * sight.x() / sight.squaredNorm(), 0.0, -1.0;
+  Eigen::RowVector4d yaw_by_pose = -2.0 * yawFromSightByPose(camera_position);
+  yaw_by_pose(3) += 1.0;
   Matrix jacobian = Matrix::Identity();
   jacobian.row(WindowState::kYaw) = yaw_by_pose * state_.poseByValues();
   out.covariance_ = jacobian * covariance_ * jacobian.transpose();

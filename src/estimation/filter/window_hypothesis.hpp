@@ -25,15 +25,18 @@ struct FilterView {
   bool moves = true;  ///< else this image tells nothing about the scale
 };
 
+/// What is known of the camera's yaw on the vehicle, and of odometry's heading beside its positions.
+struct YawBias {
+  double rad = 0.0, sigma_rad = 0.0;
+};
+
 /// One belief about the window in the odometry frame: an iterated extended Kalman filter on `WindowState`.
 class WindowHypothesis {
  public:
   /// A wide prior around a pose from a single image; the image itself is still to be applied.
   /// \param anchor_m of the state: the camera's position at that image
   WindowHypothesis(const FilterParams& params, const Eigen::Isometry3d& T_odom_window,
-                   const SizeEstimate& size, const Eigen::Vector3d& anchor_m,
-                   double yaw_sigma_rad = kWideYawSigmaRad);
-  static constexpr double kWideYawSigmaRad = 0.7;
+                   const SizeEstimate& size, const YawBias& yaw_bias, const Eigen::Vector3d& anchor_m);
 
   /// Time passes and the camera flies a way to its position: odometry drifts, attitude errors fade.
   void predict(const FilterParams& params, double elapsed_sec, double way_m,
@@ -52,10 +55,16 @@ class WindowHypothesis {
   Eigen::Matrix4d poseCovariance() const;      ///< x, y, z [m], yaw [rad]; odom axes
   Eigen::Matrix3d velocityCovariance() const;  ///< of the window, odom axes [(m/s)^2]
   SizeEstimate size() const;
+  YawBias yawBias() const {
+    return {state_.values(WindowState::kYawBias),
+            std::sqrt(covariance_(WindowState::kYawBias, WindowState::kYawBias))};
+  }
   double yawSigma() const { return std::sqrt(covariance_(WindowState::kYaw, WindowState::kYaw)); }
 
   /// Angle of the window's axis against the horizontal line of sight [rad]: 0 when seen along its axis.
   double yawFromSight(const Eigen::Vector3d& camera_position) const;
+  /// An error of the heading turns the window about the camera, and is not in it.
+  double yawFromSightSigma(const Eigen::Vector3d& camera_position) const;
   /// The other planar solution: yaw mirrored about the line of sight.
   WindowHypothesis mirrored(const Eigen::Vector3d& camera_position) const;
   /// One belief with mean and spread of both; `share` is the weight of the other one, 0 to 1. Same anchor.
@@ -64,6 +73,7 @@ class WindowHypothesis {
   double distanceTo(const WindowHypothesis& other) const;
 
  private:
+  Eigen::RowVector4d yawFromSightByPose(const Eigen::Vector3d& camera_position) const;
   void move(const MotionModel& motion, double elapsed_sec);
   void keepScale(double inverse_height, double variance);
 

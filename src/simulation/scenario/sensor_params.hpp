@@ -23,8 +23,10 @@ struct OdometryParams {
       0.0;                     ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
   double own_bias_part = 0.0;  ///< part of that error on which the vehicle's own velocity loop acts, too
   double attitude_noise_rad = 0.004;  ///< white noise, each axis [rad]
-  double scale_error = 0.0;           ///< of horizontal movement: the part reported beyond the true one
-  double wander_m = 0.0;  ///< error that comes and goes, standard deviation of each horizontal axis [m]
+  double heading_error_rad =
+      0.0;  ///< steady error of the heading, which the positions do not share: drawn up to this, either way
+  double scale_error = 0.0;  ///< of horizontal movement: the part reported beyond the true one
+  double wander_m = 0.0;     ///< error that comes and goes, standard deviation of each horizontal axis [m]
   double wander_correlation_sec = 5.0;  ///< how long such an error lasts [s]
   double drift_m_per_sqrt_sec = 0.01;   ///< random walk of the position, each horizontal axis [m/sqrt(s)]
   double height_drift_m_per_sqrt_sec = 0.004;  ///< random walk of the height [m/sqrt(s)]
@@ -49,6 +51,7 @@ struct OdometryParams {
     field("velocity_bias_spread_mps", self.velocity_bias_spread_mps, 0.0, 1.0);
     field("own_bias_part", self.own_bias_part, 0.0, 1.0);
     field("attitude_noise_rad", self.attitude_noise_rad, 0.0, 0.3);
+    field("heading_error_rad", self.heading_error_rad, 0.0, 0.5);
     field("scale_error", self.scale_error, -0.5, 0.5);
     field("wander_m", self.wander_m, 0.0, 2.0);
     field("wander_correlation_sec", self.wander_correlation_sec, 0.1, 300.0);

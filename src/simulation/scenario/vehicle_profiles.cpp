@@ -31,13 +31,15 @@ void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
   odometry.burst_period_sec = 0.034;
 }
 
-// The same with WPNAV_ACCEL and a gyro's drift as shipped: slower to change, and its velocity is off.
+// The same with WPNAV_ACCEL and a gyro's drift as shipped: slower to change; its velocity and its heading are
+// off.
 void setArduCopter40AsShipped(VehicleParams& vehicle, OdometryParams& odometry) {
   setArduCopter40(vehicle, odometry);
   vehicle.setpoint_acceleration_mps2 = 1.0;
   odometry.velocity_bias_mps = 0.115;
   odometry.velocity_bias_spread_mps = 0.075;
   odometry.own_bias_part = 1.0;
+  odometry.heading_error_rad = 0.08;
 }
 
 // A setpoint limited in acceleration and jerk that is fed forward: no overshoot, a slow end.

@@ -25,6 +25,8 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
       periodic_(params.rate_hz),
       delivery_(params.latency_sec),
       own_velocity_(params.estimate_delay_sec),
+      heading_error_rad_(params.heading_error_rad *
+                         RandomStream(seed, "odometry heading error").uniform(-1.0, 1.0)),
       velocity_bias_base_mps_(drawBias(seed)) {
   for (int axis = 0; axis < 2; ++axis) wander_m_[axis] = wander_random_.normal(params.wander_m);
 }
@@ -92,6 +94,7 @@ OdometrySample OdometrySensor::measure(double now_sec, const VehicleTruth& truth
   sample.T_odom_base = drift_ * truth.T_odom_base;
   sample.T_odom_base.translation() +=
       wander_m_ + horizontalTimes(flow_factor_, noise_random_.normals(params_.position_noise_m));
+  sample.T_odom_base.linear() = geometry::yawRotation(heading_error_rad_) * sample.T_odom_base.linear();
   const Eigen::Vector3d tilt = noise_random_.normals(params_.attitude_noise_rad);
   if (tilt.norm() > 0.0) sample.T_odom_base.rotate(Eigen::AngleAxisd(tilt.norm(), tilt.normalized()));
   velocity_noise_mps_ = horizontalTimes(flow_factor_, noise_random_.normals(params_.velocity_noise_mps));

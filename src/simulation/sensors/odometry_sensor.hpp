@@ -21,7 +21,8 @@ struct OdometrySample {
 /// White noise on everything, over an error that comes and goes and a slow random walk of position and
 /// heading. Heading walks about the vehicle, so that it does not throw the position about. Horizontal
 /// movement may be reported too long or too short (`scale_error`), velocity be off by a constant that turns
-/// with the vehicle (`velocity_bias_mps`), which its positions do not show; horizontal errors grow with
+/// with the vehicle (`velocity_bias_mps`), heading by another one (`heading_error_rad`), neither of which its
+/// positions show; horizontal errors grow with
 /// height and lack of texture, as those of optical flow do.
 class OdometrySensor {
  public:
@@ -54,6 +55,7 @@ class OdometrySensor {
   Eigen::Isometry3d drift_ = Eigen::Isometry3d::Identity();
   std::optional<Eigen::Vector3d> last_position_;
   double flow_factor_ = 1.0;  // of horizontal errors
+  double heading_error_rad_;
   Eigen::Vector3d velocity_bias_base_mps_, own_bias_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d wander_m_ = Eigen::Vector3d::Zero(), velocity_noise_mps_ = Eigen::Vector3d::Zero(),
                   delayed_velocity_mps_ = Eigen::Vector3d::Zero();

@@ -192,6 +192,19 @@ TEST(TargetEstimator, ForbidsTheApproachWithFramesThatAreNotAsTold) {
   EXPECT_EQ(good.target(3.0)->approach_forbidden, "");
 }
 
+TEST(TargetEstimator, ForbidsTheApproachWithAHeadingFurtherOffThanAnyCompass) {
+  const auto track = flownSideways(estimation::PoseParams(), TargetEstimatorParams(), kMounting);
+  auto window = *track.filtered(3.0);
+  window.camera_turn.covariance = 0.0001 * Eigen::Matrix3d::Identity();
+  for (const double turn_rad : {-0.15, -0.08, 0.08, 0.15}) {
+    window.camera_turn.turn_rad.y() = turn_rad;
+    EXPECT_EQ(track.approachForbidden(window),
+              std::abs(turn_rad) > 0.1 ? "camera's yaw or odometry's heading off by about 9 deg" : "");
+  }
+  window.camera_turn.covariance *= 25.0;
+  EXPECT_EQ(track.approachForbidden(window), "") << "0.05 rad of spread: nothing is certain";
+}
+
 TEST(TargetEstimator, AJumpOfTheOdometryKeepsTheSizeAndWhatWasFoundOfTheFrames) {
   auto track = flownSideways(unknownSize(), TargetEstimatorParams(), kMounting);
   const auto frames = track.frames();

@@ -63,6 +63,7 @@ struct Approach {
   static FilterParams params(double target_speed_mps) {
     FilterParams params;
     params.target_speed_mps = target_speed_mps;
+    params.mounting_yaw_sigma_rad = 0.005;  // what is not known of the heading would hide the rest
     return params;
   }
 

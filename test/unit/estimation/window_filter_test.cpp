@@ -20,6 +20,7 @@ struct Flight {
   double border_sigma_px = 0.5;  // of each sample along a border
   Eigen::Matrix<double, 8, 1> bias_px = Eigen::Matrix<double, 8, 1>::Zero();
   Eigen::Vector2d attitude_bias_rad = Eigen::Vector2d::Zero();  // pitch, roll of the camera
+  double heading_error_rad = 0.0;                               // of odometry, beside its positions
   bool noisy_odometry = false;  // drifting and jittering as `FilterParams` has it
   Eigen::Vector3d drift = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();
@@ -52,6 +53,7 @@ struct Flight {
 
   Eigen::Isometry3d odometry(const Eigen::Isometry3d& T_world_camera, double elapsed) {
     Eigen::Isometry3d T = T_world_camera;
+    T.linear() = geometry::yawRotation(heading_error_rad) * T.linear();
     turn(T, {attitude_bias_rad.x(), 0.0, attitude_bias_rad.y()});
     if (noisy_odometry) {
       const FilterParams p;
@@ -131,6 +133,73 @@ TEST(WindowFilter, SidewaysMotionResolvesAnAmbiguousStart) {
   EXPECT_GE(resolved, 198);
   EXPECT_LE(trusted_wrong_runs, 2);
   EXPECT_GT(started_wrong, 5);
+}
+
+// An autopilot's compass is off by some degrees beside its positions. Unlearned, the vehicle is carried off
+// the axis by that angle over all of the way on which it sees nothing.
+TEST(WindowFilter, AHeadingThatIsOffBesideThePositionsIsLearned) {
+  constexpr int kImages = 180;
+  double squares = 0.0, errors_rad = 0.0;
+  const int runs = 60;
+  for (int run = 0; run < runs; ++run) {
+    Flight flight(900 + run);
+    flight.noisy_odometry = true;
+    flight.heading_error_rad = run % 2 ? 0.06 : -0.06;
+    drawBias(flight, 0.15);
+    const Eigen::Vector3d start = offAxis(5.0, run % 3 * 0.15 - 0.15);
+    for (int i = 0; i < kImages; ++i) {
+      const double way = static_cast<double>(i) / kImages;
+      flight.step({start.x() * (1.0 - 0.7 * way), start.y() * std::max(0.0, 1.0 - 2.0 * way), 1.5},
+                  1.0 + i / 30.0);
+    }
+    const double now = 1.0 + (kImages - 1) / 30.0;
+    const auto state = flight.filter.state(now);
+    ASSERT_TRUE(state && state->sign_trusted) << run;
+    errors_rad += std::abs(flight.yawError(now)) / runs;
+    squares += std::pow(flight.yawError(now), 2) / state->covariance(5, 5) / runs;
+  }
+  std::printf("normal off by %.3f rad, mean square of its error %.2f\n", errors_rad, squares);
+  EXPECT_LT(errors_rad, 0.025);
+  EXPECT_LT(squares, 3.0);
+}
+
+// A heading that jumps is no error that lasts: to learn half of it would be worse than to believe all or
+// none.
+TEST(WindowFilter, AfterAJumpTheHeadingIsNotLearnedAnew) {
+  Flight flight(17);
+  double stamp = 1.0;
+  for (int i = 0; i < 60; ++i) flight.step({-5.0 + 0.02 * i, -0.5, 1.5}, stamp += 1.0 / 30.0);
+  const double before_rad = flight.filter.state(stamp)->camera_turn.turn_rad.y();
+  flight.heading_error_rad = 0.3;
+  flight.filter.forgetPlaces();
+  for (int i = 0; i < 60; ++i) flight.step({-3.8 + 0.02 * i, -0.5, 1.5}, stamp += 1.0 / 30.0);
+  const auto state = flight.filter.state(stamp);
+  ASSERT_TRUE(state);
+  EXPECT_NEAR(state->camera_turn.turn_rad.y(), before_rad, 0.02);
+  flight.filter.reset();
+  flight.heading_error_rad = 0.0;
+  flight.step({-2.6, -0.5, 1.5}, stamp += 1.0 / 30.0);
+  EXPECT_GT(std::sqrt(flight.filter.state(stamp)->camera_turn.covariance(1, 1)), 0.02);
+}
+
+// An error of the heading turns the window about the camera: on which side of its axis that is stays as
+// clear.
+TEST(WindowFilter, AnUnknownHeadingHidesNoSign) {
+  int trusted = 0, wrong = 0;
+  const int runs = 60;
+  for (int run = 0; run < runs; ++run) {
+    Flight flight(1100 + run);
+    flight.heading_error_rad = run % 2 ? 0.06 : -0.06;
+    const double off_rad = run % 3 ? 0.2 : -0.2;
+    for (int i = 0; i < 60; ++i) flight.step(offAxis(5.0, off_rad), 1.0 + i / 30.0);
+    const auto state = flight.filter.state(1.0 + 59 / 30.0);
+    ASSERT_TRUE(state);
+    trusted += state->sign_trusted;
+    wrong += state->sign_trusted && std::abs(flight.yawError(1.0 + 59 / 30.0)) > 0.15;
+  }
+  std::printf("sign trusted in %d of %d\n", trusted, runs);
+  EXPECT_GE(trusted, 57);
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(WindowFilter, HoveringWithLastingBiasFakesNoTrust) {

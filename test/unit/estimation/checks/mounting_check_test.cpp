@@ -20,7 +20,8 @@ struct Result {
 
 /// The first verdict that is wrong, else the last one. Drift, attitude errors and noise are always there.
 Result fly(unsigned seed, const evaluation::FrameFaults& faults, double larger = 1.0) {
-  const FilterParams errors;
+  FilterParams errors;
+  errors.mounting_yaw_sigma_rad = 0.005;  // the turn is that of `faults`
   auto script = evaluation::drawApproach(seed, evaluation::SizeTold::kAll);
   script.opening.width_m *= larger;
   script.opening.height_m *= larger;

@@ -10,6 +10,7 @@ using namespace fixtures;
 
 const auto kLens = camera();
 const SizeEstimate kKnown{kOpening};
+const YawBias kNoBias{0.0, 0.005};
 
 Eigen::Isometry3d cameraAt(const Eigen::Vector3d& position) {
   return geometry::makePose(geometry::R_optical_flu().transpose(), position);
@@ -38,7 +39,7 @@ TEST(WindowHypotheses, FarAwayBothMirrorImagesLiveFromEitherStart) {
   const FilterView view{image, image, kLens, T};
   for (const double started : {0.25, -0.25}) {
     WindowHypotheses beliefs{FilterParams{}};
-    ASSERT_TRUE(beliefs.start(windowAt(8.0, started), kKnown, view));
+    ASSERT_TRUE(beliefs.start(windowAt(8.0, started), kKnown, kNoBias, view));
     ASSERT_EQ(beliefs.hypotheses().size(), 2u);
     EXPECT_NEAR(weightsOf(beliefs), 1.0, 1e-12);
     EXPECT_NEAR(beliefs.hypotheses()[0].window.state().yaw(), 0.25, 0.1);
@@ -52,7 +53,7 @@ TEST(WindowHypotheses, ParallaxKillsTheMirrorImage) {
   const auto window = windowAt(8.0, 0.25);
   Eigen::Vector3d position(0, 0, 0);
   const auto first = seen(cameraAt(position), window);
-  ASSERT_TRUE(beliefs.start(window, kKnown, {first, first, kLens, cameraAt(position)}));
+  ASSERT_TRUE(beliefs.start(window, kKnown, kNoBias, {first, first, kLens, cameraAt(position)}));
   int images = 0;
   for (; images < 40 && beliefs.hypotheses().size() == 2; ++images) {
     position.y() += 0.1;
@@ -71,7 +72,7 @@ TEST(WindowHypotheses, AnOutlierChangesNothing) {
   WindowHypotheses beliefs{FilterParams{}};
   const auto T = cameraAt({0, 0, 0});
   const auto image = seen(T, windowAt(3.0, 0.3));
-  ASSERT_TRUE(beliefs.start(windowAt(3.0, 0.3), kKnown, {image, image, kLens, T}));
+  ASSERT_TRUE(beliefs.start(windowAt(3.0, 0.3), kKnown, kNoBias, {image, image, kLens, T}));
   const auto before = beliefs.hypotheses()[0].window.state().values;
   auto moved = windowAt(3.0, 0.3);
   moved.translation().y() += 0.5;
@@ -87,7 +88,7 @@ TEST(WindowHypotheses, AStartThatDoesNotExplainTheImageChangesNothing) {
   auto leaning = windowAt(3.0, 0.3);
   leaning.linear() = leaning.linear() * geometry::rotationFromEuler({0.5, 0, 0});
   const auto image = seen(T, leaning);
-  EXPECT_FALSE(beliefs.start(leaning, kKnown, {image, image, kLens, T}));
+  EXPECT_FALSE(beliefs.start(leaning, kKnown, kNoBias, {image, image, kLens, T}));
   EXPECT_TRUE(beliefs.empty());
 }
 

@@ -10,6 +10,7 @@ using namespace fixtures;
 
 const Eigen::Isometry3d kWindow = geometry::makePose(geometry::yawRotation(0.4), {4, 0.5, 1.5});
 const SizeEstimate kKnown{kOpening};
+const YawBias kNoBias{0.0, 0.005};
 const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
 const Eigen::Isometry3d kCamera = geometry::makePose(geometry::R_optical_flu().transpose(), {0, 0, 1.5});
 
@@ -19,7 +20,7 @@ TEST(WindowHypothesis, OneImageFindsTheWindowFromAWidePrior) {
   const auto image =
       ImageMeasurement::make(bordersSeen(lens, kCamera.inverse() * kWindow, 0.5, random), lens, {}).value();
   WindowHypothesis window(FilterParams{}, geometry::makePose(geometry::yawRotation(0.1), {5, 0, 1.2}), kKnown,
-                          kCamera.translation());
+                          kNoBias, kCamera.translation());
   const double before = window.yawSigma();
   const auto outcome = window.update(FilterParams{}, {image, image, lens, kCamera});
   ASSERT_TRUE(outcome);
@@ -30,7 +31,7 @@ TEST(WindowHypothesis, OneImageFindsTheWindowFromAWidePrior) {
 }
 
 TEST(WindowHypothesis, MirroringKeepsTheSightAndTurnsTheYaw) {
-  const WindowHypothesis window(FilterParams{}, kWindow, kKnown, kOrigin);
+  const WindowHypothesis window(FilterParams{}, kWindow, kKnown, kNoBias, kOrigin);
   const Eigen::Vector3d position(0, -1, 1.5);
   const auto other = window.mirrored(position);
   EXPECT_NEAR(other.yawFromSight(position), -window.yawFromSight(position), 1e-12);
@@ -44,7 +45,7 @@ TEST(WindowHypothesis, HeadingDriftCarriesTheWindowAround) {
   params.drift_m_per_sqrt_sec = params.drift_m_per_sqrt_m = 0.0;
   params.drift_rad_per_sqrt_sec = 0.01;
   WindowHypothesis window(params, geometry::makePose(Eigen::Matrix3d::Identity(), {10, 0, 0}), kKnown,
-                          kOrigin);
+                          kNoBias, kOrigin);
   const Eigen::Matrix4d before = window.poseCovariance();
   window.predict(params, 4.0, 0.0, {0, 0, 0});
   const Eigen::Matrix4d grown = window.poseCovariance() - before;
@@ -56,9 +57,9 @@ TEST(WindowHypothesis, HeadingDriftCarriesTheWindowAround) {
 
 TEST(WindowHypothesis, MergingKeepsMeanAndSpread) {
   const WindowHypothesis a(FilterParams{}, geometry::makePose(geometry::yawRotation(3.1), {4, 0, 0}), kKnown,
-                           kOrigin);
+                           kNoBias, kOrigin);
   const WindowHypothesis b(FilterParams{}, geometry::makePose(geometry::yawRotation(-3.1), {4, 2, 0}), kKnown,
-                           kOrigin);
+                           kNoBias, kOrigin);
   const auto merged = a.mergedWith(b, 0.5);
   EXPECT_NEAR(merged.state().position().y(), 1.0, 1e-12);
   EXPECT_NEAR(std::abs(merged.state().yaw()), M_PI, 1e-9);
@@ -72,7 +73,7 @@ TEST(WindowHypothesis, BehindTheCameraThereIsNoUpdate) {
   const auto image =
       ImageMeasurement::make(bordersSeen(lens, kCamera.inverse() * kWindow, 0.5, random), lens, {}).value();
   WindowHypothesis window(FilterParams{}, geometry::makePose(Eigen::Matrix3d::Identity(), {-5, 0, 1.5}),
-                          kKnown, kOrigin);
+                          kKnown, kNoBias, kOrigin);
   const auto state = window.state().values;
   EXPECT_FALSE(window.update(FilterParams{}, {image, image, lens, kCamera}));
   EXPECT_EQ(window.state().values, state);
