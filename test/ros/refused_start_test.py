@@ -15,6 +15,7 @@ import support
 
 NODES = ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard", "world")
 EXIT_WITHIN_S = 2.0
+LAUNCH_ENDS_WITHIN_S = 30.0
 
 
 def launch(node):
@@ -141,6 +142,16 @@ class RefusedStartTest(unittest.TestCase):
             self.assert_stops("ingress_navigator", signal.SIGINT, frame="map")
         finally:
             rospy.delete_param("/vehicle/odom_frame")
+
+    def test_a_launch_that_flies_nothing_ends_with_the_node_that_is_refused(self):
+        """By a parameter that no file has, so that nothing before the start knows of it."""
+        for node in ("window_detector", "ingress_navigator", "setpoint_guard"):
+            rospy.set_param(f"/{node}/thershold", 1.0)
+            done = subprocess.run(["roslaunch", "window_ingress", "rehearse.launch", "camera:=false", "rviz:=false"], capture_output=True,
+                                  text=True, timeout=LAUNCH_ENDS_WITHIN_S, check=False)
+            rospy.delete_param(f"/{node}/thershold")
+            self.assertRegex(done.stdout + done.stderr, f"unknown parameter.*/{node}/thershold")
+            self.assertIn(f"REQUIRED process [{node}-", done.stdout + done.stderr)
 
     def test_signals_leave_zero_velocity_behind(self):
         for node in ("ingress_navigator", "setpoint_guard"):

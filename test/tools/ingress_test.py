@@ -88,6 +88,16 @@ def test_an_unknown_command_is_refused_with_the_nearest(words, nearest):
     assert f"no command '{words}'; the nearest is '{nearest}'" in done.stderr and done.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("words", ingress.COMMANDS)
+def test_a_tools_own_name_is_answered_with_its_command(words):
+    tool = ingress.COMMANDS[words][0]
+    if tool in ingress.names_after(None):
+        return  # the command has the tool's name
+    for name in (tool, tool.removesuffix(".py")):
+        done = run(INGRESS, name)
+        assert done.returncode == 2 and f"no command '{name}'; that tool is 'ingress {words}'" in done.stderr, done.stderr
+
+
 def test_a_group_alone_says_what_it_has():
     done = run(INGRESS, "plot")
     assert done.returncode == 2 and "filter, flight, gusts" in done.stderr

@@ -6,6 +6,13 @@
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
+namespace {
+
+// It publishes no clock while it unpacks a chunk of the bag, and then sends all that was due.
+constexpr const char* kSlowPlayer =
+    "; if a bag is played, its player is too slow: rosbag decompress the bag, or play at rate:=0.3";
+
+}  // namespace
 
 std::optional<double> stampSec(const ros::Time& stamp) {
   if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
@@ -37,7 +44,8 @@ std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double 
         "stamp is %.0f days ahead of the clock; is use_sim_time set beside a real source? (limit %.2f s)",
         -age_sec / 86400.0, limits_.max_future_sec);
   if (-age_sec > limits_.max_future_sec)
-    return formatted("stamp is %.2f s ahead of the clock, limit %.2f s", -age_sec, limits_.max_future_sec);
+    return formatted("stamp is %.2f s ahead of the clock, limit %.2f s", -age_sec, limits_.max_future_sec) +
+           (ros::Time::isSimTime() ? kSlowPlayer : "");
   if (clock_.jumpedBack(now_sec)) last_sec_.reset();
   if (last_sec_ && *sec <= *last_sec_)
     return formatted("stamp %.3f is not after the one before, %.3f", *sec, *last_sec_);

@@ -54,6 +54,16 @@ TEST(StampGate, TellsOfSimulatedTimeBesideARealSource) {
   EXPECT_NE(gate.whyRefused(ros::Time(1790000000.0), 1789999990.0)->find("10.00 s ahead"), std::string::npos);
 }
 
+TEST(StampGate, TellsOfAPlayerThatIsTooSlowWhereTimeIsSimulated) {
+  StampGate gate{StampLimits{}};
+  ros::Time::init();
+  EXPECT_EQ(gate.whyRefused(ros::Time(100.3), 100.0)->find("player"), std::string::npos);
+  ros::Time::setNow(ros::Time(100.0));
+  EXPECT_NE(gate.whyRefused(ros::Time(100.3), 100.0)->find("its player is too slow: rosbag decompress"),
+            std::string::npos);
+  ros::Time::init();
+}
+
 TEST(StampGate, SaysThatSimulatedTimeHasNotBegun) {
   StampGate gate{StampLimits{}};
   EXPECT_EQ(*gate.whyRefused(ros::Time(1700000000.0), 0.0),
