@@ -28,7 +28,7 @@ foreach(folder ${unit_folders})
   endif()
 endforeach()
 
-# The example of doc/ros2.md, run by test/tools/ros2_test.py.
+# The example of doc/ros_api.md, run by test/tools/ros2_test.py.
 set(target ${PROJECT_NAME}_flies_without_ros)
 add_executable(${target} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/install/without_ros/main.cpp)
 set_target_properties(${target} PROPERTIES OUTPUT_NAME flies_without_ros PREFIX "")

@@ -1,4 +1,4 @@
-"""What doc/ros2.md says: names that ROS 2 takes, and the core in a program without ROS."""
+"""What doc/ros_api.md says of ROS 2: names that ROS 2 takes, and the core in a program without ROS."""
 import pathlib
 import re
 import subprocess

@@ -34,7 +34,7 @@ TEST(MarkerColours, StatesLookAsInThePlots) {
 }
 
 TEST(MarkerColours, TheDocumentHasEachOfThem) {
-  const std::string document = textOf("doc/rviz.md");
+  const std::string document = textOf("doc/tools.md");
   for (const int rgb : {kTrustedRgb, kOpenRgb, kMirroredRgb, kWallRgb, kSetpointRgb})
     EXPECT_NE(document.find(hexOf(colourOf(rgb))), std::string::npos) << hexOf(colourOf(rgb));
 }
