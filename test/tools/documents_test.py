@@ -43,6 +43,30 @@ def test_every_reason_of_refusal_is_explained():
     assert page == {name: table[name] for name in page} and names <= set(page)
 
 
+FOREIGN = "No module named", "Using PYTHON_EXECUTABLE", "RLException", "exit code"  # what Python, CMake and roslaunch say
+
+
+def longest_run(words, text):
+    """How many words of `words`, one after the other, stand in `text`."""
+    runs = ((begin, end) for begin in range(len(words)) for end in range(begin + 1, len(words) + 1))
+    return max((end - begin for begin, end in runs if " ".join(words[begin:end]) in text), default=0)
+
+
+def test_what_troubleshooting_quotes_is_said_somewhere():
+    """Half of the longest stretch without numbers and names, at least: a source has formats for the rest."""
+    sources = [file for folder in ("src", "tools", "nodes", "scripts") for file in (ROOT / folder).rglob("*")]
+    joined = " ".join(re.sub(r'"\s*\n\s*f?"', "", file.read_text(encoding="utf-8")) for file in sources
+                      if file.is_file() and file.suffix in (".cpp", ".hpp", ".py", ""))
+    text = re.sub(r"\s+", " ", joined)
+    tables = re.findall(r"^\| said \|.*?\n\n", (ROOT / "doc/troubleshooting.md").read_text(encoding="utf-8"), flags=re.M | re.S)
+    quoted = [quote for table in tables for row in table.splitlines()[2:] for quote in re.findall(r"`([^`]+)`", row.split(" | ")[0])
+              if not quote.startswith((*FOREIGN, "check-frames"))]
+    assert len(quoted) > 40
+    for quote in quoted:
+        words = max((piece.split() for piece in re.split(r"…|/\w[\w/]*|'[^']*'|[\d.]+|\b\w+_\w+\b|[():;,\[\]]", quote)), key=len)
+        assert 2 * longest_run(words, text) >= len(words), quote
+
+
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda file: file.name)
 def test_links_lead_somewhere(document):
     for link in LINK.findall(outside_code(document.read_text())):
