@@ -43,6 +43,14 @@ def test_every_reason_of_refusal_is_explained():
     assert page == {name: table[name] for name in page} and names <= set(page)
 
 
+def test_the_readme_says_what_an_image_costs_as_the_benchmark_does():
+    table = re.findall(r"^\| (?:plaster|brick|siding|lens) \| ([\d.]+) \| ([\d.]+) \| [\d.]+ \| [\d.]+ \| [\d.]+ \| ([\d.]+) \| [\d.]+ \|$",
+                       (ROOT / "doc/detection.md").read_text(encoding="utf-8"), flags=re.M)
+    said = re.search(r"takes (\S+) to (\S+) ms to search and\s+(\S+) to (\S+) ms once .* takes (\S+) to (\S+) ms there", (ROOT / "README.md").read_text())
+    measured = [bound(map(float, column)) for column in zip(*table) for bound in (min, max)]
+    assert len(table) == 4 and [float(number) for number in said.groups()] == pytest.approx(measured, rel=0.1)
+
+
 FOREIGN = "No module named", "Using PYTHON_EXECUTABLE", "RLException", "exit code"  # what Python, CMake and roslaunch say
 
 
@@ -251,7 +259,13 @@ def calls_a_service(command, folder):
         launched.wait(30)
 
 
-CHECKS = [(r"\./(scripts/(demo|test|bench|build)|dev/(build_deb|check_deb|check_install))\b", checked_elsewhere),
+def is_of_mavros(command, _):
+    """Not installed here: the one line, as on the page of the autopilots."""
+    assert f"{command} " in (ROOT / "doc/autopilots.md").read_text(encoding="utf-8")
+
+
+CHECKS = [(r"roslaunch mavros ", is_of_mavros),
+          (r"\./(scripts/(demo|test|bench|build)|dev/(build_deb|check_deb|check_install))\b", checked_elsewhere),
           (r"\./scripts/run roslaunch window_ingress", launches),
           (r"\./scripts/run rosservice call", calls_a_service),
           (r"\./scripts/(run|ingress) \w+", runs_a_tool)]
