@@ -5,20 +5,33 @@ Subscribes `autopilot_state` (mavros_msgs/State: connected, armed, mode); says s
 autopilot is a silent topic. The message is read by the definition that comes with it: mavros_msgs need not be installed.
 Parameter ~modes: those in which the autopilot follows velocity setpoints, default [OFFBOARD, GUIDED]. ~heed_failsafe,
 default true: an autopilot that says it is in a failsafe (MAV_STATE critical and worse: low battery, lost link) is not flown.
+
+Publishes `companion_status` (mavros_msgs/CompanionProcessStatus) once a second, from the navigator's `state`, where mavros_msgs is
+installed and knows the component USER1: the ground station then sees this computer as stand-by, active or, without a navigator, critical.
 """
 import contextlib
 import functools
 import queue
 import sys
 import threading
+import time
 
 import genpy.dynamic
 import rospy
 from std_msgs.msg import Bool
 
+from window_ingress.msg import IngressState
+
+try:
+    from mavros_msgs.msg import CompanionProcessStatus
+except ImportError:
+    CompanionProcessStatus = None
+
 FIELDS = ("connected", "armed", "mode")
 LINES = 100  # that wait to be written
 MAV_STATE_CRITICAL = 5  # and above it: emergency, power off, termination
+MAX_SILENCE_S = 2.0  # of the navigator
+AT_REST = IngressState.IDLE, IngressState.PASSED, IngressState.ABORTED
 
 
 class Relay:
@@ -66,6 +79,32 @@ class Relay:
         return self._class().deserialize(message._buff)
 
 
+class Companion:
+    """What this computer does, for MAVROS."""
+    def __init__(self):
+        self._state, self._heard = IngressState.IDLE, None
+        self._publisher = rospy.Publisher("companion_status", CompanionProcessStatus, queue_size=1)
+        self._subscriber = rospy.Subscriber("state", IngressState, self._receive, queue_size=1)
+        threading.Thread(target=self._repeat, daemon=True).start()
+
+    def _receive(self, message):
+        self._state, self._heard = message.state, time.monotonic()
+
+    def _repeat(self):
+        while not rospy.is_shutdown():
+            status = CompanionProcessStatus(state=self._mav_state(), component=CompanionProcessStatus.MAV_COMP_ID_USER1)
+            status.header.stamp = rospy.Time.now()
+            self._publisher.publish(status)
+            time.sleep(1.0)
+
+    def _mav_state(self):
+        if self._heard is None:
+            return CompanionProcessStatus.MAV_STATE_BOOT
+        if time.monotonic() - self._heard > MAX_SILENCE_S:
+            return CompanionProcessStatus.MAV_STATE_CRITICAL
+        return CompanionProcessStatus.MAV_STATE_STANDBY if self._state in AT_REST else CompanionProcessStatus.MAV_STATE_ACTIVE
+
+
 def main():
     rospy.init_node("engaged_from_mavros")
     modes = rospy.get_param("~modes", ["OFFBOARD", "GUIDED"])
@@ -73,6 +112,7 @@ def main():
         print(f"engaged_from_mavros: ~modes is {modes!r}; give a list of mode names, e.g. [OFFBOARD]", file=sys.stderr)
         sys.exit(2)
     relay = Relay(modes, bool(rospy.get_param("~heed_failsafe", True)))  # noqa: F841  (kept alive while the node spins)
+    companion = Companion() if hasattr(CompanionProcessStatus, "MAV_COMP_ID_USER1") else None  # noqa: F841
     rospy.spin()
 
 

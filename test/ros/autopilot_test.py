@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
+from mavros_msgs.msg import CompanionProcessStatus  # of stand_ins
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
@@ -36,6 +37,7 @@ class AutopilotTest(unittest.TestCase):
     def setUpClass(cls):
         cls.setpoints = support.Listener("/mavros/setpoint_velocity/cmd_vel", TwistStamped)
         cls.states = support.Listener("/state", IngressState)
+        cls.companion = support.Listener("/mavros/companion_process/status", CompanionProcessStatus)
         cls.armed, cls.mode, cls.system_status = False, "POSCTL", 4
         cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, in_map, 50.0),
                        support.Stream("/mavros/imu/data", Imu, support.imu, 50.0),
@@ -64,6 +66,9 @@ class AutopilotTest(unittest.TestCase):
         support.wait_for(lambda: self.call("start").success, "a mission that starts")
         return self.setpoints.wait(lambda s: not is_zero(s), "motion")
 
+    def companion_is(self, state):
+        self.companion.wait(lambda s: s.state == state and s.component == CompanionProcessStatus.MAV_COMP_ID_USER1, f"companion status {state}")
+
     def zeros_from(self, begin, seconds):
         support.wait_for(lambda: time.monotonic() > begin + seconds, "the time of the measurement")
         setpoints = self.setpoints.since(begin)
@@ -76,6 +81,7 @@ class AutopilotTest(unittest.TestCase):
         self.setpoints.wait(what="a stream before the start")
         self.zeros_from(time.monotonic(), LATE_S + STOP_S + 1.0)  # for longer than the guard bears silence
         support.Diagnostics().wait("ingress_navigator: engaged", "not armed, or not in a mode")
+        self.companion_is(CompanionProcessStatus.MAV_STATE_STANDBY)
         for type(self).armed, type(self).mode in ((True, "POSCTL"), (False, "OFFBOARD")):
             begin = time.monotonic() + 1.0  # five messages of the autopilot
             support.wait_for(lambda: time.monotonic() > begin, "the autopilot's state to be heard")
@@ -83,6 +89,7 @@ class AutopilotTest(unittest.TestCase):
             self.assertFalse(reply.success)
             self.assertIn("not armed or not in a mode", reply.message)
         self.assertEqual(self.fly().header.frame_id, "map")
+        self.companion_is(CompanionProcessStatus.MAV_STATE_ACTIVE)
 
     def test_2_a_pilot_who_takes_over_has_it_until_the_next_start(self):
         type(self).mode = "POSCTL"
@@ -120,6 +127,7 @@ class AutopilotTest(unittest.TestCase):
         support.wait_for(lambda: time.monotonic() > quiet + 1.5, "the silence of the guard")
         self.assertEqual(self.setpoints.since(quiet), [])
         self.assertEqual(support.pid_of("/setpoint_guard"), guard)
+        self.companion_is(CompanionProcessStatus.MAV_STATE_CRITICAL)
         support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "failsafe has to act")
 
 

@@ -96,7 +96,8 @@ def test_autopilots_are_wired_by_standard_topics_and_map_frame(name, mode):
     assert params["/ingress_navigator/engagement/required"] is True
     assert params["/engaged_from_mavros/modes"] == [mode]
     relay = remaps(launch, "engaged_from_mavros")
-    assert relay == {"autopilot_state": "/mavros/state", "engaged": remaps(launch, "ingress_navigator")["engaged"]}
+    assert relay == {"autopilot_state": "/mavros/state", "engaged": remaps(launch, "ingress_navigator")["engaged"],
+                     "companion_status": "/mavros/companion_process/status"}
     assert not any("mavros" in node["type"].split("/")[0] for node in launch["nodes"].values())
 
 

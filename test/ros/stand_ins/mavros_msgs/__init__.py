@@ -1,0 +1,1 @@
+"""What tests need of MAVROS's messages, which may not be installed."""
