@@ -89,3 +89,15 @@ def test_a_script_that_takes_no_such_argument_says_so_and_does_nothing(script, a
 def test_check_platform_refuses_what_it_cannot_do(arguments):
     done = subprocess.run([SETUP.parents[1] / "dev/check_platform", *arguments], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, demo" in done.stderr
+
+
+def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
+    """dev/check_install with a build that stops half-way: roslaunch would find what it left."""
+    for folder in ("dev", "scripts", "build/ros"):
+        (tmp_path / folder).mkdir(parents=True)
+    (tmp_path / "build/ros/CMakeCache.txt").write_text("")
+    (tmp_path / "dev/check_install").write_bytes((SETUP.parents[1] / "dev/check_install").read_bytes())
+    (tmp_path / "scripts/env.sh").write_text(f'root={tmp_path} build_ros={tmp_path}/build/ros\ncmake() {{ mkdir "$2/install"; return 1; }}\n')
+    done = subprocess.run(["bash", tmp_path / "dev/check_install"], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and not done.stderr
+    assert [file.name for file in (tmp_path / "build/ros").iterdir()] == ["CMakeCache.txt"]
