@@ -18,8 +18,9 @@ namespace {
 constexpr double kExpectedSquares = 8.0;
 constexpr double kMeanOver = 30.0;            // images
 constexpr double kRestartMeanSquares = 20.0;  // over those; beyond it the filter starts anew
-constexpr double kFixedYawSigmaRad = 0.005;   // after a jump, or images that contradicted
-constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
+constexpr double kTurnedRad = 0.15,
+                 kFixedYawSigmaRad = 0.005;  // of the window at a new start; of its error then
+constexpr double kMinScaleMps = 0.1;         // slower than this, the way flown tells nothing about the size
 constexpr double kSystematicRenewalSec = 20.0;  // at one place
 constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
 constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
@@ -84,6 +85,11 @@ struct WindowFilter::Impl {
     held_size = found;
   }
 
+  bool turnedSince(const Eigen::Isometry3d& T_odom_window) const {
+    const double now_rad = geometry::yawOf(T_odom_window.linear());
+    return !beliefs.empty() && std::abs(geometry::wrapAngle(now_rad - believed().state().yaw())) > kTurnedRad;
+  }
+
   // Where odometry turned a moment ago, what is seen then must not pass for an error that lasts.
   void fixYawBias() {
     if (params.yaw_bias_lasts) yaw_bias.sigma_rad = std::min(yaw_bias.sigma_rad, kFixedYawSigmaRad);
@@ -130,10 +136,10 @@ struct WindowFilter::Impl {
   // What was believed before is kept until a new start succeeds.
   bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
     if (!estimate) return false;
-    hold();
-    if (!beliefs.empty()) fixYawBias();
     const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
     const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
+    hold();
+    if (turnedSince(T_odom_window)) fixYawBias();
     if (!beliefs.start(T_odom_window, priorSize(estimate->opening), yaw_bias, alone)) return false;
     forgetImages();
     accept(stamp, alone);
