@@ -12,6 +12,7 @@ constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTur
 constexpr double kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 constexpr double kMostBesideBiasMps = 0.3, kSlideSec = 0.25;  // for so long more is no error of a velocity
+constexpr double kMostUntoldMps = 0.12;                       // as long as only the bias speaks against it
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
@@ -144,7 +145,8 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
         return sample.stamp_sec >= smooth.stamp_sec - kSlideSec;
       });
       unexplained_m = unexplainedSince(*first);
-      most_m = (isBiasKnown() ? kMostBesideBiasMps : kMostOfVelocityMps) * kSlideSec;
+      const double beside_mps = has_window_told_ ? kMostBesideBiasMps : kMostUntoldMps;
+      most_m = (isBiasKnown() ? beside_mps : kMostOfVelocityMps) * kSlideSec;
     }
   }
   if (unexplained_m.norm() < most_m) return;

@@ -121,7 +121,7 @@ class ContinuousOdometry {
   std::optional<Turn> turn_;
   double heading_error_rad_ = 0.0;
   bool is_erring_ = false;  ///< the two frames differ
-  bool is_velocity_worse_ = false, is_bias_known_ = false;
+  bool is_velocity_worse_ = false, has_window_told_ = false, is_bias_known_ = false;
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();    ///< of the frame, so far
   std::optional<Sample> piece_;                          ///< where the present piece of the way began

@@ -77,7 +77,9 @@ void ContinuousOdometry::judgeVelocity() {
     told_m2 += piece.told_m2;
     with_window_m2 += piece.with_window_m2;
   }
-  if (told_m2 > kToldM2) is_velocity_worse_ = with_window_m2 < kWindowMovesAlong * told_m2;
+  if (told_m2 <= kToldM2) return;
+  has_window_told_ = true;
+  is_velocity_worse_ = with_window_m2 < kWindowMovesAlong * told_m2;
 }
 
 void ContinuousOdometry::judgePieces() {
