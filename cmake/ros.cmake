@@ -1,11 +1,10 @@
-# src/adapters is the only folder that sees ROS; each src/nodes/<name>.cpp is the main of one node.
+# src/adapters is the only folder that sees ROS; each src/mains/<name>.cpp is the main of one node.
 
 # add_adapters(name FOLDERS folders below src/adapters DEPENDS libs...)
 function(add_adapters name)
   cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS" ${ARGN})
   list(TRANSFORM ARG_FOLDERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/adapters/\\1/*.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${ARG_FOLDERS})
-  list(FILTER sources EXCLUDE REGEX "/nodelets.cpp$")
   add_library(${name} SHARED ${sources})
   target_compile_definitions(${name} PUBLIC ${ros_definitions})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
@@ -18,7 +17,7 @@ function(add_adapters name)
           LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
-add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions markers nodes sources DEPENDS ${PROJECT_NAME}_core)
+add_adapters(${PROJECT_NAME}_adapters FOLDERS conversions guard inputs markers navigator pose runtime DEPENDS ${PROJECT_NAME}_core)
 # Apart from what steers: OpenCV and libraries for image files take 50 MB in each process.
 add_adapters(${PROJECT_NAME}_image_adapters FOLDERS images
              DEPENDS ${PROJECT_NAME}_adapters ${PROJECT_NAME}_vision opencv_imgcodecs)
@@ -27,10 +26,10 @@ add_adapters(${PROJECT_NAME}_world_adapters FOLDERS world DEPENDS ${PROJECT_NAME
 add_adapters(${PROJECT_NAME}_bags FOLDERS bags DEPENDS ${PROJECT_NAME}_world_adapters ${PROJECT_NAME}_evaluation)
 
 # Only the registration macros: a node that links the classes must not register plugins.
-add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodes/nodelets.cpp)
+add_library(${PROJECT_NAME}_nodelets SHARED ${PROJECT_SOURCE_DIR}/src/adapters/nodelets.cpp)
 target_link_libraries(${PROJECT_NAME}_nodelets PUBLIC ${PROJECT_NAME}_image_adapters -Wl,-z,defs)
 
-file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*.cpp)
+file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/mains/*.cpp)
 foreach(source ${node_sources})
   get_filename_component(node ${source} NAME_WE)
   set(target ${PROJECT_NAME}_${node})

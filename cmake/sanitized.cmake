@@ -31,7 +31,7 @@ add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
 
 # Of the adapters only what has no node behind it.
 add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp
-                      ${source_root}/adapters/nodes/setpoint_gate.cpp ${fuzz_folder}/any_image.cpp
+                      ${source_root}/adapters/guard/setpoint_gate.cpp ${source_root}/adapters/inputs/stamp_gate.cpp ${fuzz_folder}/any_image.cpp
                       LIBRARIES fuzz_core ${catkin_LIBRARIES})
 target_include_directories(fuzz_messages PUBLIC ${source_root})
 target_include_directories(fuzz_messages SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}

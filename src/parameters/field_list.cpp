@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::parameters {

@@ -5,7 +5,7 @@
 #include <ios>
 #include <type_traits>
 
-#include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/parameters/yaml_nodes.hpp"
 
 namespace window_ingress::parameters {
@@ -28,7 +28,7 @@ class YamlReader {
       else if (std::find(keys_.begin(), keys_.end(), here) != keys_.end())
         read(entry.value, here + "/");
       else
-        faults.add(faultAt(file_, entry.key, here + ": unknown key" + didYouMean(here, keys_)));
+        faults.add(faultAt(file_, entry.key, unknownKey(here, here, keys_)));
     }
   }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/scene/obstacle.hpp"
+#include "simulation/scene/obstacle_collision.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
 #include "window_ingress/geometry/opening.hpp"
 

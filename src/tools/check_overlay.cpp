@@ -11,8 +11,8 @@
 
 #include "adapters/images/image_source.hpp"
 #include "adapters/images/reference_source.hpp"
-#include "adapters/nodes/camera_mounting.hpp"
-#include "adapters/sources/parameters.hpp"
+#include "adapters/pose/camera_mounting.hpp"
+#include "adapters/runtime/parameter_server.hpp"
 #include "command_line.hpp"
 #include "input_faults.hpp"
 #include "launch_arguments.hpp"

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/parameters/unknown_key.hpp"
 
 namespace window_ingress::tools {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "adapters/sources/diagnostics.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "evaluation/images/stage_sheet.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/parameters/field_list.hpp"

@@ -25,7 +25,7 @@ struct Stages {
   DetectorParams params;
   Preprocess preprocess{params.preprocess};
   EdgeDetector edges{params.edges};
-  LevelCamera lens;
+  UndistortionMap lens;
   EdgeChains runs;
   HoughSegments lines{params.lines};
   Closing closing{params.closing};

@@ -14,7 +14,7 @@
 #include "adapters/bags/waiting_images.hpp"
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/images/reference_source.hpp"
-#include "adapters/sources/diagnostics.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/text/text.hpp"
 

@@ -3,16 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "window_ingress/text/text.hpp"
-
 namespace window_ingress::adapters {
-namespace {
-
-// It publishes no clock while it unpacks a chunk of the bag, and then sends all that was due.
-constexpr const char* kSlowPlayer =
-    "; if a bag is played, its player is too slow: rosbag decompress the bag, or play at rate:=0.3";
-
-}  // namespace
 
 std::optional<double> stampSec(const ros::Time& stamp) {
   if (stamp.isZero() || stamp.nsec >= 1000000000u) return std::nullopt;
@@ -26,37 +17,6 @@ ros::Time toStamp(double sec) {
   const auto nsec = static_cast<std::uint64_t>(std::llround((sec - whole) * 1e9));
   const auto carry = static_cast<std::uint32_t>(nsec / 1000000000u);
   return ros::Time(static_cast<std::uint32_t>(whole) + carry, static_cast<std::uint32_t>(nsec % 1000000000u));
-}
-
-std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double now_sec) {
-  const std::optional<double> sec = stampSec(stamp);
-  if (!sec) return "header.stamp is zero or not normalised; the source must stamp its messages";
-  const double age_sec = now_sec - *sec;
-  if (age_sec > 86400.0)
-    return formatted(
-        "stamp is %.0f days old; recorded data? then set use_sim_time and play with --clock (limit %.2f s)",
-        age_sec / 86400.0, limits_.max_age_sec);
-  if (age_sec > limits_.max_age_sec)
-    return formatted("stamp is %.2f s old, limit %.2f s", age_sec, limits_.max_age_sec);
-  if (-age_sec > 86400.0 && now_sec <= 0.0) return "the clock has not begun: nothing has come on /clock yet";
-  if (-age_sec > 86400.0)
-    return formatted(
-        "stamp is %.0f days ahead of the clock; is use_sim_time set beside a real source? (limit %.2f s)",
-        -age_sec / 86400.0, limits_.max_future_sec);
-  if (-age_sec > limits_.max_future_sec)
-    return formatted("stamp is %.2f s ahead of the clock, limit %.2f s", -age_sec, limits_.max_future_sec) +
-           (ros::Time::isSimTime() ? kSlowPlayer : "");
-  if (clock_.jumpedBack(now_sec)) last_sec_.reset();
-  if (last_sec_ && *sec <= *last_sec_)
-    return formatted("stamp %.3f is not after the one before, %.3f", *sec, *last_sec_);
-  last_sec_ = sec;
-  return std::nullopt;
-}
-
-bool ClockWatch::jumpedBack(double now_sec) {
-  const bool back = now_sec < last_sec_ - 0.1;
-  last_sec_ = now_sec;
-  return back;
 }
 
 }  // namespace window_ingress::adapters

@@ -4,43 +4,13 @@
 #include <ros/time.h>
 
 #include <optional>
-#include <string>
-
-#include "window_ingress/configuration/common_params.hpp"
 
 namespace window_ingress::adapters {
-
-using configuration::StampLimits;
 
 /// Seconds of a stamp; nothing if it is zero (unstamped) or its nanoseconds are not below 1e9.
 std::optional<double> stampSec(const ros::Time& stamp);
 
 /// The nearest stamp of a time in seconds; zero for what a stamp cannot hold.
 ros::Time toStamp(double sec);
-
-/// Notices that the clock went back, as it does when a bag is looped or a simulation reset.
-class ClockWatch {
- public:
-  /// \return true once for each jump back by more than 0.1 s
-  bool jumpedBack(double now_sec);
-
- private:
-  double last_sec_ = 0.0;
-};
-
-/// Admits messages of one topic by their stamp: stamped, recent, and newer than the one before. Starts anew
-/// when the clock jumps back.
-class StampGate {
- public:
-  explicit StampGate(const StampLimits& limits) : limits_(limits) {}
-
-  /// \return nothing if the message is admitted, else why it is not, with numbers
-  std::optional<std::string> whyRefused(const ros::Time& stamp, double now_sec);
-
- private:
-  StampLimits limits_;
-  ClockWatch clock_;
-  std::optional<double> last_sec_;
-};
 
 }  // namespace window_ingress::adapters

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/sources/guarded.hpp"
-#include "adapters/sources/parameters.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
 
@@ -32,9 +32,9 @@ DetectorNode::DetectorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
     use(loadReference(params_.reference, params_.detector), "photograph " + params_.reference.picture);
   window_publisher_ = nh.advertise<window_ingress::WindowDetection>("window", 1, params_.lockstep);
   debug_publisher_ = nh.advertise<sensor_msgs::Image>("debug_image", 1);
-  reference_subscriber_ = subscribeGuarded<window_ingress::ReferenceImage>(
+  reference_subscriber_ = subscribeCatching<window_ingress::ReferenceImage>(
       nh, "reference", 1, diagnostics_, [this](const auto& message) { receiveReference(*message); });
-  pose_subscriber_ = subscribeGuarded<window_ingress::WindowPose>(
+  pose_subscriber_ = subscribeCatching<window_ingress::WindowPose>(
       nh, "window_pose", 1, diagnostics_, [this](const auto& message) { receivePose(message); });
   capture_ = pnh.advertiseService("capture_reference", &DetectorNode::captureReference, this);
   reset_ = pnh.advertiseService("reset", &DetectorNode::reset, this);

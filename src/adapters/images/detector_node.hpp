@@ -11,16 +11,16 @@
 #include <optional>
 #include <string>
 
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/images/image_source.hpp"
-#include "adapters/images/image_times.hpp"
+#include "adapters/images/processing_time.hpp"
 #include "adapters/images/reference_source.hpp"
-#include "adapters/nodes/run_node.hpp"
-#include "adapters/sources/attitude_source.hpp"
-#include "adapters/sources/camera_source.hpp"
-#include "adapters/sources/diagnostics.hpp"
-#include "adapters/sources/lockstep.hpp"
-#include "adapters/sources/reconfigure.hpp"
+#include "adapters/inputs/attitude_source.hpp"
+#include "adapters/inputs/camera_source.hpp"
+#include "adapters/inputs/stamp_gate.hpp"
+#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/runtime/lockstep.hpp"
+#include "adapters/runtime/reconfigure.hpp"
+#include "adapters/runtime/run_node.hpp"
 #include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/perception/window_perception.hpp"
@@ -70,7 +70,7 @@ class DetectorNode : public Node {
   double searched_sec_ = 0.0;  ///< when the last image was, on the steady clock
   bool reference_is_guess_ = false;
   std::string reference_from_;  // empty: there is no reference
-  ImageTimes times_;
+  ProcessingTime times_;
   std::optional<Lockstep> lockstep_;
   std_msgs::Header waiting_header_;  // in lockstep: of the image that waits for its step
   std::optional<DecodedImage> waiting_;

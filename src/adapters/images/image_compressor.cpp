@@ -4,8 +4,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "adapters/sources/guarded.hpp"
-#include "adapters/sources/parameters.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/parameter_server.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -41,8 +41,8 @@ ImageCompressorNode::ImageCompressorNode(ros::NodeHandle& nh, ros::NodeHandle& p
     return;
   }
   publisher_ = nh.advertise<sensor_msgs::CompressedImage>("compressed", 5);
-  subscriber_ = subscribeGuarded<sensor_msgs::Image>(nh, "image_raw", 5, diagnostics_,
-                                                     [this](const auto& image) { receive(image); });
+  subscriber_ = subscribeCatching<sensor_msgs::Image>(nh, "image_raw", 5, diagnostics_,
+                                                      [this](const auto& image) { receive(image); });
 }
 
 void ImageCompressorNode::receive(const sensor_msgs::ImageConstPtr& image) {

@@ -6,8 +6,8 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/nodes/run_node.hpp"
-#include "adapters/sources/diagnostics.hpp"
+#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/runtime/run_node.hpp"
 
 namespace window_ingress::adapters {
 

@@ -7,7 +7,7 @@
 #include <pluginlib/class_loader.hpp>
 #include <utility>
 
-#include "adapters/sources/guarded.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
@@ -45,7 +45,7 @@ ImageSource::ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const st
 }
 
 void ImageSource::subscribeCompressed(ros::NodeHandle& nh) {
-  compressed_subscriber_ = subscribeGuarded<sensor_msgs::CompressedImage>(
+  compressed_subscriber_ = subscribeCatching<sensor_msgs::CompressedImage>(
       nh, nh.resolveName("image_raw") + "/compressed", 1, diagnostics_,
       [this](const sensor_msgs::CompressedImageConstPtr& message) {
         receive(message->header, [&] { return decode(*message, limits_); });
@@ -56,8 +56,8 @@ void ImageSource::subscribeCompressed(ros::NodeHandle& nh) {
 void ImageSource::subscribePlugin(const std::string& transport) {
   const boost::function<void(const sensor_msgs::ImageConstPtr&)> callback =
       [this](const sensor_msgs::ImageConstPtr& message) {
-        guarded(diagnostics_, "image",
-                [&] { receive(message->header, [&] { return decode(message, limits_); }); });
+        catchAll(diagnostics_, "image",
+                 [&] { receive(message->header, [&] { return decode(message, limits_); }); });
       };
   try {
     plugin_subscriber_ =

@@ -6,9 +6,9 @@
 #include <functional>
 #include <string>
 
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/sources/diagnostics.hpp"
+#include "adapters/inputs/stamp_gate.hpp"
+#include "adapters/runtime/topic_health.hpp"
 
 namespace window_ingress::adapters {
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "adapters/sources/diagnostics.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "simulation/scenario/scenario.hpp"
 
 namespace window_ingress::adapters {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "adapters/conversions/stamps.hpp"
-#include "adapters/sources/guarded.hpp"
-#include "adapters/sources/parameters.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/parameter_server.hpp"
 #include "adapters/world/world_messages.hpp"
 
 namespace window_ingress::adapters {
@@ -49,7 +49,7 @@ WorldNode::WorldNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   detector_reset_ = nh.serviceClient<Trigger>("window_detector/reset");
   pose_reset_ = nh.serviceClient<Trigger>("homography_pose/reset");
   inject_ = pnh.advertiseService("inject", &WorldNode::inject, this);
-  timer_ = createGuardedTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
+  timer_ = createCatchingTimer(nh, kTickSec, "tick", diagnostics_, [this] { tick(); });
 }
 
 // What somebody has found out about this camera, or else the truth.
@@ -59,17 +59,17 @@ void WorldNode::calibrate(const simulation::Scenario& scenario) {
 }
 
 void WorldNode::subscribe(ros::NodeHandle& nh) {
-  state_subscriber_ = subscribeGuarded<window_ingress::IngressState>(
+  state_subscriber_ = subscribeCatching<window_ingress::IngressState>(
       nh, "state", 10, diagnostics_, [this](const auto& message) { receiveState(message); });
   if (isExternal()) {
     vehicle_health_.emplace(diagnostics_, "vehicle_odom", kVehicleSilenceSec);
-    vehicle_subscriber_ = subscribeGuarded<nav_msgs::Odometry>(
+    vehicle_subscriber_ = subscribeCatching<nav_msgs::Odometry>(
         nh, "vehicle_odom", 10, diagnostics_, [this](const auto& message) { receiveVehicle(message); });
     vehicle_health_->watch(vehicle_subscriber_);
     return;
   }
   command_health_.emplace(diagnostics_, "cmd_vel", 1e9);
-  command_subscriber_ = subscribeGuarded<geometry_msgs::TwistStamped>(
+  command_subscriber_ = subscribeCatching<geometry_msgs::TwistStamped>(
       nh, "cmd_vel", 1, diagnostics_, [this](const auto& message) { receiveCommand(message); });
   command_health_->watch(command_subscriber_);
 }

@@ -13,8 +13,8 @@
 #include <string>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/nodes/run_node.hpp"
-#include "adapters/sources/diagnostics.hpp"
+#include "adapters/runtime/run_node.hpp"
+#include "adapters/runtime/topic_health.hpp"
 #include "adapters/world/world_lockstep.hpp"
 #include "adapters/world/world_publishers.hpp"
 #include "adapters/world/world_referee.hpp"

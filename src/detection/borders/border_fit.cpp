@@ -174,7 +174,7 @@ bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {
   const int count = static_cast<int>(positions_.size());
   if (count < 4) return false;
   scratch_.resize(2 * positions_.size());
-  fitOffsets({positions_.data(), offsets_.data(), scratch_.data(), count}, limits.outlier_px, border.line);
+  fitRobustLine({positions_.data(), offsets_.data(), scratch_.data(), count}, limits.outlier_px, border.line);
   spread(limits, border);
   return border.inliers >= 4;
 }

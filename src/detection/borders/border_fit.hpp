@@ -6,6 +6,7 @@
 
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
+#include "detection/borders/robust_line_fit.hpp"
 #include "detection/borders/two_step_edge.hpp"
 
 namespace window_ingress::detection {

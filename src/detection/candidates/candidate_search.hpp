@@ -9,9 +9,9 @@
 #include "detection/candidates/contour_polygons.hpp"
 #include "detection/candidates/edge_chains.hpp"
 #include "detection/candidates/hough_segments.hpp"
-#include "detection/candidates/level_camera.hpp"
 #include "detection/candidates/preprocess.hpp"
 #include "detection/candidates/segment_quads.hpp"
+#include "detection/candidates/undistortion_map.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 #include "window_ingress/detection/stage_timer.hpp"
@@ -69,7 +69,7 @@ class CandidateSearch {
   DetectorParams params_;
   Preprocess preprocess_;
   EdgeDetector edges_;
-  LevelCamera lens_;
+  UndistortionMap lens_;
   EdgeChains runs_;
   HoughSegments lines_;
   BlobMasks blobs_;

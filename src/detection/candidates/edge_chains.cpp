@@ -100,7 +100,7 @@ void EdgeChains::emit(std::size_t first, std::size_t last) {
 }
 
 // Cuts the chain where it is furthest from its chord until all parts are straight (Douglas and Peucker).
-void EdgeChains::cut(const LevelCamera& lens) {
+void EdgeChains::cut(const UndistortionMap& lens) {
   points_.clear();
   for (const Pixel& p : forward_) points_.push_back(lens.undistort(p.x, p.y));
   parts_.assign(1, {0, points_.size() - 1});
@@ -125,7 +125,7 @@ void EdgeChains::cut(const LevelCamera& lens) {
   }
 }
 
-const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const LevelCamera& lens) {
+const std::vector<EdgeChain>& EdgeChains::run(const EdgeMap& map, const UndistortionMap& lens) {
   runs_.clear();
   pixels_.clear();
   map.edges.copyTo(free_);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "detection/candidates/canny_edges.hpp"
-#include "detection/candidates/level_camera.hpp"
+#include "detection/candidates/undistortion_map.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 
 namespace window_ingress::detection {
@@ -38,7 +38,7 @@ class EdgeChains {
   EdgeChains();
 
   /// In the order of the image, from top to bottom. Valid until the next call.
-  const std::vector<EdgeChain>& run(const EdgeMap& map, const LevelCamera& lens);
+  const std::vector<EdgeChain>& run(const EdgeMap& map, const UndistortionMap& lens);
 
   /// Those of the last map.
   const std::vector<EdgeChain>& runs() const { return runs_; }
@@ -53,7 +53,7 @@ class EdgeChains {
 
   bool next(const EdgeMap& map, int sense, Pixel& at);
   void follow(const EdgeMap& map, Pixel start, int sense, std::vector<Pixel>& pixels);
-  void cut(const LevelCamera& lens);
+  void cut(const UndistortionMap& lens);
   void emit(std::size_t first, std::size_t last);
 
   float min_square_cosine_;

@@ -24,7 +24,7 @@ constexpr double kBlobContrast = 4.0;   ///< of such a side, at least [grey leve
 /// The edges, and the lens that bends them.
 struct Level {
   const EdgeMap& map;
-  const LevelCamera& lens;
+  const UndistortionMap& lens;
 };
 
 /// The edge pixel found beside one point of a side.
@@ -152,7 +152,7 @@ std::array<SideSupport, 4> outlinedSides(const geometry::Quadrilateral& quad,
   return {sides[0].support(), sides[1].support(), sides[2].support(), sides[3].support()};
 }
 
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelCamera& lens,
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const UndistortionMap& lens,
                                         const geometry::Quadrilateral& quad) {
   const Level level = {map, lens};
   std::array<SideSupport, 4> sides;

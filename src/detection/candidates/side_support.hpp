@@ -6,12 +6,12 @@
 
 #include "detection/candidates/candidate.hpp"
 #include "detection/candidates/canny_edges.hpp"
-#include "detection/candidates/level_camera.hpp"
+#include "detection/candidates/undistortion_map.hpp"
 
 namespace window_ingress::detection {
 
 /// How well the sides of a quadrilateral of the undistorted level run along straight edges.
-std::array<SideSupport, 4> measureSides(const EdgeMap& map, const LevelCamera& lens,
+std::array<SideSupport, 4> measureSides(const EdgeMap& map, const UndistortionMap& lens,
                                         const geometry::Quadrilateral& quad);
 
 /// How well they run along the outline of a blob, however weak the edge there; nothing is known beyond their

@@ -104,7 +104,7 @@ void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet&
   detection::EdgeDetector edges(params.edges);
   detection::EdgeChains runs;
   detection::HoughSegments lines(params.lines);
-  detection::LevelCamera lens;  // no calibration: the image is taken as free of distortion
+  detection::UndistortionMap lens;  // no calibration: the image is taken as free of distortion
   detection::Closing closing(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);

@@ -6,7 +6,8 @@
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 
-#include "openness/interior/edge_flow.hpp"
+#include "openness/interior/edge_klt.hpp"
+#include "openness/interior/smooth_regions.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::openness {

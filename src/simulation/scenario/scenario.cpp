@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "simulation/scene/obstacle.hpp"
+#include "simulation/scene/obstacle_collision.hpp"
 #include "simulation/scene/scene_parts.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"

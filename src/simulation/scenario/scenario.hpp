@@ -11,8 +11,9 @@
 #include "simulation/scenario/camera_params.hpp"
 #include "simulation/scenario/fault_params.hpp"
 #include "simulation/scenario/house_params.hpp"
+#include "simulation/scenario/quadrotor_params.hpp"
 #include "simulation/scenario/sensor_params.hpp"
-#include "simulation/scenario/vehicle_params.hpp"
+#include "simulation/scenario/wind_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/text/text.hpp"
@@ -60,7 +61,7 @@ struct Scenario {
   CameraParams camera;
   OdometryParams odometry;
   ImuParams imu;
-  VehicleParams vehicle;
+  QuadrotorParams vehicle;
   WindParams wind;
   std::vector<FaultParams> faults;
   template <typename Self, typename Visitor>

@@ -14,7 +14,7 @@ void setBoundedOdometry(double wander_m, OdometryParams& odometry) {
 }
 
 // A ramp to the setpoint and a pull to where it leads: it overshoots, and after a stop it comes back.
-void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
+void setArduCopter40(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.03;
   vehicle.yaw_rate_gain = 1.02;
   vehicle.yaw_time_constant_sec = 0.36;
@@ -33,7 +33,7 @@ void setArduCopter40(VehicleParams& vehicle, OdometryParams& odometry) {
 
 // The same with WPNAV_ACCEL and a gyro's drift as shipped: slower to change; its velocity and its heading are
 // off.
-void setArduCopter40AsShipped(VehicleParams& vehicle, OdometryParams& odometry) {
+void setArduCopter40AsShipped(QuadrotorParams& vehicle, OdometryParams& odometry) {
   setArduCopter40(vehicle, odometry);
   vehicle.setpoint_acceleration_mps2 = 1.0;
   odometry.velocity_bias_mps = 0.115;
@@ -43,7 +43,7 @@ void setArduCopter40AsShipped(VehicleParams& vehicle, OdometryParams& odometry) 
 }
 
 // A setpoint limited in acceleration and jerk that is fed forward: no overshoot, a slow end.
-void setArduCopter43(VehicleParams& vehicle, OdometryParams& odometry) {
+void setArduCopter43(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_gain = 1.012;
   vehicle.yaw_rate_gain = 0.84;
   vehicle.setpoint_acceleration_mps2 = 1.494;
@@ -61,7 +61,7 @@ void setArduCopter43(VehicleParams& vehicle, OdometryParams& odometry) {
 }
 
 // PX4's gains as shipped (MPC_XY_VEL_P_ACC 1.8, _I_ACC 0.4); nothing holds its place in OFFBOARD by velocity.
-void setPx4Gps(VehicleParams& vehicle, OdometryParams& odometry) {
+void setPx4Gps(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.velocity_time_constant_sec = 0.55;
   vehicle.velocity_integral_per_sec = 0.22;
   vehicle.max_acceleration_mps2 = 5.0;
@@ -79,9 +79,9 @@ void setPx4Gps(VehicleParams& vehicle, OdometryParams& odometry) {
 }
 
 // Whatever flies it, it takes 2 s to reach 1.2 m/s.
-void setSlow(VehicleParams& vehicle) { vehicle.setpoint_acceleration_mps2 = 0.6; }
+void setSlow(QuadrotorParams& vehicle) { vehicle.setpoint_acceleration_mps2 = 0.6; }
 
-void setCrisp(VehicleParams& vehicle, OdometryParams& odometry) {
+void setCrisp(QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.acceleration_feed_forward = 0.03;
   vehicle.position_hold_per_sec = 0.34;
   vehicle.velocity_time_constant_sec = 0.095;
@@ -103,7 +103,7 @@ void setCrisp(VehicleParams& vehicle, OdometryParams& odometry) {
 
 }  // namespace
 
-void applyProfile(const std::string& profile, VehicleParams& vehicle, OdometryParams& odometry) {
+void applyProfile(const std::string& profile, QuadrotorParams& vehicle, OdometryParams& odometry) {
   vehicle.profile = profile;
   if (profile == "arducopter_4_0") setArduCopter40(vehicle, odometry);
   if (profile == "arducopter_4_0_default") setArduCopter40AsShipped(vehicle, odometry);

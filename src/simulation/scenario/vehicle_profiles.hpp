@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "simulation/scenario/quadrotor_params.hpp"
 #include "simulation/scenario/sensor_params.hpp"
-#include "simulation/scenario/vehicle_params.hpp"
 
 namespace window_ingress::simulation {
 
@@ -16,6 +16,6 @@ namespace window_ingress::simulation {
 /// a second. `slow`: the default vehicle, at most 0.6 m/s^2. `default`, `external` and unknown ones change
 /// nothing but the name. What each reproduces of what was measured: test `vehicle_profiles_test.cpp` and
 /// doc/scenarios.md.
-void applyProfile(const std::string& profile, VehicleParams& vehicle, OdometryParams& odometry);
+void applyProfile(const std::string& profile, QuadrotorParams& vehicle, OdometryParams& odometry);
 
 }  // namespace window_ingress::simulation

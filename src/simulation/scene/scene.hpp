@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulation/scenario/scenario.hpp"
-#include "simulation/scene/obstacle.hpp"
+#include "simulation/scene/obstacle_collision.hpp"
 #include "simulation/surfaces/mesh.hpp"
 
 namespace window_ingress::simulation {

@@ -8,10 +8,6 @@
 namespace window_ingress::simulation {
 namespace {
 
-constexpr double kThrustTimeConstant_sec = 0.04;
-constexpr double kMinThrust_mps2 = 0.2 * Quadrotor::kGravity_mps2;
-constexpr double kMaxThrust_mps2 = 2.0 * Quadrotor::kGravity_mps2;
-
 // Keeps the vertical part, shortens the horizontal one.
 Eigen::Vector3d limitTilt(Eigen::Vector3d force, double max_tilt_rad) {
   force.z() = std::clamp(force.z(), kMinThrust_mps2, kMaxThrust_mps2);
@@ -29,30 +25,22 @@ Eigen::Matrix3d attitudeFor(const Eigen::Vector3d& force, double yaw_rad) {
   return attitude;
 }
 
-double lag(double step_sec, double time_constant_sec) {
-  return 1.0 - std::exp(-step_sec / time_constant_sec);
-}
-
 }  // namespace
 
-Quadrotor::Quadrotor(const VehicleParams& params, const Eigen::Isometry3d& T_odom_base,
+Quadrotor::Quadrotor(const QuadrotorParams& params, const Eigen::Isometry3d& T_odom_base,
                      const Eigen::Vector3d& wind_odom_mps)
-    : params_(params),
-      mass_ratio_(1.0 + params.payload_kg / params.mass_kg),
-      thrust_factor_((1.0 + params.thrust_gain_error) / mass_ratio_),
-      controller_(params),
-      wanted_thrust_mps2_(kGravity_mps2 / thrust_factor_),
-      rest_height_m_(params.half_height_m) {
+    : params_(params), motors_(params), controller_(params), rest_height_m_(params.half_height_m) {
   truth_.T_odom_base = T_odom_base;
   const Eigen::Vector3d gravity(0, 0, kGravity_mps2);
-  hover_trim_mps2_ = gravity / thrust_factor_ - gravity;
+  hover_trim_mps2_ = gravity / motors_.gain() - gravity;
   controller_.setTrim(hover_trim_mps2_);
   if (T_odom_base.translation().z() <= params.half_height_m + 1e-6) return;
-  const Eigen::Vector3d against_wind = -params.drag_per_sec / mass_ratio_ / thrust_factor_ * wind_odom_mps;
+  const Eigen::Vector3d against_wind =
+      -params.drag_per_sec / params.massRatio() / motors_.gain() * wind_odom_mps;
   controller_.setTrim(hover_trim_mps2_ + against_wind);
   const Eigen::Vector3d force = limitTilt(controller_.trim() + gravity, params.max_tilt_rad);
   truth_.T_odom_base.linear() = attitudeFor(force, geometry::yawOf(T_odom_base.linear()));
-  wanted_thrust_mps2_ = force.norm();
+  motors_.set(force.norm());
   specific_force_base_mps2_ = truth_.T_odom_base.linear().transpose() * gravity;
 }
 
@@ -77,7 +65,7 @@ void Quadrotor::step(double step_sec, const AirAtVehicle& air,
   } else {
     const Eigen::Vector3d force = wantedForce(estimated_velocity_odom_mps, step_sec);
     turn(force, step_sec);
-    move(thrust(force, step_sec), air, step_sec);
+    move(motors_.step(force.dot(truth_.T_odom_base.linear().col(2)), step_sec), air, step_sec);
   }
   standOnGround();
 }
@@ -107,8 +95,8 @@ void Quadrotor::turn(const Eigen::Vector3d& force, double step_sec) {
   rate.z() = params_.yaw_rate_gain * command_.yaw_rate_radps;
 
   Eigen::Vector3d& omega = truth_.angular_velocity_base_radps;
-  omega.head<2>() += lag(step_sec, kRateTimeConstant_sec) * (rate - omega).head<2>();
-  omega.z() += lag(step_sec, params_.yaw_time_constant_sec) * (rate.z() - omega.z());
+  omega.head<2>() += lagPart(step_sec, kRateTimeConstant_sec) * (rate - omega).head<2>();
+  omega.z() += lagPart(step_sec, params_.yaw_time_constant_sec) * (rate.z() - omega.z());
   const double angle = omega.norm() * step_sec;
   if (angle < 1e-12) return;
   const Eigen::Quaterniond turned =
@@ -116,18 +104,11 @@ void Quadrotor::turn(const Eigen::Vector3d& force, double step_sec) {
   truth_.T_odom_base.linear() = turned.normalized().toRotationMatrix();
 }
 
-double Quadrotor::thrust(const Eigen::Vector3d& force, double step_sec) {
-  const double wanted =
-      std::clamp(force.dot(truth_.T_odom_base.linear().col(2)), kMinThrust_mps2, kMaxThrust_mps2);
-  wanted_thrust_mps2_ += lag(step_sec, kThrustTimeConstant_sec) * (wanted - wanted_thrust_mps2_);
-  return thrust_factor_ * wanted_thrust_mps2_;
-}
-
 void Quadrotor::move(double thrust_mps2, const AirAtVehicle& air, double step_sec) {
   const Eigen::Matrix3d& attitude = truth_.T_odom_base.linear();
   const Eigen::Vector3d drag = params_.drag_per_sec * (air.wind_odom_mps - truth_.velocity_odom_mps);
   const Eigen::Vector3d push = crashed_ ? Eigen::Vector3d::Zero() : air.push_odom_mps2;
-  const Eigen::Vector3d specific_force = thrust_mps2 * attitude.col(2) + (drag + push) / mass_ratio_;
+  const Eigen::Vector3d specific_force = thrust_mps2 * attitude.col(2) + (drag + push) / params_.massRatio();
   specific_force_base_mps2_ = attitude.transpose() * specific_force;
   const Eigen::Vector3d before = truth_.velocity_odom_mps;
   truth_.velocity_odom_mps += step_sec * (specific_force - Eigen::Vector3d(0, 0, kGravity_mps2));

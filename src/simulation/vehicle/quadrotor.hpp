@@ -2,7 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "simulation/scenario/vehicle_params.hpp"
+#include "simulation/scenario/quadrotor_params.hpp"
+#include "simulation/vehicle/motors.hpp"
 #include "simulation/vehicle/vehicle_truth.hpp"
 #include "simulation/vehicle/velocity_controller.hpp"
 
@@ -30,11 +31,10 @@ struct AirAtVehicle {
 /// for less.
 class Quadrotor {
  public:
-  static constexpr double kGravity_mps2 = 9.81;
   static constexpr double kRateTimeConstant_sec = 0.03;
 
   /// Starts at rest, trimmed for `wind_odom_mps` (if it does not stand on the ground) and for its payload.
-  Quadrotor(const VehicleParams& params, const Eigen::Isometry3d& T_odom_base,
+  Quadrotor(const QuadrotorParams& params, const Eigen::Isometry3d& T_odom_base,
             const Eigen::Vector3d& wind_odom_mps = Eigen::Vector3d::Zero());
 
   /// A command that is not finite is ignored, as a lost one would be.
@@ -58,18 +58,15 @@ class Quadrotor {
  private:
   Eigen::Vector3d wantedForce(const Eigen::Vector3d& velocity_mps, double step_sec);
   void turn(const Eigen::Vector3d& force, double step_sec);
-  double thrust(const Eigen::Vector3d& force, double step_sec);
   void move(double thrust_mps2, const AirAtVehicle& air, double step_sec);
   void standOnGround();
 
-  VehicleParams params_;
-  double mass_ratio_,
-      thrust_factor_;  // of the mass carried to the mass known; of the thrust given to the wanted
+  QuadrotorParams params_;
+  Motors motors_;
   VehicleTruth truth_;
   VelocityController controller_;
   VelocityCommand command_;
   double command_age_sec_ = 0.0;
-  double wanted_thrust_mps2_;
   double rest_height_m_;
   bool crashed_ = false;
   Eigen::Vector3d hover_trim_mps2_ = Eigen::Vector3d::Zero();

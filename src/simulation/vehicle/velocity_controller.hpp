@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "simulation/scenario/vehicle_params.hpp"
+#include "simulation/scenario/quadrotor_params.hpp"
 
 namespace window_ingress::simulation {
 
@@ -22,7 +22,7 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest);
 /// rests while the acceleration is at its limit, and learns less from errors beyond 0.3 m/s: little wind-up.
 class VelocityController {
  public:
-  explicit VelocityController(const VehicleParams& params) : params_(params) {}
+  explicit VelocityController(const QuadrotorParams& params) : params_(params) {}
 
   /// The acceleration wanted, `trim()` included [m/s^2].
   Eigen::Vector3d step(const Eigen::Vector3d& setpoint_mps, const Eigen::Vector3d& velocity_mps,
@@ -35,7 +35,7 @@ class VelocityController {
   void learnTrim(const Eigen::Vector3d& error_mps, double step_sec);
   void shape(const Eigen::Vector3d& wanted_mps, double step_sec);
 
-  VehicleParams params_;
+  QuadrotorParams params_;
   Eigen::Vector3d reference_mps_ = Eigen::Vector3d::Zero(), reference_mps2_ = Eigen::Vector3d::Zero(),
                   lag_m_ = Eigen::Vector3d::Zero(), trim_mps2_ = Eigen::Vector3d::Zero();
 };

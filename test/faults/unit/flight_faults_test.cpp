@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/nodes/setpoint_gate.hpp"
+#include "adapters/guard/setpoint_gate.hpp"
 #include "navigation/motion/setpoint_limiter.hpp"
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"

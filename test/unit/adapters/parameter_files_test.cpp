@@ -8,10 +8,10 @@
 #include <map>
 #include <set>
 
+#include "adapters/guard/setpoint_gate.hpp"
 #include "adapters/images/detector_node.hpp"
-#include "adapters/nodes/navigator_node.hpp"
-#include "adapters/nodes/pose_node.hpp"
-#include "adapters/nodes/setpoint_gate.hpp"
+#include "adapters/navigator/navigator_node.hpp"
+#include "adapters/pose/pose_node.hpp"
 #include "adapters/world/world_node.hpp"
 
 namespace window_ingress::adapters::parameter_files_test {

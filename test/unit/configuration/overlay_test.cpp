@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "window_ingress/parameters/key_list.hpp"
+#include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::configuration::overlay_test {

@@ -25,7 +25,7 @@ constexpr const char* kProfiles[] = {"arducopter_4_0", "arducopter_4_3", "crisp"
 /// How far a vehicle gets, at most, after its sender has died at `speed`; zeros come after `zeros_after_sec`,
 /// negative: never.
 double travel(const std::string& profile, double speed_mps, double zeros_after_sec) {
-  VehicleParams params;
+  QuadrotorParams params;
   OdometryParams odometry;
   applyProfile(profile, params, odometry);
   Quadrotor vehicle(params, geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 10}));

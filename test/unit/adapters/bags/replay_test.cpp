@@ -16,7 +16,7 @@
 
 #include "adapters/bags/replay_output.hpp"
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/nodes/camera_mounting.hpp"
+#include "adapters/pose/camera_mounting.hpp"
 #include "adapters/world/world_messages.hpp"
 
 namespace window_ingress::adapters::replay_test {

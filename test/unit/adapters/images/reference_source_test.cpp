@@ -7,7 +7,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "adapters/sources/parameters.hpp"
+#include "adapters/runtime/parameter_server.hpp"
 #include "drawn_window.hpp"
 
 namespace window_ingress::adapters::reference_source_test {

@@ -11,7 +11,7 @@ namespace window_ingress::detection::edge_chains_test {
 
 const std::vector<EdgeChain>& runsOf(EdgeChains& runs, const cv::Mat& image) {
   EdgeDetector edges{EdgeMapParams()};
-  return runs.run(edges.run(image), LevelCamera());
+  return runs.run(edges.run(image), UndistortionMap());
 }
 
 TEST(EdgeChains, ARectangleHasFourLongRunsWithItsBrighterSideOnTheRight) {

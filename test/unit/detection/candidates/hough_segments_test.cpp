@@ -15,7 +15,7 @@ namespace window_ingress::detection::hough_segments_test {
 std::vector<Segment> segmentsOf(const EdgeMap& map) {
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};
-  return lines.run(runs.run(map, LevelCamera()), map.edges.size());
+  return lines.run(runs.run(map, UndistortionMap()), map.edges.size());
 }
 
 cv::Mat window(const geometry::Quadrilateral& opening, double noise = 1.0) {
@@ -77,7 +77,7 @@ TEST(HoughSegments, OnlyWhatLiesOnSegmentsIsKept) {
   const EdgeMap& map = edges.run(image);
   EdgeChains runs;
   HoughSegments lines{HoughSegmentsParams()};
-  lines.run(runs.run(map, LevelCamera()), map.edges.size());
+  lines.run(runs.run(map, UndistortionMap()), map.edges.size());
   cv::Mat kept;
   keepOnSegments(runs, lines, map.edges.size(), kept);
   EXPECT_GT(cv::countNonZero(kept), 380);
@@ -89,7 +89,7 @@ TEST(HoughSegments, ABorderBentByALensIsStraightAfterIt) {
   auto camera = geometry::PinholeCamera::fromFieldOfView(640, 480, 1.4);
   camera.distortion = {-0.25, 0.06, 0.0, 0.0, 0.0};
   cv::Mat image(240, 320, CV_8UC1, cv::Scalar(200));
-  LevelCamera lens;
+  UndistortionMap lens;
   lens.set(&camera, image.size(), 2);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
@@ -131,11 +131,11 @@ TEST(SideSupport, FullOnTheWindowAndNoneBesideIt) {
   EdgeDetector edges{EdgeMapParams()};
   const auto opening = test::rectangle(100, 70, 220, 170);
   const EdgeMap& map = edges.run(window(opening));
-  for (const SideSupport& side : measureSides(map, LevelCamera(), opening)) {
+  for (const SideSupport& side : measureSides(map, UndistortionMap(), opening)) {
     EXPECT_GT(side.fraction, 0.9);
     EXPECT_LT(side.overshoot, 0.1);
   }
-  for (const SideSupport& side : measureSides(map, LevelCamera(), test::rectangle(110, 80, 210, 160)))
+  for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(110, 80, 210, 160)))
     EXPECT_LT(side.fraction, 0.1);
 }
 
@@ -146,17 +146,17 @@ TEST(SideSupport, ACellOfAGridOvershoots) {
     cv::line(image, {60, 30 + 40 * i}, {220, 30 + 40 * i}, cv::Scalar(20), 2);
   }
   EdgeDetector edges{EdgeMapParams()};
-  const auto cell = measureSides(edges.run(image), LevelCamera(), test::rectangle(102, 72, 138, 108));
-  const auto grid = measureSides(edges.run(image), LevelCamera(), test::rectangle(58, 28, 222, 192));
+  const auto cell = measureSides(edges.run(image), UndistortionMap(), test::rectangle(102, 72, 138, 108));
+  const auto grid = measureSides(edges.run(image), UndistortionMap(), test::rectangle(58, 28, 222, 192));
   for (int i = 0; i < 4; ++i) EXPECT_GT(cell[i].overshoot, grid[i].overshoot + 0.2);
 }
 
 TEST(SideSupport, OutsideTheImageAndDegenerateSidesHaveNone) {
   EdgeDetector edges{EdgeMapParams()};
   const EdgeMap& map = edges.run(window(test::rectangle(100, 70, 220, 170)));
-  for (const SideSupport& side : measureSides(map, LevelCamera(), test::rectangle(-500, -400, 900, 800)))
+  for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(-500, -400, 900, 800)))
     EXPECT_EQ(side.fraction, 0.0);
-  for (const SideSupport& side : measureSides(map, LevelCamera(), test::rectangle(5, 5, 5, 5)))
+  for (const SideSupport& side : measureSides(map, UndistortionMap(), test::rectangle(5, 5, 5, 5)))
     EXPECT_EQ(side.fraction, 0.0);
 }
 

@@ -1,8 +1,8 @@
+#include "openness/interior/smooth_regions.hpp"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
-
-#include "openness/interior/edge_flow.hpp"
 
 namespace window_ingress::openness::smooth_regions_test {
 

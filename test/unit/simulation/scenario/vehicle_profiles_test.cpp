@@ -91,16 +91,16 @@ class Flyer {
   Eigen::Vector3d position() const { return vehicle_.truth().T_odom_base.translation(); }
   Eigen::Matrix3d attitude() const { return vehicle_.truth().T_odom_base.linear(); }
   std::optional<OdometrySample> take() { return sensor_.take(now_sec_); }
-  const VehicleParams& params() const { return params_; }
+  const QuadrotorParams& params() const { return params_; }
 
  private:
-  static VehicleParams paramsOf(const std::string& profile, OdometryParams* odometry) {
-    VehicleParams vehicle;
+  static QuadrotorParams paramsOf(const std::string& profile, OdometryParams* odometry) {
+    QuadrotorParams vehicle;
     applyProfile(profile, vehicle, *odometry);
     return vehicle;
   }
   OdometryParams odometry_params_;
-  VehicleParams params_;
+  QuadrotorParams params_;
   OdometrySensor sensor_;
   Quadrotor vehicle_;
   long steps_ = 0;
@@ -353,17 +353,17 @@ TEST(VehicleProfiles, ChangeTheirVelocityAsSlowlyAsTheyMay) {
 TEST(VehicleProfiles, AreWithinTheRangesAndUnknownOnesChangeNothing) {
   for (const char* profile : {"default", "arducopter_4_0", "arducopter_4_0_default", "arducopter_4_3",
                               "crisp", "px4_1_13_gps", "slow", "external"}) {
-    VehicleParams vehicle;
+    QuadrotorParams vehicle;
     OdometryParams odometry;
     applyProfile(profile, vehicle, odometry);
     EXPECT_TRUE(parameters::outOfRange(vehicle).empty()) << profile;
     EXPECT_TRUE(parameters::outOfRange(odometry).empty()) << profile;
     EXPECT_EQ(vehicle.profile, profile);
   }
-  VehicleParams vehicle;
+  QuadrotorParams vehicle;
   OdometryParams odometry;
   applyProfile("nobody's", vehicle, odometry);
-  EXPECT_EQ(vehicle.velocity_time_constant_sec, VehicleParams().velocity_time_constant_sec);
+  EXPECT_EQ(vehicle.velocity_time_constant_sec, QuadrotorParams().velocity_time_constant_sec);
   EXPECT_EQ(odometry.rate_hz, OdometryParams().rate_hz);
 }
 

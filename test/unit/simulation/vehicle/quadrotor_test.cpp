@@ -12,7 +12,7 @@ namespace window_ingress::simulation::quadrotor_test {
 constexpr double kStep_sec = 0.0025;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
-Quadrotor hovering(double yaw_rad = 0.0, const VehicleParams& params = {},
+Quadrotor hovering(double yaw_rad = 0.0, const QuadrotorParams& params = {},
                    const Eigen::Vector3d& wind = kStill) {
   return Quadrotor(params, geometry::makePose(geometry::yawRotation(yaw_rad), {0, 0, 2.0}), wind);
 }
@@ -32,7 +32,7 @@ TEST(Quadrotor, HoversWhereItIs) {
   Quadrotor vehicle = hovering();
   fly(vehicle, {}, 10.0);
   EXPECT_LT((vehicle.truth().T_odom_base.translation() - Eigen::Vector3d(0, 0, 2)).norm(), 1e-6);
-  EXPECT_NEAR(vehicle.specificForceBase().z(), Quadrotor::kGravity_mps2, 1e-6);
+  EXPECT_NEAR(vehicle.specificForceBase().z(), kGravity_mps2, 1e-6);
 }
 
 TEST(Quadrotor, MovesAlongTheAxesOfOdometryWhateverItsHeading) {
@@ -98,11 +98,11 @@ TEST(Quadrotor, TurnsAtTheYawRateAskedAndNoFasterThanItCan) {
   EXPECT_NEAR(vehicle.truth().angular_velocity_base_radps.z(), 0.5, 0.01);
   EXPECT_NEAR(geometry::yawOf(vehicle.truth().T_odom_base.linear()), 0.5 * (3.0 - 0.15), 0.03);
   fly(vehicle, {kStill, 50.0}, 3.0);
-  EXPECT_LE(vehicle.truth().angular_velocity_base_radps.z(), VehicleParams().max_yaw_rate_radps + 1e-9);
+  EXPECT_LE(vehicle.truth().angular_velocity_base_radps.z(), QuadrotorParams().max_yaw_rate_radps + 1e-9);
 }
 
 TEST(Quadrotor, StopsWhenCommandsStopComing) {
-  VehicleParams params;
+  QuadrotorParams params;
   Quadrotor vehicle = hovering(0.0, params);
   fly(vehicle, {Eigen::Vector3d(1.0, 0, 0), 0.4}, 3.0);
   const auto coast = [&](double duration_sec) {
@@ -124,11 +124,11 @@ TEST(Quadrotor, IgnoresCommandsThatAreNotFiniteAndShortensWildOnes) {
   EXPECT_LT((vehicle.truth().T_odom_base.translation() - Eigen::Vector3d(0, 0, 2)).norm(), 1e-6);
   fly(vehicle, {Eigen::Vector3d(1e9, 1e9, 0), 0.0}, 8.0);
   EXPECT_TRUE(geometry::isValidPose(vehicle.truth().T_odom_base));
-  EXPECT_LT(vehicle.truth().velocity_odom_mps.norm(), 1.1 * VehicleParams().max_speed_mps);
+  EXPECT_LT(vehicle.truth().velocity_odom_mps.norm(), 1.1 * QuadrotorParams().max_speed_mps);
 }
 
 TEST(Quadrotor, NeverTiltsBeyondItsLimitByMuchUnderWildCommands) {
-  VehicleParams params;
+  QuadrotorParams params;
   Quadrotor vehicle = hovering(0.0, params);
   double most_rad = 0.0;
   for (int second = 0; second < 12; ++second) {
@@ -144,7 +144,7 @@ TEST(Quadrotor, NeverTiltsBeyondItsLimitByMuchUnderWildCommands) {
 }
 
 TEST(Quadrotor, StandsOnTheGroundUntilToldToRise) {
-  VehicleParams params;
+  QuadrotorParams params;
   Quadrotor vehicle(params, geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, params.half_height_m}));
   fly(vehicle, {Eigen::Vector3d(0.0, 0, -1.0)}, 1.0);
   EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), params.half_height_m, 1e-9);
@@ -161,13 +161,13 @@ double secondOrder(double time_sec, double T, double Tr) {
 }
 
 TEST(Quadrotor, AttitudeAnswersAsItsSecondOrderModel) {
-  VehicleParams params;
+  QuadrotorParams params;
   params.drag_per_sec = params.velocity_integral_per_sec = 0.0;
   params.max_acceleration_mps2 = 2.0;  // reached all the time: the wanted tilt is a step
   for (const double gain_error : {0.0, 0.15}) {
     params.attitude_gain_error = gain_error;
     const double T = params.attitude_time_constant_sec / (1.0 + gain_error);
-    const double wanted_rad = std::atan2(2.0, Quadrotor::kGravity_mps2);
+    const double wanted_rad = std::atan2(2.0, kGravity_mps2);
     Quadrotor vehicle = hovering(0.3, params);
     for (double t = kStep_sec; t < 0.6; t += kStep_sec) {
       fly(vehicle, {geometry::yawRotation(0.3) * Eigen::Vector3d(5.0, 0, 0)}, 0.5 * kStep_sec);
@@ -179,13 +179,12 @@ TEST(Quadrotor, AttitudeAnswersAsItsSecondOrderModel) {
 
 double energy(const Quadrotor& vehicle) {
   const auto& truth = vehicle.truth();
-  return Quadrotor::kGravity_mps2 * truth.T_odom_base.translation().z() +
-         0.5 * truth.velocity_odom_mps.squaredNorm();
+  return kGravity_mps2 * truth.T_odom_base.translation().z() + 0.5 * truth.velocity_odom_mps.squaredNorm();
 }
 
 TEST(Quadrotor, FallsWithAllItsEnergyLessWhatTheDragTakes) {
   for (const double drag_per_sec : {0.0, 0.25}) {
-    VehicleParams params;
+    QuadrotorParams params;
     params.drag_per_sec = drag_per_sec;
     Quadrotor vehicle(params, geometry::makePose(Eigen::Matrix3d::Identity(), {0, 0, 60.0}));
     vehicle.crash(0.0);
@@ -215,18 +214,18 @@ TEST(Quadrotor, AfterACrashItStopsFallsAndNeverFliesAgain) {
   EXPECT_DOUBLE_EQ(vehicle.truth().T_odom_base.translation().x(), x_m);
   EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), 0.9, 1e-9) << "on what lay below";
   EXPECT_EQ(vehicle.truth().velocity_odom_mps, kStill);
-  EXPECT_NEAR(vehicle.specificForceBase().z(), Quadrotor::kGravity_mps2, 1e-9);
+  EXPECT_NEAR(vehicle.specificForceBase().z(), kGravity_mps2, 1e-9);
 }
 
 TEST(Quadrotor, PayloadAndThrustErrorMakeItSlowerOrFasterButItHovers) {
-  VehicleParams heavy, strong;
+  QuadrotorParams heavy, strong;
   heavy.payload_kg = 0.5;
   strong.thrust_gain_error = 0.2;
-  const auto climbed = [](const VehicleParams& params) {
+  const auto climbed = [](const QuadrotorParams& params) {
     Quadrotor vehicle = hovering(0.0, params);
     fly(vehicle, {}, 2.0);
     EXPECT_NEAR(vehicle.truth().T_odom_base.translation().z(), 2.0, 1e-6);
-    EXPECT_NEAR(vehicle.specificForceBase().z(), Quadrotor::kGravity_mps2, 1e-6) << "hover takes its weight";
+    EXPECT_NEAR(vehicle.specificForceBase().z(), kGravity_mps2, 1e-6) << "hover takes its weight";
     fly(vehicle, {Eigen::Vector3d(0, 0, 1.0)}, 0.4);
     return vehicle.truth().T_odom_base.translation().z() - 2.0;
   };

@@ -11,8 +11,8 @@ constexpr double kStep_sec = 0.0025;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
 // Only what is fed forward: the acceleration of the shaped setpoint.
-VehicleParams shapingOnly() {
-  VehicleParams params;
+QuadrotorParams shapingOnly() {
+  QuadrotorParams params;
   params.acceleration_feed_forward = 1.0;
   params.velocity_integral_per_sec = 0.0;
   params.velocity_time_constant_sec = 3.0;
@@ -20,7 +20,7 @@ VehicleParams shapingOnly() {
 }
 
 TEST(VelocityController, WithoutShapingItIsAProportionalControllerUpToItsLimit) {
-  VehicleParams params;
+  QuadrotorParams params;
   params.velocity_integral_per_sec = 0.0;
   VelocityController controller(params);
   EXPECT_TRUE(controller.step({0.4, 0, -0.2}, kStill, kStep_sec).isApprox(Eigen::Vector3d(1.0, 0, -0.5)));
@@ -28,7 +28,7 @@ TEST(VelocityController, WithoutShapingItIsAProportionalControllerUpToItsLimit) 
 }
 
 TEST(VelocityController, TheSetpointsAccelerationAndItsChangeKeepTheirLimits) {
-  VehicleParams params = shapingOnly();
+  QuadrotorParams params = shapingOnly();
   params.setpoint_acceleration_mps2 = 1.5;
   params.setpoint_time_constant_sec = 0.5;
   params.setpoint_jerk_mps3 = 6.0;
@@ -50,7 +50,7 @@ TEST(VelocityController, TheSetpointsAccelerationAndItsChangeKeepTheirLimits) {
 
 TEST(VelocityController, HoldPullsItToWhereTheSetpointLed) {
   for (const double hold_per_sec : {0.0, 1.0}) {
-    VehicleParams params;
+    QuadrotorParams params;
     params.velocity_integral_per_sec = 0.0;
     params.position_hold_per_sec = hold_per_sec;
     VelocityController controller(params);
@@ -71,7 +71,7 @@ TEST(VelocityController, HoldPullsItToWhereTheSetpointLed) {
 }
 
 TEST(VelocityController, TheTrimLearnsNearTheSetpointAndIsHardlyWoundUpByAStep) {
-  const VehicleParams params;
+  const QuadrotorParams params;
   const double rate = params.velocity_integral_per_sec / params.velocity_time_constant_sec;
   VelocityController controller(params);
   controller.setTrim({0, 0, 1.0});
@@ -86,7 +86,7 @@ TEST(VelocityController, TheTrimLearnsNearTheSetpointAndIsHardlyWoundUpByAStep) 
 }
 
 TEST(VelocityController, NoPushIsTooStrongToBeLearntAway) {
-  VelocityController controller{VehicleParams()};
+  VelocityController controller{QuadrotorParams()};
   Eigen::Vector3d velocity = kStill;
   for (int i = 0; i < 8000; ++i)
     velocity += kStep_sec * (controller.step(kStill, velocity, kStep_sec) + Eigen::Vector3d(0, 2.0, 0));

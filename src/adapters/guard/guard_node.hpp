@@ -1,0 +1,40 @@
+#pragma once
+
+#include <geometry_msgs/TwistStamped.h>
+#include <ros/node_handle.h>
+
+#include "adapters/guard/setpoint_gate.hpp"
+#include "adapters/runtime/diagnostics.hpp"
+#include "adapters/runtime/run_node.hpp"
+
+namespace window_ingress::adapters {
+
+/// The last gate before the autopilot, in a process of its own: it outlives the navigator.
+///
+/// What it sends goes out on `passed_on`, too: the navigator watches that.
+///
+/// Sends at `rate_hz` on the steady clock, from its start until it is stopped, what `SetpointGate` lets
+/// through. In lockstep, which is refused outside simulated time, time stands still where no input comes, and
+/// so does the guard.
+class GuardNode : public Node {
+ public:
+  GuardNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+  void stop() override;
+
+ private:
+  void receive(const geometry_msgs::TwistStampedConstPtr& message);
+  void send();
+  void publish(const geometry_msgs::Twist& twist, const ros::Time& stamp);
+  Health inputHealth() const;
+  Health outputHealth() const;
+
+  GuardParams params_;
+  Diagnostics diagnostics_;
+  SetpointGate gate_;
+  std::string frame_id_;
+  ros::Subscriber subscriber_;
+  ros::Publisher publisher_, passed_on_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,87 @@
+#include "adapters/inputs/camera_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/runtime/exception_barrier.hpp"
+#include "window_ingress/text/text.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kNearSec = 0.2;   // stamps of an image and of its calibration, be it one frame off
+constexpr double kApartSec = 1.2;  // so long may no stamp be near: camera_info may come once a second
+
+std::string size(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+}  // namespace
+
+CameraSource::CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified)
+    : rectified_(rectified),
+      image_topic_(nh.resolveName("image_raw")),
+      health_(diagnostics, "camera_info", kSilenceSec) {
+  subscriber_ = subscribeCatching<sensor_msgs::CameraInfo>(
+      nh, "camera_info", 1, diagnostics, [this](const auto& message) { receive(*message); });
+  health_.watch(subscriber_);
+  diagnostics.add("calibration", [this] { return fitHealth(); });
+  camera_.reason = "no camera_info on " + subscriber_.getTopic() + " so far";
+}
+
+void CameraSource::receive(const sensor_msgs::CameraInfo& message) {
+  health_.arrived();
+  camera_ = cameraFromMsg(message, rectified_);
+  frame_id_ = message.header.frame_id;
+  stamp_ = message.header.stamp;
+  if (camera_)
+    health_.accepted();
+  else
+    health_.refused(camera_.reason);
+  if (came_) came_();
+}
+
+std::string CameraSource::misfit(int width_px, int height_px, const std::string& frame_id) const {
+  const std::string topic = "camera_info on " + subscriber_.getTopic();
+  if (camera_.value->width != width_px || camera_.value->height != height_px)
+    return "sizes differ: the image has " + size(width_px, height_px) + " pixels, " + topic + " is for " +
+           size(camera_.value->width, camera_.value->height);
+  if (!frame_id.empty() && frame_id != frame_id_)
+    return "frames differ: the image has frame_id '" + frame_id + "', " + topic + " '" + frame_id_ + "'";
+  return "";
+}
+
+void CameraSource::compareStamps(const ros::Time& image) {
+  apart_sec_ = image.toSec() - stamp_.toSec();
+  if (std::abs(apart_sec_) <= kNearSec || together_sec_ == 0.0) together_sec_ = steadyNowSec();
+}
+
+Converted<geometry::PinholeCamera> CameraSource::cameraOf(int width_px, int height_px,
+                                                          const std_msgs::Header& image) {
+  misfit_ = camera_ ? misfit(width_px, height_px, image.frame_id) : "";
+  if (camera_) compareStamps(image.stamp);
+  return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
+}
+
+// Nothing in an image tells whether its lens was taken out of it; the name of its topic may.
+std::string CameraSource::undoneTwice() const {
+  const auto& lens = camera_.value->distortion;
+  const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
+  if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
+  return "images on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
+         subscriber_.getTopic() + " is undone once more; if they are, set vehicle/image_is_rectified";
+}
+
+Health CameraSource::fitHealth() const {
+  if (!camera_) return {Health::kOk, "none so far"};
+  if (!misfit_.empty()) return {Health::kError, misfit_};
+  const bool apart = std::abs(apart_sec_) > kNearSec && steadyNowSec() - together_sec_ > kApartSec;
+  const std::string topic = "camera_info on " + subscriber_.getTopic();
+  if (apart && stamp_.isZero()) return {Health::kWarn, topic + " is not stamped"};
+  if (apart)
+    return {Health::kWarn, "stamps of image and " + topic + " are " +
+                               formatted("%.2f s", std::abs(apart_sec_)) + " apart, " +
+                               (apart_sec_ > 0.0 ? "the image is newer" : "the image is older")};
+  if (const std::string twice = undoneTwice(); !twice.empty()) return {Health::kWarn, twice};
+  return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,277 @@
+#include "adapters/navigator/navigator_node.hpp"
+
+#include <geometry_msgs/TwistStamped.h>
+
+#include "adapters/conversions/stamps.hpp"
+#include "adapters/markers/marker_sketch.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/parameter_server.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+// Which axes, not which name: frame_id is filled from odom_frame and base_frame.
+constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
+constexpr double kFrozenClockSec = 0.2;
+constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
+constexpr double kMarkerPeriodSec = 0.095;
+constexpr double kRounding = 1e-6;
+constexpr std::size_t kMaxReason = 400;  // characters of what others say
+
+// What the navigator keeps to already, asked once more of what is sent.
+GuardParams lastGate(const navigation::LimitParams& limits) {
+  GuardParams gate;
+  gate.max_speed_mps = limits.speed_mps + kRounding;
+  gate.max_yaw_rate_radps = limits.yaw_rate_radps + kRounding;
+  return gate;
+}
+
+NavigatorNodeParams read(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+  navigation::VehicleParams vehicle;
+  auto params = readParameters<NavigatorNodeParams>(nh, pnh, vehicle);
+  params.navigator.vehicle = vehicle;
+  if (params.start_at_once && !params.lockstep)
+    throw InputError("start_at_once is for lockstep only: call ~start");
+  return params;
+}
+
+}  // namespace
+
+NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
+    : params_(read(nh, pnh)),
+      diagnostics_(nh, pnh),
+      odom_health_(diagnostics_, "odom", kSilenceSec),
+      pose_health_(diagnostics_, "window_pose", kSilenceSec),
+      odom_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
+      pose_gate_(limitsFor(params_.lockstep, params_.navigator.vehicle.stamps)),
+      engagement_(params_.engagement),
+      upstream_(nh, diagnostics_),
+      guard_(nh, diagnostics_, params_.guard),
+      navigator_(params_.navigator),
+      last_gate_(lastGate(params_.navigator.limits)) {
+  setpoint_publisher_ = nh.advertise<geometry_msgs::TwistStamped>("cmd_vel", 1);
+  state_publisher_ = nh.advertise<window_ingress::IngressState>("state", 1, true);
+  marker_publisher_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  const int queue = queueFor(params_.lockstep, 1);
+  odom_subscriber_ = subscribeCatching<nav_msgs::Odometry>(
+      nh, "odom", queue, diagnostics_, [this](const auto& message) { receiveOdometry(message); });
+  pose_subscriber_ = subscribeCatching<window_ingress::WindowPose>(
+      nh, "window_pose", queue, diagnostics_, [this](const auto& message) { receivePose(message); });
+  engaged_subscriber_ = subscribeCatching<std_msgs::Bool>(
+      nh, "engaged", 1, diagnostics_,
+      [this](const auto& message) { engagement_.hear(message->data, steadyNowSec()); });
+  diagnostics_.add("engaged",
+                   [this] { return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec()); });
+  odom_health_.watch(odom_subscriber_);
+  pose_health_.watch(pose_subscriber_);
+  diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
+  diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
+  diagnostics_.add("camera", [this] { return cameraHealth(); });
+  diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
+  advertiseServices(pnh);
+  if (params_.lockstep)
+    lockstep_.emplace(
+        nh, diagnostics_, [this](const auto& step) { return isComplete(step); },
+        [this](const auto& step) { stepInStep(step); });
+  else
+    timer_ = createCatchingTimer(nh, 1.0 / params_.rate_hz, "step", diagnostics_, [this] { step(); });
+  if (!params_.lockstep)
+    action_.emplace(nh, diagnostics_,
+                    MissionAction::Mission{[this] { return whyFlying(); },
+                                           [this](const auto& policy) { return startMission(policy); },
+                                           [this] { return abortMission("the goal was cancelled"); }});
+}
+
+bool NavigatorNode::isComplete(const Lockstep::Step& step) const {
+  const bool connected =
+      odom_subscriber_.getNumPublishers() > 0 && setpoint_publisher_.getNumSubscribers() > 0;
+  if (!step.has_image && !connected) return false;
+  return odom_came_ >= step.odom && pose_came_ >= step.image;
+}
+
+void NavigatorNode::stepInStep(const Lockstep::Step& step) {
+  step_sec_ = step.header.stamp.toSec();
+  restartIfClockJumpedBack(step_sec_);
+  if (params_.start_at_once && last_.state == navigation::State::kIdle)
+    ROS_INFO("start at once: %s", navigator_.start(input_, step_sec_).message.c_str());
+  last_ = navigator_.step(input_, step_sec_);
+  publish(last_, step.header.stamp);
+}
+
+double NavigatorNode::nowSec() const { return lockstep_ ? step_sec_ : ros::Time::now().toSec(); }
+
+void NavigatorNode::receiveOdometry(const nav_msgs::OdometryConstPtr& message) {
+  takeOdometry(message);
+  odom_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void NavigatorNode::receivePose(const window_ingress::WindowPoseConstPtr& message) {
+  takePose(message);
+  pose_came_ = message->header.stamp;
+  if (lockstep_) lockstep_->check();
+}
+
+void NavigatorNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
+  odom_health_.arrived();
+  const auto late = odom_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return odom_health_.refused(*late);
+  auto vehicle = fromMsg(*message, frames());
+  if (!vehicle) return odom_health_.refused(vehicle.reason);
+  odom_health_.accepted();
+  odom_health_.stamped(vehicle.value->stamp_sec);
+  if (!lockstep_)
+    vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
+  input_.vehicle = vehicle.value;
+}
+
+void NavigatorNode::takePose(const window_ingress::WindowPoseConstPtr& message) {
+  pose_health_.arrived();
+  const auto late = pose_gate_.whyRefused(message->header.stamp, ros::Time::now().toSec());
+  if (late) return pose_health_.refused(*late);
+  input_.image_stamp_sec = stampSec(message->header.stamp);
+  pose_health_.stamped(*input_.image_stamp_sec);
+  input_.remembered_odom_m = rememberedFrom(*message, frames().odom);
+  takeCamera(message->camera);
+  if (action_) action_->hear(message->size);
+  if (!message->filtered.valid) return pose_health_.accepted();  // an image without a window is news, too
+  const auto target = targetFromMsg(*message, frames().odom);
+  if (!target) return pose_health_.refused(target.reason);
+  pose_health_.accepted();
+  input_.target = target.value;
+}
+
+// In lockstep the vehicle's parameters count: the world is told the same, and flights repeat to the bit.
+void NavigatorNode::takeCamera(const window_ingress::CameraInBody& message) {
+  input_.camera_fault = message.fault.substr(0, kMaxReason);
+  if (lockstep_) return;
+  input_.camera = cameraFromMsg(message);
+  if (!input_.camera || !navigation::faultOf(*input_.camera).empty()) return;
+  params_.navigator.vehicle = navigation::withCamera(params_.navigator.vehicle, *input_.camera);  // as drawn
+}
+
+void NavigatorNode::step() {
+  const ros::Time now = ros::Time::now();
+  restartIfClockJumpedBack(now.toSec());
+  forgetSilentInputs();
+  const bool works = catchAll(diagnostics_, "navigator", [&] { last_ = decide(now.toSec()); });
+  if (isLeftToOthers()) {
+    last_.enabled = was_enabled_ = false;
+    last_.reason = "disabled (~enable)";
+  }
+  if (!works) {
+    last_.setpoint = navigation::Setpoint();
+    navigator_.sentZero();
+  }
+  if (diagnostics_.failures().inARow("navigator") == FailureCount::kMany)
+    navigator_.abort("aborted: its steps fail, see callbacks in the diagnostics");
+  publish(last_, now);
+  if (last_.enabled) guard_.brakeIfNobodyDoes(now, frames().odom);
+}
+
+navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
+  if (!clockStandsStill(now_sec)) return navigator_.step(input_, now_sec);
+  navigator_.sentZero();
+  navigation::NavigatorOutput output = last_;
+  output.setpoint = navigation::Setpoint();
+  output.reason = now_sec == 0.0 ? "waiting for /clock" : "/clock stands still";
+  return output;
+}
+
+// Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
+void NavigatorNode::forgetSilentInputs() {
+  if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
+  if (pose_health_.silentSec() > params_.max_pose_silence_sec) {
+    input_.target.reset();
+    input_.camera_fault.clear();
+  }
+  input_.engaged = engagement_.holds(steadyNowSec());
+  input_.passed_on = guard_.passesOn();
+}
+
+void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
+  if (!clock_.jumpedBack(now_sec)) return;
+  ROS_WARN("the clock jumped back: inputs forgotten%s", last_.enabled ? ", mission aborted" : "");
+  input_ = {};
+  odom_clock_.clear();
+  trail_.clear();
+  marker_publisher_.publish(allGone(toStamp(now_sec), frames().odom));
+  if (last_.enabled) navigator_.abort("aborted: the clock jumped back");
+}
+
+bool NavigatorNode::clockStandsStill(double now_sec) {
+  const double steady_sec = steadyNowSec();
+  if (now_sec != last_now_sec_) clock_moved_sec_ = steady_sec;
+  last_now_sec_ = now_sec;
+  return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
+}
+
+void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  const bool stands_by = output.state == navigation::State::kIdle && !lockstep_ && !is_disabled_;
+  if (output.enabled || was_enabled_ || stands_by)
+    publishSetpoint(output.enabled ? output.setpoint : navigation::Setpoint(), now);
+  was_enabled_ = output.enabled;
+  publishState(output, now);
+  publishMarkers(output, now);
+}
+
+// The way flown is noted all the time, so that who looks later sees it, too.
+void NavigatorNode::publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  if (!input_.vehicle) return;
+  trail_.add(input_.vehicle->T_odom_base.translation(), output.state);
+  const double since_sec = now.toSec() - drawn_sec_;
+  if (marker_publisher_.getNumSubscribers() == 0 || (since_sec >= 0.0 && since_sec < kMarkerPeriodSec))
+    return;
+  drawn_sec_ = now.toSec();
+  marker_publisher_.publish(flightMarkers(output, input_, trail_, params_.navigator, now, frames().odom));
+}
+
+void NavigatorNode::publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now) {
+  std::optional<Eigen::Matrix3d> R_odom_base;
+  const bool known = input_.vehicle.has_value();
+  if (params_.setpoint_frame == kBaseAxes)
+    R_odom_base = known ? Eigen::Matrix3d(geometry::yawRotation(-setpoint.heading_error_rad) *
+                                          input_.vehicle->T_odom_base.linear())
+                        : Eigen::Matrix3d::Identity();
+  const bool directionless = R_odom_base && !known;  // which way is forward is not known: stand still
+  geometry_msgs::TwistStamped message =
+      toTwistMsg(directionless ? navigation::Setpoint() : setpoint, frames(), R_odom_base);
+  message.header.stamp = now;
+  const GatedTwist passed = gated(message.twist, last_gate_);
+  message.twist = passed.twist;
+  gate_fault_ = passed.fault;
+  setpoint_publisher_.publish(message);
+  guard_.sent();
+}
+
+void NavigatorNode::publishState(const navigation::NavigatorOutput& output, const ros::Time& now) {
+  window_ingress::IngressState message = toMsg(output);
+  if (action_) action_->hear(message);
+  const bool news =
+      message.state != said_.state || message.reason != said_.reason || message.enabled != said_.enabled;
+  const double period_sec = output.enabled ? kStatePeriodEnabledSec : kStatePeriodIdleSec;
+  if (!lockstep_ && !news && steadyNowSec() - said_sec_ < period_sec) return;
+  if (message.state != said_.state) {
+    ROS_INFO("%s: %s", message.state_name.c_str(), message.reason.c_str());
+    if (navigation::isEnd(output.state)) ROS_INFO("the vehicle %s", vehicleHealth().text.c_str());
+  }
+  message.header = headerOf(now, frames().odom);
+  state_publisher_.publish(message);
+  if (action_) action_->feedBack(message);
+  said_ = message;
+  said_sec_ = steadyNowSec();
+}
+
+void NavigatorNode::stop() {
+  timer_.stop();
+  navigator_.abort("aborted: the navigator's node ends");
+  if (action_) action_->stop();
+  for (int i = 0; i < 5; ++i) {
+    publishSetpoint(navigation::Setpoint(), ros::Time::now());
+    ros::WallDuration(0.05).sleep();
+  }
+}
+
+}  // namespace window_ingress::adapters

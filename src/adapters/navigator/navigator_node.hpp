@@ -1,0 +1,110 @@
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <std_msgs/Bool.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <window_ingress/CameraInBody.h>
+#include <window_ingress/IngressState.h>
+#include <window_ingress/WindowPose.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/guard/setpoint_gate.hpp"
+#include "adapters/inputs/engagement.hpp"
+#include "adapters/inputs/stamp_gate.hpp"
+#include "adapters/markers/flight_markers.hpp"
+#include "adapters/navigator/guard_monitor.hpp"
+#include "adapters/navigator/mission_action.hpp"
+#include "adapters/navigator/upstream_faults.hpp"
+#include "adapters/runtime/lockstep.hpp"
+#include "adapters/runtime/run_node.hpp"
+#include "adapters/runtime/topic_health.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
+#include "window_ingress/estimation/clock_check.hpp"
+#include "window_ingress/navigation/navigator.hpp"
+
+namespace window_ingress::adapters {
+
+using configuration::NavigatorNodeParams;
+
+/// `navigation::Navigator` between topics and services: pose and odometry in, velocity out. In IDLE it sends
+/// zeros, so that an autopilot accepts the switch to the mode that follows them; after an abort it falls
+/// silent, so that the autopilot's own failsafe acts. In lockstep it is silent in IDLE, too. While disabled
+/// it starts nothing and leaves the setpoints to others.
+class NavigatorNode : public Node {
+ public:
+  NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh);
+  void stop() override;
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  void receiveOdometry(const nav_msgs::OdometryConstPtr& message);
+  void receivePose(const window_ingress::WindowPoseConstPtr& message);
+  void takeOdometry(const nav_msgs::OdometryConstPtr& message);
+  void takePose(const window_ingress::WindowPoseConstPtr& message);
+  void takeCamera(const window_ingress::CameraInBody& message);
+  void step();
+  bool isComplete(const Lockstep::Step& step) const;
+  void stepInStep(const Lockstep::Step& step);
+  double nowSec() const;
+  void forgetSilentInputs();
+  void restartIfClockJumpedBack(double now_sec);
+  bool clockStandsStill(double now_sec);
+  navigation::NavigatorOutput decide(double now_sec);
+  void advertiseServices(ros::NodeHandle& pnh);
+  navigation::Reply startMission(const navigation::MissionPolicy& policy);
+  navigation::Reply abortMission(const std::string& why);
+  std::string whyFlying() const;
+  bool isLeftToOthers() const;
+  navigation::Reply reset();
+  bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  template <typename Response>
+  bool answer(const char* service, const navigation::Reply& reply, Response& response);
+  void publish(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
+  void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
+  Health missionHealth() const;
+  Health vehicleHealth() const;
+  Health cameraHealth() const;
+  Health lastGateHealth() const;
+  const FrameNames& frames() const { return params_.navigator.vehicle.frames; }
+
+  NavigatorNodeParams params_;
+  Diagnostics diagnostics_;
+  TopicHealth odom_health_, pose_health_;
+  StampGate odom_gate_, pose_gate_;
+  estimation::SenderClock odom_clock_;
+  Engagement engagement_;
+  UpstreamFaults upstream_;
+  GuardMonitor guard_;
+  ClockWatch clock_;
+  navigation::Navigator navigator_;
+  navigation::NavigatorInput input_;
+  navigation::NavigatorOutput last_;
+  FlightTrail trail_;
+  double drawn_sec_ = 0.0;
+  window_ingress::IngressState said_;
+  double last_now_sec_ = -1.0, clock_moved_sec_ = 0.0, said_sec_ = 0.0;
+  bool was_enabled_ = false, is_disabled_ = false;
+  GuardParams last_gate_;
+  std::string gate_fault_;  // of the setpoint last sent
+  std::string refused_;     // the last refusal
+  std::optional<Lockstep> lockstep_;
+  ros::Time odom_came_, pose_came_;  // stamps of what came last, used or not
+  double step_sec_ = 0.0;            // in lockstep: the time that the world has
+
+  ros::Subscriber odom_subscriber_, pose_subscriber_, engaged_subscriber_;
+  ros::Publisher setpoint_publisher_, state_publisher_, marker_publisher_;
+  std::vector<ros::ServiceServer> services_;
+  std::optional<MissionAction> action_;  // not in lockstep: nobody asks there
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace window_ingress::adapters

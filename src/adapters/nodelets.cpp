@@ -1,0 +1,54 @@
+// The nodes as nodelets, for a nodelet manager that shares images without copying. The setpoint_guard and the
+// world are processes of their own on purpose. Each has a queue and a thread of its own: the manager's would
+// call into a node that is still being made, or is on its way out.
+#include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
+
+#include <exception>
+#include <memory>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "adapters/images/detector_node.hpp"
+#include "adapters/navigator/navigator_node.hpp"
+#include "adapters/pose/pose_node.hpp"
+#include "adapters/runtime/console_output.hpp"
+
+namespace window_ingress::adapters {
+
+template <typename Class>
+class NodeletOf : public nodelet::Nodelet {
+ public:
+  ~NodeletOf() override {
+    spinner_.stop();
+    if (node_) node_->stop();
+  }
+
+ private:
+  // An exception out of onInit would end the manager and every nodelet in it.
+  void onInit() override {
+    decoupleConsole();  // the manager's: it waits for no terminal either, from now on
+    try {
+      ros::NodeHandle nh = getNodeHandle(), pnh = getPrivateNodeHandle();
+      nh.setCallbackQueue(&queue_);
+      pnh.setCallbackQueue(&queue_);
+      node_ = std::make_unique<Class>(nh, pnh);
+      spinner_.start();
+    } catch (const std::exception& error) {
+      NODELET_FATAL("%s: not started: %s", getName().c_str(), error.what());
+    }
+  }
+  ros::CallbackQueue queue_;
+  std::unique_ptr<Class> node_;
+  ros::AsyncSpinner spinner_{1, &queue_};
+};
+
+class WindowDetectorNodelet : public NodeletOf<DetectorNode> {};
+class HomographyPoseNodelet : public NodeletOf<PoseNode> {};
+class IngressNavigatorNodelet : public NodeletOf<NavigatorNode> {};
+
+}  // namespace window_ingress::adapters
+
+PLUGINLIB_EXPORT_CLASS(window_ingress::adapters::WindowDetectorNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(window_ingress::adapters::HomographyPoseNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(window_ingress::adapters::IngressNavigatorNodelet, nodelet::Nodelet)

@@ -1,0 +1,71 @@
+#include "adapters/pose/pose_health.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "window_ingress/text/text.hpp"
+
+namespace window_ingress::adapters {
+
+Health framesHealth(const estimation::FramesVerdict& frames) {
+  if (frames.state == estimation::FramesVerdict::kWrong)
+    return {Health::kError, frames.what + "; no approach"};
+  if (frames.state == estimation::FramesVerdict::kOpen) return {Health::kOk, "to be seen: " + frames.what};
+  return {Health::kOk, "camera mounting and velocity frame verified"};
+}
+
+Health clocksHealth(const std::optional<estimation::ClockCheck::Offset>& offset,
+                    const estimation::SenderClock& odometry) {
+  constexpr double kMaxOffsetSec = 0.05, kSigmas = 3.0;
+  std::string ahead;
+  if (odometry.aheadSec() > 0.0)
+    ahead = formatted("; odometry is stamped %.2f s ahead of its arrival, which is taken off",
+                      odometry.aheadSec());
+  if (!offset) return {Health::kOk, "to be seen in the first turn before a window" + ahead};
+  const std::string text =
+      formatted("images are stamped %.2f +- %.2f s %s beside odometry", std::abs(offset->late_sec),
+                offset->sigma_sec, offset->late_sec < 0.0 ? "early" : "late");
+  const double least_sec = std::max(kMaxOffsetSec, kSigmas * offset->sigma_sec);
+  if (std::abs(offset->late_sec) <= least_sec) return {Health::kOk, text + ahead};
+  return {Health::kWarn, text + ahead + ": correct the driver's stamps, or the autopilot's time sync"};
+}
+
+// Closed is no fault of the node's: it is for the navigator to act upon.
+Health opennessHealth(const openness::OpennessVerdict& verdict) {
+  return {Health::kOk, std::string(openness::toString(verdict.openness)) + ": " + verdict.reason +
+                           (verdict.openness == openness::Openness::kOpen
+                                ? "; a mirroring pane that shows a nearby scene cannot be told from a room"
+                                : "")};
+}
+
+Health consistencyHealth(const estimation::Consistency& consistency) {
+  const std::string text =
+      formatted("normalised innovation squared %.2f a degree of freedom over %d of %d images, limit %.1f",
+                consistency.mean_nis, consistency.images, estimation::ConsistencyMonitor::kImages,
+                estimation::ConsistencyMonitor::kMaxMeanNis);
+  if (consistency.contradicted)
+    return {Health::kWarn, text + "; most images contradict the window that was made out"};
+  return {consistency.consistent ? Health::kOk : Health::kWarn, text};
+}
+
+void UnusedImages::add(const std::string& why_not, const window_ingress::ApparentOpening& opening) {
+  ++count;
+  why = why_not;
+  if (opening.aspect > 0.0) aspect = opening.aspect, aspect_sigma = opening.aspect_sigma;
+}
+
+Health targetHealth(const UnusedImages& unused, const geometry::OpeningSize& wanted) {
+  constexpr int kMany = 20;
+  constexpr double kSigmas = 4.0, kLeastMisfit = 0.02;
+  if (unused.count < kMany) return {};
+  const std::string seen = formatted("a window is seen in %d images, and used in none: ", unused.count);
+  const double said = wanted.width_m / wanted.height_m, misfit = std::abs(unused.aspect / said - 1.0);
+  if (unused.aspect == 0.0 || misfit < std::max(kLeastMisfit, kSigmas * unused.aspect_sigma / said))
+    return {Health::kError, seen + unused.why};
+  return {Health::kError, seen + formatted("it is %.2f times as wide as it is high, the opening, said to be "
+                                           "%.2f x %.2f m, %.2f times",
+                                           unused.aspect, wanted.width_m, wanted.height_m, said)};
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,98 @@
+#include "adapters/runtime/console_output.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+
+namespace window_ingress::adapters {
+namespace {
+
+struct Pipe {
+  int out = -1, in = -1;
+};
+
+// It must not hold open what others take for closed when the node has died.
+void closeAllBut(int one, int other) {
+  DIR* const all = opendir("/proc/self/fd");
+  if (all == nullptr) return;
+  while (const dirent* entry = readdir(all)) {
+    const int descriptor = std::atoi(entry->d_name);
+    if (entry->d_name[0] != '.' && descriptor != one && descriptor != other && descriptor != dirfd(all))
+      close(descriptor);
+  }
+  closedir(all);
+}
+
+void ignoreSignals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTTOU}) std::signal(number, SIG_IGN);
+}
+
+// Whoever has the descriptor, too, may have set it not to wait.
+bool mayTryAgain(int descriptor) {
+  if (errno == EINTR) return true;
+  if (errno != EAGAIN) return false;
+  pollfd waiting{descriptor, POLLOUT, 0};
+  poll(&waiting, 1, -1);
+  return true;
+}
+
+// What cannot be written, to a full disk or a closed terminal, is lost.
+void writeAll(int descriptor, const char* data, ssize_t size) {
+  while (size > 0) {
+    const ssize_t written = write(descriptor, data, static_cast<size_t>(size));
+    if (written < 0 && !mayTryAgain(descriptor)) return;
+    if (written < 0) continue;
+    data += written;
+    size -= written;
+  }
+}
+
+[[noreturn]] void passOn(int from, int to) {
+  ignoreSignals();
+  closeAllBut(from, to);
+  std::array<char, 4096> chunk{};
+  for (;;) {
+    const ssize_t size = read(from, chunk.data(), chunk.size());
+    if (size == 0 || (size < 0 && errno != EINTR)) _exit(0);
+    if (size > 0) writeAll(to, chunk.data(), size);
+  }
+}
+
+}  // namespace
+
+void decoupleOutput(int descriptor) {
+  Pipe pipe;
+  if (int ends[2]; ::pipe(ends) == 0) pipe = {ends[0], ends[1]};
+  if (pipe.in < 0) return;
+  const pid_t child = fork();
+  if (child == 0) passOn(pipe.out, descriptor);
+  if (child > 0 && fcntl(pipe.in, F_SETFL, O_NONBLOCK) == 0) dup2(pipe.in, descriptor);
+  close(pipe.in);
+  close(pipe.out);
+}
+
+void decoupleConsole() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    std::signal(SIGPIPE, SIG_IGN);
+    decoupleOutput(STDOUT_FILENO);
+    decoupleOutput(STDERR_FILENO);
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // as on a terminal, which it is no more
+  });
+}
+
+bool consoleIsStuck() {
+  std::array<pollfd, 2> outputs{pollfd{STDOUT_FILENO, POLLOUT, 0}, pollfd{STDERR_FILENO, POLLOUT, 0}};
+  if (poll(outputs.data(), outputs.size(), 0) < 0) return false;
+  return outputs[0].revents == 0 || outputs[1].revents == 0;
+}
+
+}  // namespace window_ingress::adapters

@@ -1,0 +1,37 @@
+#include "adapters/runtime/lockstep.hpp"
+
+#include "adapters/runtime/exception_barrier.hpp"
+#include "window_ingress/text/text.hpp"
+
+namespace window_ingress::adapters {
+namespace {
+
+constexpr double kLinkPeriodSec = 0.02;  // links to other nodes come up without a message
+
+}  // namespace
+
+Lockstep::Lockstep(ros::NodeHandle& nh, Diagnostics& diagnostics, std::function<bool(const Step&)> complete,
+                   std::function<void(const Step&)> work)
+    : complete_(std::move(complete)), work_(std::move(work)) {
+  if (!ros::Time::isSimTime())
+    throw InputError("lockstep is for simulated time only, and use_sim_time is not set");
+  subscriber_ = subscribeCatching<Step>(nh, "lockstep", 10, diagnostics, [this](const auto& message) {
+    pending_ = message;
+    check();
+  });
+  timer_ = createCatchingTimer(nh, kLinkPeriodSec, "lockstep", diagnostics, [this] { check(); });
+}
+
+void Lockstep::check() {
+  if (!pending_ || !complete_(*pending_)) return;
+  const boost::shared_ptr<const Step> step = pending_;
+  pending_.reset();
+  work_(*step);
+}
+
+StampLimits limitsFor(bool lockstep, const StampLimits& limits) {
+  constexpr double kAnySec = 1e9;  // before its first message a node's clock reads zero
+  return lockstep ? StampLimits{60.0, kAnySec} : limits;
+}
+
+}  // namespace window_ingress::adapters

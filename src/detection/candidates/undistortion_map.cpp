@@ -1,0 +1,59 @@
+#include "detection/candidates/undistortion_map.hpp"
+
+namespace window_ingress::detection {
+namespace {
+
+// The same lens as seen by pixels that are means of factor x factor.
+geometry::PinholeCamera reduced(geometry::PinholeCamera camera, const cv::Size& level, int factor) {
+  const double shift = 0.5 * (factor - 1);
+  camera.width = level.width, camera.height = level.height;
+  camera.fx /= factor, camera.fy /= factor;
+  camera.cx = (camera.cx - shift) / factor, camera.cy = (camera.cy - shift) / factor;
+  return camera;
+}
+
+std::array<double, 12> keyOf(const geometry::PinholeCamera& c) {
+  return {c.fx,
+          c.fy,
+          c.cx,
+          c.cy,
+          c.distortion[0],
+          c.distortion[1],
+          c.distortion[2],
+          c.distortion[3],
+          c.distortion[4],
+          static_cast<double>(c.width),
+          static_cast<double>(c.height),
+          1.0 + static_cast<double>(c.model)};
+}
+
+}  // namespace
+
+void UndistortionMap::set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor) {
+  if (!camera || !camera->hasDistortion()) {
+    camera_.reset();
+    table_.release();
+    key_ = {};
+    return;
+  }
+  const geometry::PinholeCamera lens = reduced(*camera, level, factor);
+  if (keyOf(lens) == key_) return;
+  key_ = keyOf(lens);
+  camera_ = lens;
+  table_.create(level, CV_32FC2);
+  for (int y = 0; y < level.height; ++y)
+    for (int x = 0; x < level.width; ++x) {
+      const Eigen::Vector2d ideal = lens.undistort(Eigen::Vector2d(x, y));
+      table_.ptr<cv::Vec2f>(y)[x] = cv::Vec2f(static_cast<float>(ideal.x()), static_cast<float>(ideal.y()));
+    }
+}
+
+Eigen::Vector2d UndistortionMap::undistort(const Eigen::Vector2d& level_px) const {
+  return camera_ ? camera_->undistort(level_px) : level_px;
+}
+
+Eigen::Vector2d UndistortionMap::distort(const Eigen::Vector2d& ideal_level_px) const {
+  return camera_ ? camera_->distort(ideal_level_px) : ideal_level_px;
+}
+
+}  // namespace window_ingress::detection

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "window_ingress/geometry/pinhole_camera.hpp"
+
+namespace window_ingress::detection {
+
+/// The lens as it shows on the search level: straight borders are straight lines of the undistorted level
+/// only. Points are undistorted, never the image. Without a camera, or without distortion, nothing changes.
+class UndistortionMap {
+ public:
+  /// For images of this camera, reduced by this factor. Costs something only when camera or factor change.
+  void set(const geometry::PinholeCamera* camera, const cv::Size& level, int factor);
+
+  Eigen::Vector2d undistort(int x, int y) const {
+    if (table_.empty()) return {x, y};
+    const cv::Vec2f& p = table_.ptr<cv::Vec2f>(y)[x];
+    return {p[0], p[1]};
+  }
+  Eigen::Vector2d undistort(const Eigen::Vector2d& level_px) const;
+  Eigen::Vector2d distort(const Eigen::Vector2d& ideal_level_px) const;
+  bool bends() const { return !table_.empty(); }
+
+ private:
+  std::optional<geometry::PinholeCamera> camera_;  ///< of the level; nothing if it does not bend
+  std::array<double, 12> key_{};                   ///< what the table was made for
+  cv::Mat table_;                                  ///< CV_32FC2, ideal pixel of every pixel
+};
+
+}  // namespace window_ingress::detection

@@ -1,6 +1,0 @@
-#include "adapters/nodes/camera_mounting.hpp"
-
-int main(int argc, char** argv) {
-  return window_ingress::adapters::runNode<window_ingress::adapters::CameraMountingNode>(argc, argv,
-                                                                                         "camera_mounting");
-}

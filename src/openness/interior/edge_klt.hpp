@@ -1,0 +1,35 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+namespace window_ingress::openness {
+
+/// A point on an edge: its place is known across the edge alone.
+struct EdgePoint {
+  cv::Point2f place, normal;  ///< the normal has length 1 and points to the brighter side
+};
+
+/// Slopes of a grey image.
+class SlopeImage {
+ public:
+  void take(const cv::Mat& grey);                                                   ///< CV_8UC1
+  int steeperThan(double slope) const { return cv::countNonZero(slope_ > slope); }  ///< pixels
+  /// \param mask receives 255 where the slope is less, else 0
+  void flatterThan(double slope, cv::Mat& mask) const { cv::compare(slope_, slope, mask, cv::CMP_LT); }
+  /// The steepest point in each block of `spacing_px` that is at least so steep; the steepest first.
+  /// \param inner where to look
+  std::vector<EdgePoint> steepest(const cv::Rect& inner, int spacing_px, double least_slope,
+                                  std::size_t most) const;
+
+ private:
+  cv::Mat dx_, dy_, slope_;
+};
+
+/// Where the edge is in `now`, across itself (Lucas-Kanade in one dimension). Nothing if it is not found or
+/// does not look the same.
+std::optional<cv::Point2f> followAcross(const cv::Mat& key, const cv::Mat& now, const EdgePoint& edge,
+                                        const cv::Point2f& guess);
+
+}  // namespace window_ingress::openness

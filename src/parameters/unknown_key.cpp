@@ -1,0 +1,196 @@
+#include "window_ingress/parameters/unknown_key.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace window_ingress::parameters {
+namespace {
+
+// Ends of paths that had another name in earlier versions.
+const std::pair<const char*, const char*> kMoved[] = {
+    {"navigator/vehicle", "'vehicle: {..}', beside the nodes: said once for all of them"},
+    {"tracker/fit", "'vehicle: {half_width_m: .., half_height_m: .., margin_m: ..}', beside the nodes"},
+    {"approach/margin_m", "'vehicle: {margin_m: ..}', beside the nodes"},
+    {"commit/drift_m_per_sqrt_sec", "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', beside the nodes"},
+    {"filter/drift_m_per_sqrt_sec", "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', beside the nodes"},
+    {"facade/drift_m_per_sqrt_sec", "'vehicle: {odom_drift_m_per_sqrt_sec: ..}', beside the nodes"},
+    {"input/max_future_sec", "'vehicle: {stamps: {max_future_sec: ..}}', beside the nodes"},
+    {"stamps", "'vehicle: {stamps: {..}}', beside the nodes: said once for all of them"},
+    {"image_is_rectified", "'vehicle: {image_is_rectified: ..}', beside the nodes"},
+    {"odom_frame", "'vehicle: {odom_frame: ..}', beside the nodes"},
+    {"base_frame", "'vehicle: {base_frame: ..}', beside the nodes"},
+    {"filter/systematic_sigma_px", "'pose: {systematic_sigma_px: ..}'"},
+    {"filter/gate_squares", "'nis_gate'"},
+    {"tracker/gravity_sigma_rad", "'filter: {attitude_bias_sigma_rad: ..}'"},
+    {"facade/likeness_margin", "'distance_margin'"},
+    {"interior/most_px", "'max_side_px'"},
+};
+
+struct Group {
+  const char* path;
+  const char* names;
+};
+
+// What is no parameter any more: groups, and names in them. Those of a node have an empty group.
+const Group kConstants[] = {
+    {"lines", " max_gap vote_fraction "},
+    {"contours", " min_perimeter "},
+    {"gates", " min_solidity "},
+    {"shape", " sigmas frame_slack "},
+    {"appearance", " near_width far_width max_drift "},
+    {"track", " reach turn "},
+    {"interior",
+     " min_points least_slope margin min_contrast max_return_px most_slope flow_sigma_px max_growth "
+     "max_key_age_sec min_shared "},
+    {"pose",
+     " systematic_turn unknown_corner_sigma_px max_reprojection_rms_px min_side_px min_corner_angle_rad "
+     "min_range_m max_tilt_rad max_yaw_rad trusted_yaw_sigmas trusted_log_likelihood_ratio "},
+    {"filter",
+     " known_size_sigma scale_speed_mps unknown_corner_sigma_px systematic_renewal_m systematic_renewal_sec "
+     "attitude_bias_time_sec max_mean_squares outliers_until_restart max_evidence dead_weight "
+     "harmless_yaw_rad trusted_yaw_sigma_rad consistency_images max_consistency time_jump_sec "},
+    {"tracker", " frames max_pose_gap_sec max_jump_m max_turn_jump_rad "},
+    {"openness",
+     " border_sigma_px position_sigma_m min_baseline_m max_border_misfit max_sigmas max_unsteady min_points "
+     "max_log_odds min_open_share "},
+    {"facade",
+     " corner_sigma_px range_sigma wall_sigma_m max_deviation confirmations forget_sec settled_updates "
+     "next_release_sec click_m "},
+    {"input", " max_window_shift_m target_jump_persist_sec max_target_tilt_rad "},
+    {"search", " max_turn_per_image found_frames "},
+    {"align", " dwell_sec settle_sec probe_speed_mps "},
+    {"approach", " wind_sec gust_memory_sec gust_carry_sec leave_factor leave_sec "},
+    {"commit", " standing_mps max_heading_error_rad max_lateral_speed_mps max_update_jump_m "},
+    {"hold", " standing_mps settle_sec dwell_sec "},
+    {"", " start_time_sec clock_rate_hz "},
+};
+
+bool endsWith(const std::string& path, const std::string& end) {
+  if (path.size() < end.size() || path.compare(path.size() - end.size(), end.size(), end) != 0) return false;
+  return path.size() == end.size() || path[path.size() - end.size() - 1] == '/';
+}
+
+bool isConstant(const std::string& path, const Group& group) {
+  const std::string name = path.substr(path.rfind('/') + 1);
+  const std::string end = *group.path == '\0' ? name : std::string(group.path) + "/" + name;
+  return std::string(group.names).find(" " + name + " ") != std::string::npos && endsWith(path, end);
+}
+
+// What to say behind "unknown key" of one that earlier versions read; empty for all others.
+std::string whatBecameOf(const std::string& path) {
+  for (const auto& [end, now] : kMoved)
+    if (endsWith(path, end)) return std::string("; it is now ") + now;
+  for (const Group& group : kConstants)
+    if (isConstant(path, group)) return "; it is a constant now: leave it out";
+  return "";
+}
+
+std::string groupOf(const std::string& path) {
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::string nameOf(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+// Letters to insert, remove or exchange, neighbours that have changed places counting once (optimal string
+// alignment).
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> to(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) to[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) to[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t exchanged = to[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      to[i][j] = std::min({to[i - 1][j] + 1, to[i][j - 1] + 1, exchanged});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) to[i][j] = std::min(to[i][j], to[i - 2][j - 2] + 1);
+    }
+  return to[a.size()][b.size()];
+}
+
+// As it stands in a file: "a/b/c" is "a: {b: {c: ..}}".
+std::string inYaml(const std::string& path) {
+  const auto slash = path.find('/');
+  if (slash == std::string::npos) return path + ": ..";
+  return path.substr(0, slash) + ": {" + inYaml(path.substr(slash + 1)) + "}";
+}
+
+// A name without its unit is as good as one with a letter wrong.
+std::size_t nameDistance(const std::string& name, const std::string& known) {
+  return known.compare(0, name.size() + 1, name + "_") == 0 ? 1 : distance(name, known);
+}
+
+// How far a known path is from the one that is not: first by its name, then by where it stands.
+std::pair<std::size_t, std::size_t> unlikeness(const std::string& path, const std::string& known) {
+  return {nameDistance(nameOf(path), nameOf(known)), distance(groupOf(path), groupOf(known))};
+}
+
+// The few keys that could stand beside it; nothing where there are many.
+std::string neighboursOf(const std::string& path, const std::vector<std::string>& known) {
+  constexpr std::size_t kFew = 16;
+  const std::string group = path.substr(0, path.size() - nameOf(path).size());
+  std::vector<std::string> names;
+  std::string listed;
+  for (const auto& key : known) {
+    if (key.compare(0, group.size(), group) != 0) continue;
+    const std::string name = key.substr(group.size(), key.find('/', group.size()) - group.size());
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    listed += (names.empty() ? "; there is " : ", ") + name;
+    names.push_back(name);
+  }
+  return names.size() > kFew ? "" : listed;
+}
+
+// All keys of that name, of the node that the path begins with if it has any: which of them is meant nobody
+// knows.
+std::vector<std::string> namesakesOf(const std::string& nearest, const std::string& path,
+                                     const std::vector<std::string>& known) {
+  const std::string node = path.substr(0, path.find('/') + 1);
+  const bool within = nearest.compare(0, node.size(), node) == 0;
+  std::vector<std::string> namesakes;
+  for (const auto& key : known)
+    if (nameOf(key) == nameOf(nearest) && (!within || key.compare(0, node.size(), node) == 0))
+      namesakes.push_back(key);
+  return namesakes;
+}
+
+}  // namespace
+
+std::vector<std::string> keysOf(const std::vector<Field>& fields) {
+  std::vector<std::string> keys;
+  for (const Field& field : fields) {
+    for (auto end = field.name.find('/'); end != std::string::npos; end = field.name.find('/', end + 1)) {
+      const std::string group = field.name.substr(0, end);
+      if (std::find(keys.begin(), keys.end(), group) == keys.end()) keys.push_back(group);
+    }
+    keys.push_back(field.name);
+  }
+  return keys;
+}
+
+std::string didYouMean(const std::string& path, const std::vector<std::string>& known) {
+  if (const std::string now = whatBecameOf(path); !now.empty()) return now;
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return unlikeness(path, a) < unlikeness(path, b);
+  });
+  if (nearest == known.end() || 3 * unlikeness(path, *nearest).first > nameOf(path).size())
+    return neighboursOf(path, known);
+  if (groupOf(path) == groupOf(*nearest)) return "; did you mean '" + nameOf(*nearest) + "'?";
+  std::string meant;
+  for (const auto& key : namesakesOf(*nearest, path, known))
+    meant += (meant.empty() ? "'" : " or '") + inYaml(key) + "'";
+  return "; did you mean " + meant + "?";
+}
+
+std::string unknownKey(const std::string& shown, const std::string& path,
+                       const std::vector<std::string>& known) {
+  return shown + ": unknown key" + didYouMean(path, known);
+}
+
+std::string unknownParameter(const std::string& name_space, const std::string& path,
+                             const std::vector<std::string>& known) {
+  return "unknown parameter " + name_space + "/" + path + didYouMean(path, known);
+}
+
+}  // namespace window_ingress::parameters

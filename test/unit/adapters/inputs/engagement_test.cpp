@@ -1,0 +1,66 @@
+#include "adapters/inputs/engagement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace window_ingress::adapters::engagement_test {
+
+TEST(Engagement, IsTakenForGrantedWhereNobodySaysUnlessRequired) {
+  EngagementParams params;
+  EXPECT_TRUE(Engagement(params).holds(1e6));
+  params.required = true;
+  const Engagement required(params);
+  EXPECT_FALSE(required.holds(1e6));
+  const Health health = required.health("/engaged", 1e6);
+  EXPECT_EQ(health.level, Health::kError);
+  EXPECT_NE(health.text.find("/engaged"), std::string::npos);
+}
+
+TEST(Engagement, AStartIsNoFaultUntilTheOthersHaveHadTheTimeToStart) {
+  EngagementParams params;
+  params.required = true;
+  const Engagement engagement(params, 100.0);
+  const Health early = engagement.health("/engaged", 102.9);
+  EXPECT_EQ(early.level, Health::kOk);
+  EXPECT_EQ(early.text, "waiting for /engaged");
+  EXPECT_FALSE(engagement.holds(102.9));
+  EXPECT_EQ(engagement.health("/engaged", 103.1).level, Health::kError);
+}
+
+TEST(Engagement, OnceHeardOnlyARecentYesIsAYes) {
+  Engagement engagement{EngagementParams()};
+  engagement.hear(true, 10.0);
+  EXPECT_TRUE(engagement.holds(10.0));
+  EXPECT_TRUE(engagement.holds(13.0));
+  EXPECT_FALSE(engagement.holds(13.01));
+  EXPECT_EQ(engagement.health("/engaged", 13.01).level, Health::kError);
+  engagement.hear(true, 20.0);
+  EXPECT_TRUE(engagement.holds(20.0));
+  engagement.hear(false, 20.5);
+  EXPECT_FALSE(engagement.holds(20.5));
+  EXPECT_EQ(engagement.health("/engaged", 20.5).level, Health::kOk);
+  EXPECT_FALSE(engagement.holds(std::numeric_limits<double>::quiet_NaN()));
+}
+
+TEST(Engagement, NeverHoldsLongerThanTheLastYes) {
+  EngagementParams params;
+  Engagement engagement(params);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  double now = 0.0, yes = -1e9;
+  bool last = false;
+  engagement.hear(false, now);
+  for (int i = 0; i < 10000; ++i) {
+    now += 2.0 * unit(random);
+    if (unit(random) < 0.5) {
+      last = unit(random) < 0.7;
+      engagement.hear(last, now);
+      if (last) yes = now;
+    }
+    ASSERT_EQ(engagement.holds(now), last && now - yes <= params.max_silence_sec);
+  }
+}
+
+}  // namespace window_ingress::adapters::engagement_test
