@@ -28,7 +28,7 @@ struct Stages {
   UndistortionMap lens;
   EdgeChains runs;
   HoughSegments lines{params.lines};
-  Closing closing{params.closing};
+  EdgeDilation closing{params.closing};
   ContourPolygons contours{params.contours};
   SegmentQuads quads{params.segment_quads};
   CandidateSearch search{params};

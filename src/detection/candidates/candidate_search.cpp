@@ -36,8 +36,8 @@ CandidateSearch::CandidateSearch(const DetectorParams& params)
     : params_(params),
       preprocess_(params.preprocess),
       edges_(params.edges),
-      lines_(params.lines),
-      closing_(params.closing),
+      hough_(params.lines),
+      dilation_(params.closing),
       contours_(params.contours),
       segment_quads_(params.segment_quads),
       gates_(params.gates) {}
@@ -48,7 +48,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
   const SearchLevel level = preprocess_.run(image);
   factor_ = level.factor;
   level_size_ = level.image.size();
-  lens_.set(camera, level_size_, factor_);
+  undistortion_.set(camera, level_size_, factor_);
   done(watch_, Stage::kPreprocess);
   look(level.image);
   return combine(SegmentQuads::kQuick, trace);
@@ -58,9 +58,9 @@ const std::vector<ScoredCandidate>& CandidateSearch::run(const cv::Mat& image,
 void CandidateSearch::look(const cv::Mat& level) {
   map_ = &edges_.run(level);
   done(watch_, Stage::kEdges);
-  segments_ = &lines_.run(runs_.run(*map_, lens_), level_size_);
+  segments_ = &hough_.run(chains_.run(*map_, undistortion_), level_size_);
   done(watch_, Stage::kLines);
-  keepOnSegments(runs_, lines_, level_size_, straight_);
+  keepOnSegments(chains_, hough_, level_size_, straight_);
   outlines_.candidates.clear();
   outlines_.rejected.clear();
   outlines_.contours = 0;
@@ -70,7 +70,7 @@ void CandidateSearch::look(const cv::Mat& level) {
 }
 
 void CandidateSearch::outline(const cv::Mat& mask, CandidateSource source) {
-  const auto& found = contours_.run(closing_.run(mask), closing_.radiusPx(level_size_), source);
+  const auto& found = contours_.run(dilation_.run(mask), dilation_.radiusPx(level_size_), source);
   outlines_.contours += found.contours;
   outlines_.budget_exceeded = outlines_.budget_exceeded || found.budget_exceeded;
   for (CandidateTrace rejected : found.rejected) {
@@ -78,7 +78,7 @@ void CandidateSearch::outline(const cv::Mat& mask, CandidateSource source) {
     outlines_.rejected.push_back(rejected);
   }
   for (Candidate candidate : found.candidates) {
-    for (Eigen::Vector2d& corner : candidate.quad) corner = lens_.undistort(corner);
+    for (Eigen::Vector2d& corner : candidate.quad) corner = undistortion_.undistort(corner);
     outlines_.candidates.push_back(candidate);
   }
 }
@@ -143,7 +143,7 @@ const std::vector<ScoredCandidate>& CandidateSearch::open() {
     ScoredCandidate rival;
     rival.candidate.quad = quad;
     rival.candidate.source = CandidateSource::kSegments;
-    for (int i = 0; i < 4; ++i) rival.candidate.seen[i] = lens_.distort(quad[i]);
+    for (int i = 0; i < 4; ++i) rival.candidate.seen[i] = undistortion_.distort(quad[i]);
     if (gates_.shape(rival.candidate, level_size_)) continue;
     rival.quad = inFullImage(rival.candidate.seen, factor_);
     rival.score = kDoubtfulScore;
@@ -168,10 +168,10 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
     ScoredCandidate rival;
     rival.candidate = one;
     Candidate& candidate = rival.candidate;
-    for (int i = 0; i < 4; ++i) candidate.seen[i] = lens_.distort(candidate.quad[i]);
+    for (int i = 0; i < 4; ++i) candidate.seen[i] = undistortion_.distort(candidate.quad[i]);
     auto rejection = gates_.shape(candidate, level_size_);
     if (!rejection) {
-      addEdges(measureSides(*map_, lens_, candidate.quad), candidate.sides);
+      addEdges(measureSides(*map_, undistortion_, candidate.quad), candidate.sides);
       rejection = gates_.support(candidate);
     }
     rival.quad = inFullImage(candidate.seen, factor_);

@@ -8,6 +8,7 @@
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/contour_polygons.hpp"
 #include "detection/candidates/edge_chains.hpp"
+#include "detection/candidates/edge_dilation.hpp"
 #include "detection/candidates/hough_segments.hpp"
 #include "detection/candidates/preprocess.hpp"
 #include "detection/candidates/segment_quads.hpp"
@@ -69,11 +70,11 @@ class CandidateSearch {
   DetectorParams params_;
   Preprocess preprocess_;
   EdgeDetector edges_;
-  UndistortionMap lens_;
-  EdgeChains runs_;
-  HoughSegments lines_;
+  UndistortionMap undistortion_;
+  EdgeChains chains_;
+  HoughSegments hough_;
   BlobMasks blobs_;
-  Closing closing_;
+  EdgeDilation dilation_;
   ContourPolygons contours_;
   SegmentQuads segment_quads_;
   CandidateGates gates_;

@@ -74,17 +74,6 @@ geometry::Quadrilateral boundingQuad(const std::vector<cv::Point>& outline) {
 
 }  // namespace
 
-int Closing::radiusPx(const cv::Size& size) const {
-  return std::max(1, static_cast<int>(std::lround(params_.radius * std::max(size.width, size.height))));
-}
-
-const cv::Mat& Closing::run(const cv::Mat& edges) {
-  const int side = 2 * radiusPx(edges.size()) + 1;
-  if (kernel_.rows != side) kernel_ = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(side, side));
-  cv::dilate(edges, closed_, kernel_);
-  return closed_;
-}
-
 std::optional<geometry::Quadrilateral> quadRoundHull(const std::vector<cv::Point>& hull,
                                                      std::vector<Vector2d>& buffer) {
   if (hull.size() < 4) return std::nullopt;

@@ -9,22 +9,6 @@
 
 namespace window_ingress::detection {
 
-/// Closes the holes of an edge map by dilation (P6). Borders move outwards by `radiusPx`; only the search
-/// sees that.
-class Closing {
- public:
-  explicit Closing(const ClosingParams& params) : params_(params) {}
-
-  int radiusPx(const cv::Size& size) const;
-
-  /// \param edges CV_8UC1. The result stays valid until the next call.
-  const cv::Mat& run(const cv::Mat& edges);
-
- private:
-  ClosingParams params_;
-  cv::Mat closed_, kernel_;
-};
-
 /// Four lines round a convex polygon: removes the side that adds least area until four are left.
 /// \return nothing if fewer than four points are given or the lines do not close
 /// \param buffer memory for its work

@@ -1,5 +1,7 @@
 #include "detection/candidates/undistortion_map.hpp"
 
+#include <tuple>
+
 namespace window_ingress::detection {
 namespace {
 
@@ -12,19 +14,8 @@ geometry::PinholeCamera reduced(geometry::PinholeCamera camera, const cv::Size& 
   return camera;
 }
 
-std::array<double, 12> keyOf(const geometry::PinholeCamera& c) {
-  return {c.fx,
-          c.fy,
-          c.cx,
-          c.cy,
-          c.distortion[0],
-          c.distortion[1],
-          c.distortion[2],
-          c.distortion[3],
-          c.distortion[4],
-          static_cast<double>(c.width),
-          static_cast<double>(c.height),
-          1.0 + static_cast<double>(c.model)};
+auto asTuple(const geometry::PinholeCamera& c) {
+  return std::tie(c.model, c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distortion);
 }
 
 }  // namespace
@@ -33,12 +24,10 @@ void UndistortionMap::set(const geometry::PinholeCamera* camera, const cv::Size&
   if (!camera || !camera->hasDistortion()) {
     camera_.reset();
     table_.release();
-    key_ = {};
     return;
   }
   const geometry::PinholeCamera lens = reduced(*camera, level, factor);
-  if (keyOf(lens) == key_) return;
-  key_ = keyOf(lens);
+  if (camera_ && asTuple(lens) == asTuple(*camera_)) return;
   camera_ = lens;
   table_.create(level, CV_32FC2);
   for (int y = 0; y < level.height; ++y)

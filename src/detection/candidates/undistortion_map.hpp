@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -27,7 +26,6 @@ class UndistortionMap {
 
  private:
   std::optional<geometry::PinholeCamera> camera_;  ///< of the level; nothing if it does not bend
-  std::array<double, 12> key_{};                   ///< what the table was made for
   cv::Mat table_;                                  ///< CV_32FC2, ideal pixel of every pixel
 };
 

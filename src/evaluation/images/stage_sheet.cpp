@@ -105,7 +105,7 @@ void addStages(const cv::Mat& image, const DetectorParams& params, ContactSheet&
   detection::EdgeChains runs;
   detection::HoughSegments lines(params.lines);
   detection::UndistortionMap lens;  // no calibration: the image is taken as free of distortion
-  detection::Closing closing(params.closing);
+  detection::EdgeDilation closing(params.closing);
   detection::ContourPolygons contours(params.contours);
   detection::SegmentQuads quads(params.segment_quads);
   const detection::SearchLevel level = preprocess.run(image);

@@ -69,12 +69,6 @@ void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed) {
   cv::RNG(RandomStream(seed, name).bits()).fill(image, cv::RNG::UNIFORM, 0, 256);
 }
 
-OdometrySample OdometryTraits::repeat(const OdometrySample& old, const OdometrySample& fresh) const {
-  OdometrySample again = old;
-  again.stamp_sec = fresh.stamp_sec;
-  return again;
-}
-
 void OdometryTraits::spoil(OdometrySample& sample, const FaultParams& fault) const {
   if (isGarbage(fault)) {
     sample.T_odom_base.translation() = nanVector();
@@ -85,12 +79,6 @@ void OdometryTraits::spoil(OdometrySample& sample, const FaultParams& fault) con
   const Eigen::Vector3d jumped = sample.T_odom_base.translation() + Eigen::Vector3d(fault.jump_m, 0.0, 0.0);
   sample.T_odom_base = geometry::makePose(turn * sample.T_odom_base.linear(), jumped);
   sample.velocity_odom_mps = turn * sample.velocity_odom_mps;
-}
-
-ImuSample ImuTraits::repeat(const ImuSample& old, const ImuSample& fresh) const {
-  ImuSample again = old;
-  again.stamp_sec = fresh.stamp_sec;
-  return again;
 }
 
 void ImuTraits::spoil(ImuSample& sample, const FaultParams& fault) const {

@@ -126,6 +126,16 @@ struct Exposure {
   enum class Spoilt { kNot, kGarbage, kMirrored } spoilt = Spoilt::kNot;
 };
 
+/// Sensors that say the same again under new stamps.
+template <typename Sample>
+struct Restamped {
+  Sample repeat(const Sample& old, const Sample& fresh) const {
+    Sample again = old;
+    again.stamp_sec = fresh.stamp_sec;
+    return again;
+  }
+};
+
 struct ImageTraits {
   Exposure repeat(const Exposure& old, const Exposure& fresh) const;
   void spoil(Exposure& exposure, const FaultParams& fault) const;
@@ -135,13 +145,11 @@ struct ImageTraits {
 void spoil(cv::Mat& image, const Exposure& exposure, std::uint32_t seed);
 
 /// Odometry, and the transform made of it.
-struct OdometryTraits {
-  OdometrySample repeat(const OdometrySample& old, const OdometrySample& fresh) const;
+struct OdometryTraits : Restamped<OdometrySample> {
   void spoil(OdometrySample& sample, const FaultParams& fault) const;
 };
 
-struct ImuTraits {
-  ImuSample repeat(const ImuSample& old, const ImuSample& fresh) const;
+struct ImuTraits : Restamped<ImuSample> {
   void spoil(ImuSample& sample, const FaultParams& fault) const;
 };
 

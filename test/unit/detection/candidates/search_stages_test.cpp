@@ -5,6 +5,7 @@
 
 #include "detection/candidates/canny_edges.hpp"
 #include "detection/candidates/contour_polygons.hpp"
+#include "detection/candidates/edge_dilation.hpp"
 #include "detection/candidates/preprocess.hpp"
 #include "detection/candidates/side_support.hpp"
 #include "drawn_window.hpp"
@@ -64,10 +65,10 @@ TEST(EdgeDetector, SeesBordersThatDifferInColourOnly) {
   EXPECT_GT(cv::countNonZero(detector.run(image).edges), 400);
 }
 
-TEST(Closing, ClosesGapsUpToTwiceItsRadius) {
+TEST(EdgeDilation, ClosesGapsUpToTwiceItsRadius) {
   ClosingParams params;
   params.radius = 0.01;
-  Closing closing(params);
+  EdgeDilation closing(params);
   cv::Mat edges(200, 200, CV_8UC1, cv::Scalar(0));
   EXPECT_EQ(closing.radiusPx(edges.size()), 2);
   cv::rectangle(edges, {50, 50}, {150, 150}, cv::Scalar(255));
@@ -81,7 +82,7 @@ TEST(ContourPolygons, TakesOffWhatTheClosingAdded) {
   cv::Mat edges(240, 320, CV_8UC1, cv::Scalar(0));
   const auto truth = test::rectangle(60, 50, 220, 170);
   cv::rectangle(edges, {60, 50}, {220, 170}, cv::Scalar(255));
-  Closing closing{ClosingParams()};
+  EdgeDilation closing{ClosingParams()};
   ContourPolygons contours{ContourPolygonsParams()};
   const auto result = contours.run(closing.run(edges), closing.radiusPx(edges.size()));
   ASSERT_EQ(result.candidates.size(), 2u);
