@@ -34,6 +34,10 @@ double distanceToBorder(const Quadrilateral& quad, const cv::Size& image) {
   return least;
 }
 
+const geometry::PinholeCamera* lensOf(const geometry::PinholeCamera* camera) {
+  return camera && camera->hasDistortion() ? camera : nullptr;
+}
+
 Quadrilateral undistorted(Quadrilateral quad, const geometry::PinholeCamera* lens) {
   if (lens)
     for (auto& corner : quad) corner = lens->undistort(corner);

@@ -24,6 +24,9 @@ double furthestCorner(const geometry::Quadrilateral& a, const geometry::Quadrila
 /// Of the corner nearest to the image's border, or furthest beyond it: then negative [px].
 double distanceToBorder(const geometry::Quadrilateral& quad, const cv::Size& image);
 
+/// The camera if its lens bends the image, else null.
+const geometry::PinholeCamera* lensOf(const geometry::PinholeCamera* camera);
+
 /// Corners of the undistorted image and of the image as it came. \param lens null where they are the same
 geometry::Quadrilateral undistorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);
 geometry::Quadrilateral distorted(geometry::Quadrilateral quad, const geometry::PinholeCamera* lens);

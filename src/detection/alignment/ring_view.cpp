@@ -35,7 +35,7 @@ Matrix3d mapFromCentre(const Quadrilateral& quad) {
 
 void RingView::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
   model_ = &model;
-  lens_ = camera && camera->hasDistortion() ? camera : nullptr;
+  lens_ = lensOf(camera);
   pyramid_.set(image);
 }
 

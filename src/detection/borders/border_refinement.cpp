@@ -209,7 +209,7 @@ std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const 
   const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
   limits.radius_px *= scale;
   limits.outlier_px *= scale;
-  const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  const geometry::PinholeCamera* lens = lensOf(camera);
   std::array<Line, 4> lines;
   RefinedBorders borders;
   borders.worst_inliers = 1.0;

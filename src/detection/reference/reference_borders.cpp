@@ -166,7 +166,7 @@ std::optional<ReferenceBorders::Located> ReferenceBorders::locate(const cv::Mat&
                                                                   const geometry::PinholeCamera* camera,
                                                                   const Effort& effort) {
   if (!known_ || image.type() != CV_8UC3 || !geometry::isConvex(rough)) return std::nullopt;
-  const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  const geometry::PinholeCamera* lens = lensOf(camera);
   const Quadrilateral ideal = undistorted(rough, lens);
   measure(image, ideal, lens, aspect_, effort);
   darkest_ = 255.0F;

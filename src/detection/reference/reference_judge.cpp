@@ -202,7 +202,7 @@ std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadri
 
 bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                   const geometry::PinholeCamera* camera) {
-  const geometry::PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  const geometry::PinholeCamera* lens = lensOf(camera);
   measureSides(inChannels(image), undistorted(corners, lens), lens, {kStepReach, kStepReach}, sides_);
   const auto differs = [](const SideProfile& side) {
     Eigen::Vector3f within, without;

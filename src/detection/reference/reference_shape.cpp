@@ -158,8 +158,7 @@ std::optional<ReferenceShape::Difference> ReferenceShape::inAspect(
   misfit.aspect = aspect()->value;
   misfit.log_aspect_sigma = aspect()->log_sigma;
   misfit.least_px = kCornerSigmaPx;
-  const auto seen =
-      misfit.of(undistorted(corners, camera->hasDistortion() ? camera : nullptr), covariance, *camera);
+  const auto seen = misfit.of(undistorted(corners, lensOf(camera)), covariance, *camera);
   if (!seen || *seen <= kMaxSigmas) return std::nullopt;
   return Difference{*seen, kMaxSigmas};
 }
@@ -169,7 +168,7 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
   if (image.type() != CV_8UC3 || !geometry::isFinite(corners) || !geometry::isConvex(corners))
     return std::nullopt;
   if (*std::max_element(frame_.begin(), frame_.end()) <= 0.0) return std::nullopt;
-  const PinholeCamera* lens = camera && camera->hasDistortion() ? camera : nullptr;
+  const PinholeCamera* lens = lensOf(camera);
   const Quadrilateral ideal = undistorted(corners, lens);
   measureSides(image, ideal, lens, {kShapeInward, kShapeOutward, seen_aspect_}, sides_);
   ratios_.clear();
