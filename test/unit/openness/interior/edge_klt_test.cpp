@@ -18,7 +18,7 @@ cv::Mat edgeAt(float x, float lean) {
   return image;
 }
 
-TEST(EdgeFlow, findsTheSteepestPlaces) {
+TEST(EdgeKlt, findsTheSteepestPlaces) {
   SlopeImage slopes;
   slopes.take(edgeAt(40.0f, 0.0f));
   const auto edges = slopes.steepest({5, 5, 70, 50}, 10, 5.0, 100);
@@ -32,7 +32,7 @@ TEST(EdgeFlow, findsTheSteepestPlaces) {
   EXPECT_TRUE(slopes.steepest({5, 5, 70, 50}, 10, 200.0, 100).empty());
 }
 
-TEST(EdgeFlow, followsAcrossToATenthOfAPixel) {
+TEST(EdgeKlt, followsAcrossToATenthOfAPixel) {
   for (const float lean : {-0.3f, 0.0f, 0.4f})
     for (float moved = -3.0f; moved <= 3.0f; moved += 0.37f) {
       const cv::Mat key = edgeAt(40.0f, lean), now = edgeAt(40.0f + moved, lean);
@@ -44,7 +44,7 @@ TEST(EdgeFlow, followsAcrossToATenthOfAPixel) {
     }
 }
 
-TEST(EdgeFlow, refusesWhatIsNotTheEdge) {
+TEST(EdgeKlt, refusesWhatIsNotTheEdge) {
   const cv::Mat key = edgeAt(40.0f, 0.0f), none(60, 80, CV_8UC1, cv::Scalar(100));
   const EdgePoint edge{{40.0f, 30.0f}, {1.0f, 0.0f}};
   EXPECT_FALSE(followAcross(key, none, edge, edge.place)) << "gone";
