@@ -16,7 +16,7 @@ ROS_HEADER = re.compile(
     r"/(ros|rosbag|roscpp|rosgraph_msgs|std_msgs|sensor_msgs|geometry_msgs|nav_msgs|visualization_msgs|std_srvs|"
     r"tf2|tf2_ros|tf2_eigen|tf2_geometry_msgs|cv_bridge|image_transport|image_geometry|camera_info_manager|nodelet|"
     r"pluginlib|dynamic_reconfigure|diagnostic_updater|diagnostic_msgs|message_filters)/[^ ]+\.h(pp)?$")
-ROS_FREE = re.compile(r"/src/(?!adapters/|nodes/|tools/)\w+/.*\.cpp$")
+ROS_FREE = re.compile(r"/src/(?!adapters/|mains/|tools/)\w+/.*\.cpp$")
 
 
 def sources(entry):

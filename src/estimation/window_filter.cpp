@@ -18,9 +18,9 @@ namespace {
 constexpr double kExpectedSquares = 8.0;
 constexpr double kMeanOver = 30.0;            // images
 constexpr double kRestartMeanSquares = 20.0;  // over those; beyond it the filter starts anew
-constexpr double kTurnedRad = 0.15,
-                 kFixedYawSigmaRad = 0.005;  // of the window at a new start; of its error then
-constexpr double kMinScaleMps = 0.1;         // slower than this, the way flown tells nothing about the size
+constexpr double kTurnedRad = 0.15;           // of the window since the start before: odometry turned
+constexpr double kFixedYawSigmaRad = 0.005;   // of the yaw bias then, and after a jump
+constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
 constexpr double kSystematicRenewalSec = 20.0;  // at one place
 constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
 constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
