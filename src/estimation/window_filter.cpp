@@ -85,11 +85,6 @@ struct WindowFilter::Impl {
     held_size = found;
   }
 
-  bool turnedSince(const Eigen::Isometry3d& T_odom_window) const {
-    const double now_rad = geometry::yawOf(T_odom_window.linear());
-    return !beliefs.empty() && std::abs(geometry::wrapAngle(now_rad - believed().state().yaw())) > kTurnedRad;
-  }
-
   // Where odometry turned a moment ago, what is seen then must not pass for an error that lasts.
   void fixYawBias() {
     if (params.yaw_bias_lasts) yaw_bias.sigma_rad = std::min(yaw_bias.sigma_rad, kFixedYawSigmaRad);
@@ -139,7 +134,9 @@ struct WindowFilter::Impl {
     const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
     const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
     hold();
-    if (turnedSince(T_odom_window)) fixYawBias();
+    const double yaw_rad = geometry::yawOf(T_odom_window.linear());
+    if (!beliefs.empty() && std::abs(geometry::wrapAngle(yaw_rad - believed().state().yaw())) > kTurnedRad)
+      fixYawBias();
     if (!beliefs.start(T_odom_window, priorSize(estimate->opening), yaw_bias, alone)) return false;
     forgetImages();
     accept(stamp, alone);

@@ -11,8 +11,10 @@ namespace window_ingress::parameters {
 /// The paths of all fields, each group before what lies in it: "vehicle", "vehicle/half_width_m".
 std::vector<std::string> keysOf(const std::vector<Field>& fields);
 
-/// "speeed_mps: unknown key; did you mean 'speed_mps'?" \param shown where it stands, for people \param path
-/// that nobody reads \param known all that somebody reads
+/// "speeed_mps: unknown key; did you mean 'speed_mps'?"
+/// \param shown where it stands, for people
+/// \param path that nobody reads
+/// \param known all that somebody reads
 std::string unknownKey(const std::string& shown, const std::string& path,
                        const std::vector<std::string>& known);
 /// The same of a parameter on the ROS parameter server.
@@ -20,8 +22,9 @@ std::string unknownParameter(const std::string& name_space, const std::string& p
                              const std::vector<std::string>& known);
 
 /// What to say behind "unknown key": "; did you mean 'vehicle: {half_width_m: ..}'?", or where
-/// nothing is like it the few keys that could stand there, or nothing. \param path that nobody reads \param
-/// known all that somebody reads
+/// nothing is like it the few keys that could stand there, or nothing.
+/// \param path that nobody reads
+/// \param known all that somebody reads
 std::string didYouMean(const std::string& path, const std::vector<std::string>& known);
 
 }  // namespace window_ingress::parameters

@@ -23,8 +23,8 @@ struct OdometryParams {
       0.0;                     ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
   double own_bias_part = 0.0;  ///< part of that error on which the vehicle's own velocity loop acts, too
   double attitude_noise_rad = 0.004;  ///< white noise, each axis [rad]
-  double heading_error_rad =
-      0.0;  ///< steady error of the heading, which the positions do not share: drawn up to this, either way
+  double heading_error_rad = 0.0;  ///< steady error of the heading, which the positions do not share: drawn
+                                   ///< up to this, either way [rad]
   double scale_error = 0.0;  ///< of horizontal movement: the part reported beyond the true one
   double wander_m = 0.0;     ///< error that comes and goes, standard deviation of each horizontal axis [m]
   double wander_correlation_sec = 5.0;  ///< how long such an error lasts [s]
