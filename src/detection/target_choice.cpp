@@ -37,10 +37,15 @@ double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   return rival.appearance ? params_.min_score_reference : params_.min_score;
 }
 
-// What was aligned, or is no window by its geometry, must show its borders.
-int TargetChoice::fewestSeen(const ScoredCandidate& rival) const {
-  if (rival.correlation) return kFewestSeen;
-  return isByFrameAlone(rival) ? kAllSeen : 0;
+// What was aligned, or is no window by its geometry, must show its borders: the wall may have been closed.
+// Where all that lies round it is the reference's, it is enough that something else is seen within.
+bool TargetChoice::showsOpening(const ScoredCandidate& rival, const RefinedBorders& found,
+                                const View& view) const {
+  if (!rival.correlation) return !isByFrameAlone(rival) || found.seen == kAllSeen;
+  const bool is_seen = found.seen >= kFewestSeen;
+  if (is_seen && !reference_.frameless()) return true;
+  return (is_seen || reference_.isSure(rival.match)) &&
+         reference_.showsOpening(view.image, found.corners, view.camera);
 }
 
 std::optional<Rejection> TargetChoice::objection(const ScoredCandidate& rival) const {
@@ -82,7 +87,11 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
                                                            RefinedBorders& fitted) {
   const auto ring =
       reference_.surroundingsOf(fitted.corners, view.image, view.camera, RingMatcher::kFoundStartPx);
-  if (!ring) return std::nullopt;
+  confirmed_ = ring.has_value();
+  if (!ring) {
+    if (reference_.frameTells(view.image)) return std::nullopt;
+    return Rejection{RejectReason::kUnlike, 0.0, params_.min_correlation};
+  }
   if (!rival.correlation)
     if (auto fault = reference_.objectionTo(*ring, view.image, rival.appearance)) return fault;
   if (!view.camera) return std::nullopt;
@@ -95,15 +104,12 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
   return std::nullopt;
 }
 
-// Where a wall was closed its surroundings fit, too, but no borders are seen.
 std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const View& view,
                                            RefinedBorders& fitted) {
   double inliers = 0.0;
   const auto found = refine(rival, view, inliers);
-  const bool is_opening = found && found->seen >= fewestSeen(rival) &&
-                          (!rival.correlation || !reference_.frameless() ||
-                           reference_.showsOpening(view.image, found->corners, view.camera));
-  if (!is_opening) return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
+  if (!found || !showsOpening(rival, *found, view))
+    return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
   fitted = *found;
   if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
@@ -130,6 +136,7 @@ std::optional<WindowObservation> TargetChoice::choose(std::vector<ScoredCandidat
       record(rival, fault->reason, fault->value, fault->limit);
       continue;
     }
+    if (trace_.target >= 0) trace_.candidates[trace_.target].reject = RejectReason::kOutscored;
     record(rival, RejectReason::kNone, rival.score, leastScore(rival));
     window = observationOf(trace_.candidates.back(), fitted, view.stamp_sec);
     window->runner_up = runnerUp(rival, rivals);

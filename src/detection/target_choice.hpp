@@ -31,6 +31,9 @@ class TargetChoice {
   std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& rivals, int search_factor,
                                           const View& view);
 
+  /// What lies round the window that was chosen last is what lies round the reference's.
+  bool confirmed() const { return confirmed_; }
+
   /// Where the borders of a window near this place are: where what lies round the reference's opening fits,
   /// averaged with what shows of its borders there. Nothing without a camera, or where that does not fit.
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const View& view) const;
@@ -42,7 +45,7 @@ class TargetChoice {
   std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                RefinedBorders& fitted);
-  int fewestSeen(const ScoredCandidate& rival) const;
+  bool showsOpening(const ScoredCandidate& rival, const RefinedBorders& found, const View& view) const;
   double leastScore(const ScoredCandidate& rival) const;
   void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {
     trace_.candidates.push_back(traceOf(rival, reason, value, limit));
@@ -53,6 +56,7 @@ class TargetChoice {
   DetectionTrace& trace_;
   BorderRefinement refinement_;
   int search_factor_ = 1;
+  bool confirmed_ = false;
 };
 
 }  // namespace window_ingress::detection

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "detection/candidates/candidate_search.hpp"
 #include "detection/candidates/nested_quads.hpp"
@@ -49,6 +50,7 @@ struct WindowDetector::Impl {
   DetectionTrace trace;
   TargetChoice choice;
   std::vector<ScoredCandidate> rivals;
+  bool looked_everywhere = false;  ///< in this image
   StageTimer* watch = nullptr;
 };
 
@@ -83,18 +85,23 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(
 
 std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
     const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
-  gatherAll();
   if (!reference.judgeSurroundings(image, camera, rivals)) return std::nullopt;
   done(watch, Stage::kReference);
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// By the frame, where there is one; what that does not find, by all that lies round the opening.
+// By the frame, where there is one; where what lies round it is not the reference's, rather by that.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
   std::optional<WindowObservation> window;
   if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
-  if (!window) window = judgeSurroundings(image, stamp_sec, camera);
+  const auto is_sure = [&] { return window && (choice.confirmed() || !reference.knowsSurroundings(image)); };
+  const auto ask_surroundings = [&] {
+    if (auto better = judgeSurroundings(image, stamp_sec, camera)) window = better;
+  };
+  if (!is_sure()) gatherAll(), ask_surroundings();
+  if (!is_sure() && !std::exchange(looked_everywhere, true))
+    rivals = reference.placesEverywhere(image), ask_surroundings();
   done(watch, Stage::kBorders);
   return window;
 }
@@ -148,6 +155,7 @@ void WindowDetector::clearReference() { impl_->reference.learn(nullptr); }
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
                                                         const geometry::PinholeCamera* camera) {
   impl_->trace.clear();
+  impl_->looked_everywhere = false;
   if (const std::string fault = imageFault(image); !fault.empty()) {
     impl_->trace.outcome = RejectReason::kBadImage;
     impl_->trace.detail = fault;

@@ -55,6 +55,9 @@ class ReferenceAppearance {
   std::optional<AppearanceMatch> compare(const cv::Mat& image, const geometry::Quadrilateral& opening,
                                          const AppearanceParams& params) const;
 
+  /// True if its colours are found nowhere else in the reference image, so that they alone can tell it.
+  bool isDistinct(const AppearanceParams& params) const;
+
   static constexpr double kMaxDrift = 0.3;  ///< of `adapt`, Bhattacharyya distance
 
   /// Moves what the target is taken to look like towards this view of it, while a track is certain. Never

@@ -10,6 +10,7 @@ namespace {
 constexpr double kComparedPx = 20.0, kAlignedPx = 30.0, kFinestPx = 200.0;  ///< resolutions [px a mean side]
 constexpr double kRoughStartPx = 15.0;          ///< at which an alignment begins where a place is rough
 constexpr std::size_t kPlaces = 10;             ///< that are aligned
+constexpr std::size_t kPlacesSearched = 6;      ///< at most, without edges
 constexpr std::size_t kFinePlaces = 2;          ///< and of these, to the last
 constexpr int kVariants = 2;                    ///< rough loops of one place from which it is aligned
 constexpr double kSure = 0.85, kBehind = 0.3;   ///< a place found, and what promises so much less is left out
@@ -35,6 +36,20 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
   std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {
     return a.first > b.first || (a.first == b.first && a.second < b.second);
   });
+}
+
+std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image) {
+  std::vector<ScoredCandidate> rivals;
+  if (!known() || image.channels() != model_.channels()) return rivals;
+  for (const RingSearch::Place& place : search_.run(model_, image, kPlacesSearched)) {
+    ScoredCandidate rival;
+    rival.quad = place.quad;
+    rival.candidate.source = CandidateSource::kReference;
+    rival.score = place.correlation;
+    rival.doubtful = true;
+    rivals.push_back(rival);
+  }
+  return rivals;
 }
 
 std::optional<ScoredCandidate> RingMatcher::aligned(const ScoredCandidate& rough, double finest_px) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "detection/alignment/ring_alignment.hpp"
+#include "detection/alignment/ring_search.hpp"
 #include "detection/candidates/candidate_search.hpp"
 
 namespace window_ingress::detection {
@@ -21,14 +22,18 @@ class RingMatcher {
     model_.learn(image, opening, colour);
     model_.setAspect(aspect);
     model_.setFramed(framed);
+    search_.learn(model_);
   }
-  void forget() { model_.forget(); }
+  void forget() { model_.forget(), search_.forget(); }
   bool known() const { return model_.known(); }
 
   /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
   /// correlation of every rival as it is. \param image with as many channels as the reference image
   const std::vector<ScoredCandidate>& align(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                             std::vector<ScoredCandidate>& rivals);
+
+  /// Where the ring may be, found without any edge, see RingSearch. \param image as above
+  std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
 
   /// Where it fits best near this place; nothing where it does not. \param coarsest_px one of the above
   std::optional<AlignedRing> alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
@@ -44,6 +49,7 @@ class RingMatcher {
 
   RingModel model_;
   RingAlignment alignment_;
+  RingSearch search_;
   std::vector<std::pair<double, std::size_t>>
       order_;  ///< by correlation before anything is moved; of `rivals`
   std::vector<ScoredCandidate> aligned_;

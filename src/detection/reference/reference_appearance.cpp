@@ -127,6 +127,10 @@ std::optional<AppearanceMatch> ReferenceAppearance::compare(const cv::Mat& image
   return match;
 }
 
+bool ReferenceAppearance::isDistinct(const AppearanceParams& params) const {
+  return kLimitPart * elsewhere_ >= params.min_distance;
+}
+
 bool ReferenceAppearance::adapt(const cv::Mat& image, const Quadrilateral& opening, double rate,
                                 const AppearanceParams& params) {
   const auto match = compare(image, opening, params);

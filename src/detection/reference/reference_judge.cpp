@@ -16,6 +16,8 @@ constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
+constexpr double kSureUncovered = 0.92;                        ///< nothing else looks like that
+constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
 constexpr double kMaxThroughHaze =
     0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
@@ -66,6 +68,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   shape_.learn(reference_->image(), reference_->opening());
   ring_.learn(inChannels(reference_->image()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
               shape_.aspect(), !frameless());
+  open_borders_ = openBorders(reference_->image(), reference_->opening(), nullptr);
   if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), RingWidths(), 1);
 }
 
@@ -149,13 +152,18 @@ bool ReferenceJudge::judgeFrames(const cv::Mat& image, const geometry::PinholeCa
 
 bool ReferenceJudge::judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                        std::vector<ScoredCandidate>& rivals) {
-  if (!compares(image) || !ring_.known()) return false;
+  if (!knowsSurroundings(image)) return false;
   located_ = ring_.align(inChannels(image), camera, rivals);
   for (ScoredCandidate& rival : located_)
     rival.appearance = reference_->compare(image, rival.quad, appearance_);
   for (ScoredCandidate& rival : rivals) rival.verdict.reject = RejectReason::kDuplicate;
   rivals.insert(rivals.end(), located_.begin(), located_.end());
   return true;
+}
+
+std::vector<ScoredCandidate> ReferenceJudge::placesEverywhere(const cv::Mat& image) {
+  if (!knowsSurroundings(image)) return {};
+  return ring_.placesEverywhere(inChannels(image));
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const AppearanceMatch& match) const {
@@ -175,6 +183,14 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
   if (frameless()) return below(match.correlation, 0.0);
   const auto objection = below(match.faithful_uncovered, kFaithfulUncovered);
   return objection && frame && frame->isLike() ? below(match.faithful, kFaithful) : objection;
+}
+
+bool ReferenceJudge::frameTells(const cv::Mat& image) const {
+  return !knowsSurroundings(image) || (!frameless() && reference_->isDistinct(appearance_));
+}
+
+bool ReferenceJudge::isSure(const RingMatch& match) const {
+  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered;
 }
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,
@@ -200,8 +216,8 @@ std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadri
   return ring;
 }
 
-bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                  const geometry::PinholeCamera* camera) {
+int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                                const geometry::PinholeCamera* camera) {
   const geometry::PinholeCamera* lens = lensOf(camera);
   measureSides(inChannels(image), undistorted(corners, lens), lens, {kStepReach, kStepReach}, sides_);
   const auto differs = [](const SideProfile& side) {
@@ -209,7 +225,12 @@ bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrila
     if (!side.mean(-kStepTo, -kStepFrom, within) || !side.mean(kStepFrom, kStepTo, without)) return false;
     return (within - without).norm() > 0.5 * kMinStep * (within + without).norm();
   };
-  return std::count_if(sides_.begin(), sides_.end(), differs) >= 3;
+  return static_cast<int>(std::count_if(sides_.begin(), sides_.end(), differs));
+}
+
+bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                                  const geometry::PinholeCamera* camera) {
+  return openBorders(image, corners, camera) >= std::min(kOpenBorders, open_borders_);
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,

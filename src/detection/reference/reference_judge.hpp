@@ -36,6 +36,9 @@ class ReferenceJudge {
   /// Colour of the reference's frame, see `RingMeans::paint`; nothing where it has none.
   std::optional<Eigen::Vector3f> paint() const;
 
+  /// True if what lies round the reference's opening can be compared with the image.
+  bool knowsSurroundings(const cv::Mat& image) const { return compares(image) && ring_.known(); }
+
   /// False if there is no reference or only one of reference and image has colours.
   bool compares(const cv::Mat& image) const;
 
@@ -48,6 +51,16 @@ class ReferenceJudge {
   /// target then. False, and nothing changed, if they cannot be compared.
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                          std::vector<ScoredCandidate>& rivals);
+
+  /// Rivals for that from the whole image, without any edge; none if it cannot be compared.
+  std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
+
+  /// True if the colours of a frame may tell the target alone, whatever lies round it: they are found nowhere
+  /// else in the reference; or nothing else is known.
+  bool frameTells(const cv::Mat& image) const;
+
+  /// So like what lies round the reference's opening that nothing else can be.
+  bool isSure(const RingMatch& match) const;
 
   /// Why the colours of a frame are not the reference's (P9).
   std::optional<Rejection> objectionTo(const AppearanceMatch& match) const;
@@ -66,8 +79,9 @@ class ReferenceJudge {
   std::optional<Rejection> objectionTo(const AlignedRing& ring, const cv::Mat& image,
                                        const std::optional<AppearanceMatch>& frame);
 
-  /// True if what lies within three of the borders differs from the wall without: a wall whose pattern
-  /// repeats itself looks like that round the opening elsewhere, too, but goes on within.
+  /// True if what lies within three of the borders, or as many as in the reference, differs from the wall
+  /// without: a wall whose pattern repeats itself looks like that round the opening elsewhere, too, but goes
+  /// on within.
   bool showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
                     const geometry::PinholeCamera* camera);
 
@@ -77,6 +91,8 @@ class ReferenceJudge {
                                        const geometry::PinholeCamera* camera, bool by_frame_alone);
 
  private:
+  int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                  const geometry::PinholeCamera* camera);
   bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners, const RingMatch& match) const;
   const cv::Mat& inChannels(const cv::Mat& image);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
@@ -93,7 +109,8 @@ class ReferenceJudge {
   ReferenceShape shape_;
   std::shared_ptr<const ReferenceAppearance> reference_;
   std::optional<RingColours> frame_colours_;  ///< of the reference
-  bool is_grey_ = false;                      ///< the reference; then by brightness alone
+  int open_borders_ = 4;  ///< of the reference: within them something else is seen than without
+  bool is_grey_ = false;  ///< the reference; then by brightness alone
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;
   std::vector<std::size_t> places_;  ///< of the rivals that are looked at
