@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Starts the navigator's mission as soon as it accepts, waits for the referee, says how the flight ended.
 
+Where the scenario says `target_chosen` it points at the target first, as somebody in rviz does.
+
 Parameter ~wait_sec, default 0: wall time before it asks the navigator, for who wants to watch the start.
 Last line: [INGRESS] outcome=PASSED time_s=... offset_y_m=... offset_z_m=...; exit code 0 if PASSED, else 1.
 """
@@ -9,10 +11,12 @@ import threading
 import time
 
 import rospy
+from geometry_msgs.msg import PointStamped, PoseStamped
+from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
-from window_ingress.msg import FlightVerdict
+from window_ingress.msg import Facade, FlightVerdict
 
-READY_WITHIN_S = 120.0   # wall time until the navigator must have accepted
+READY_WITHIN_S = 120.0   # wall time until the target must be chosen and the navigator must have accepted
 FLIGHT_WITHIN_S = 900.0  # wall time until the referee must have decided
 RETRY_S = 0.5
 
@@ -32,6 +36,19 @@ def start(deadline):
     raise RuntimeError(f"the navigator did not start within {READY_WITHIN_S:.0f} s: {said}")
 
 
+def choose_target(deadline):
+    """Clicks on the window where the world says that it is, until the pose node has taken it for the target."""
+    window = rospy.wait_for_message("ground_truth/window", PoseStamped, deadline - time.monotonic())
+    click = PointStamped(header=window.header, point=window.pose.position)
+    chosen = threading.Event()
+    rospy.Subscriber("facade", Facade, lambda facade: facade.target_chosen and chosen.set())
+    clicks = rospy.Publisher("clicked_point", PointStamped, queue_size=1)
+    while not chosen.wait(RETRY_S):  # wall time: /clock may not run yet
+        if time.monotonic() >= deadline or rospy.is_shutdown():
+            raise RuntimeError(f"the target was not seen within {READY_WITHIN_S:.0f} s: nobody could choose it")
+        clicks.publish(click)
+
+
 def main():
     rospy.init_node("start_mission", disable_signals=True)
     over, verdicts = threading.Event(), []
@@ -43,7 +60,10 @@ def main():
 
     rospy.Subscriber("referee", FlightVerdict, receive)
     time.sleep(rospy.get_param("~wait_sec", 0.0))  # wall time: /clock may not run yet
-    print(start(time.monotonic() + READY_WITHIN_S), file=sys.stderr)
+    deadline = time.monotonic() + READY_WITHIN_S
+    if rospy.wait_for_message("scenario/target_chosen", Bool, READY_WITHIN_S).data:
+        choose_target(deadline)
+    print(start(deadline), file=sys.stderr)
     if not over.wait(FLIGHT_WITHIN_S):
         raise RuntimeError(f"no verdict within {FLIGHT_WITHIN_S:.0f} s")
     verdict = verdicts[0]

@@ -120,7 +120,10 @@ Verdict Referee::judge(Claim claim, double mission_start_sec) const {
                       sinceStart(crossing_->time_sec), crossing_->offset_y_m, crossing_->offset_z_m)};
   if (claim == Claim::kPassed && !crossed_inside)
     return {Outcome::kFalseIngress,
-            formatted("claims to have passed at %.2f s and has not", sinceStart(time_sec_))};
+            formatted("claims to have passed at %.2f s ", sinceStart(time_sec_)) +
+                (crossing_ ? formatted("but crossed %+.3f m left and %+.3f m up of the centre",
+                                       crossing_->offset_y_m, crossing_->offset_z_m)
+                           : "and is not behind the window's plane")};
   if (claim == Claim::kAborted)
     return {Outcome::kAborted, formatted("gave up at %.2f s", sinceStart(time_sec_))};
   if (time_sec_ - mission_start_sec >= course_.time_limit_sec)

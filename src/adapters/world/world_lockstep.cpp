@@ -7,6 +7,8 @@ namespace window_ingress::adapters {
 void refuseInLockstep(const simulation::Scenario& scenario) {
   if (scenario.vehicle.profile == "external")
     throw InputError("lockstep: the time of an external vehicle is its own; set lockstep to false");
+  if (scenario.target_chosen)
+    throw InputError("lockstep: nobody points at the target there (target_chosen); set lockstep to false");
   for (const auto& fault : scenario.faults)
     if (fault.unit == "clock" || fault.unit == "tf")
       throw InputError("lockstep: nobody looks at " + fault.unit +

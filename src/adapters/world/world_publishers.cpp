@@ -4,6 +4,7 @@
 #include <nav_msgs/Odometry.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/Imu.h>
+#include <std_msgs/Bool.h>
 #include <window_ingress/ReferenceImage.h>
 
 #include "adapters/images/image_conversion.hpp"
@@ -26,6 +27,7 @@ WorldPublishers::WorldPublishers(ros::NodeHandle& nh, const FrameNames& frames,
   truth_window_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window", 1, true);
   truth_in_camera_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/window_in_camera", newest);
   reference_ = nh.advertise<window_ingress::ReferenceImage>("reference", 1, true);
+  target_chosen_ = nh.advertise<std_msgs::Bool>("scenario/target_chosen", 1, true);
 }
 
 void WorldPublishers::advertiseVehicle(ros::NodeHandle& nh) {
@@ -79,6 +81,9 @@ void WorldPublishers::facts(const simulation::World& world, const ros::Time& sta
   static_tf_.sendTransform(mountingOf(world.T_base_camera(), stamp, frames_, camera_frame_));
   truthOfWindow(world, stamp);
   reference_.publish(toReferenceMsg(world, headerOf(stamp, camera_frame_)));
+  std_msgs::Bool target_chosen;
+  target_chosen.data = world.scenario().target_chosen;
+  target_chosen_.publish(target_chosen);
   twist_in_odom_ = world.scenario().odometry.twist_frame == "world";
 }
 

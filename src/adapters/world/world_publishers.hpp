@@ -29,7 +29,8 @@ class WorldPublishers {
   void imu(const simulation::ImuSample& sample, const ros::Time& stamp);
   /// Of the vehicle, and of a window that moves.
   void truth(const simulation::World& world, const ros::Time& stamp);
-  /// What does not change during a flight: camera's mounting, the window, the reference image.
+  /// What does not change during a flight: camera's mounting, the window, the reference image, and whether
+  /// the operator is to choose the target before the mission starts.
   void facts(const simulation::World& world, const ros::Time& stamp);
 
   bool imagesAreAwaited() const { return image_.getNumSubscribers() > 0; }
@@ -43,7 +44,7 @@ class WorldPublishers {
   bool twist_in_odom_ = false;  // as some simulators say it, against REP 147
   tf2_ros::TransformBroadcaster tf_;
   tf2_ros::StaticTransformBroadcaster static_tf_;
-  ros::Publisher clock_, image_, info_, odom_, imu_, reference_;
+  ros::Publisher clock_, image_, info_, odom_, imu_, reference_, target_chosen_;
   ros::Publisher truth_odom_, truth_window_, truth_in_camera_;
 };
 

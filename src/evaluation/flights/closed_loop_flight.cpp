@@ -150,9 +150,10 @@ void Flight::look(const simulation::CameraFrame& frame) {
 }
 
 // What the operator of a scenario does: points at the target as soon as it is in the memory of all windows,
-// and then starts the mission.
+// and then starts the mission. Without images the target alone is seen.
 void Flight::chooseTarget() {
-  if (!world_.scenario().target_chosen || was_chosen_ || params_.without_images) return;
+  was_chosen_ = was_chosen_ || !world_.scenario().target_chosen || params_.without_images;
+  if (was_chosen_) return;
   const Eigen::Isometry3d T_odom_window = world_.odometryDrift() * world_.T_odom_window();
   was_chosen_ = tracker().selectWindowNear(T_odom_window.translation()).success;
 }
@@ -163,7 +164,7 @@ void Flight::step() {
   input_.target = tracker().target(now_sec);
   const facade::KnownWindow* remembered = tracker().facade().target();
   input_.remembered_odom_m = remembered ? std::optional(remembered->place.position_m) : std::nullopt;
-  const bool may_start = input_.image_stamp_sec && (was_chosen_ || !world_.scenario().target_chosen);
+  const bool may_start = input_.image_stamp_sec && was_chosen_;
   if (!started_sec_ && may_start && navigator_.start(input_, now_sec).success) started_sec_ = now_sec;
   output_ = navigator_.step(input_, now_sec);
   tracker().heed(output_.report.window_id, output_.report.given_up, output_.report.next_window);

@@ -50,7 +50,7 @@ struct Scenario {
   std::string glass = "as_set";  ///< `commit/glass` of the navigator in `fly`; as_set: as its parameters say
   std::string unverified_opening =
       "as_set";  ///< `commit/unverified_opening` of the navigator in `fly`; as_set: as its parameters say
-  bool target_chosen = false;  ///< in `fly` somebody points at the target, once seen, and then starts
+  bool target_chosen = false;  ///< somebody points at the target, once seen, and then starts
   StartParams start;
   WindowParams window;
   std::vector<DecoyParams> decoys;

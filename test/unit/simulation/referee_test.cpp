@@ -171,6 +171,18 @@ TEST_F(Flight, AClaimWithoutACrossingIsAFalseIngress) {
   EXPECT_FALSE(referee_.judge(Claim::kPassed).reason.empty());
 }
 
+TEST(Referee, AClaimAfterAnotherWindowIsTold) {
+  Referee referee(Course{});  // nothing to touch
+  VehicleTruth truth;
+  for (const double x_m : {-1.0, 1.0}) {
+    truth.T_odom_base.translation() = Eigen::Vector3d(x_m, 1.9, 0.0);
+    referee.update(x_m + 1.0, truth);
+  }
+  const Verdict verdict = referee.judge(Claim::kPassed);
+  EXPECT_EQ(verdict.outcome, Outcome::kFalseIngress);
+  EXPECT_NE(verdict.reason.find("+1.900 m left"), std::string::npos) << verdict.reason;
+}
+
 TEST_F(Flight, RunningOutOfTimeIsATimeout) {
   stand(60.1);
   EXPECT_EQ(outcome(), Outcome::kTimeout);

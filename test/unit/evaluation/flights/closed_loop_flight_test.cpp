@@ -44,6 +44,16 @@ TEST(ClosedLoopFlight, PassesAWindowRightAheadAndSaysHow) {
   EXPECT_TRUE(std::any_of(log.records.begin(), log.records.end(), is_committed));
 }
 
+// It is the only one that is seen there.
+TEST(ClosedLoopFlight, WithoutImagesNobodyWaitsForATargetToBeChosen) {
+  auto scenario = shortFlight();
+  scenario.target_chosen = true;
+  FlightParams params;
+  params.without_images = true;
+  const auto flight = flyOnce(scenario, 1, params);
+  EXPECT_EQ(flight.outcome, Outcome::kPassed) << flight.reason;
+}
+
 TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
   auto scenario = shortFlight();
   scenario.unverified_opening = "deny";
