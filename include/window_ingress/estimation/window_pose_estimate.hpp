@@ -46,7 +46,7 @@ struct WindowPoseEstimate {
   /// Spread of the yaw with the opening's size unknown, i.e. from keystone alone. It decides about the sign.
   double sigma_u_rad = 0.0;
   double log_likelihood_ratio = 0.0;  ///< best over alternative, >= 0; infinite is written as 1e9
-  /// The signs of yaw_rad and of yaw_from_sight_rad are certain: sigma_u is less than a third of either, and
+  /// The signs of yaw_rad and of yaw_from_sight_rad are known: sigma_u is less than a third of either, and
   /// the image has indeed shown it (likelihood ratio).
   bool sign_trusted = false;
 

@@ -79,16 +79,15 @@ Decision Align::resolveSign(const Situation& situation, const MissionState& memo
   if (situation.now_sec - ambiguous_since_sec_ < kAmbiguousSec) {
     const double limit_mps = params_->align.vertical_speed_mps;
     decision.wish.velocity_odom_mps.z() = velocityTowards(-relative.vertical(), limit_mps, *params_);
-    decision.reason = "sign of the window's yaw not certain: looking";
+    decision.reason = "sign of the window's yaw unknown: looking";
     return decision;
   }
   decision.wish.velocity_odom_mps.z() = probe_.climb(height_m);
-  decision.reason =
-      "sign of the window's yaw not certain: height probe " + std::to_string(probe_.count() + 1);
+  decision.reason = "sign of the window's yaw unknown: height probe " + std::to_string(probe_.count() + 1);
   if (probe_.isExhausted()) {
     decision.event = Event::kGiveUp;
     decision.reason =
-        "sign of the window's yaw not certain after " + std::to_string(probe_.count()) + " height probes";
+        "sign of the window's yaw unknown after " + std::to_string(probe_.count()) + " height probes";
   }
   return decision;
 }

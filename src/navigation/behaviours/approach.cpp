@@ -30,7 +30,7 @@ Decision Approach::step(const Situation& situation, MissionState& memory) {
   decision.wish.yaw_rate_radps = yawRateFor(headingErrorTowards(relative, *params_), memory, *params_);
   if (!target.sign_trusted) {
     decision.event = Event::kMisaligned;
-    decision.reason = "sign of the window's yaw no longer certain";
+    decision.reason = "sign of the window's yaw unknown again";
     return decision;
   }
   if (!target.approach_forbidden.empty()) {
