@@ -92,6 +92,9 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
   if (pending_ && pending_->stamp_sec <= stamp_sec) flush();
 }
 
+// Is odom another frame from here on? Then nothing in it is where it was. What is less, the filter's outliers
+// and new starts take; the navigator, which must know the vehicle's way to centimetres, takes less for one
+// (`ContinuousOdometry`).
 bool TargetEstimator::isJump(double dt_sec, const Eigen::Isometry3d& T_odom_base) const {
   constexpr double kMaxJumpM = 0.5, kMaxTurnJumpRad = 0.35, kFastestMps = 3.0, kFastestRadps = 3.0;
   const double moved_m = (T_odom_base.translation() - last_T_odom_base_.translation()).norm();

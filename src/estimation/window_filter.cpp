@@ -1,11 +1,11 @@
 #include "window_ingress/estimation/window_filter.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "estimation/checks/odometry_smoother.hpp"
+#include "estimation/filter/filtered_window.hpp"
 #include "estimation/filter/viewpoints.hpp"
 #include "estimation/filter/window_hypotheses.hpp"
 #include "estimation/planar/observation_check.hpp"
@@ -26,11 +26,6 @@ constexpr double kTimeJumpSec = 1.0;            // an image that much older is a
 constexpr double kMaxHeldSigma = 0.1;           // a size that is worse than this is not worth being held
 constexpr double kSureOfHeight = 0.2;           // relative
 constexpr double kHeldSigmaGrowth = 1.5;        // the restart may have had a reason
-
-CameraTurn cameraTurn(const WindowHypothesis& window) {
-  return {-window.state().values.segment<3>(WindowState::kPitchBias),
-          window.covariance().block<3, 3>(WindowState::kPitchBias, WindowState::kPitchBias)};
-}
 
 }  // namespace
 
@@ -203,58 +198,11 @@ struct WindowFilter::Impl {
     return true;
   }
 
-  Matrix6d covarianceOf(const WindowHypothesis& window) const {
-    const Eigen::Matrix4d pose = window.poseCovariance();
-    Matrix6d covariance = Matrix6d::Zero();
-    covariance.topLeftCorner<3, 3>() = pose.topLeftCorner<3, 3>();
-    covariance.topRightCorner<3, 1>() = pose.topRightCorner<3, 1>();
-    covariance.bottomLeftCorner<1, 3>() = pose.bottomLeftCorner<1, 3>();
-    covariance(3, 3) = covariance(4, 4) = std::pow(params.attitude_bias_sigma_rad, 2);
-    covariance(5, 5) = pose(3, 3);
-    return covariance;
-  }
-
-  TargetMotion motionOf(const WindowHypothesis& window) const {
-    const MotionModel model = params.targetMotion();
-    if (model.stands()) return {};
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(window.velocityCovariance(),
-                                                                Eigen::EigenvaluesOnly);
-    return {model, window.state().velocity(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))};
-  }
-
-  WindowHypothesis predicted(WindowHypothesis window, double age_sec) const {
-    window.predict(params, std::max(age_sec, 0.0), 0.0, camera_position);
-    return window;
-  }
-
-  // Two hypotheses so near to each other that they need not be told apart are one with the spread of both.
-  WindowHypothesis reported() const {
-    const auto& hypotheses = beliefs.hypotheses();
-    if (hypotheses.size() < 2 || !beliefs.areUnambiguous()) return hypotheses.front().window;
-    return hypotheses[0].window.mergedWith(hypotheses[1].window, std::exp(hypotheses[1].log_weight));
-  }
-
   FilteredWindow stateAt(double age_sec) const {
-    const auto& hypotheses = beliefs.hypotheses();
-    const WindowHypothesis window = predicted(reported(), age_sec);
-    FilteredWindow out;
+    FilteredWindow out = filteredWindow(beliefs, params, camera_position, age_sec);
     out.stamp_sec = stamp_sec;
-    out.age_sec = age_sec;
-    out.T_odom_window = window.T_odom_window();
-    out.covariance = covarianceOf(window);
-    out.hypothesis_weight = std::exp(hypotheses.front().log_weight);
     out.updates = updates;
-    out.sign_trusted =
-        beliefs.areUnambiguous() && window.yawFromSightSigma(camera_position) < params.trusted_yaw_sigma_rad;
-    if (hypotheses.size() > 1) {
-      const WindowHypothesis other = predicted(hypotheses[1].window, age_sec);
-      out.alternative =
-          FilteredWindow::Alternative{other.T_odom_window(), covarianceOf(other), cameraTurn(other)};
-    }
-    out.size = window.size();
-    out.camera_turn = cameraTurn(window);
     out.consistency = consistency.consistency();
-    out.motion = motionOf(window);
     return out;
   }
 };

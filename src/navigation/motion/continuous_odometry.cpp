@@ -8,6 +8,8 @@
 namespace window_ingress::navigation {
 namespace {
 
+// After a gap, in which the way is not known: less than what ends all places (`TargetEstimator::isJump`),
+// because a vehicle in the opening has only centimetres.
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kFramesSec = 3.0;
 constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned

@@ -60,7 +60,8 @@ class ContinuousOdometry {
   /// The way by which a vehicle that kept its place was carried off, back [m], level, axes of `smooth`: while
   /// a bias might have been a slide, the velocity was believed. Zero until it is known, the same ever after.
   const Eigen::Vector3d& carriedM() const { return carried_m_; }
-  /// Whether the window has shown that the position is right where the two differ.
+  /// Whether it is the velocity that errs where the two differ. Who told last is believed: a window, with
+  /// each piece of the way that it was seen beside, or a bias, once, when it has lasted.
   bool isVelocityWorse() const { return is_velocity_worse_; }
 
  private:
