@@ -24,6 +24,8 @@ POSE_LIMIT_US = 150.0
 LEAST_FOLLOWED = 0.9  # part of the images: a search in every image is no track
 STAGES = ["preprocess", "edges", "lines", "closing", "contours", "segment_quads", "all_to_candidates",
           "appearance_of_all", "borders_of_one"]
+OF_README = ["plaster", "brick", "siding", "lens"]  # 640 x 480
+ROW = re.compile(r"an image of 640 × 480 takes .*? AprilTag 3 at full size takes .*? there", re.S)
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 
@@ -213,6 +215,24 @@ def write_doc(path, lines):
         file.write(before + BEGIN + "\n" + "\n".join(lines) + END + after)
 
 
+def readme_row(costs):
+    """What the README says of the times {"subject/sequence": ms}."""
+    def between(subject):
+        of_all = [costs[f"{subject}/{sequence}"] for sequence in OF_README]
+        return " to ".join(f"{ms:.0f}" if ms >= 1 else f"{ms:.1f}" for ms in (min(of_all), max(of_all))) + " ms"
+    return (f"an image of 640 × 480 takes {between('search')} to search and\n  {between('track')} once the window is tracked; "
+            f"AprilTag 3 at full size takes {between('apriltag_decimate_1')} there")
+
+
+def write_readme(path, costs):
+    with open(path) as file:
+        text = file.read()
+    if len(ROW.findall(text)) != 1:
+        refuse(f"{path}: the sentence of what an image costs must stand in it, once")
+    with open(path, "w") as file:
+        file.write(ROW.sub(readme_row(costs), text))
+
+
 def refuse(text):
     print(f"bench_report: {text}", file=sys.stderr)
     sys.exit(2)
@@ -223,6 +243,7 @@ def main():
     parser.add_argument("folder", help="what the measuring programs wrote")
     parser.add_argument("--json", required=True, help="file to write")
     parser.add_argument("--doc", help="Markdown file whose tables are replaced")
+    parser.add_argument("--readme", help="Markdown file whose sentence of what an image costs is replaced")
     arguments = parser.parse_args()
     folder = arguments.folder
     times, instructions = read_times(folder), read_instructions(folder)
@@ -240,6 +261,8 @@ def main():
     print("\n".join(lines))
     if arguments.doc:
         write_doc(arguments.doc, lines)
+    if arguments.readme:
+        write_readme(arguments.readme, followed_times(times))
     for text in result["broken_bounds"]:
         print(f"bench: bound broken: {text}", file=sys.stderr)
     sys.exit(1 if result["broken_bounds"] else 0)

@@ -95,6 +95,23 @@ def test_document_without_marks_is_refused_and_kept(tmp_path):
     assert doc.read_text() == "no marks\n"
 
 
+def write_all_times(folder):
+    rows = [row for sequence, ms in (("plaster", 4.8), ("brick", 15.2), ("siding", 5.0), ("lens", 8.2))
+            for row in runs(f"search/{sequence}", [ms]) + runs(f"track/{sequence}", [ms / 10]) + runs(f"apriltag_decimate_1/{sequence}", [20.0])]
+    (folder / "times.json").write_text(json.dumps({"benchmarks": rows}))
+
+
+def test_the_readme_gets_its_sentence_and_keeps_the_rest(tmp_path):
+    write_all_times(tmp_path)
+    readme = tmp_path / "README.md"
+    readme.write_text("Here an image of 640 × 480 takes 1 to 2 ms to search and\n  9 ms; AprilTag 3 at full size takes 3 to 4 ms there. After.\n")
+    assert run(tmp_path, "--readme", str(readme)).returncode == 0
+    assert readme.read_text() == ("Here an image of 640 × 480 takes 5 to 15 ms to search and\n  0.5 to 2 ms once the window is tracked; "
+                                  "AprilTag 3 at full size takes 20 to 20 ms there. After.\n")
+    readme.write_text("nothing of it\n")
+    assert run(tmp_path, "--readme", str(readme)).returncode == 2
+
+
 def test_nothing_measured_is_said(tmp_path):
     done = run(tmp_path)
     assert done.returncode == 2
