@@ -11,8 +11,7 @@ from std_srvs.srv import Trigger
 import oracles
 import support
 
-DISTANCE_M = 2.5
-LEFT, TOP, RIGHT, BOTTOM = 200, 140, 440, 340  # inner border of 1.2 m x 1.0 m, so far away, at a focal length of 500 px
+LEFT, TOP, RIGHT, BOTTOM = 200, 140, 440, 340  # inner border of 1.2 m x 1.0 m, 2.5 m away, at a focal length of 500 px
 CAMERA_HZ, VEHICLE_HZ, AUTOPILOT_HZ = 15.0, 50.0, 10.0
 MOVES_WITHIN_S = 20.0
 

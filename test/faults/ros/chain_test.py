@@ -82,7 +82,6 @@ class Shuffled:
 
 IMAGE, ODOM, INFO, MOUNTING = ("window_detector: image", "ingress_navigator: odom", "window_detector: calibration",
                                "homography_pose: camera mounting")
-POSE_ODOM = "homography_pose: odom"
 
 
 def rows():

@@ -1,6 +1,5 @@
 """The oracles beside running nodes: hears what they publish, looks after their processes, and judges by oracles.py."""
 import math
-import os
 import threading
 import time
 
@@ -213,8 +212,3 @@ def running(node):
         return support.pid_of("/" + node.lstrip("/"))
     except (rosgraph.MasterException, OSError, AssertionError):
         return None
-
-
-def resident_pages(pid):
-    with open(f"/proc/{pid}/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
