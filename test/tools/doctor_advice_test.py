@@ -6,11 +6,15 @@ import pathlib
 import re
 import socket
 import subprocess
+import sys
 import types
 
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+from ingress_tools import findings, input_checks, observed_system, remedies  # noqa: E402
+
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
 
 
@@ -22,9 +26,9 @@ def fixture_doctor():
     return module
 
 
-def seen(doctor, topics=(), said=()):
+def seen(topics=(), said=()):
     """A system with topics {name: type} of one camera, and what nodes said {status: level}."""
-    system = object.__new__(doctor.System)
+    system = object.__new__(observed_system.System)
     topics = dict(topics)
     system.graph = types.SimpleNamespace(publishers={topic: ["/camera"] for topic in topics},
                                          topics_of_type=lambda kind: sorted(t for t, k in topics.items() if k == kind))
@@ -39,16 +43,16 @@ def seen(doctor, topics=(), said=()):
      " image_transport:=compressed image:=/camera/image_raw"),
     ("/camera/image_raw/compressed", COMPRESSED, {"/camera/image_raw": RAW}, " image:=/camera/image_raw"),
     ("/odom", "nav_msgs/Odometry", {"/mavros/local_position/odom": "nav_msgs/Odometry"}, " odom:=/mavros/local_position/odom")])
-def test_another_topic_is_given_as_launch_files_want_it(doctor, wanted, kind, there, arguments):
-    assert doctor.suggest(seen(doctor, there), wanted, kind) == doctor.LAUNCH + arguments
+def test_another_topic_is_given_as_launch_files_want_it(wanted, kind, there, arguments):
+    assert input_checks.suggest(seen(there), wanted, kind) == remedies.LAUNCH + arguments
 
 
-def test_without_another_topic_the_argument_is_named(doctor):
-    assert doctor.suggest(seen(doctor), "/imu", "sensor_msgs/Imu") == "start what publishes /imu, or give imu:=ITS_TOPIC"
+def test_without_another_topic_the_argument_is_named():
+    assert input_checks.suggest(seen(), "/imu", "sensor_msgs/Imu") == "start what publishes /imu, or give imu:=ITS_TOPIC"
 
 
-def test_of_a_topic_of_mavros_it_is_mavros_that_is_started(doctor):
-    mend = doctor.suggest(seen(doctor), "/mavros/imu/data", "sensor_msgs/Imu")
+def test_of_a_topic_of_mavros_it_is_mavros_that_is_started():
+    mend = input_checks.suggest(seen(), "/mavros/imu/data", "sensor_msgs/Imu")
     assert mend.startswith("start MAVROS (roslaunch mavros px4.launch") and mend.endswith("or give imu:=ITS_TOPIC")
 
 
@@ -58,7 +62,7 @@ def test_of_a_topic_of_mavros_it_is_mavros_that_is_started(doctor):
     (["/mavros"], ("/mavros/imu/data",), "ERROR  /mavros/local_position/odom: /mavros advertises it and sends nothing")])
 def test_mavros_that_is_away_is_one_finding(doctor, capsys, publishers, arrived, words):
     kinds = {"/mavros/imu/data": "sensor_msgs/Imu", "/mavros/local_position/odom": "nav_msgs/Odometry"}
-    system = seen(doctor, said={"ingress_navigator: engaged": 2, "homography_pose: imu": 2})
+    system = seen(said={"ingress_navigator: engaged": 2, "homography_pose: imu": 2})
     for status in system.said.values():
         status.message = "nothing on /engaged yet" if status is system.said["ingress_navigator: engaged"] else "no imu on /mavros/imu/data"
     system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator", "setpoint_guard")}
@@ -68,8 +72,8 @@ def test_mavros_that_is_away_is_one_finding(doctor, capsys, publishers, arrived,
     system.setpoints = "/mavros/setpoint_velocity/cmd_vel"
     system.samples = {topic: types.SimpleNamespace(times=[0.0] * (topic in arrived), rate_hz=lambda: 50.0, age_s=lambda: 0.0)
                       for topic in (*kinds, system.setpoints)}
-    report = doctor.Report()
-    for check in (doctor.check_inputs, doctor.check_setpoints, doctor.check_what_nodes_say):
+    report = findings.Report()
+    for check in (input_checks.check_inputs, doctor.check_setpoints, doctor.check_what_nodes_say):
         check(system, report)
     report.say()
     said = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]
@@ -82,13 +86,13 @@ def test_mavros_that_is_away_is_one_finding(doctor, capsys, publishers, arrived,
                                                          (True, ["/engaged_from_mavros"], "nothing is wrong")])
 def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypatch, capsys, required, publishers, words):
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default=None: required if name.endswith("engagement/required") else default)
-    system = seen(doctor, said={} if publishers else {"ingress_navigator: engaged": 2})
+    system = seen(said={} if publishers else {"ingress_navigator: engaged": 2})
     for status in system.said.values():
         status.message = "nothing on /engaged yet, and engagement/required: no mission can start"
     system.nodes = system.alive = {name: f"/{name}" for name in (*doctor.WANTED, "ingress_navigator")}
     system.inputs = {"ingress_navigator": {"/engaged": "std_msgs/Bool"}}
     system.graph.publishers["/engaged"] = publishers
-    report = doctor.Report()
+    report = findings.Report()
     doctor.check_engaged(system, report)
     if system.said and required:
         doctor.check_what_nodes_say(system, report)
@@ -98,18 +102,18 @@ def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypa
 
 
 @pytest.mark.parametrize("mounting, window, known", [(0, 0, True), (2, 0, False), (0, 2, False), (None, None, False)])
-def test_a_transform_that_the_pose_node_has_is_not_missed(doctor, mounting, window, known):
+def test_a_transform_that_the_pose_node_has_is_not_missed(mounting, window, known):
     levels = {"/homography_pose: camera mounting": mounting, "/homography_pose: window": window}
-    assert seen(doctor, said={name: level for name, level in levels.items() if level is not None}).knows_mounting() == known
+    assert seen(said={name: level for name, level in levels.items() if level is not None}).knows_mounting() == known
 
 
-def test_each_remedy_is_reached(doctor):
-    for number, (words, mend) in enumerate(doctor.REMEDIES):
-        assert doctor.remedy(f"so {words} it is") == mend, number
+def test_each_remedy_is_reached():
+    for number, (words, mend) in enumerate(remedies.REMEDIES):
+        assert remedies.remedy(f"so {words} it is") == mend, number
 
 
-def test_the_programs_that_are_advised_are_installed(doctor):
-    advised = {match for _, mend in doctor.REMEDIES for match in re.findall(r"rosrun (\w+) (\w+)", mend)}
+def test_the_programs_that_are_advised_are_installed():
+    advised = {match for _, mend in remedies.REMEDIES for match in re.findall(r"rosrun (\w+) (\w+)", mend)}
     assert ("tf2_ros", "static_transform_publisher") in advised
     for package, program in advised:
         folders = [pathlib.Path(root) / "lib" / package for root in ("/usr", "/opt/ros/noetic")]
@@ -118,9 +122,10 @@ def test_the_programs_that_are_advised_are_installed(doctor):
 
 @pytest.mark.parametrize("file, without", [("ingress.launch", {"mavros"}), ("px4.launch", set()), ("ardupilot.launch", set()),
                                            ("rehearse.launch", {"mavros", "cmd_vel"})])
-def test_the_launch_files_have_the_arguments_that_are_advised(doctor, file, without):
-    lines = [line for line in (ROOT / "tools/doctor").read_text(encoding="utf-8").splitlines() if "{LAUNCH} " in line]
-    advised = {*doctor.ARGUMENTS.values(), "image_transport", *re.findall(r"(\w+):=", "".join(lines))} - {"image_transport:=compressed image"}
+def test_the_launch_files_have_the_arguments_that_are_advised(file, without):
+    sources = [ROOT / "tools/doctor", *(ROOT / "tools/ingress_tools").glob("*.py")]
+    lines = [line for source in sources for line in source.read_text(encoding="utf-8").splitlines() if "{LAUNCH} " in line]
+    advised = {*observed_system.ARGUMENTS.values(), "image_transport", *re.findall(r"(\w+):=", "".join(lines))} - {"image_transport:=compressed image"}
     assert "cmd_vel" in advised and "camera_frame" in advised
     there = set(re.findall(r'<arg name="(\w+)" default', (ROOT / "launch" / file).read_text(encoding="utf-8")))
     assert advised - there == without
@@ -139,10 +144,10 @@ def test_who_rehearses_is_told_the_arguments_of_the_rehearsal(doctor):
     (False, [], 0, "OK     time is that of this computer")])
 def test_time_is_that_of_a_clock_which_runs_and_is_heeded(doctor, monkeypatch, capsys, simulated, clocks, heard, said):
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default: simulated if name == "/use_sim_time" else default)
-    system = object.__new__(doctor.System)
+    system = object.__new__(observed_system.System)
     system.graph = types.SimpleNamespace(publishers={"/clock": clocks} if clocks else {})
     system.clock, system.said = types.SimpleNamespace(times=[0.0] * heard), {}
-    report = doctor.Report()
+    report = findings.Report()
     doctor.check_clock(system, report)
     report.say()
     assert capsys.readouterr().out.startswith(said)
@@ -150,10 +155,10 @@ def test_time_is_that_of_a_clock_which_runs_and_is_heeded(doctor, monkeypatch, c
 
 def test_a_world_that_waits_for_the_detector_is_not_mended_by_another_clock(doctor, monkeypatch, capsys):
     monkeypatch.setattr(doctor.rospy, "get_param", lambda name, default: True)
-    system = seen(doctor, {"/clock": "rosgraph_msgs/Clock"}, {"world: speed": 1})
+    system = seen({"/clock": "rosgraph_msgs/Clock"}, {"world: speed": 1})
     system.said["world: speed"].message = "waiting for subscribers of image_raw and odom"
     system.clock = types.SimpleNamespace(times=[])
-    report = doctor.Report()
+    report = findings.Report()
     doctor.check_clock(system, report)
     report.say()
     said = capsys.readouterr().out
@@ -163,11 +168,11 @@ def test_a_world_that_waits_for_the_detector_is_not_mended_by_another_clock(doct
 
 def said_by(doctor, *, alive=("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"), simulated_without_clock=False, **said):
     """What doctor prints of a system in which these nodes are there and say {item: (level, message)}, `node__item` in all."""
-    system = object.__new__(doctor.System)
+    system = object.__new__(observed_system.System)
     system.nodes = system.alive = {name: f"/{name}" for name in alive}
     system.graph = types.SimpleNamespace(publishers={}, nodes=lambda: [f"/{name}" for name in alive])
     system.said = {name.replace("__", ": "): types.SimpleNamespace(level=level, message=message) for name, (level, message) in said.items()}
-    report = doctor.Report()
+    report = findings.Report()
     doctor.check_nodes(system, report)
     if simulated_without_clock:
         report.error("time stands still", "a clock", ["/clock"])
@@ -240,9 +245,9 @@ def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_foun
 @pytest.mark.parametrize("called, launch, wanted", [
     ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/ingress reference IMAGE"),
     ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; ingress reference IMAGE")])
-def test_mends_are_commands_as_the_user_runs_them(doctor, monkeypatch, called, launch, wanted):
+def test_mends_are_commands_as_the_user_runs_them(monkeypatch, called, launch, wanted):
     monkeypatch.setenv("WINDOW_INGRESS_RUN", called)
-    assert doctor.as_run(f"{doctor.LAUNCH} image:=/eye; scripts/ingress reference IMAGE", launch) == wanted
+    assert findings.as_run(f"{remedies.LAUNCH} image:=/eye; scripts/ingress reference IMAGE", launch) == wanted
 
 
 @pytest.mark.parametrize("host, warned", [("localhost", False), (socket.gethostname(), False), ("drone", True)])
@@ -250,7 +255,7 @@ def test_only_a_master_elsewhere_asks_for_this_machines_address(doctor, monkeypa
     for name in ("ROS_IP", "ROS_HOSTNAME"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("ROS_MASTER_URI", f"http://{host}:11311")
-    report = doctor.Report()
+    report = findings.Report()
     doctor.check_network(types.SimpleNamespace(graph=types.SimpleNamespace(nodes=lambda: [])), report)
     report.say()
     assert ("neither ROS_IP nor ROS_HOSTNAME" in capsys.readouterr().out) == warned

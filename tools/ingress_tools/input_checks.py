@@ -1,0 +1,91 @@
+"""Whether what nodes read comes: from one publisher, of the right type, often enough, with stamps of now."""
+from ingress_tools.observed_system import ARGUMENTS, NODES
+from ingress_tools.remedies import LAUNCH, REMEDIES
+
+IMAGES = {"sensor_msgs/Image": ("", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
+SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
+DAY_S = 86400.0
+
+
+def suggest(system, topic, kind):
+    """How to give a node another topic, one that is not our own."""
+    def topics_of_type(wanted):
+        return [name for name in system.graph.topics_of_type(wanted)
+                if any(node.split("/")[-1] not in NODES for node in system.graph.publishers[name])]
+
+    if kind in IMAGES:
+        others = [f"{transport}image:={other[:len(other) - len(end)]}" for wanted, (transport, end) in IMAGES.items()
+                  for other in topics_of_type(wanted) if other != topic and other.endswith(end)]
+    else:
+        others = [f"{ARGUMENTS[kind]}:={other}" for other in topics_of_type(kind) if other != topic]
+    who = f"MAVROS (roslaunch mavros px4.launch, or apm.launch), which publishes {topic}" if "/mavros/" in topic else f"what publishes {topic}"
+    return f"{LAUNCH} {' or '.join(others)}" if others else f"start {who}, or give {ARGUMENTS[kind]}:=ITS_TOPIC"
+
+
+def check_input(system, report, topic, kind, readers):
+    publishers = system.graph.publishers.get(topic, [])
+    sample = system.samples[topic]
+    type_ = system.graph.types.get(topic, kind)
+    place = {"symptom": "/clock" in report.named}
+    if not publishers:
+        report.error(f"{topic}: 0 publishers, read by {readers}", suggest(system, topic, kind), [topic], **place)
+    elif type_ not in (kind, "*"):
+        report.error(f"{topic}: is a {type_}, {readers} reads {kind}", suggest(system, topic, kind), [topic], **place)
+    elif not sample.times:
+        report.error(f"{topic}: {', '.join(publishers)} advertises it and sends nothing", f"look at its log: scripts/run rosnode info {publishers[0]}",
+                     [topic], **place)
+    elif len(publishers) > 1:
+        report.error(f"{topic}: {len(publishers)} publishers: {', '.join(publishers)}", f"stop one of them: scripts/run rosnode kill {publishers[-1]}",
+                     [topic], **place)
+    elif sample.rate_hz() < SLOWEST_HZ.get(kind, 0.0):
+        report.warn(f"{topic}: {sample.rate_hz():.1f} Hz, should be {SLOWEST_HZ[kind]:.0f} Hz or more", f"raise the rate of {publishers[0]}; "
+                    "MAVROS: doc/autopilots.md", [topic], **place)
+    else:
+        check_age(report, topic, publishers[0], sample, **place)
+
+
+def check_age(report, topic, publisher, sample, **place):
+    age = sample.age_s()
+    text = f"{topic}: {sample.rate_hz():.1f} Hz from {publisher}"
+    if abs(age) > DAY_S:
+        when = "old" if age > 0.0 else "ahead of the clock"
+        mend = REMEDIES[2][1] if age > 0.0 else REMEDIES[1][1]
+        report.error(f"{text}, stamps {abs(age) / DAY_S:.0f} days {when}", mend, [topic], **place)
+    elif not -0.1 <= age <= 0.5:
+        report.error(f"{text}, stamps {abs(age):.2f} s {'old' if age > 0.0 else 'ahead of the clock'}",
+                     "synchronise the clocks (chrony); let the driver stamp at the exposure", [topic], **place)
+    else:
+        report.ok(f"{text}, {1e3 * age:.0f} ms old")
+
+
+def check_mavros(system, report, topics):
+    """MAVROS that is away, or has no autopilot, is one finding, however many of its topics are missing. \return those topics"""
+    topics = [topic for topic in topics if "/mavros/" in topic]
+    missing = [topic for topic in topics if not system.graph.publishers.get(topic)]
+    if not topics or (missing != topics and any(system.samples[topic].times for topic in topics)):
+        return []
+    engaged = system.input("ingress_navigator", "std_msgs/Bool")
+    namespace = topics[0].split("/mavros/")[0] + "/mavros"
+    listed = ", ".join(topics)
+    if missing == topics:
+        report.error(f"MAVROS is not running: 0 publishers of {listed}",
+                     f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {LAUNCH} mavros:=ITS_NAMESPACE", [*topics, engaged])
+    else:
+        report.error(f"MAVROS sends nothing on {listed}: has it an autopilot?",
+                     f"scripts/run rostopic echo -n1 {namespace}/state says whether it is connected; if not, mend fcu_url:= of MAVROS", [*topics, engaged])
+    return topics
+
+
+def check_inputs(system, report):
+    readers = {}
+    for name, inputs in system.inputs.items():
+        for topic, kind in inputs.items():
+            if topic in system.samples and kind in ARGUMENTS:
+                readers.setdefault((topic, kind), []).append(name)
+    of_mavros = check_mavros(system, report, sorted(topic for topic, _ in readers))
+    for (topic, kind), names in sorted(readers.items()):
+        if topic in of_mavros:
+            continue
+        optional = kind == "sensor_msgs/Imu" and names == ["window_detector"]
+        if not optional:
+            check_input(system, report, topic, kind, " and ".join(names))

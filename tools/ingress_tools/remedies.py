@@ -1,0 +1,32 @@
+"""What mends what nodes say."""
+LAUNCH = "scripts/run roslaunch window_ingress ingress.launch"
+WRONG_SIZE = (f"measure the opening's inner width and height, {LAUNCH} window_size:=W,H, or homography_pose/pose/opening_*_m in your config; "
+              "if it is another window that is seen: doc/window.md, 'Make a reference image'")
+# What a node says -> what to do about it; the first that fits.
+REMEDIES = (
+    ("use_sim_time is set but nothing", "scripts/run rosparam set use_sim_time false, and start the nodes again (a bag: rosbag play --clock)"),
+    ("is use_sim_time set", "scripts/run rosparam set use_sim_time false, and start the nodes again"),
+    ("recorded data", "scripts/run roslaunch window_ingress replay.launch bag:=$PWD/FILE.bag"),
+    ("uncalibrated", "calibrate the camera: doc/window.md"),
+    ("sizes differ", "set the camera to the size it was calibrated for, or calibrate again: doc/window.md"),
+    ("frames differ", "give image and camera_info of one camera, under one frame_id"),
+    ("stamps of image and", "give image and camera_info of one camera; let one clock stamp both"),
+    ("header.frame_id is", f"{LAUNCH} odom_frame:=ITS_FRAME, the one that is said to have come"),
+    ("not in tf", f"{LAUNCH} camera_pose:=[x,y,z,yaw,pitch,roll] camera_frame:=FRAME_OF_THE_IMAGES, "
+                  "or scripts/run rosrun tf2_ros static_transform_publisher"),
+    ("the budget is", "let the camera send smaller images, or fewer a second: doc/detection.md, 'What it costs'"),
+    ("ABORTED: ", "scripts/run rosservice call /ingress_navigator/reset, then start"),
+    ("opening guessed", "scripts/ingress reference IMAGE, and give reference_corners:="),
+    ("times as wide as it is high", WRONG_SIZE),
+    ("opening looks like", WRONG_SIZE),
+    ("does not change any more", "restart the camera's driver"),
+    ("it is advertised, but nothing is sent", "see what its publisher says, scripts/run rosnode info names its log; if it "
+                                              "died: scripts/run rosnode cleanup, and start it again"),
+    ("(0 publishers)", "start what publishes it, or check the remapping: scripts/run rosnode info"),
+    ("nobody subscribes to", "scripts/run rosnode info the one that should listen; check its remapping"),
+    ("engaged", "arm, and switch to OFFBOARD or GUIDED: doc/autopilots.md"),
+)
+
+
+def remedy(text):
+    return next((mend for words, mend in REMEDIES if words in text), "doc/troubleshooting.md")
