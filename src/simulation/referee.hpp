@@ -67,7 +67,6 @@ class Referee {
   const std::optional<Crossing>& crossing() const { return crossing_; }
   bool touched() const { return !contact_.empty(); }
   const std::string& contact() const { return contact_; }  ///< name of what was touched first, or empty
-  bool stoodBehind() const { return stood_behind_; }
   /// Smallest gap between the vehicle's box and the borders of the opening while the box was between them,
   /// negative if it cut into them; nothing if it never was [m].
   std::optional<double> minClearance() const { return min_clearance_m_; }
@@ -80,7 +79,6 @@ class Referee {
   /// axes: never more than the true gap [m].
   double nearest() const { return nearest_m_; }
   double maxSpeed() const { return max_speed_mps_; }  ///< [m/s]
-  double timeSec() const { return time_sec_; }
 
  private:
   struct Sample {
