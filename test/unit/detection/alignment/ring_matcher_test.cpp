@@ -58,6 +58,32 @@ TEST(RingMatcher, NothingIsKnownBeforeAReference) {
   EXPECT_TRUE(judge.align(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(9)), nullptr, rivals).empty());
 }
 
+TEST(RingMatcher, ThePlaceIsFoundInTheWholeImageWithoutAnyEdge) {
+  Known known{PatchedWall(3)};
+  auto rivals = known.judge.placesEverywhere(known.image);
+  ASSERT_FALSE(rivals.empty());
+  EXPECT_LE(rivals.size(), 6U);
+  const auto& found = known.judge.align(known.image, nullptr, rivals);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
+}
+
+TEST(RingMatcher, NoPlaceOnAnotherWallFits) {
+  Known known{PatchedWall(3)};
+  const cv::Mat other = PatchedWall(4).draw(seenFrom(3.5, 0.4), nullptr);
+  auto rivals = known.judge.placesEverywhere(other);
+  for (const ScoredCandidate& place : known.judge.align(other, nullptr, rivals))
+    EXPECT_LT(*place.correlation, DetectorParams().min_correlation);
+}
+
+TEST(RingMatcher, PlacesEverywhereNeedAReferenceAndAnImageLikeIt) {
+  Known known{PatchedWall(3)};
+  EXPECT_TRUE(RingMatcher().placesEverywhere(known.image).empty());
+  EXPECT_TRUE(known.judge.placesEverywhere(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))).empty());
+  EXPECT_TRUE(known.judge.placesEverywhere(cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(90))).empty());
+  EXPECT_TRUE(known.judge.placesEverywhere(known.image(cv::Rect(0, 0, 20, 16))).empty());
+}
+
 // Borders near those of a view of a wall whose left one was taken for something beside it.
 std::optional<RefinedBorders> bordersNear(const PatchedWall& reference, const Known& seen, double off_px) {
   Quadrilateral corners, place = seen.opening;

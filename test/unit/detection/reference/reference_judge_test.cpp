@@ -8,10 +8,12 @@ namespace window_ingress::detection::reference_judge_test {
 
 const geometry::Quadrilateral kOpening = test::rectangle(200, 150, 440, 350);
 
+const cv::Scalar kWall(136, 152, 161), kOrange(16, 78, 185);
+
 /// Has learned an opening in a wall with or without a frame.
-ReferenceJudge judgeOf(bool framed) {
-  cv::Mat image(480, 640, CV_8UC3, cv::Scalar(136, 152, 161));
-  if (framed) test::fillQuad(image, test::rectangle(185, 135, 455, 365), cv::Scalar(16, 78, 185));
+ReferenceJudge judgeOf(bool framed, const cv::Scalar& paint = kOrange) {
+  cv::Mat image(480, 640, CV_8UC3, kWall);
+  if (framed) test::fillQuad(image, test::rectangle(185, 135, 455, 365), paint);
   test::fillQuad(image, kOpening, cv::Scalar(70, 72, 70));
   test::addNoise(image, 2.0, 3);
   ReferenceJudge judge((DetectorParams()));
@@ -45,6 +47,26 @@ TEST(ReferenceJudge, AWallWithoutAFrameIsNotExcusedByWhatIsCovered) {
   EXPECT_TRUE(judge.objectionTo(match, std::nullopt));
   match.correlation = 0.7;
   EXPECT_FALSE(judge.objectionTo(match, std::nullopt));
+}
+
+TEST(ReferenceJudge, AFrameAloneTellsOnlyWhereItsColoursAreItsOwn) {
+  const cv::Mat image(480, 640, CV_8UC3, kWall);
+  EXPECT_TRUE(judgeOf(true).frameTells(image));
+  EXPECT_FALSE(judgeOf(true, 0.5 * kWall).frameTells(image)) << "darker than the wall, and of its colour";
+  EXPECT_FALSE(judgeOf(false).frameTells(image));
+  EXPECT_TRUE(judgeOf(false).frameTells(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)))) << "nothing is compared";
+}
+
+// A blind in the colour of the wall, drawn but for a slit at the left.
+TEST(ReferenceJudge, AnOpeningShowsWhereItShowsInTheReference) {
+  cv::Mat closed(480, 640, CV_8UC3, kWall), slit = closed.clone();
+  test::fillQuad(slit, test::rectangle(200, 150, 220, 350), cv::Scalar(70, 72, 70));
+  ReferenceJudge judge((DetectorParams()));
+  judge.learn(std::make_shared<ReferenceAppearance>(slit, kOpening));
+  EXPECT_TRUE(judge.showsOpening(slit, kOpening, nullptr));
+  EXPECT_FALSE(judge.showsOpening(closed, kOpening, nullptr));
+  ReferenceJudge of_open = judgeOf(false);
+  EXPECT_FALSE(of_open.showsOpening(slit, kOpening, nullptr)) << "one border of four";
 }
 
 }  // namespace window_ingress::detection::reference_judge_test
