@@ -13,7 +13,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/devel/lib)
 set(run_dependencies
-    libnodeletlib-tools libtopic-tools-dev python3-actionlib python3-cv-bridge python3-diagnostic-msgs python3-dynamic-reconfigure
+    libnodeletlib-tools libtopic-tools-dev python3-actionlib python3-diagnostic-msgs python3-dynamic-reconfigure
     python3-geometry-msgs python3-matplotlib python3-nav-msgs python3-numpy python3-opencv python3-rosbag
     python3-rosgraph-msgs python3-roslaunch python3-rosmaster python3-rosnode python3-rospy python3-rosservice
     python3-rostopic python3-sensor-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs

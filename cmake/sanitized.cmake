@@ -32,7 +32,8 @@ add_sanitized_library(fuzz_evaluation FILES ${source_root}/evaluation/*.cpp
 # Of the adapters only what has no node behind it.
 add_sanitized_library(fuzz_messages FILES ${source_root}/adapters/conversions/*.cpp
                       ${source_root}/adapters/guard/setpoint_gate.cpp ${source_root}/adapters/inputs/stamp_gate.cpp ${fuzz_folder}/any_image.cpp
-                      LIBRARIES fuzz_core ${catkin_LIBRARIES})
+                      ${source_root}/adapters/images/image_conversion.cpp ${source_root}/adapters/images/image_files.cpp
+                      LIBRARIES fuzz_core JPEG::JPEG PNG::PNG ${catkin_LIBRARIES})
 target_include_directories(fuzz_messages PUBLIC ${source_root})
 target_include_directories(fuzz_messages SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}
                            ${catkin_INCLUDE_DIRS})

@@ -87,7 +87,7 @@ class WindowDetectorTest(unittest.TestCase):
     def test_bad_images_are_refused_by_name_and_good_ones_go_on(self):
         pixels = support.window_image()
 
-        def overflow(stamp):  # height * step wraps in 32 bits: kills cv_bridge
+        def overflow(stamp):  # height * step wraps in 32 bits
             message = support.image_message(pixels, stamp)
             message.encoding, message.width, message.height, message.step = "mono8", 65536, 65537, 65536
             message.data = bytes(65536)

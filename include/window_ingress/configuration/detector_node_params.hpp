@@ -11,12 +11,13 @@ namespace window_ingress::configuration {
 
 /// The reference image.
 struct ReferenceParams {
-  std::string picture;          ///< image file of the target; empty: no reference
+  std::string picture;          ///< JPEG or PNG file of the target; empty: no reference
   std::vector<double> corners;  ///< corners of the opening's inner border in the reference image, x1 y1 .. x4
                                 ///< y4 from top left, clockwise [px]; empty: the whole image is the target
                                 ///< with its frame
-  std::string capture_file;  ///< image file that ~capture_reference writes; beside it .yaml, these parameters
-                             ///< for it, and _understood.png, what is made of it; empty: nothing is written
+  std::string capture_file;  ///< JPEG or PNG file that ~capture_reference writes; beside it .yaml, these
+                             ///< parameters for it, and _understood.png, what is made of it; empty: nothing is
+                             ///< written
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& field) {
     field("picture", self.picture);

@@ -2,8 +2,7 @@
 
 #include <ros/master.h>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "adapters/images/image_files.hpp"
 #include "adapters/runtime/exception_barrier.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 
@@ -28,8 +27,8 @@ Converted<sensor_msgs::CompressedImage> compress(const sensor_msgs::ImageConstPt
   message.header = image->header;
   const std::string encoding = decoded.image.channels() == 1 ? "mono8" : "bgr8";
   message.format = encoding + "; jpeg compressed " + (encoding == "mono8" ? "" : encoding);
-  if (!cv::imencode(".jpg", decoded.image, message.data, {cv::IMWRITE_JPEG_QUALITY, params.quality}))
-    return {std::nullopt, "cannot be written as JPEG"};
+  message.data = writeJpeg(decoded.image, params.quality);
+  if (message.data.empty()) return {std::nullopt, "cannot be written as JPEG"};
   return {message, ""};
 }
 

@@ -1,6 +1,5 @@
 #include "adapters/images/image_conversion.hpp"
 
-#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
@@ -9,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
+
+#include "adapters/images/image_files.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -62,24 +61,42 @@ bool endsWith(const Bytes& bytes, std::size_t end, std::initializer_list<std::ui
 
 namespace enc = sensor_msgs::image_encodings;
 
-constexpr const char* kMono = "mono8";
-constexpr const char* kColour = "bgr8";
+constexpr int kAsItIs = -1;
 
 struct Encoding {
   const char* name;
-  const char* read_as = name;  // what cv_bridge is told it is
+  int code = kAsItIs;          // of cv::cvtColor, to BGR
+  const char* read_as = name;  // the encoding of ROS that it is
 
   bool isSixteenBit() const { return enc::bitDepth(read_as) == 16; }
   int bytesPerPixel() const { return enc::numChannels(read_as) * enc::bitDepth(read_as) / 8; }
-  const char* convertTo() const { return enc::isMono(read_as) ? kMono : kColour; }
+  int type() const { return CV_MAKETYPE(isSixteenBit() ? CV_16U : CV_8U, enc::numChannels(read_as)); }
 };
 
-constexpr std::array<Encoding, 23> kEncodings{
-    {{"mono8"},        {"8UC1", "mono8"}, {"bgr8"},        {"8UC3", "bgr8"}, {"rgb8"},
-     {"bgra8"},        {"8UC4", "bgra8"}, {"rgba8"},       {"mono16"},       {"16UC1", "mono16"},
-     {"bgr16"},        {"rgb16"},         {"bgra16"},      {"rgba16"},       {"bayer_rggb8"},
-     {"bayer_bggr8"},  {"bayer_gbrg8"},   {"bayer_grbg8"}, {"bayer_rggb16"}, {"bayer_bggr16"},
-     {"bayer_gbrg16"}, {"bayer_grbg16"},  {"yuv422"}}};
+// OpenCV names a Bayer pattern by its second row.
+constexpr std::array<Encoding, 23> kEncodings{{{"mono8"},
+                                               {"8UC1", kAsItIs, "mono8"},
+                                               {"bgr8"},
+                                               {"8UC3", kAsItIs, "bgr8"},
+                                               {"rgb8", cv::COLOR_RGB2BGR},
+                                               {"bgra8", cv::COLOR_BGRA2BGR},
+                                               {"8UC4", cv::COLOR_BGRA2BGR, "bgra8"},
+                                               {"rgba8", cv::COLOR_RGBA2BGR},
+                                               {"mono16"},
+                                               {"16UC1", kAsItIs, "mono16"},
+                                               {"bgr16"},
+                                               {"rgb16", cv::COLOR_RGB2BGR},
+                                               {"bgra16", cv::COLOR_BGRA2BGR},
+                                               {"rgba16", cv::COLOR_RGBA2BGR},
+                                               {"bayer_rggb8", cv::COLOR_BayerBG2BGR},
+                                               {"bayer_bggr8", cv::COLOR_BayerRG2BGR},
+                                               {"bayer_gbrg8", cv::COLOR_BayerGR2BGR},
+                                               {"bayer_grbg8", cv::COLOR_BayerGB2BGR},
+                                               {"bayer_rggb16", cv::COLOR_BayerBG2BGR},
+                                               {"bayer_bggr16", cv::COLOR_BayerRG2BGR},
+                                               {"bayer_gbrg16", cv::COLOR_BayerGR2BGR},
+                                               {"bayer_grbg16", cv::COLOR_BayerGB2BGR},
+                                               {"yuv422", cv::COLOR_YUV2BGR_UYVY}}};
 
 const Encoding* find(const std::string& name) {
   const auto found =
@@ -120,19 +137,6 @@ std::string badLayout(const sensor_msgs::Image& message, const Encoding& encodin
   return "";
 }
 
-// The message under the name that cv_bridge knows; the bytes are shared.
-cv_bridge::CvImageConstPtr share(const sensor_msgs::ImageConstPtr& message, const Encoding& encoding) {
-  if (message->encoding == encoding.read_as) return cv_bridge::toCvShare(message, encoding.convertTo());
-  const int type = enc::numChannels(encoding.read_as) == 1
-                       ? (encoding.isSixteenBit() ? CV_16UC1 : CV_8UC1)
-                       : CV_MAKETYPE(CV_8U, enc::numChannels(encoding.read_as));
-  const cv::Mat bytes(static_cast<int>(message->height), static_cast<int>(message->width), type,
-                      const_cast<unsigned char*>(message->data.data()), message->step);
-  auto named = boost::make_shared<cv_bridge::CvImage>(message->header, encoding.read_as, bytes);
-  if (std::string(encoding.read_as) == encoding.convertTo()) return named;
-  return cv_bridge::cvtColor(named, encoding.convertTo());
-}
-
 std::string unusedRange(const sensor_msgs::Image& message, const Encoding& encoding) {
   if (!encoding.isSixteenBit()) return "";
   std::uint16_t highest = 0;
@@ -149,11 +153,19 @@ DecodedImage refusal(const std::string& reason) {
   return result;
 }
 
-cv::Mat converted(const sensor_msgs::ImageConstPtr& message, const Encoding& encoding,
-                  std::shared_ptr<const void>& owner) {
-  const cv_bridge::CvImageConstPtr image = share(message, encoding);
-  owner = std::make_shared<std::pair<cv_bridge::CvImageConstPtr, sensor_msgs::ImageConstPtr>>(image, message);
-  return image->image;
+// Shares the message's bytes where nothing is to be converted.
+cv::Mat converted(const sensor_msgs::Image& message, const Encoding& encoding) {
+  cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), encoding.type(),
+                const_cast<unsigned char*>(message.data.data()), message.step);
+  if (encoding.code != kAsItIs) {
+    cv::Mat colour;
+    cv::cvtColor(image, colour, encoding.code);
+    image = colour;
+  }
+  if (!encoding.isSixteenBit()) return image;
+  cv::Mat narrow;
+  image.convertTo(narrow, CV_8U, 255.0 / 65535.0);
+  return narrow;
 }
 
 }  // namespace
@@ -199,10 +211,10 @@ DecodedImage decode(const sensor_msgs::ImageConstPtr& message, const ImageLimits
   const Encoding& encoding = *find(message->encoding);
   try {
     DecodedImage result;
-    result.image = converted(message, encoding, result.owner);
+    result.image = converted(*message, encoding);
+    result.owner = std::make_shared<sensor_msgs::ImageConstPtr>(message);
     result.warning = unusedRange(*message, encoding);
-    if (result.image.type() == CV_8UC1 || result.image.type() == CV_8UC3) return result;
-    return refusal("cv_bridge made no 8-bit image of encoding " + message->encoding);
+    return result;
   } catch (const std::exception& error) {
     return refusal(std::string("cannot be converted: ") + error.what());
   }
@@ -216,7 +228,7 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimi
   if (isCutOff(message.data)) return refusal("compressed image is cut off: it has no end mark");
   try {
     DecodedImage result;
-    result.image = cv::imdecode(message.data, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    result.image = readImage(message.data);
     if (result.image.empty()) return refusal("compressed image cannot be decoded: truncated or damaged");
     return result;
   } catch (const std::exception& error) {
@@ -225,7 +237,16 @@ DecodedImage decode(const sensor_msgs::CompressedImage& message, const ImageLimi
 }
 
 sensor_msgs::ImagePtr toImageMsg(const cv::Mat& image, const std_msgs::Header& header) {
-  return cv_bridge::CvImage(header, image.channels() == 1 ? kMono : kColour, image).toImageMsg();
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header = header;
+  message->encoding = image.channels() == 1 ? enc::MONO8 : enc::BGR8;
+  message->width = static_cast<std::uint32_t>(image.cols);
+  message->height = static_cast<std::uint32_t>(image.rows);
+  message->step = static_cast<std::uint32_t>(image.cols * image.elemSize());
+  message->data.reserve(std::size_t{message->step} * message->height);
+  for (int row = 0; row < image.rows; ++row)
+    message->data.insert(message->data.end(), image.ptr(row), image.ptr(row) + message->step);
+  return message;
 }
 
 }  // namespace window_ingress::adapters

@@ -1,5 +1,4 @@
-/// Images from messages, checked before any library touches them: cv_bridge computes sizes in 32 bits and
-/// lets a crafted message crash the process.
+/// Images from messages, checked before anything touches their bytes.
 #pragma once
 
 #include <sensor_msgs/CompressedImage.h>

@@ -4,22 +4,16 @@
 #include <boost/make_shared.hpp>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
 
+#include "adapters/images/image_files.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
-
-bool writeImage(const std::string& file, const cv::Mat& image) {
-  try {
-    return cv::imwrite(file, image);
-  } catch (const cv::Exception&) {  // no such format
-    return false;
-  }
-}
 
 // A text in YAML's single quotes.
 std::string yamlQuoted(const std::string& text) {
@@ -58,11 +52,12 @@ detection::ReferenceAppearance makeReference(const window_ingress::ReferenceImag
 
 detection::ReferenceAppearance loadReference(const ReferenceParams& reference,
                                              const detection::DetectorParams& params) {
-  cv::Mat image;
-  if (std::filesystem::exists(reference.picture))  // else OpenCV complains first
-    image = cv::imread(reference.picture, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  std::ifstream file(reference.picture, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  cv::Mat image = readImage(bytes);
   if (image.empty())
-    throw InputError("reference/picture: cannot read '" + reference.picture + "' as an image");
+    throw InputError("reference/picture: cannot read '" + reference.picture + "' as JPEG or PNG");
+  if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
   return makeReference(image, reference.corners, params);
 }
 
@@ -75,7 +70,7 @@ void saveReference(const std::string& file, const detection::ReferenceAppearance
   const fs::path understood = path.parent_path() / (path.stem().string() + "_understood.png");
   if (!writeImage(path.string(), reference.image()) ||
       !writeImage(understood.string(), detection::drawReference(reference)))
-    throw InputError("reference: cannot write '" + path.string() + "' as an image, or what is beside it");
+    throw InputError("reference: cannot write '" + path.string() + "' as JPEG or PNG, or what is beside it");
   const fs::path text = fs::path(path).replace_extension(".yaml");
   std::ofstream output(text);
   output << "window_detector:\n  reference:\n    picture: " << yamlQuoted(path.string())

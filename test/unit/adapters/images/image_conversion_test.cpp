@@ -43,7 +43,7 @@ sensor_msgs::ImagePtr fromMat(const cv::Mat& mat, const std::string& encoding) {
 
 double difference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
 
-TEST(ImageFromMsg, RefusesSizesThatOverflow32Bits) {  // each of them crashes cv_bridge 1.16
+TEST(ImageFromMsg, RefusesSizesThatOverflow32Bits) {
   const auto wrapped = makeImage("mono8", 65536, 65537, 65536, 65536);
   EXPECT_FALSE(whyRefused(*wrapped, kLimits).empty());
   const auto tall = makeImage("mono8", 256, 0x01000001, 256, 256);
