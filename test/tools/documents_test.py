@@ -165,7 +165,7 @@ def load_ingress():
 
 INGRESS = load_ingress()
 ROOMS = "scripts", "dev", "tools", "nodes"
-ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun plotjuggler) "  # of other packages
+ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun gscam|rosrun plotjuggler) "  # of other packages
 ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 
 
