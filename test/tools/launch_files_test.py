@@ -128,7 +128,7 @@ def test_only_what_has_no_default_is_listed_as_required(file):
 
 @pytest.mark.parametrize("name", ["ingress", "px4", "replay"])
 @pytest.mark.parametrize("argument, said", [
-    ("reference:=/nowhere/window.jpg", "reference/picture: cannot read '/nowhere/window.jpg' as an image"),
+    ("reference:=/nowhere/window.jpg", "reference/picture: cannot read '/nowhere/window.jpg' as JPEG or PNG"),
     ("reference:=window.jpg", "reference:=window.jpg: give its whole path, as /"),
     ("reference_corners:=1,2,3", "reference_corners: '1,2,3' is not 8 numbers"),
     ("window_size:=1.2", "window_size: '1.2' is not 2 numbers"), ("window_size:=0,1", "window_size 0,1: opening_width_m = 0 is not within"),
