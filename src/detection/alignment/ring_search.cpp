@@ -13,7 +13,7 @@ constexpr double kSidePx = 14.0;                          ///< of the pattern [p
 constexpr double kSmallestPx = 40.0, kLargestPart = 0.8;  ///< mean side [px; of the shorter image side]
 constexpr double kStep = 1.3;                             ///< from one size to the next
 constexpr float kLeast = 0.25F;                           ///< correlation of a place
-constexpr float kNoise = 0.02F;                           ///< of a logarithm of a colour
+constexpr float kLogNoise = 0.02F;                        ///< of a logarithm of a colour
 constexpr int kPeakPx = 5;
 
 // Logarithms of all colours, each difference with its weight.
@@ -80,7 +80,8 @@ bool RingSearch::correlate(const RingModel& model, double factor) {
     cv::matchTemplate(channel, mask_, sum_, cv::TM_CCORR);
     variance_ -= sum_.mul(sum_, 1.0 / count_);
   }
-  const auto noise = static_cast<float>(kNoise * kNoise * count_ * static_cast<double>(channels_.size()));
+  const auto noise =
+      static_cast<float>(kLogNoise * kLogNoise * count_ * static_cast<double>(channels_.size()));
   variance_ = cv::max(variance_, 0.0F) + noise;
   cv::sqrt(variance_, variance_);
   cv::divide(alike_, variance_, alike_, 1.0 / std::sqrt(norm_ + noise));
