@@ -66,7 +66,6 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat
 // What is a window by its geometry, and what may be one.
 void WindowDetector::Impl::gatherAll() {
   rivals = search.kept();
-  rivals.insert(rivals.end(), search.doubtful().begin(), search.doubtful().end());
   const auto& open = search.open();
   rivals.insert(rivals.end(), open.begin(), open.end());
 }

@@ -11,8 +11,7 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr double kDoubtfulScore = 0.5;
-constexpr std::size_t kMaxDoubtful = 200;
+constexpr double kOpenScore = 0.5;        ///< of what three sides enclose
 constexpr double kColourContrast = 16.0;  ///< of blobs in the image of colours alone [grey levels]
 constexpr double kPaintContrast = 8.0;    ///< and in that of one paint
 
@@ -95,7 +94,6 @@ void CandidateSearch::outlineBlobs(const cv::Mat& level, double contrast) {
 const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace& trace) {
   const cv::Mat& colours = preprocess_.coloursAlone();
   kept_.clear();
-  doubtful_.clear();
   if (colours.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(colours);
@@ -107,7 +105,6 @@ const std::vector<ScoredCandidate>& CandidateSearch::runOnPaint(const Eigen::Vec
                                                                 DetectionTrace& trace) {
   const cv::Mat& painted = preprocess_.paintAlone(paint);
   kept_.clear();
-  doubtful_.clear();
   if (painted.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(painted);
@@ -129,7 +126,6 @@ const std::vector<ScoredCandidate>& CandidateSearch::combine(const SegmentQuads:
   trace.budget_exceeded = outlines_.budget_exceeded || quads.budget_exceeded;
   trace.candidates.insert(trace.candidates.end(), outlines_.rejected.begin(), outlines_.rejected.end());
   admitted_.clear();
-  doubtful_.clear();
   admit(quads.candidates, trace);
   admit(outlines_.candidates, trace);
   keepBest(trace);
@@ -146,21 +142,11 @@ const std::vector<ScoredCandidate>& CandidateSearch::open() {
     for (int i = 0; i < 4; ++i) rival.candidate.seen[i] = undistortion_.distort(quad[i]);
     if (gates_.shape(rival.candidate, level_size_)) continue;
     rival.quad = inFullImage(rival.candidate.seen, factor_);
-    rival.score = kDoubtfulScore;
+    rival.score = kOpenScore;
     rival.doubtful = true;
     open_.push_back(rival);
   }
   return open_;
-}
-
-void CandidateSearch::doubt(ScoredCandidate rival, const Rejection& rejection) {
-  const bool is_dented = rejection.reason == RejectReason::kSolidity;
-  if (doubtful_.size() >= kMaxDoubtful || (!is_dented && rejection.reason != RejectReason::kLineSupport))
-    return;
-  rival.candidate.solidity = 1.0;
-  rival.score = kDoubtfulScore;
-  rival.doubtful = true;
-  if (!is_dented || !gates_.shape(rival.candidate, level_size_)) doubtful_.push_back(rival);
 }
 
 void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace& trace) {
@@ -176,7 +162,6 @@ void CandidateSearch::admit(const std::vector<Candidate>& found, DetectionTrace&
     }
     rival.quad = inFullImage(candidate.seen, factor_);
     if (rejection) {
-      doubt(rival, *rejection);
       trace.candidates.push_back(traceOf(rival, rejection->reason, rejection->value, rejection->limit));
       continue;
     }

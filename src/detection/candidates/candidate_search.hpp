@@ -46,11 +46,8 @@ class CandidateSearch {
   /// What the last call returned.
   const std::vector<ScoredCandidate>& kept() const { return kept_; }
 
-  /// Of the last call, what has four corners, and too dented an outline or too few straight edges under its
-  /// sides to be taken for a window by its geometry: for a judge that knows better.
-  const std::vector<ScoredCandidate>& doubtful() const { return doubtful_; }
-
-  /// What three sides of the last call enclose, see SegmentQuads::open: likewise. Valid until the next call.
+  /// What three sides of the last call enclose, see SegmentQuads::open: no windows by their geometry, for a
+  /// judge that knows better. Valid until the next call.
   const std::vector<ScoredCandidate>& open();
 
   /// \param watch told of each stage that is done, or null; outlives this
@@ -63,7 +60,6 @@ class CandidateSearch {
   void outline(const cv::Mat& mask, CandidateSource source);
   void outlineBlobs(const cv::Mat& level, double contrast);
   const std::vector<ScoredCandidate>& combine(const SegmentQuads::Effort& effort, DetectionTrace& trace);
-  void doubt(ScoredCandidate rival, const Rejection& rejection);
   void admit(const std::vector<Candidate>& found, DetectionTrace& trace);
   void keepBest(DetectionTrace& trace);
 
@@ -82,7 +78,7 @@ class CandidateSearch {
   const std::vector<Segment>* segments_ = nullptr;
   ContourPolygons::Result outlines_;
   cv::Mat straight_;
-  std::vector<ScoredCandidate> admitted_, kept_, doubtful_, open_;
+  std::vector<ScoredCandidate> admitted_, kept_, open_;
   StageTimer* watch_ = nullptr;
   int factor_ = 1;
   cv::Size level_size_;
