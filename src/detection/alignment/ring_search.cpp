@@ -118,7 +118,6 @@ const std::vector<RingSearch::Place>& RingSearch::run(const RingModel& model, co
                    [](const Place& a, const Place& b) { return a.correlation > b.correlation; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places_.size() && kept < most; ++i) {
-    const Sameness same(places_[i].quad);
     const auto end = places_.begin() + static_cast<std::ptrdiff_t>(kept);
     if (std::none_of(places_.begin(), end,
                      [&](const Place& p) { return Sameness(p.quad).samePlace(places_[i].quad); }))
