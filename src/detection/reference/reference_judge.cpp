@@ -17,6 +17,7 @@ constexpr int kVariantsLocated = 2;         ///< loops of one place from which t
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
 constexpr double kSureUncovered = 0.92;                        ///< nothing else looks like that
+constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;  ///< correlation, where no frame's colours tell
 constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
 constexpr double kMaxThroughHaze =
@@ -181,6 +182,7 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
     return Rejection{RejectReason::kUnlike, value, least};
   };
   if (frameless()) return below(match.correlation, 0.0);
+  if (match.correlation >= sureCorrelation()) return std::nullopt;
   const auto objection = below(match.faithful_uncovered, kFaithfulUncovered);
   return objection && frame && frame->isLike() ? below(match.faithful, kFaithful) : objection;
 }
@@ -189,8 +191,15 @@ bool ReferenceJudge::frameTells(const cv::Mat& image) const {
   return !knowsSurroundings(image) || (!frameless() && reference_->isDistinct(appearance_));
 }
 
+// The colours of a frame that are its own tell it from one in another paint, which correlates as well.
+double ReferenceJudge::sureCorrelation() const {
+  if (frameless()) return kSureOfWall;
+  return reference_->isDistinct(appearance_) ? 1.1 : kSureOfFrame;
+}
+
 bool ReferenceJudge::isSure(const RingMatch& match) const {
-  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered;
+  return match.correlation >= sureCorrelation() ||
+         (match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered);
 }
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,
@@ -238,8 +247,9 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitte
                                                      bool by_frame_alone) {
   if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera))
     return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
-  if (const auto off = shape_.inFrame(image, fitted.corners, camera, by_frame_alone))
-    return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
+  if (by_frame_alone || frameTells(image))
+    if (const auto off = shape_.inFrame(image, fitted.corners, camera, by_frame_alone))
+      return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
   return std::nullopt;
 }
 

@@ -93,6 +93,7 @@ class ReferenceJudge {
  private:
   int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                   const geometry::PinholeCamera* camera);
+  double sureCorrelation() const;
   bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners, const RingMatch& match) const;
   const cv::Mat& inChannels(const cv::Mat& image);
   std::optional<ScoredCandidate> locate(const cv::Mat& image, const geometry::PinholeCamera* camera,
