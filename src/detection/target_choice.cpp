@@ -89,7 +89,7 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
       reference_.surroundingsOf(fitted.corners, view.image, view.camera, RingMatcher::kFoundStartPx);
   confirmed_ = ring.has_value();
   if (!ring) {
-    if (reference_.frameTells(view.image)) return std::nullopt;
+    if (reference_.frameTells(view.image, rival.worth)) return std::nullopt;
     return Rejection{RejectReason::kUnlike, 0.0, params_.min_correlation};
   }
   if (!rival.correlation)

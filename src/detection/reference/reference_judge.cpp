@@ -187,14 +187,18 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
   return objection && frame && frame->isLike() ? below(match.faithful, kFaithful) : objection;
 }
 
-bool ReferenceJudge::frameTells(const cv::Mat& image) const {
-  return !knowsSurroundings(image) || (!frameless() && reference_->isDistinct(appearance_));
+bool ReferenceJudge::hasOwnFrame() const {
+  return reference_ && !frameless() && reference_->isDistinct(appearance_);
+}
+
+bool ReferenceJudge::frameTells(const cv::Mat& image, double worth) const {
+  return !knowsSurroundings(image) || (hasOwnFrame() && worth > ReferenceBorders::kSureWorth);
 }
 
 // The colours of a frame that are its own tell it from one in another paint, which correlates as well.
 double ReferenceJudge::sureCorrelation() const {
   if (frameless()) return kSureOfWall;
-  return reference_->isDistinct(appearance_) ? 1.1 : kSureOfFrame;
+  return hasOwnFrame() ? 1.1 : kSureOfFrame;
 }
 
 bool ReferenceJudge::isSure(const RingMatch& match) const {
@@ -247,7 +251,7 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitte
                                                      bool by_frame_alone) {
   if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera))
     return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
-  if (by_frame_alone || frameTells(image))
+  if (by_frame_alone || hasOwnFrame() || !knowsSurroundings(image))
     if (const auto off = shape_.inFrame(image, fitted.corners, camera, by_frame_alone))
       return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
   return std::nullopt;

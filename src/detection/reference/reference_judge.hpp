@@ -56,8 +56,9 @@ class ReferenceJudge {
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
 
   /// True if the colours of a frame may tell the target alone, whatever lies round it: they are found nowhere
-  /// else in the reference; or nothing else is known.
-  bool frameTells(const cv::Mat& image) const;
+  /// else in the reference, and its borders here are surely the reference's; or nothing else is known.
+  /// \param worth of the borders, see ScoredCandidate
+  bool frameTells(const cv::Mat& image, double worth) const;
 
   /// So like what lies round the reference's opening that nothing else can be.
   bool isSure(const RingMatch& match) const;
@@ -93,6 +94,7 @@ class ReferenceJudge {
  private:
   int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                   const geometry::PinholeCamera* camera);
+  bool hasOwnFrame() const;
   double sureCorrelation() const;
   bool isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners, const RingMatch& match) const;
   const cv::Mat& inChannels(const cv::Mat& image);
