@@ -44,15 +44,15 @@ def seen(topics=(), said=()):
     ("/camera/image_raw/compressed", COMPRESSED, {"/camera/image_raw": RAW}, " image:=/camera/image_raw"),
     ("/odom", "nav_msgs/Odometry", {"/mavros/local_position/odom": "nav_msgs/Odometry"}, " odom:=/mavros/local_position/odom")])
 def test_another_topic_is_given_as_launch_files_want_it(wanted, kind, there, arguments):
-    assert input_checks.suggest(seen(there), wanted, kind) == remedies.LAUNCH + arguments
+    assert remedies.another_topic(seen(there), wanted, kind) == remedies.LAUNCH + arguments
 
 
 def test_without_another_topic_the_argument_is_named():
-    assert input_checks.suggest(seen(), "/imu", "sensor_msgs/Imu") == "start what publishes /imu, or give imu:=ITS_TOPIC"
+    assert remedies.another_topic(seen(), "/imu", "sensor_msgs/Imu") == "start what publishes /imu, or give imu:=ITS_TOPIC"
 
 
 def test_of_a_topic_of_mavros_it_is_mavros_that_is_started():
-    mend = input_checks.suggest(seen(), "/mavros/imu/data", "sensor_msgs/Imu")
+    mend = remedies.another_topic(seen(), "/mavros/imu/data", "sensor_msgs/Imu")
     assert mend.startswith("start MAVROS (roslaunch mavros px4.launch") and mend.endswith("or give imu:=ITS_TOPIC")
 
 

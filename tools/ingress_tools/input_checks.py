@@ -1,25 +1,9 @@
 """Whether what nodes read comes: from one publisher, of the right type, often enough, with stamps of now."""
-from ingress_tools.observed_system import ARGUMENTS, NODES
-from ingress_tools.remedies import LAUNCH, REMEDIES
+from ingress_tools.observed_system import ARGUMENTS
+from ingress_tools.remedies import LAUNCH, REMEDIES, another_topic
 
-IMAGES = {"sensor_msgs/Image": ("", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
 SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
 DAY_S = 86400.0
-
-
-def suggest(system, topic, kind):
-    """How to give a node another topic, one that is not our own."""
-    def topics_of_type(wanted):
-        return [name for name in system.graph.topics_of_type(wanted)
-                if any(node.split("/")[-1] not in NODES for node in system.graph.publishers[name])]
-
-    if kind in IMAGES:
-        others = [f"{transport}image:={other[:len(other) - len(end)]}" for wanted, (transport, end) in IMAGES.items()
-                  for other in topics_of_type(wanted) if other != topic and other.endswith(end)]
-    else:
-        others = [f"{ARGUMENTS[kind]}:={other}" for other in topics_of_type(kind) if other != topic]
-    who = f"MAVROS (roslaunch mavros px4.launch, or apm.launch), which publishes {topic}" if "/mavros/" in topic else f"what publishes {topic}"
-    return f"{LAUNCH} {' or '.join(others)}" if others else f"start {who}, or give {ARGUMENTS[kind]}:=ITS_TOPIC"
 
 
 def check_input(system, report, topic, kind, readers):
@@ -28,9 +12,9 @@ def check_input(system, report, topic, kind, readers):
     type_ = system.graph.types.get(topic, kind)
     place = {"symptom": "/clock" in report.named}
     if not publishers:
-        report.error(f"{topic}: 0 publishers, read by {readers}", suggest(system, topic, kind), [topic], **place)
+        report.error(f"{topic}: 0 publishers, read by {readers}", another_topic(system, topic, kind), [topic], **place)
     elif type_ not in (kind, "*"):
-        report.error(f"{topic}: is a {type_}, {readers} reads {kind}", suggest(system, topic, kind), [topic], **place)
+        report.error(f"{topic}: is a {type_}, {readers} reads {kind}", another_topic(system, topic, kind), [topic], **place)
     elif not sample.times:
         report.error(f"{topic}: {', '.join(publishers)} advertises it and sends nothing", f"look at its log: scripts/run rosnode info {publishers[0]}",
                      [topic], **place)

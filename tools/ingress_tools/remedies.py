@@ -1,7 +1,10 @@
-"""What mends what nodes say."""
+"""What mends what nodes say, and what they miss: the advice of the doctor."""
+from ingress_tools.observed_system import ARGUMENTS, NODES
+
 LAUNCH = "scripts/run roslaunch window_ingress ingress.launch"
 WRONG_SIZE = (f"measure the opening's inner width and height, {LAUNCH} window_size:=W,H, or homography_pose/pose/opening_*_m in your config; "
               "if it is another window that is seen: doc/window.md, 'Make a reference image'")
+IMAGES = {"sensor_msgs/Image": ("", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
 # What a node says -> what to do about it; the first that fits.
 REMEDIES = (
     ("use_sim_time is set but nothing", "scripts/run rosparam set use_sim_time false, and start the nodes again (a bag: rosbag play --clock)"),
@@ -30,3 +33,18 @@ REMEDIES = (
 
 def remedy(text):
     return next((mend for words, mend in REMEDIES if words in text), "doc/troubleshooting.md")
+
+
+def another_topic(system, topic, kind):
+    """How to give a node another topic, one that is not our own."""
+    def topics_of_type(wanted):
+        return [name for name in system.graph.topics_of_type(wanted)
+                if any(node.split("/")[-1] not in NODES for node in system.graph.publishers[name])]
+
+    if kind in IMAGES:
+        others = [f"{transport}image:={other[:len(other) - len(end)]}" for wanted, (transport, end) in IMAGES.items()
+                  for other in topics_of_type(wanted) if other != topic and other.endswith(end)]
+    else:
+        others = [f"{ARGUMENTS[kind]}:={other}" for other in topics_of_type(kind) if other != topic]
+    who = f"MAVROS (roslaunch mavros px4.launch, or apm.launch), which publishes {topic}" if "/mavros/" in topic else f"what publishes {topic}"
+    return f"{LAUNCH} {' or '.join(others)}" if others else f"start {who}, or give {ARGUMENTS[kind]}:=ITS_TOPIC"
