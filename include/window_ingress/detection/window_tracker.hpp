@@ -41,7 +41,7 @@ struct TrackInput {
 /// Near the window its sides leave the view: then the observation is partial (`WindowObservation::whole`). At
 /// least two sides must be seen. What can be known from three and from two sides: see `QuadMotion`.
 ///
-/// A new track is verified by searches in the images that follow (`TrackConfirmation`). The reference is
+/// A new track is verified by searches in the images that follow (`TrackRecheck`). The reference is
 /// shared with the search; it follows the light slowly (`ReferenceAppearance::adapt`) while a confirmed track
 /// is certain. A track that no longer looks like the reference is doubtful, and searches are asked; that
 /// alone never ends it.
@@ -50,7 +50,7 @@ struct TrackInput {
 /// there, and a track of another window is given up for it. While a window is followed, the image is
 /// searched every `TrackParams::survey_sec` all the same: for the other windows in it, not for the track.
 ///
-/// `target_id`: see `TrackIdentity`. While a settled track is lost, another window in view is no target
+/// `target_id`: see `TrackMemory`. While a settled track is lost, another window in view is no target
 /// until the old one is forgotten (`TrackParams::reacquire_sec`); it then gets a new number.
 ///
 /// Deterministic. Keeps its memory from frame to frame: following allocates nothing. One object a thread.

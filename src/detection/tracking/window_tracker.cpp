@@ -20,6 +20,7 @@ constexpr double kQualityRate = 0.25;    // part of the certainty that a frame r
 constexpr double kUnlikePart = 0.7;      // of the quality while the ring does not look like the reference
 constexpr double kExpectedSigma = 0.01;  // of the place of a window expected [longer image sides]
 constexpr int kAlignEvery = 3;           // frames
+constexpr int kCompletionFrames = 10;    // between searches for a border that is in view and not found
 constexpr int kElsewhereFrames = 5;      // after which a track beside the place expected is given up
 
 }  // namespace
@@ -37,13 +38,13 @@ void WindowTracker::Impl::begin(const TrackInput& input) {
 void WindowTracker::Impl::heedExpected(const TrackInput& input) {
   const geometry::Quadrilateral place = undistorted(*input.expected, images.lens());
   if (tracking) {
-    frames_elsewhere = identity.isSame(motion.quad(), place) ? 0 : frames_elsewhere + 1;
+    frames_elsewhere = memory.isSame(motion.quad(), place) ? 0 : frames_elsewhere + 1;
     if (frames_elsewhere < kElsewhereFrames) return;
     forgetTrack();
-    identity.change();
+    memory.change();
   }
   frames_elsewhere = 0;
-  identity.expect(input.stamp_sec);
+  memory.expect(input.stamp_sec);
   motion.start(place, kExpectedSigma * images.longerSide());
   has_motion = true;
 }
@@ -74,9 +75,9 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
   motion.settle(images.elapsedSec());
   quad_tracker.keep(motion.quad());
   quad_tracker.describe(input.image, images.lens(), motion, window);
-  identity.follow(input.stamp_sec);
+  memory.follow(input.stamp_sec);
   window.stamp_sec = input.stamp_sec;
-  window.target_id = identity.id();
+  window.target_id = memory.id();
   watch(input);
   window.score = std::clamp(certainty, 0.0, 1.0);
   return true;
@@ -84,11 +85,11 @@ bool WindowTracker::Impl::follow(const TrackInput& input) {
 
 void WindowTracker::Impl::watch(const TrackInput& input) {
   if (quad_tracker.inView() < 4) return;
-  if (!reference.look(input, window)) confirmation.doubt();
-  if (reference.hasAgreed() && confirmation.isConfirmed() && certainty > kAdaptCertainty &&
+  if (!reference.look(input, window)) recheck.doubt();
+  if (reference.hasAgreed() && recheck.isConfirmed() && certainty > kAdaptCertainty &&
       quad_tracker.fitted() == 4)
     reference.adapt(input, window);
-  if (reference.hasCompared() && confirmation.isConfirmed())
+  if (reference.hasCompared() && recheck.isConfirmed())
     appearance_gate.note(window.bhattacharyya, input.stamp_sec);
 }
 
@@ -110,13 +111,45 @@ void WindowTracker::Impl::realign(const TrackInput& input) {
 
 // So near that no two sides are in view: the window is where it must be, for a while.
 bool WindowTracker::Impl::surrounds(const TrackInput& input) {
-  if (quad_tracker.inView() >= 2 || !identity.settled() || !identity.remembers(input.stamp_sec) ||
+  if (quad_tracker.inView() >= 2 || !memory.settled() || !memory.remembers(input.stamp_sec) ||
       !geometry::contains(motion.quad(), {0.5 * images.size().width, 0.5 * images.size().height}))
     return false;
   refuse(RejectReason::kBorder,
          std::to_string(quad_tracker.inView()) + " of 4 sides in view: the image lies within the window");
   own_trace.candidates.clear();
   return true;
+}
+
+// Three of four borders in view: a search may tell the fourth. Its answer counts if it is the same border.
+std::optional<WindowObservation> WindowTracker::Impl::complete(const TrackInput& input) {
+  if (quad_tracker.inView() < 4 || quad_tracker.fitted() == 4) {
+    frames_to_completion = 0;
+    return std::nullopt;
+  }
+  if (--frames_to_completion > 0) return std::nullopt;
+  frames_to_completion = kCompletionFrames;
+  auto found = lookForWindow(input);
+  if (!found) return std::nullopt;
+  const geometry::Quadrilateral seen = undistorted(found->corners, images.lens()), expected = motion.quad();
+  const double limit_px = 2.0 * EdgeTracker::kReach * images.longerSide();
+  if (!geometry::isFinite(expected) || !(furthestCorner(seen, expected) < limit_px)) return std::nullopt;
+  has_own_trace = false;
+  take(input, *found, true);
+  return found;
+}
+
+// While a track is new or doubtful: the search's answer, if it is to be followed in its place.
+std::optional<WindowObservation> WindowTracker::Impl::askSearch(const TrackInput& input) {
+  if (quad_tracker.inView() < 4 || !recheck.isDue()) return std::nullopt;
+  auto found = lookForWindow(input);
+  std::optional<geometry::Quadrilateral> searched;
+  if (found && place_is_expected && !memory.isSame(undistorted(found->corners, images.lens()), motion.quad()))
+    found = amongOthers(input, *found);
+  if (found) searched = undistorted(found->corners, images.lens());
+  if (!recheck.prefers(searched, motion.quad())) return std::nullopt;
+  has_own_trace = false;
+  take(input, *found, memory.isSame(*searched, motion.quad()));
+  return found;
 }
 
 std::optional<WindowObservation> WindowTracker::Impl::updated(const TrackInput& input) {
@@ -136,6 +169,15 @@ std::optional<WindowObservation> WindowTracker::Impl::updated(const TrackInput& 
   return search(input);
 }
 
+void WindowTracker::Impl::survey(const TrackInput& input, const std::optional<WindowObservation>& target) {
+  const double since_sec = input.stamp_sec - searched_sec;
+  const bool is_due =
+      params.track.survey_sec > 0.0 && !(since_sec < params.track.survey_sec && since_sec >= 0.0);
+  if (tracking && !was_searched && is_due && quad_tracker.inView() == 4) lookForWindow(input);
+  static const DetectionTrace kNothing;
+  windowsSeen(was_searched ? detector.trace() : kNothing, target, windows);
+}
+
 WindowTracker::WindowTracker(const DetectorParams& params) : impl_(std::make_unique<Impl>(params)) {}
 WindowTracker::~WindowTracker() = default;
 
@@ -144,9 +186,9 @@ void WindowTracker::setParams(const DetectorParams& params) {
   impl_->params = params;
   impl_->refinement = BorderRefinement();
   impl_->quad_tracker = QuadTracker();
-  const TrackIdentity before = impl_->identity;
-  impl_->identity = TrackIdentity(params.track, before.id());
-  impl_->confirmation = TrackConfirmation(params.track);
+  const TrackMemory before = impl_->memory;
+  impl_->memory = TrackMemory(params.track, before.id());
+  impl_->recheck = TrackRecheck(params.track);
   impl_->reference.setParams(params);
   impl_->images = ImageSequence(params.track.max_gap_sec);
   impl_->appearance_gate = AppearanceGate();

@@ -1,5 +1,5 @@
-/// What a tracker consists of; its methods that follow are in window_tracker.cpp, those that search in
-/// window_tracker_search.cpp.
+/// What a tracker consists of; its methods that follow are in window_tracker.cpp, those that look for what is
+/// not followed in lost_track_search.cpp.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 #include "detection/tracking/appearance_monitor.hpp"
 #include "detection/tracking/image_sequence.hpp"
 #include "detection/tracking/quad_tracker.hpp"
-#include "detection/tracking/track_confirmation.hpp"
-#include "detection/tracking/track_identity.hpp"
+#include "detection/tracking/track_memory.hpp"
+#include "detection/tracking/track_recheck.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"
@@ -27,8 +27,8 @@ struct WindowTracker::Impl {
         images(p.track.max_gap_sec),
         reference(p),
         motion(),
-        identity(p.track),
-        confirmation(p.track) {}
+        memory(p.track),
+        recheck(p.track) {}
 
   void begin(const TrackInput& input);
   void heedExpected(const TrackInput& input);
@@ -52,7 +52,7 @@ struct WindowTracker::Impl {
   std::optional<WindowObservation> askSearch(const TrackInput& input);
   bool surrounds(const TrackInput& input);
   void forgetTrack() {
-    identity.forget();
+    memory.forget();
     has_motion = tracking = false;
   }
   void forget() {
@@ -67,9 +67,9 @@ struct WindowTracker::Impl {
   AppearanceMonitor reference;
   QuadMotion motion;
   QuadTracker quad_tracker;
-  TrackIdentity identity;
+  TrackMemory memory;
   AppearanceGate appearance_gate;
-  TrackConfirmation confirmation;
+  TrackRecheck recheck;
   WindowObservation window;  // as followed last
   DetectionTrace own_trace;  // where the search's does not tell what happened
   double certainty = 0.0;

@@ -12,7 +12,7 @@
 #include "detection/tracking/edge_tracker.hpp"
 #include "detection/tracking/quad_motion.hpp"
 #include "detection/tracking/quad_tracker.hpp"
-#include "detection/tracking/track_identity.hpp"
+#include "detection/tracking/track_memory.hpp"
 #include "drawn_window.hpp"
 
 namespace window_ingress::detection::following_parts_test {
@@ -228,22 +228,22 @@ TEST(QuadMotion, ATurnOfTheCameraNeedsNoVelocity) {
     EXPECT_LT((motion.quad()[i] - *camera.project(R * camera.ray(quad[i]))).norm(), 1e-6);
 }
 
-TEST(TrackIdentity, TheSameOnlyInItsPlaceAndForAWhile) {
+TEST(TrackMemory, TheSameOnlyInItsPlaceAndForAWhile) {
   const TrackParams params;
-  TrackIdentity identity(params);
-  EXPECT_FALSE(identity.remembers(0.0));
-  identity.found(false, 1.0);
-  EXPECT_EQ(identity.id(), 1u);
-  EXPECT_TRUE(identity.remembers(1.0 + 0.9 * params.reacquire_sec));
-  EXPECT_FALSE(identity.remembers(1.0 + 1.1 * params.reacquire_sec));
+  TrackMemory memory(params);
+  EXPECT_FALSE(memory.remembers(0.0));
+  memory.found(false, 1.0);
+  EXPECT_EQ(memory.id(), 1u);
+  EXPECT_TRUE(memory.remembers(1.0 + 0.9 * params.reacquire_sec));
+  EXPECT_FALSE(memory.remembers(1.0 + 1.1 * params.reacquire_sec));
   const Quadrilateral here = test::rectangle(100, 80, 200, 180);
-  EXPECT_TRUE(identity.isSame(test::rectangle(120, 80, 220, 180), here));
-  EXPECT_FALSE(identity.isSame(test::rectangle(160, 80, 260, 180), here)) << "beside";
-  EXPECT_FALSE(identity.isSame(test::grown(here, 30), here)) << "larger";
-  identity.found(true, 1.5);
-  EXPECT_EQ(identity.id(), 1u);
-  identity.found(false, 9.0);
-  EXPECT_EQ(identity.id(), 2u);
+  EXPECT_TRUE(memory.isSame(test::rectangle(120, 80, 220, 180), here));
+  EXPECT_FALSE(memory.isSame(test::rectangle(160, 80, 260, 180), here)) << "beside";
+  EXPECT_FALSE(memory.isSame(test::grown(here, 30), here)) << "larger";
+  memory.found(true, 1.5);
+  EXPECT_EQ(memory.id(), 1u);
+  memory.found(false, 9.0);
+  EXPECT_EQ(memory.id(), 2u);
 }
 
 }  // namespace window_ingress::detection::following_parts_test

@@ -1,4 +1,4 @@
-#include "detection/tracking/track_confirmation.hpp"
+#include "detection/tracking/track_recheck.hpp"
 
 #include <algorithm>
 
@@ -25,17 +25,17 @@ Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) 
 
 }  // namespace
 
-void TrackConfirmation::start() {
+void TrackRecheck::start() {
   restart();
   confirmed_ = false;
 }
 
-void TrackConfirmation::restart() {
+void TrackRecheck::restart() {
   frames_ = asked_ = for_ = against_ = 0;
   doubtful_ = false;
 }
 
-bool TrackConfirmation::isDue() {
+bool TrackRecheck::isDue() {
   if (confirmed_ && !doubtful_) return false;
   if (asked_ >= kMaxQuestions * params_.confirmations) {
     const bool pauses = ++frames_ < kPauseFrames;
@@ -48,7 +48,7 @@ bool TrackConfirmation::isDue() {
   return true;
 }
 
-bool TrackConfirmation::prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
+bool TrackRecheck::prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
   if (!searched || !geometry::isFinite(*searched)) return false;
   const double size = sizeOf(followed), off = furthestCorner(*searched, followed);
   if (!(off > std::max(kAgreePx, kAgreePart * size))) {

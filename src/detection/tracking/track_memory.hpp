@@ -10,13 +10,13 @@ namespace window_ingress::detection {
 /// Which window it is. A number stays with a window while it is tracked; after a loss, the window found gets
 /// the old number only where the old one must be by now, and only for a while; in a row of equal windows the
 /// neighbour gets a number of its own.
-class TrackIdentity {
+class TrackMemory {
  public:
   static constexpr int kSettled =
       5;  ///< frames after which a lost window is waited for before another one is taken
 
   /// \param last number that was given before
-  explicit TrackIdentity(const TrackParams& params, std::uint32_t last = 0) : params_(params), id_(last) {}
+  explicit TrackMemory(const TrackParams& params, std::uint32_t last = 0) : params_(params), id_(last) {}
 
   std::uint32_t id() const { return id_; }  ///< 0 before the first window
 

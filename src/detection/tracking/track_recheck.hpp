@@ -14,11 +14,11 @@ namespace window_ingress::detection {
 /// `TrackParams::confirmations` that agree confirm it; as many in a row that name one other place end it. A
 /// confirmed track is asked about again only while it is doubtful, and then only its borders are corrected:
 /// another window never takes its place.
-class TrackConfirmation {
+class TrackRecheck {
  public:
   static constexpr int kEveryFrames = 2;  ///< frames between searches that are asked
 
-  explicit TrackConfirmation(const TrackParams& params) : params_(params) {}
+  explicit TrackRecheck(const TrackParams& params) : params_(params) {}
 
   void start();    ///< a new window is followed
   void restart();  ///< the same window again, or its borders elsewhere: what is confirmed remains so

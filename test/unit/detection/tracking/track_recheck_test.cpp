@@ -1,11 +1,11 @@
-#include "detection/tracking/track_confirmation.hpp"
+#include "detection/tracking/track_recheck.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace window_ingress::detection::track_confirmation_test {
+namespace window_ingress::detection::track_recheck_test {
 
 using Eigen::Vector2d;
 using geometry::Quadrilateral;
@@ -15,19 +15,19 @@ Quadrilateral squareAt(double x, double y, double size) {
 }
 
 // Asks as often as the confirmation wants to; true once the answer is preferred.
-bool preferred(TrackConfirmation& confirmation, int frames, const Quadrilateral& searched) {
+bool preferred(TrackRecheck& confirmation, int frames, const Quadrilateral& searched) {
   bool taken = false;
   for (int i = 0; i < frames && !taken; ++i)
     if (confirmation.isDue()) taken = confirmation.prefers(searched, squareAt(100, 100, 80));
   return taken;
 }
 
-TEST(TrackConfirmation, ATrackThatTheSearchConfirmsIsLeftAlone) {
+TEST(TrackRecheck, ATrackThatTheSearchConfirmsIsLeftAlone) {
   const TrackParams params;
-  TrackConfirmation confirmation(params);
+  TrackRecheck confirmation(params);
   confirmation.start();
-  EXPECT_FALSE(preferred(confirmation, params.confirmations * TrackConfirmation::kEveryFrames,
-                         squareAt(101, 100, 80)));
+  EXPECT_FALSE(
+      preferred(confirmation, params.confirmations * TrackRecheck::kEveryFrames, squareAt(101, 100, 80)));
   EXPECT_TRUE(confirmation.isConfirmed());
   for (int i = 0; i < 1000; ++i) ASSERT_FALSE(confirmation.isDue()) << "no more searches";
   confirmation.doubt();
@@ -40,15 +40,15 @@ TEST(TrackConfirmation, ATrackThatTheSearchConfirmsIsLeftAlone) {
   EXPECT_TRUE(confirmation.isConfirmed());
 }
 
-TEST(TrackConfirmation, AWrongStartIsLeftForThePlaceThatIsFoundAgainAndAgain) {
-  TrackConfirmation confirmation{TrackParams()};
+TEST(TrackRecheck, AWrongStartIsLeftForThePlaceThatIsFoundAgainAndAgain) {
+  TrackRecheck confirmation{TrackParams()};
   confirmation.start();
   EXPECT_TRUE(preferred(confirmation, 100, squareAt(230, 90, 70)));
   EXPECT_FALSE(confirmation.isConfirmed());
 }
 
-TEST(TrackConfirmation, AnswersThatDifferFromEachOtherMeanNothing) {
-  TrackConfirmation confirmation{TrackParams()};
+TEST(TrackRecheck, AnswersThatDifferFromEachOtherMeanNothing) {
+  TrackRecheck confirmation{TrackParams()};
   confirmation.start();
   int asked = 0;
   for (int i = 0; i < 500; ++i) {
@@ -59,9 +59,9 @@ TEST(TrackConfirmation, AnswersThatDifferFromEachOtherMeanNothing) {
   EXPECT_LT(asked, 60) << "it ends some time";
 }
 
-TEST(TrackConfirmation, NoAnswerAndBadNumbersAreNoOpinion) {
+TEST(TrackRecheck, NoAnswerAndBadNumbersAreNoOpinion) {
   const TrackParams params;
-  TrackConfirmation confirmation(params);
+  TrackRecheck confirmation(params);
   confirmation.start();
   Quadrilateral bad = squareAt(0, 0, 9);
   bad[2].x() = std::numeric_limits<double>::quiet_NaN();
@@ -72,4 +72,4 @@ TEST(TrackConfirmation, NoAnswerAndBadNumbersAreNoOpinion) {
   EXPECT_FALSE(confirmation.isConfirmed());
 }
 
-}  // namespace window_ingress::detection::track_confirmation_test
+}  // namespace window_ingress::detection::track_recheck_test
