@@ -6,8 +6,8 @@
 
 #include "estimation/checks/odometry_smoother.hpp"
 #include "estimation/filter/filtered_window.hpp"
+#include "estimation/filter/mirror_hypotheses.hpp"
 #include "estimation/filter/viewpoints.hpp"
-#include "estimation/filter/window_hypotheses.hpp"
 #include "estimation/planar/observation_check.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -36,7 +36,7 @@ struct WindowFilter::Impl {
   std::optional<SizeEstimate> nominal_size, held_size;
   YawBias yaw_bias{0.0, params.mounting_yaw_sigma_rad};  // to begin with
   Viewpoints viewpoints{FilterParams::kSystematicRenewalM};
-  WindowHypotheses beliefs{params};
+  MirrorHypotheses beliefs{params};
   ConsistencyMonitor consistency;
   OdometrySmoother path;
   std::uint32_t target_id = 0;

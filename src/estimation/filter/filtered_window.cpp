@@ -30,7 +30,7 @@ TargetMotion motionOf(const WindowHypothesis& window, const MotionModel& model) 
   return {model, window.state().velocity(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))};
 }
 
-WindowHypothesis reported(const WindowHypotheses& beliefs) {
+WindowHypothesis reported(const MirrorHypotheses& beliefs) {
   const auto& hypotheses = beliefs.hypotheses();
   if (hypotheses.size() < 2 || !beliefs.areUnambiguous()) return hypotheses.front().window;
   return hypotheses[0].window.mergedWith(hypotheses[1].window, std::exp(hypotheses[1].log_weight));
@@ -38,7 +38,7 @@ WindowHypothesis reported(const WindowHypotheses& beliefs) {
 
 }  // namespace
 
-FilteredWindow filteredWindow(const WindowHypotheses& beliefs, const FilterParams& params,
+FilteredWindow filteredWindow(const MirrorHypotheses& beliefs, const FilterParams& params,
                               const Eigen::Vector3d& camera_position, double age_sec) {
   const auto predicted = [&](WindowHypothesis window) {
     window.predict(params, std::max(age_sec, 0.0), 0.0, camera_position);

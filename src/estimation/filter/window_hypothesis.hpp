@@ -81,9 +81,4 @@ class WindowHypothesis {
   WindowState::Matrix covariance_;
 };
 
-/// Whether an image that was applied is near enough to what the belief expected.
-inline bool passesGate(const std::optional<WindowHypothesis::Outcome>& outcome, const FilterParams& params) {
-  return outcome && outcome->squares <= params.nis_gate;
-}
-
 }  // namespace window_ingress::estimation

@@ -1,10 +1,10 @@
-#include "estimation/filter/window_hypotheses.hpp"
+#include "estimation/filter/mirror_hypotheses.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../pose_fixtures.hpp"
 
-namespace window_ingress::estimation::window_hypotheses_test {
+namespace window_ingress::estimation::mirror_hypotheses_test {
 
 using namespace fixtures;
 
@@ -27,18 +27,18 @@ ImageMeasurement seen(const Eigen::Isometry3d& T_odom_camera, const Eigen::Isome
       .value();
 }
 
-double weightsOf(const WindowHypotheses& beliefs) {
+double weightsOf(const MirrorHypotheses& beliefs) {
   double sum = 0.0;
   for (const auto& h : beliefs.hypotheses()) sum += std::exp(h.log_weight);
   return sum;
 }
 
-TEST(WindowHypotheses, FarAwayBothMirrorImagesLiveFromEitherStart) {
+TEST(MirrorHypotheses, FarAwayBothMirrorImagesLiveFromEitherStart) {
   const auto T = cameraAt({0, 0, 0});
   const auto image = seen(T, windowAt(8.0, 0.25));
   const FilterView view{image, image, kLens, T};
   for (const double started : {0.25, -0.25}) {
-    WindowHypotheses beliefs{FilterParams{}};
+    MirrorHypotheses beliefs{FilterParams{}};
     ASSERT_TRUE(beliefs.start(windowAt(8.0, started), kKnown, kNoBias, view));
     ASSERT_EQ(beliefs.hypotheses().size(), 2u);
     EXPECT_NEAR(weightsOf(beliefs), 1.0, 1e-12);
@@ -48,8 +48,8 @@ TEST(WindowHypotheses, FarAwayBothMirrorImagesLiveFromEitherStart) {
   }
 }
 
-TEST(WindowHypotheses, ParallaxKillsTheMirrorImage) {
-  WindowHypotheses beliefs{FilterParams{}};
+TEST(MirrorHypotheses, ParallaxKillsTheMirrorImage) {
+  MirrorHypotheses beliefs{FilterParams{}};
   const auto window = windowAt(8.0, 0.25);
   Eigen::Vector3d position(0, 0, 0);
   const auto first = seen(cameraAt(position), window);
@@ -68,8 +68,8 @@ TEST(WindowHypotheses, ParallaxKillsTheMirrorImage) {
   EXPECT_NEAR(beliefs.hypotheses()[0].window.state().yaw(), 0.25, 0.05);
 }
 
-TEST(WindowHypotheses, AnOutlierChangesNothing) {
-  WindowHypotheses beliefs{FilterParams{}};
+TEST(MirrorHypotheses, AnOutlierChangesNothing) {
+  MirrorHypotheses beliefs{FilterParams{}};
   const auto T = cameraAt({0, 0, 0});
   const auto image = seen(T, windowAt(3.0, 0.3));
   ASSERT_TRUE(beliefs.start(windowAt(3.0, 0.3), kKnown, kNoBias, {image, image, kLens, T}));
@@ -82,8 +82,8 @@ TEST(WindowHypotheses, AnOutlierChangesNothing) {
   EXPECT_EQ(beliefs.hypotheses()[0].window.state().values, before);
 }
 
-TEST(WindowHypotheses, AStartThatDoesNotExplainTheImageChangesNothing) {
-  WindowHypotheses beliefs{FilterParams{}};
+TEST(MirrorHypotheses, AStartThatDoesNotExplainTheImageChangesNothing) {
+  MirrorHypotheses beliefs{FilterParams{}};
   const auto T = cameraAt({0, 0, 0});
   auto leaning = windowAt(3.0, 0.3);
   leaning.linear() = leaning.linear() * geometry::rotationFromEuler({0.5, 0, 0});
@@ -92,4 +92,4 @@ TEST(WindowHypotheses, AStartThatDoesNotExplainTheImageChangesNothing) {
   EXPECT_TRUE(beliefs.empty());
 }
 
-}  // namespace window_ingress::estimation::window_hypotheses_test
+}  // namespace window_ingress::estimation::mirror_hypotheses_test

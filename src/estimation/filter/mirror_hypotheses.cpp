@@ -1,9 +1,10 @@
-#include "estimation/filter/window_hypotheses.hpp"
+#include "estimation/filter/mirror_hypotheses.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "estimation/filter/innovation_gate.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::estimation {
@@ -20,7 +21,7 @@ double upperTail(double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)
 
 }  // namespace
 
-bool WindowHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size,
+bool MirrorHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeEstimate& size,
                              const YawBias& yaw_bias, const FilterView& view) {
   const Eigen::Vector3d position = view.T_odom_camera.translation();
   WindowHypothesis window(params_, T_odom_window, size, yaw_bias, position);
@@ -40,7 +41,7 @@ bool WindowHypotheses::start(const Eigen::Isometry3d& T_odom_window, const SizeE
 // The alternative of a free fit may be missing where that of an upright window is not, so it is sought anew.
 // Where noise has levelled its minimum, its mass is still there: it is then held by the spread of the first
 // belief.
-void WindowHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate& size,
+void MirrorHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate& size,
                                       const YawBias& yaw_bias, double squares) {
   const WindowHypothesis& window = hypotheses_.front().window;
   const Eigen::Vector3d position = view.T_odom_camera.translation();
@@ -57,7 +58,7 @@ void WindowHypotheses::addMirrorImage(const FilterView& view, const SizeEstimate
   hypotheses_.push_back({other, std::clamp(evidence, -kMaxEvidence, kMaxEvidence)});
 }
 
-std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterView& view, double elapsed_sec,
+std::optional<WindowHypothesis::Outcome> MirrorHypotheses::apply(const FilterView& view, double elapsed_sec,
                                                                  double way_m) {
   std::vector<Weighted> tried = hypotheses_;
   std::array<double, 2> evidence{kImpossible, kImpossible};
@@ -81,20 +82,20 @@ std::optional<WindowHypothesis::Outcome> WindowHypotheses::apply(const FilterVie
   return closest;
 }
 
-bool WindowHypotheses::areUnambiguous() const {
+bool MirrorHypotheses::areUnambiguous() const {
   if (hypotheses_.size() < 2) return true;
   const auto yaw = [](const Weighted& h) { return h.window.state().yaw(); };
   return std::abs(geometry::wrapAngle(yaw(hypotheses_[0]) - yaw(hypotheses_[1]))) < kHarmlessYawRad;
 }
 
-void WindowHypotheses::settle(const Eigen::Vector3d& camera_position) {
+void MirrorHypotheses::settle(const Eigen::Vector3d& camera_position) {
   normalise();
   mergeOrDrop();
   split(camera_position);
   normalise();
 }
 
-void WindowHypotheses::normalise() {
+void MirrorHypotheses::normalise() {
   std::sort(hypotheses_.begin(), hypotheses_.end(),
             [](const Weighted& a, const Weighted& b) { return a.log_weight > b.log_weight; });
   const double heaviest = hypotheses_.front().log_weight;
@@ -103,7 +104,7 @@ void WindowHypotheses::normalise() {
   for (auto& h : hypotheses_) h.log_weight -= heaviest + std::log(sum);
 }
 
-void WindowHypotheses::mergeOrDrop() {
+void MirrorHypotheses::mergeOrDrop() {
   if (hypotheses_.size() < 2) return;
   const double share = std::exp(hypotheses_[1].log_weight);
   if (hypotheses_[0].window.distanceTo(hypotheses_[1].window) < kMergeDistance) {
@@ -117,7 +118,7 @@ void WindowHypotheses::mergeOrDrop() {
 }
 
 // A single belief that lies between both mirror images holds some of the other one's mass: it becomes two.
-void WindowHypotheses::split(const Eigen::Vector3d& camera_position) {
+void MirrorHypotheses::split(const Eigen::Vector3d& camera_position) {
   if (hypotheses_.size() != 1 || !may_split_) return;
   const WindowHypothesis window = hypotheses_.front().window;
   const double angle = std::abs(window.yawFromSight(camera_position));

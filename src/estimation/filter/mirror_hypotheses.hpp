@@ -9,9 +9,9 @@
 namespace window_ingress::estimation {
 
 /// The window and its mirror image: one or two hypotheses with weights that sum to 1, the heavier first.
-class WindowHypotheses {
+class MirrorHypotheses {
  public:
-  explicit WindowHypotheses(const FilterParams& params) : params_(params) {}
+  explicit MirrorHypotheses(const FilterParams& params) : params_(params) {}
 
   struct Weighted {
     WindowHypothesis window;
