@@ -10,12 +10,13 @@
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
+#include "navigation/mission/mission_timeouts.hpp"
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/mission/window_choice.hpp"
 #include "navigation/motion/disturbance_observer.hpp"
 #include "navigation/motion/pending_yaw.hpp"
+#include "navigation/motion/permitted_directions.hpp"
 #include "navigation/motion/setpoint_limiter.hpp"
-#include "navigation/motion/velocity_constraints.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
@@ -150,11 +151,8 @@ std::optional<Decision> Navigator::Impl::overrule(const NavigatorInput& input,
   if (!isLive()) return staying();
   if (!input.engaged)
     return Decision{{}, false, Event::kDisengaged, "the vehicle no longer follows setpoints"};
-  const std::string name = toString(state);
-  if (clock.inMissionSec() > params.timeouts.total_sec)
-    return Decision{{}, false, Event::kGiveUp, "mission timed out in " + name};
-  if (clock.inStateSec() > timeoutOf(state, params.timeouts))
-    return Decision{{}, false, Event::kGiveUp, name + " timed out"};
+  const std::string timed_out = whatTimedOut(state, clock, params.timeouts);
+  if (!timed_out.empty()) return Decision{{}, false, Event::kGiveUp, timed_out};
   if (home.awayM() > params.limits.fence_radius_m + kBeyondFenceM)
     return Decision{{}, false, Event::kGiveUp, "outside the fence"};
   const double turned_rad = observer.turnedRad();

@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "navigation/mission/mission_rules.hpp"
+
 namespace window_ingress::navigation {
-namespace {
-
-bool hasRetriesLeft(const MissionState& memory, const NavigatorParams& params) {
-  return memory.back_offs <= params.back_off.max_retries;
-}
-
-}  // namespace
 
 Decision BackOff::step(const Situation& situation, MissionState& memory) {
   if (!memory.trusted) return withoutNormal(memory);
@@ -36,14 +31,14 @@ Decision BackOff::step(const Situation& situation, MissionState& memory) {
 Decision BackOff::withoutNormal(const MissionState& memory) const {
   Decision decision;
   decision.keeps_place = true;
-  decision.event = hasRetriesLeft(memory, *params_) ? Event::kBackedOff : Event::kGiveUp;
+  decision.event = hasRetriesLeft(memory, params_->back_off) ? Event::kBackedOff : Event::kGiveUp;
   decision.reason = "no trusted normal to go back along";
   return decision;
 }
 
 std::optional<Event> BackOff::judge(const Situation& situation, const MissionState& memory,
                                     const RelativeState& relative, std::string& reason) {
-  if (!hasRetriesLeft(memory, *params_)) {
+  if (!hasRetriesLeft(memory, params_->back_off)) {
     reason = "given up after " + std::to_string(params_->back_off.max_retries) + " retries";
     if (!memory.unmet.empty()) reason += ": " + memory.unmet;
     return Event::kGiveUp;

@@ -27,23 +27,6 @@ NavigatorParams checked(NavigatorParams params) {
   return params;
 }
 
-double timeoutOf(State state, const TimeoutParams& timeouts) {
-  switch (state) {
-    case State::kSearch:
-      return timeouts.search_sec;
-    case State::kAlign:
-      return timeouts.align_sec;
-    case State::kApproach:
-      return timeouts.approach_sec;
-    case State::kCommit:
-      return timeouts.commit_sec;
-    case State::kBackOff:
-      return timeouts.back_off_sec;
-    default:
-      return timeouts.total_sec;
-  }
-}
-
 std::string missingInput(State state, const Situation& situation) {
   if (!situation.vehicle) return situation.vehicle_fault;
   if (!situation.setpoint_fault.empty()) return situation.setpoint_fault;
@@ -64,6 +47,10 @@ std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehi
       (target.T_odom_window.translation() - memory.trusted->T_odom_window.translation()).norm();
   if (shift_m <= kMaxShiftM) return "";
   return formatted("another window, %.1f m from the one flown at", shift_m);
+}
+
+bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params) {
+  return memory.back_offs <= params.max_retries;
 }
 
 std::string goesAstray(double turned_rad) {

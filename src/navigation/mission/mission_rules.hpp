@@ -14,9 +14,6 @@ namespace window_ingress::navigation {
 /// The parameters as given. \throws std::invalid_argument that lists every fault
 NavigatorParams checked(NavigatorParams params);
 
-/// How long the mission may stay in this state [s].
-double timeoutOf(State state, const TimeoutParams& timeouts);
-
 /// What this state needs and does not have; empty if it has all.
 std::string missingInput(State state, const Situation& situation);
 
@@ -24,6 +21,9 @@ std::string missingInput(State state, const Situation& situation);
 /// one flown at before; empty if nothing speaks against it.
 std::string whyNotFlownAt(const TargetEstimate& target, const VehicleState& vehicle, State state,
                           const MissionState& memory);
+
+/// Whether the mission looks for the window again after having backed off, or is given up.
+bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params);
 
 /// For people: the vehicle goes beside what it is told.
 std::string goesAstray(double turned_rad);

@@ -1,4 +1,4 @@
-#include "navigation/motion/velocity_constraints.hpp"
+#include "navigation/motion/permitted_directions.hpp"
 
 #include <algorithm>
 #include <cmath>

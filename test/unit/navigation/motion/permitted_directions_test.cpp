@@ -1,4 +1,4 @@
-#include "navigation/motion/velocity_constraints.hpp"
+#include "navigation/motion/permitted_directions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
-namespace window_ingress::navigation::velocity_constraints_test {
+namespace window_ingress::navigation::permitted_directions_test {
 
 const Eigen::Vector3d kWish(0.5, 0.4, 0.2);
 const Eigen::Vector3d kNothing = Eigen::Vector3d::Zero();
 
 /// 3 m in front of the window, on its axis.
-class VelocityConstraints : public testing::Test {
+class PermittedDirections : public testing::Test {
  protected:
   NavigatorParams params_ = test::withoutGlass();
   MissionState memory_;
@@ -28,19 +28,19 @@ class VelocityConstraints : public testing::Test {
   }
 };
 
-TEST_F(VelocityConstraints, StatesThatDoNotMoveGetNothing) {
+TEST_F(PermittedDirections, StatesThatDoNotMoveGetNothing) {
   for (const auto state : {State::kIdle, State::kHold, State::kPassed, State::kAborted}) {
     EXPECT_EQ(permitted(state), kNothing) << toString(state);
   }
 }
 
-TEST_F(VelocityConstraints, NoStateMovesWithoutOdometry) {
+TEST_F(PermittedDirections, NoStateMovesWithoutOdometry) {
   situation_.vehicle.reset();
   memory_.trusted = memory_.committed = situation_.target;
   for (std::size_t i = 0; i < kStateCount; ++i) EXPECT_EQ(permitted(static_cast<State>(i)), kNothing);
 }
 
-TEST_F(VelocityConstraints, SearchAndAnAmbiguousWindowAllowOnlyHeight) {
+TEST_F(PermittedDirections, SearchAndAnAmbiguousWindowAllowOnlyHeight) {
   const Eigen::Vector3d climb(0.0, 0.0, 0.2);
   EXPECT_EQ(permitted(State::kSearch), climb);
   situation_.target->sign_trusted = false;
@@ -51,18 +51,18 @@ TEST_F(VelocityConstraints, SearchAndAnAmbiguousWindowAllowOnlyHeight) {
   EXPECT_EQ(permitted(State::kApproach), climb);
 }
 
-TEST_F(VelocityConstraints, AlignGoesSidewaysAndBackButNeverForward) {
+TEST_F(PermittedDirections, AlignGoesSidewaysAndBackButNeverForward) {
   EXPECT_TRUE(permitted(State::kAlign).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
   EXPECT_EQ(permittedVelocity(-kWish, State::kAlign, situation_, memory_, params_), -kWish);
 }
 
-TEST_F(VelocityConstraints, ApproachGoesForwardOnlyWithinTheFunnel) {
+TEST_F(PermittedDirections, ApproachGoesForwardOnlyWithinTheFunnel) {
   EXPECT_EQ(permitted(State::kApproach), kWish);
   situation_.vehicle = test::vehicleAt({-3.0, 3.5, 1.5}, 0.0);
   EXPECT_TRUE(permitted(State::kApproach).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
 }
 
-TEST_F(VelocityConstraints, NearTheWallOutsideTheFunnelOnlyAway) {
+TEST_F(PermittedDirections, NearTheWallOutsideTheFunnelOnlyAway) {
   situation_.vehicle = test::vehicleAt({-0.8, 1.5, 1.5}, 0.0);
   for (const auto state : {State::kAlign, State::kApproach}) {
     EXPECT_EQ(permitted(state), kNothing);
@@ -71,7 +71,7 @@ TEST_F(VelocityConstraints, NearTheWallOutsideTheFunnelOnlyAway) {
   }
 }
 
-TEST_F(VelocityConstraints, APlaceIsGoneBackToSlowlyAndNotTowardsAWindow) {
+TEST_F(PermittedDirections, APlaceIsGoneBackToSlowlyAndNotTowardsAWindow) {
   const auto position = situation_.vehicle->T_odom_base.translation();
   for (const auto state : {State::kSearch, State::kHold, State::kPassed}) {
     memory_ = MissionState();
@@ -90,13 +90,13 @@ TEST_F(VelocityConstraints, APlaceIsGoneBackToSlowlyAndNotTowardsAWindow) {
   EXPECT_EQ(permitted(State::kAborted), kNothing);
 }
 
-TEST_F(VelocityConstraints, APlaceFarBelowIsGoneBackToSidewaysAllTheSame) {
+TEST_F(PermittedDirections, APlaceFarBelowIsGoneBackToSidewaysAllTheSame) {
   memory_.place_odom_m = situation_.vehicle->T_odom_base.translation() + Eigen::Vector3d(0.0, 0.5, -1.2);
   EXPECT_TRUE(permitted(State::kSearch).isApprox(Eigen::Vector3d(0.0, kWish.y(), kWish.z())));
   EXPECT_TRUE(permitted(State::kHold).isApprox(Eigen::Vector3d(0.0, kWish.y(), 0.0)));
 }
 
-TEST_F(VelocityConstraints, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
+TEST_F(PermittedDirections, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
   situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
   for (const double disagreement_mps : {0.0, 0.3, 0.4, 2.0}) {
     memory_.odometry_disagreement_mps = disagreement_mps;
@@ -107,7 +107,7 @@ TEST_F(VelocityConstraints, NobodyCommitsByAnOdometryThatDisagreesWithItself) {
   }
 }
 
-TEST_F(VelocityConstraints, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeSteady) {
+TEST_F(PermittedDirections, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeSteady) {
   situation_.vehicle = test::vehicleAt({-1.5, 0.0, 1.5}, 0.0);
   for (const bool is_known : {false, true}) {
     for (const double unexplained_mps : {0.0, 0.05, 0.1}) {
@@ -121,7 +121,7 @@ TEST_F(VelocityConstraints, NobodyCommitsByAVelocityThatIsOffUntilItIsKnownToBeS
   }
 }
 
-TEST_F(VelocityConstraints, TheFenceLeavesRoomToStop) {
+TEST_F(PermittedDirections, TheFenceLeavesRoomToStop) {
   memory_.committed = situation_.target;
   memory_.home_odom_m = situation_.vehicle->T_odom_base.translation();
   EXPECT_EQ(permitted(State::kCommit), kWish);
@@ -135,7 +135,7 @@ TEST_F(VelocityConstraints, TheFenceLeavesRoomToStop) {
   }
 }
 
-TEST_F(VelocityConstraints, CommitAndBackOffNeedWhatTheyFlyBy) {
+TEST_F(PermittedDirections, CommitAndBackOffNeedWhatTheyFlyBy) {
   EXPECT_EQ(permitted(State::kCommit), kNothing);
   EXPECT_EQ(permitted(State::kBackOff), kNothing);
   memory_.committed = memory_.trusted = situation_.target;
@@ -143,12 +143,12 @@ TEST_F(VelocityConstraints, CommitAndBackOffNeedWhatTheyFlyBy) {
   EXPECT_TRUE(permitted(State::kBackOff).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
 }
 
-TEST_F(VelocityConstraints, ApproachHeedsWhatForbidsIt) {
+TEST_F(PermittedDirections, ApproachHeedsWhatForbidsIt) {
   situation_.target->approach_forbidden = "fit NO_GO";
   EXPECT_TRUE(permitted(State::kApproach).isApprox(Eigen::Vector3d(0.0, 0.4, 0.2)));
 }
 
-TEST_F(VelocityConstraints, AtTheCommitLineOnlyByTheContract) {
+TEST_F(PermittedDirections, AtTheCommitLineOnlyByTheContract) {
   for (const double y_m : {0.0, 0.33}) {
     situation_.vehicle = test::vehicleAt({-1.0, y_m, 1.5}, 0.0);
     const bool holds = criterionWith(*situation_.target, *situation_.vehicle, memory_, params_).holds;
@@ -157,21 +157,21 @@ TEST_F(VelocityConstraints, AtTheCommitLineOnlyByTheContract) {
   }
 }
 
-TEST_F(VelocityConstraints, BehindTheCommitLineTheFunnelIsNotEnough) {
+TEST_F(PermittedDirections, BehindTheCommitLineTheFunnelIsNotEnough) {
   situation_.vehicle = test::vehicleAt({-1.0, 0.0, 1.5}, 0.0, 0.5);  // heading off the normal
   const CommitCriterion criterion = criterionWith(*situation_.target, *situation_.vehicle, memory_, params_);
   ASSERT_TRUE(criterion.in_funnel && !criterion.holds);
   EXPECT_EQ(permitted(State::kApproach).x(), 0.0);
 }
 
-TEST_F(VelocityConstraints, AWindowSeenFromBehindIsNotFlownAt) {
+TEST_F(PermittedDirections, AWindowSeenFromBehindIsNotFlownAt) {
   situation_.target->T_odom_window.linear() = geometry::yawRotation(M_PI);
   for (const auto state : {State::kAlign, State::kApproach})
     for (const Eigen::Vector3d& wish : {kWish, Eigen::Vector3d(-kWish)})
       EXPECT_EQ(permittedVelocity(wish, state, situation_, memory_, params_).head<2>().norm(), 0.0);
 }
 
-TEST_F(VelocityConstraints, WithinTheRevealBackOffLeadsOnlyAwayAndToTheAxis) {
+TEST_F(PermittedDirections, WithinTheRevealBackOffLeadsOnlyAwayAndToTheAxis) {
   memory_.trusted = situation_.target;
   situation_.vehicle = test::vehicleAt({-0.1, -0.05, 1.55}, 0.0);
   EXPECT_TRUE(permitted(State::kBackOff).isApprox(Eigen::Vector3d(0.0, 0.4, 0.0)));
@@ -179,7 +179,7 @@ TEST_F(VelocityConstraints, WithinTheRevealBackOffLeadsOnlyAwayAndToTheAxis) {
   EXPECT_TRUE(away.isApprox(Eigen::Vector3d(-0.5, 0.0, -0.2))) << away.transpose();
 }
 
-TEST_F(VelocityConstraints, NearTheWallNothingLeadsAwayFromTheAxis) {
+TEST_F(PermittedDirections, NearTheWallNothingLeadsAwayFromTheAxis) {
   for (double angle = 0.0; angle < 6.28; angle += 0.05) {
     const Eigen::Vector3d offset(0.0, 0.5 * std::cos(angle), 0.4 * std::sin(angle));
     situation_.vehicle = test::vehicleAt(Eigen::Vector3d(-0.5, 0.0, 1.5) + offset, 0.0);
@@ -193,7 +193,7 @@ TEST_F(VelocityConstraints, NearTheWallNothingLeadsAwayFromTheAxis) {
   }
 }
 
-TEST_F(VelocityConstraints, HeightLimitsLeaveRoomToStop) {
+TEST_F(PermittedDirections, HeightLimitsLeaveRoomToStop) {
   situation_.vehicle = test::vehicleAt({-3.0, 0.0, params_.limits.max_height_m - 0.02}, 0.0);
   EXPECT_LT(permitted(State::kSearch).z(), 0.1);
   situation_.vehicle = test::vehicleAt({-3.0, 0.0, params_.limits.max_height_m + 1.0}, 0.0);
@@ -203,7 +203,7 @@ TEST_F(VelocityConstraints, HeightLimitsLeaveRoomToStop) {
   EXPECT_EQ(permitted(State::kSearch).z(), 0.2);
 }
 
-TEST_F(VelocityConstraints, NeverAddsSpeed) {
+TEST_F(PermittedDirections, NeverAddsSpeed) {
   memory_.committed = memory_.trusted = situation_.target;
   for (std::size_t i = 0; i < kStateCount; ++i) {
     for (double angle = 0.0; angle < 6.28; angle += 0.1) {
@@ -214,4 +214,4 @@ TEST_F(VelocityConstraints, NeverAddsSpeed) {
   }
 }
 
-}  // namespace window_ingress::navigation::velocity_constraints_test
+}  // namespace window_ingress::navigation::permitted_directions_test
