@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "evaluation/statistics.hpp"
-#include "simulation/referee.hpp"
+#include "simulation/flight_verdict.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
 
 namespace window_ingress::evaluation {

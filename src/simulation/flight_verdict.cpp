@@ -1,4 +1,4 @@
-#include "simulation/referee.hpp"
+#include "simulation/flight_verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
