@@ -46,7 +46,7 @@ Health GuardMonitor::health() const {
   if (passesOn()) return {};
   if (steadyNowSec() - sent_sec_ > params_.max_silence_sec)
     return {Health::kOk, "no setpoints are sent: nothing to pass on"};
-  if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= Engagement::kGraceSec)
+  if (std::isinf(heard_sec_) && steadyNowSec() - started_sec_ <= EngagedFreshness::kGraceSec)
     return {Health::kOk, "waiting for " + topic};
   return {Health::kError,
           "nothing on " + topic + " from setpoint_guard: no mission flies, zeros are sent past it"};

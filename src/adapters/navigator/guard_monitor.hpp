@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "adapters/inputs/engagement.hpp"
+#include "adapters/inputs/engaged_freshness.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/configuration/navigator_node_params.hpp"
 

@@ -15,7 +15,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/guard/setpoint_gate.hpp"
-#include "adapters/inputs/engagement.hpp"
+#include "adapters/inputs/engaged_freshness.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/markers/flight_markers.hpp"
 #include "adapters/navigator/guard_monitor.hpp"
@@ -81,7 +81,7 @@ class NavigatorNode : public Node {
   TopicHealth odom_health_, pose_health_;
   StampGate odom_gate_, pose_gate_;
   estimation::SenderClock odom_clock_;
-  Engagement engagement_;
+  EngagedFreshness engagement_;
   UpstreamFaults upstream_;
   GuardMonitor guard_;
   ClockWatch clock_;

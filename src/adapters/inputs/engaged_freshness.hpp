@@ -12,12 +12,12 @@ using configuration::EngagementParams;
 /// Whether the vehicle follows setpoints: armed, and in a mode that does. Where nobody says so it is taken
 /// to, unless that is `required`; once anybody has said anything, only a recent yes is a yes. Times are those
 /// of the steady clock.
-class Engagement {
+class EngagedFreshness {
  public:
   /// Nodes that say it may start a little later, and speak once a second [s].
   static constexpr double kGraceSec = 3.0;
 
-  explicit Engagement(const EngagementParams& params, double started_sec = steadyNowSec())
+  explicit EngagedFreshness(const EngagementParams& params, double started_sec = steadyNowSec())
       : params_(params), started_sec_(started_sec) {}
 
   void hear(bool engaged, double now_sec);

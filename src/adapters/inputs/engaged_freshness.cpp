@@ -1,19 +1,19 @@
-#include "adapters/inputs/engagement.hpp"
+#include "adapters/inputs/engaged_freshness.hpp"
 
 namespace window_ingress::adapters {
 
-void Engagement::hear(bool engaged, double now_sec) {
+void EngagedFreshness::hear(bool engaged, double now_sec) {
   heard_ = true;
   engaged_ = engaged;
   heard_sec_ = now_sec;
 }
 
-bool Engagement::holds(double now_sec) const {
+bool EngagedFreshness::holds(double now_sec) const {
   if (!heard_) return !params_.required;
   return engaged_ && !isSilent(now_sec);
 }
 
-Health Engagement::health(const std::string& topic, double now_sec) const {
+Health EngagedFreshness::health(const std::string& topic, double now_sec) const {
   if (!heard_ && params_.required && now_sec - started_sec_ <= kGraceSec)
     return {Health::kOk, "waiting for " + topic};
   if (!heard_ && params_.required)
