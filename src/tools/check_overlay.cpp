@@ -2,7 +2,6 @@
 #include <ros/package.h>
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -25,7 +24,6 @@
 
 namespace {
 
-namespace po = boost::program_options;
 using namespace window_ingress;
 
 struct Options {
@@ -33,8 +31,8 @@ struct Options {
       image_transport, needs_package, scenario, launch_folder;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: check_overlay [FILE.yaml] [OPTION...]\n"
       "Checks a parameter file before it is given as config:= to launch files or as --params to tools: each "
       "key\n"
@@ -42,24 +40,25 @@ po::options_description describe(Options& o) {
       "The "
       "options\n"
       "are arguments of launch files, which call this before they start anything; 'none' means not given.\n"
-      "Exit code: 0 the file can be used, 2 it cannot.\n\nOptions");
-  description.add_options()("help,h", "this text")("file", po::value(&o.file), "the same as FILE.yaml")  //
-      ("reference", po::value(&o.reference), "image of the target")                                      //
-      ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4 in it [px]")                         //
-      ("window-size", po::value(&o.window_size), "W,H of the opening [m]")                               //
-      ("needs-window-size", po::value(&o.needs_window_size),
-       "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
-       "reference")                                                                                      //
-      ("image-transport", po::value(&o.image_transport), "by which images come; FILE.yaml counts more")  //
-      ("scenario", po::value(&o.scenario), "yaml file of the simulated world")                           //
-      ("needs-package", po::value(&o.needs_package), "that the calling roslaunch starts a node of")      //
-      ("defaults", po::value(&o.defaults), "yaml file that lies below FILE.yaml")                        //
-      ("fly", po::value(&o.fly), "true: refused if the vehicle does not fit through the opening")        //
-      ("launch-folder", po::value(&o.launch_folder),
-       "of the package: the arguments that the calling roslaunch was given are checked against its file "
-       "there")  //
-      ("camera-pose", po::value(&o.camera_pose), "x,y,z,yaw,pitch,roll in base_link [m, rad]");
-  return description;
+      "Exit code: 0 the file can be used, 2 it cannot.");
+  add("file", o.file, "the same as FILE.yaml");
+  add("reference", o.reference, "image of the target");
+  add("reference-corners", o.corners, "x1,y1,...,x4,y4 in it [px]");
+  add("window-size", o.window_size, "W,H of the opening [m]");
+  add("needs-window-size", o.needs_window_size,
+      "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
+      "reference");
+  add("image-transport", o.image_transport, "by which images come; FILE.yaml counts more");
+  add("scenario", o.scenario, "yaml file of the simulated world");
+  add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
+  add("defaults", o.defaults, "yaml file that lies below FILE.yaml");
+  add("fly", o.fly, "true: refused if the vehicle does not fit through the opening");
+  add("launch-folder", o.launch_folder,
+      "of the package: the arguments that the calling roslaunch was given are checked against its file "
+      "there");
+  add("camera-pose", o.camera_pose, "x,y,z,yaw,pitch,roll in base_link [m, rad]");
+  add.unnamed.add("file", 1);
+  return add;
 }
 
 // As in launch files: brackets and blanks may stand round it.
@@ -280,9 +279,7 @@ int check(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  po::positional_options_description positional;
-  positional.add("file", 1);
-  const int code = tools::runTool("check_overlay", argc, argv, describe, check, positional);
+  const int code = tools::runTool("check_overlay", argc, argv, describe, check);
   const auto caller = tools::wordsOfParent();
   const bool refuses_launch =
       code != 0 && std::any_of(caller.begin(), caller.end(), [](const std::string& word) {

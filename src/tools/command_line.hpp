@@ -1,13 +1,14 @@
 /// What the command-line tools share: their errors, and options that need more than boost's parser.
 #pragma once
 
-#include <boost/program_options/errors.hpp>
+#include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "window_ingress/text/text.hpp"
@@ -74,38 +75,51 @@ int runTool(const char* name, const Body& body) {
   }
 }
 
-/// The arguments by their names, whole ones: --seed is not taken for --seeds. Throws boost's errors.
-inline boost::program_options::variables_map parsed(
-    int argc, char** argv, const boost::program_options::options_description& description,
-    const boost::program_options::positional_options_description& positional = {}) {
-  namespace options = boost::program_options;
-  namespace style = options::command_line_style;
-  options::variables_map given;
-  options::store(options::command_line_parser(argc, argv)
-                     .options(description)
-                     .positional(positional)
-                     .style(style::default_style & ~style::allow_guessing)
-                     .run(),
-                 given);
-  return given;
-}
+/// The options of a tool, each bound to a variable that holds its default. A bool is a switch, a vector takes
+/// any number of values.
+class OptionList : public boost::program_options::options_description {
+ public:
+  explicit OptionList(const std::string& usage) : options_description(usage + "\n\nOptions") {
+    add_options()("help,h", "this text");
+  }
 
-/// The same, with the arguments taken apart first.
-/// \param describe binds an `Options` to their description, which --help prints
-/// \param positional options that need no name
+  template <typename Variable>
+  void operator()(const char* name, Variable& variable, const std::string& text) {
+    auto* const value = boost::program_options::value(&variable);
+    if constexpr (std::is_same_v<Variable, bool>)
+      value->default_value(false)->zero_tokens();
+    else if constexpr (std::is_floating_point_v<Variable>)
+      value->default_value(variable, formatted("%g", variable));
+    else if constexpr (std::is_arithmetic_v<Variable>)
+      value->default_value(variable);
+    else if constexpr (!std::is_same_v<Variable, std::string>)
+      value->composing()->multitoken();
+    else if (!variable.empty())
+      value->default_value(variable);
+    add_options()(name, value, text.c_str());
+  }
+
+  boost::program_options::positional_options_description unnamed;  ///< which need no name
+};
+
+/// The same, with the arguments taken apart first: whole names only, --seed is not taken for --seeds.
+/// \param describe binds an `Options` to what --help prints
 template <typename Options, typename Body>
-int runTool(const char* name, int argc, char** argv,
-            boost::program_options::options_description (*describe)(Options&), const Body& body,
-            const boost::program_options::positional_options_description& positional = {}) {
+int runTool(const char* name, int argc, char** argv, OptionList (*describe)(Options&), const Body& body) {
   return runTool(name, [&] {
+    namespace po = boost::program_options;
+    namespace style = po::command_line_style;
     Options options;
-    const auto description = describe(options);
-    auto given = parsed(argc, argv, description, positional);
+    const OptionList list = describe(options);
+    po::command_line_parser parser(argc, argv);
+    parser.options(list).positional(list.unnamed).style(style::default_style & ~style::allow_guessing);
+    po::variables_map given;
+    po::store(parser.run(), given);
     if (given.count("help") > 0) {
-      std::cout << description;
+      std::cout << list;
       return 0;
     }
-    boost::program_options::notify(given);
+    po::notify(given);
     return body(options);
   });
 }

@@ -1,6 +1,5 @@
 /// Finds the window in single images; one csv row each. See --help.
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <cctype>
 #include <chrono>
 #include <filesystem>
@@ -24,7 +23,6 @@
 #include "window_ingress/parameters/calibration_file.hpp"
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace window_ingress;
 using tools::numbers;
 
@@ -91,25 +89,24 @@ struct Job {
   std::optional<estimation::WindowPoseEstimator> estimator;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: detect_images --output OUT.csv [options] FILE_OR_DIR...\n"
       "Finds the window in each image and writes one csv row an image, in the order given.\n"
-      "Exit code: 0 done, 1 some image could not be read, 2 wrong usage or unreadable input.\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("input", po::value(&o.inputs), "images, or folders of them; needs no name");
-  add("output,o", po::value(&o.output), "csv file to write");
-  add("camera", po::value(&o.camera), "calibration, yaml of camera_info_manager");
-  add("reference", po::value(&o.reference), "image of the target with its frame");
-  add("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it");
-  add("window-size", po::value(&o.size), "W,H: inner size of the opening [m]; with --camera: poses");
-  add("params", po::value(&o.params), tools::kParamsHelp);
-  add("track", po::bool_switch(&o.track), "the images are a sequence: follow the window through it");
-  add("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "with --track: images a second");
-  add("candidates", po::value(&o.candidates), "csv file of every candidate and what became of it");
-  add("overlay", po::value(&o.overlay), "folder for pictures of what happened to each candidate");
-  return description;
+      "Exit code: 0 done, 1 some image could not be read, 2 wrong usage or unreadable input.");
+  add("input", o.inputs, "images, or folders of them; needs no name");
+  add("output,o", o.output, "csv file to write");
+  add("camera", o.camera, "calibration, yaml of camera_info_manager");
+  add("reference", o.reference, "image of the target with its frame");
+  add("reference-corners", o.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
+  add("window-size", o.size, "W,H: inner size of the opening [m]; with --camera: poses");
+  add("params", o.params, tools::kParamsHelp);
+  add("track", o.track, "the images are a sequence: follow the window through it");
+  add("rate", o.rate_hz, "with --track: images a second");
+  add("candidates", o.candidates, "csv file of every candidate and what became of it");
+  add("overlay", o.overlay, "folder for pictures of what happened to each candidate");
+  add.unnamed.add("input", -1);
+  return add;
 }
 
 void check(const Options& o) {
@@ -268,7 +265,4 @@ int run(const Options& o) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return tools::runTool("detect_images", argc, argv, describe, run,
-                        po::positional_options_description().add("input", -1));
-}
+int main(int argc, char** argv) { return tools::runTool("detect_images", argc, argv, describe, run); }

@@ -1,5 +1,4 @@
 /// Draws one image of each scenario, as the camera delivers it from the start, on one sheet.
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <string>
@@ -12,7 +11,6 @@
 
 namespace {
 
-namespace options = boost::program_options;
 using namespace window_ingress;
 
 struct Job {
@@ -23,19 +21,16 @@ struct Job {
   tools::ViewOptions view;
 };
 
-options::options_description describe(Job& job) {
-  options::options_description description(
-      "Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("output,o", options::value(&job.output), "the sheet");
-  add("seed", options::value(&job.seed)->default_value(job.seed),
-      "of the first scenario; each further one has the next");
-  add("columns", options::value(&job.columns)->default_value(job.columns), "pictures in a row");
-  add("width", options::value(&job.cell_width_px)->default_value(job.cell_width_px), "of each picture [px]");
-  add("scenario", options::value(&job.files), "scenario files; need no name");
-  job.view.describe(description);
-  return description;
+tools::OptionList describe(Job& job) {
+  tools::OptionList add("Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
+  add("output,o", job.output, "the sheet");
+  add("seed", job.seed, "of the first scenario; each further one has the next");
+  add("columns", job.columns, "pictures in a row");
+  add("width", job.cell_width_px, "of each picture [px]");
+  add("scenario", job.files, "scenario files; need no name");
+  job.view.describe(add);
+  add.unnamed.add("scenario", -1);
+  return add;
 }
 
 int run(const Job& job) {
@@ -58,6 +53,5 @@ int run(const Job& job) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return tools::runTool("draw_scenarios", argc, argv, describe, run,
-                        options::positional_options_description().add("scenario", -1));
+  return tools::runTool("draw_scenarios", argc, argv, describe, run);
 }

@@ -1,5 +1,4 @@
 /// Draws the stages of the detector on one image, as the paper's figures 1 and 2, on one sheet.
-#include <boost/program_options.hpp>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -14,7 +13,6 @@
 
 namespace {
 
-namespace options = boost::program_options;
 using namespace window_ingress;
 
 constexpr int kQuality = 75;  // of a jpg
@@ -31,20 +29,17 @@ struct Subject {
   std::optional<detection::ReferenceAppearance> reference;
 };
 
-options::options_description describe(Job& job) {
-  options::options_description description(
-      "Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("output,o", options::value(&job.output), "the sheet");
-  add("scenario", options::value(&job.scenario), "scenario file; the view is from its start");
-  add("seed", options::value(&job.seed)->default_value(job.seed), "of the scenario");
-  add("image", options::value(&job.image), "an image instead of a scenario; without a reference");
-  add("params", options::value(&job.params), tools::kParamsHelp);
-  add("width", options::value(&job.cell_width_px)->default_value(job.cell_width_px),
-      "of each picture on the sheet [px]");
-  job.view.describe(description);
-  return description;
+tools::OptionList describe(Job& job) {
+  tools::OptionList add("Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE");
+  add("output,o", job.output, "the sheet");
+  add("scenario", job.scenario, "scenario file; the view is from its start");
+  add("seed", job.seed, "of the scenario");
+  add("image", job.image, "an image instead of a scenario; without a reference");
+  add("params", job.params, tools::kParamsHelp);
+  add("width", job.cell_width_px, "of each picture on the sheet [px]");
+  job.view.describe(add);
+  add.unnamed.add("image", 1);
+  return add;
 }
 
 Subject photograph(const Job& job) {
@@ -74,6 +69,5 @@ int run(const Job& job) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  return tools::runTool("draw_stages", argc, argv, describe, run,
-                        options::positional_options_description().add("image", 1));
+  return tools::runTool("draw_stages", argc, argv, describe, run);
 }

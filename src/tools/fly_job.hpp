@@ -1,7 +1,6 @@
 /// What fly is asked for: its options, checked.
 #pragma once
 
-#include <boost/program_options.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,8 +13,6 @@
 #include "evaluation/flights/flight_table.hpp"
 
 namespace window_ingress::tools {
-
-namespace options = boost::program_options;
 
 #ifdef WINDOW_INGRESS_WITH_ROS
 constexpr bool kCanRecordBags = true;
@@ -47,35 +44,32 @@ struct FlyJob {
   evaluation::FlightParams params = {};
 };
 
-inline options::options_description describeFly(FlyOptions& o) {
-  options::options_description description(
+inline OptionList describeFly(FlyOptions& o) {
+  OptionList add(
       "Usage: fly --scenario FILE.yaml --output DIR [OPTION...]\n"
       "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
-      "flights under way end (--resume goes on with the others); 2: wrong usage\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("scenario", options::value(&o.scenario), "scenario file, e.g. config/scenarios/nominal.yaml");
-  add("output,o", options::value(&o.output), "folder for the results; made if missing");
-  add("seeds", options::value(&o.seeds)->default_value(o.seeds), "A..B, a flight each");
-  add("draws", options::value(&o.draws),
+      "flights under way end (--resume goes on with the others); 2: wrong usage");
+  add("scenario", o.scenario, "scenario file, e.g. config/scenarios/nominal.yaml");
+  add("output,o", o.output, "folder for the results; made if missing");
+  add("seeds", o.seeds, "A..B, a flight each");
+  add("draws", o.draws,
       "csv file in place of --seeds: a row a flight, its seed and where in its range each named key lies, 0 "
       "to 1");
-  add("resume", options::bool_switch(&o.resume),
+  add("resume", o.resume,
       "goes on with the flights in DIR: same scenario, parameters and build, or it is refused");
-  add("overwrite", options::bool_switch(&o.overwrite), "replaces the flights in DIR");
-  add("jobs", options::value(&o.jobs)->default_value(o.jobs), "flights at the same time");
-  add("shard", options::value(&o.shard), "I/N: only every N-th seed, from the I-th on (1 to N)");
-  add("join", options::value(&o.join)->multitoken(),
-      "flies nothing: joins the folders of several shards into one");
-  add("params", options::value(&o.params), kParamsHelp);
-  add("no-pictures", options::bool_switch(&o.no_pictures),
+  add("overwrite", o.overwrite, "replaces the flights in DIR");
+  add("jobs", o.jobs, "flights at the same time");
+  add("shard", o.shard, "I/N: only every N-th seed, from the I-th on (1 to N)");
+  add("join", o.join, "flies nothing: joins the folders of several shards into one");
+  add("params", o.params, kParamsHelp);
+  add("no-pictures", o.no_pictures,
       "draws none: the window is seen as by a detector that never errs. Many times faster; measures what "
       "comes behind the detector, not the whole");
-  add("keep-failures", options::bool_switch(&o.keep_failures),
+  add("keep-failures", o.keep_failures,
       "for each flight that did not pass, a bag and a picture in DIR/failures");
-  add("timing", options::bool_switch(&o.timing), "where the time went, as a table, at the end");
-  add("log", options::value(&o.log), "folder for a csv of every step of each flight");
-  return description;
+  add("timing", o.timing, "where the time went, as a table, at the end");
+  add("log", o.log, "folder for a csv of every step of each flight");
+  return add;
 }
 
 inline std::vector<std::uint32_t> seedsOf(const FlyJob& job) {

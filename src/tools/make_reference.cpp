@@ -1,6 +1,5 @@
 /// Makes the operator's reference from an image of the target: four corners, clicked or given. See --help.
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -21,7 +20,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-namespace options = boost::program_options;
 using namespace window_ingress;
 
 std::vector<double> flat(const std::vector<cv::Point2d>& points) {
@@ -170,21 +168,20 @@ struct Job {
   bool fit = false;
 };
 
-options::options_description describe(Job& job) {
-  options::options_description description(
+tools::OptionList describe(Job& job) {
+  tools::OptionList add(
       "Usage: make_reference IMAGE [OPTION...]\n"
       "Writes the image, a yaml file of the same name for config:=, and NAME_understood.png, which shows the "
       "inner border and the regions whose colours are compared.\nWithout --corners a window opens: click the "
       "four inner corners of the opening, top left first, then clockwise; drag to correct,\nf: fit them to "
-      "the edges, u: undo, Enter: save, q: quit.\n\nOptions");
-  description.add_options()("help", "print this text")                                             //
-      ("picture", options::value(&job.image), "photograph of the target with some wall round it")  //
-      ("output", options::value(&job.output)->default_value(job.output), "image to write")         //
-      ("corners", options::value(&job.corners),
-       "x1,y1,...,x4,y4 instead of clicking; pixel centres are integers")                //
-      ("fit", options::bool_switch(&job.fit), "fit the corners to the edges near them")  //
-      ("params", options::value(&job.params), tools::kParamsHelp);
-  return description;
+      "the edges, u: undo, Enter: save, q: quit.");
+  add("picture", job.image, "photograph of the target with some wall round it");
+  add("output", job.output, "image to write");
+  add("corners", job.corners, "x1,y1,...,x4,y4 instead of clicking; pixel centres are integers");
+  add("fit", job.fit, "fit the corners to the edges near them");
+  add("params", job.params, tools::kParamsHelp);
+  add.unnamed.add("picture", 1);
+  return add;
 }
 
 int run(const Job& job) {
@@ -229,7 +226,4 @@ int run(const Job& job) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return tools::runTool("make_reference", argc, argv, describe, run,
-                        options::positional_options_description().add("picture", 1));
-}
+int main(int argc, char** argv) { return tools::runTool("make_reference", argc, argv, describe, run); }

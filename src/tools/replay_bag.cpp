@@ -2,7 +2,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <boost/program_options.hpp>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -20,7 +19,6 @@
 #include "window_ingress/text/text.hpp"
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace window_ingress;
 using tools::numbers;
 
@@ -33,30 +31,28 @@ struct Options {
   adapters::ReferenceParams reference;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: replay_bag --bag FILE.bag --output DIR [options]\n"
       "Runs detector, pose and filter over a bag; writes DIR/frames.csv,\n"
-      "details.csv, latency.csv, replay.png, and all of it as one page: report.html.\n\nOptions");
-  description.add_options()("help,h", "this text")                                   //
-      ("bag", po::value(&o.bag)->required(), "bag to read")                          //
-      ("output,o", po::value(&o.output)->required(), "folder to write into")         //
-      ("overwrite", po::bool_switch(&o.overwrite), "replaces the replay in DIR")     //
-      ("image", po::value(&o.topics.image), "topic; else the only one of its type")  //
-      ("camera-info", po::value(&o.topics.camera_info), "likewise")                  //
-      ("odom", po::value(&o.topics.odom), "likewise")                                //
-      ("imu", po::value(&o.topics.imu), "likewise")                                  //
-      ("reference", po::value(&o.reference.picture),
-       "image of the target with its frame; else that of the bag")                                        //
-      ("reference-corners", po::value(&o.corners), "x1,y1,...,x4,y4: inner border of the opening in it")  //
-      ("window-size", po::value(&o.size),
-       "W,H: inner size of the opening [m]; without it, here or in --params, no poses")  //
-      ("params", po::value(&o.params), tools::kParamsHelp)                               //
-      ("truth", po::value(&o.topics.truth), "PoseStamped with the true T_camera_window, by stamp");
-  return description;
+      "details.csv, latency.csv, replay.png, and all of it as one page: report.html.");
+  add("bag", o.bag, "bag to read");
+  add("output,o", o.output, "folder to write into");
+  add("overwrite", o.overwrite, "replaces the replay in DIR");
+  add("image", o.topics.image, "topic; else the only one of its type");
+  add("camera-info", o.topics.camera_info, "likewise");
+  add("odom", o.topics.odom, "likewise");
+  add("imu", o.topics.imu, "likewise");
+  add("reference", o.reference.picture, "image of the target with its frame; else that of the bag");
+  add("reference-corners", o.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
+  add("window-size", o.size, "W,H: inner size of the opening [m]; without it, here or in --params, no poses");
+  add("params", o.params, tools::kParamsHelp);
+  add("truth", o.topics.truth, "PoseStamped with the true T_camera_window, by stamp");
+  return add;
 }
 
 Options checked(Options o) {
+  if (o.bag.empty() || o.output.empty()) throw InputError("--bag and --output are needed; see --help");
   if (!o.corners.empty() && o.reference.picture.empty())
     throw InputError("--reference-corners needs --reference");
   if (!o.topics.truth.empty() && o.size.empty()) throw InputError("--truth needs --window-size");

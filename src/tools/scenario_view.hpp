@@ -12,11 +12,9 @@ namespace window_ingress::tools {
 struct ViewOptions {
   double distance_m = 0.0, off_axis_rad = 0.0;
 
-  void describe(boost::program_options::options_description& description) {
-    namespace options = boost::program_options;
-    auto add = description.add_options();
-    add("distance", options::value(&distance_m), "instead of the start's [m]");
-    add("off-axis", options::value(&off_axis_rad), "with --distance: instead of the start's [rad]");
+  void describe(OptionList& add) {
+    add("distance", distance_m, "instead of the start's [m]");
+    add("off-axis", off_axis_rad, "with --distance: instead of the start's [rad]");
   }
   void check() const {
     if (!(distance_m >= 0.0)) throw InputError("--distance: needs metres, above 0");

@@ -1,6 +1,5 @@
 /// Measures the detector on random views of scenarios; see --help.
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -22,7 +21,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace window_ingress;
 using Clock = std::chrono::steady_clock;
 
@@ -30,39 +28,35 @@ constexpr double kRadPerDegree = 0.017453292519943295;
 
 struct Options {
   std::vector<std::string> scenarios, folders;
-  std::string output, params, save, overlay, distance, at, antialiasing;
+  std::string output, params, save, overlay, distance = "2,8", at, antialiasing;
   int frames = 100;
   std::uint32_t seed = 1;
   double off_axis_deg = 45.0;
   bool no_reference = false, still = false, without_target = false;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: survey_detector --scenario FILE.yaml... --frames N --output DIR [options]\n"
       "       survey_detector --load DIR... --output DIR [options]\n"
       "Draws random views of each scenario, looks for the window in each, and compares with the truth.\n"
-      "Writes DIR/frames.csv and DIR/summary.csv, prints the summary as tables.\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("scenario", po::value(&o.scenarios)->composing()->multitoken(), "scenario files");
-  add("frames", po::value(&o.frames)->default_value(o.frames), "of each scenario");
-  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first frame; each further one has the next");
-  add("output,o", po::value(&o.output), "folder of the results");
-  add("params", po::value(&o.params), tools::kParamsHelp);
-  add("no-reference", po::bool_switch(&o.no_reference), "without the image of the target");
-  add("distance", po::value(&o.distance)->default_value("2,8"), "NEAREST,FARTHEST [m]");
-  add("at", po::value(&o.at), "D1,D2,...: at these distances in turn, instead of --distance [m]");
-  add("off-axis", po::value(&o.off_axis_deg)->default_value(o.off_axis_deg), "to either side, at most [deg]");
-  add("static-camera", po::bool_switch(&o.still), "the camera does not move");
-  add("without-target", po::bool_switch(&o.without_target),
-      "the scenario, but the wall closed at the target");
-  add("antialiasing", po::value(&o.antialiasing), "instead of the scenario's: edges or multisampling");
-  add("save", po::value(&o.save), "folder for the images and the truth about them");
-  add("overlay", po::value(&o.overlay), "folder for pictures of the frames that went wrong; truth in white");
-  add("load", po::value(&o.folders)->composing()->multitoken(),
-      "images from such folders, instead of drawing them");
-  return description;
+      "Writes DIR/frames.csv and DIR/summary.csv, prints the summary as tables.");
+  add("scenario", o.scenarios, "scenario files");
+  add("frames", o.frames, "of each scenario");
+  add("seed", o.seed, "of the first frame; each further one has the next");
+  add("output,o", o.output, "folder of the results");
+  add("params", o.params, tools::kParamsHelp);
+  add("no-reference", o.no_reference, "without the image of the target");
+  add("distance", o.distance, "NEAREST,FARTHEST [m]");
+  add("at", o.at, "D1,D2,...: at these distances in turn, instead of --distance [m]");
+  add("off-axis", o.off_axis_deg, "to either side, at most [deg]");
+  add("static-camera", o.still, "the camera does not move");
+  add("without-target", o.without_target, "the scenario, but the wall closed at the target");
+  add("antialiasing", o.antialiasing, "instead of the scenario's: edges or multisampling");
+  add("save", o.save, "folder for the images and the truth about them");
+  add("overlay", o.overlay, "folder for pictures of the frames that went wrong; truth in white");
+  add("load", o.folders, "images from such folders, instead of drawing them");
+  return add;
 }
 
 std::vector<double> risingDistances(const std::string& option, const std::string& text) {

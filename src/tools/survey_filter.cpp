@@ -1,7 +1,6 @@
 /// Measures the filter over time on synthetic approaches; see --help.
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -15,7 +14,6 @@
 
 namespace {
 
-namespace po = boost::program_options;
 using namespace window_ingress;
 using evaluation::FilterSample;
 using evaluation::SizeTold;
@@ -26,21 +24,19 @@ struct Options {
   std::string size = "known", output, params;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: survey_filter --output DIR [options]\n"
       "Flies synthetic approaches (no images: borders with noise and lasting errors, odometry that drifts,\n"
       "attitude that is wrong) through estimator and filter and compares with the truth.\n"
-      "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % band.\n"
-      "\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("output,o", po::value(&o.output), "folder of the results");
-  add("runs", po::value(&o.runs)->default_value(o.runs), "approaches");
-  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first approach");
-  add("size", po::value(&o.size)->default_value(o.size), "of the opening: known or unknown");
-  add("params", po::value(&o.params), tools::kParamsHelp);
-  return description;
+      "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % "
+      "band.\n");
+  add("output,o", o.output, "folder of the results");
+  add("runs", o.runs, "approaches");
+  add("seed", o.seed, "of the first approach");
+  add("size", o.size, "of the opening: known or unknown");
+  add("params", o.params, tools::kParamsHelp);
+  return add;
 }
 
 void check(const Options& o) {

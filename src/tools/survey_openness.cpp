@@ -1,5 +1,4 @@
 /// Measures the verdict on openness on approaches to windows that are open or closed; see --help.
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -17,7 +16,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace window_ingress;
 
 struct Options {
@@ -28,33 +26,26 @@ struct Options {
   evaluation::OpennessRange range;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: survey_openness [--open N] [--closed N] [--synthetic N] [--glass N] [--scenario FILE.yaml...] "
       "--output DIR\n"
       "Approaches random windows and asks whether they are open. Writes DIR/openness.csv with a row an "
       "approach and\n"
       "prints a table with Wilson intervals (95 %). Exit code 1 if anything closed was ever called "
-      "open.\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("open", po::value(&o.open)->default_value(o.open), "drawn approaches to open windows");
-  add("closed", po::value(&o.closed)->default_value(o.closed), "drawn approaches to closed ones");
-  add("synthetic", po::value(&o.synthetic)->default_value(o.synthetic),
-      "approaches of each kind without images");
-  add("glass", po::value(&o.glass)->default_value(o.glass),
-      "approaches without images to panes of each of several reflectivities");
-  add("scenario", po::value(&o.scenarios)->composing()->multitoken(),
-      "scenario files instead of random windows, --open approaches each");
-  add("seed", po::value(&o.seed)->default_value(o.seed),
-      "of the first approach; each further one has the next");
-  add("params", po::value(&o.params), tools::kParamsHelp);
-  add("rate", po::value(&o.range.rate_hz)->default_value(o.range.rate_hz), "of the images [1/s]");
-  add("decide", po::value(&o.range.decide_m)->default_value(o.range.decide_m),
-      "distance at which the verdict counts [m]");
-  add("trace", po::value(&o.trace), "csv file: the verdict over each approach");
-  add("output,o", po::value(&o.output), "folder of the results");
-  return description;
+      "open.");
+  add("open", o.open, "drawn approaches to open windows");
+  add("closed", o.closed, "drawn approaches to closed ones");
+  add("synthetic", o.synthetic, "approaches of each kind without images");
+  add("glass", o.glass, "approaches without images to panes of each of several reflectivities");
+  add("scenario", o.scenarios, "scenario files instead of random windows, --open approaches each");
+  add("seed", o.seed, "of the first approach; each further one has the next");
+  add("params", o.params, tools::kParamsHelp);
+  add("rate", o.range.rate_hz, "of the images [1/s]");
+  add("decide", o.range.decide_m, "distance at which the verdict counts [m]");
+  add("trace", o.trace, "csv file: the verdict over each approach");
+  add("output,o", o.output, "folder of the results");
+  return add;
 }
 
 std::string oneOf(simulation::RandomStream& random, const std::vector<std::string>& words) {

@@ -1,5 +1,4 @@
 /// Measures the pose from one image against the truth and beside OpenCV; see --help.
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
@@ -20,7 +19,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace window_ingress;
 
 constexpr double kRadPerDegree = 0.017453292519943295;
@@ -34,29 +32,27 @@ struct Options {
   std::uint32_t seed = 1;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: survey_pose --draws N --output DIR [options]\n"
       "       survey_pose --load DIR... --window-size W,H --output DIR [options]\n"
       "Draws random views with noisy borders, one cell for each distance, yaw and noise, estimates the pose "
       "and\ncompares it with the truth, with the Cramer-Rao bound, and with OpenCV on the corners where the "
       "same\nborders cross. Writes DIR/cells.csv, prints yaw RMSE over bound as a table.\n"
       "With --load: from the pixels of images that survey_detector has saved to the pose, against the "
-      "truth.\nWrites DIR/pictures.csv, prints the errors of poses and of borders as tables.\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("draws", po::value(&o.draws)->default_value(o.draws), "of each cell");
-  add("at", po::value(&o.distances)->default_value(o.distances), "distances [m]");
-  add("yaw", po::value(&o.yaws)->default_value(o.yaws), "against the line of sight, to either side [deg]");
-  add("noise", po::value(&o.noises)->default_value(o.noises), "of each pixel along a border [px]");
-  add("seed", po::value(&o.seed)->default_value(o.seed), "of the first cell; each further one has the next");
-  add("output,o", po::value(&o.output), "folder of the results");
-  add("camera", po::value(&o.camera), "calibration without distortion; default 640 x 480, f = 554 px");
-  add("window-size", po::value(&o.window_size), "W,H of the opening; default 1,1 [m]");
-  add("load", po::value(&o.folders)->composing()->multitoken(), "folders of images");
-  add("params", po::value(&o.params), tools::kParamsHelp);
-  add("attitude", po::value(&o.attitude_deg), "with --load: the attitude is known with this error [deg]");
-  return description;
+      "truth.\nWrites DIR/pictures.csv, prints the errors of poses and of borders as tables.");
+  add("draws", o.draws, "of each cell");
+  add("at", o.distances, "distances [m]");
+  add("yaw", o.yaws, "against the line of sight, to either side [deg]");
+  add("noise", o.noises, "of each pixel along a border [px]");
+  add("seed", o.seed, "of the first cell; each further one has the next");
+  add("output,o", o.output, "folder of the results");
+  add("camera", o.camera, "calibration without distortion; default 640 x 480, f = 554 px");
+  add("window-size", o.window_size, "W,H of the opening; default 1,1 [m]");
+  add("load", o.folders, "folders of images");
+  add("params", o.params, tools::kParamsHelp);
+  add("attitude", o.attitude_deg, "with --load: the attitude is known with this error [deg]");
+  return add;
 }
 
 evaluation::PoseSurveySetup setupOf(const Options& o) {

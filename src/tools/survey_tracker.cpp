@@ -1,5 +1,4 @@
 /// Measures the tracker on flights towards the window; see --help.
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -22,7 +21,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace window_ingress;
 using Clock = std::chrono::steady_clock;
 
@@ -37,25 +35,22 @@ struct Options {
   evaluation::FlightRange range;
 };
 
-po::options_description describe(Options& o) {
-  po::options_description description(
+tools::OptionList describe(Options& o) {
+  tools::OptionList add(
       "Usage: survey_tracker --scenario FILE.yaml... --flights N --output DIR [options]\n"
       "Follows the window on random flights towards it, without a navigator, and compares with the truth.\n"
-      "Writes DIR/<scenario>.csv with a row a frame, prints a table.\n\nOptions");
-  auto add = description.add_options();
-  add("help,h", "this text");
-  add("scenario", po::value(&o.scenarios)->composing()->multitoken(), "scenario files");
-  add("flights", po::value(&o.flights)->default_value(o.flights), "in each scenario");
-  add("seed", po::value(&o.seed)->default_value(o.seed),
-      "of the first flight; each further one has the next");
-  add("output,o", po::value(&o.output), "folder of the results");
-  add("params", po::value(&o.params), tools::kParamsHelp);
-  add("speed", po::value(&o.range.speed_mps)->default_value(o.range.speed_mps), "towards the plane [m/s]");
-  add("end", po::value(&o.range.end_m)->default_value(o.range.end_m), "of the flight, before the plane [m]");
-  add("wobble", po::value(&o.range.wobble_rad)->default_value(o.range.wobble_rad), "of the attitude [rad]");
-  add("no-reference", po::bool_switch(&o.no_reference), "without the image of the target");
-  add("no-attitude", po::bool_switch(&o.no_attitude), "the tracker does not know the attitude");
-  return description;
+      "Writes DIR/<scenario>.csv with a row a frame, prints a table.");
+  add("scenario", o.scenarios, "scenario files");
+  add("flights", o.flights, "in each scenario");
+  add("seed", o.seed, "of the first flight; each further one has the next");
+  add("output,o", o.output, "folder of the results");
+  add("params", o.params, tools::kParamsHelp);
+  add("speed", o.range.speed_mps, "towards the plane [m/s]");
+  add("end", o.range.end_m, "of the flight, before the plane [m]");
+  add("wobble", o.range.wobble_rad, "of the attitude [rad]");
+  add("no-reference", o.no_reference, "without the image of the target");
+  add("no-attitude", o.no_attitude, "the tracker does not know the attitude");
+  return add;
 }
 
 void check(const Options& o) {

@@ -1,6 +1,5 @@
 /// Trackbars over the detector's stages, on images, a bag or a live camera; saves the yaml that nodes and
 /// tools load. See --help.
-#include <boost/program_options.hpp>
 #include <iostream>
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgproc.hpp>
@@ -21,7 +20,6 @@
 
 namespace {
 
-namespace options = boost::program_options;
 using namespace window_ingress;
 using parameters::Field;
 using tools::Bench;
@@ -39,30 +37,26 @@ struct Job {
   bool headless = false;
 };
 
-options::options_description describe(Job& job) {
-  options::options_description description(
+tools::OptionList describe(Job& job) {
+  tools::OptionList add(
       std::string("Usage: tune_detector SOURCE --output OVERLAY.yaml [OPTION...]\n"
                   "SOURCE: an image, a folder of images, a bag, or a topic of images (begins with '/').\n") +
-      kKeys + "\n\nOptions");
-  description.add_options()("help", "print this text")      //
-      ("source", options::value(&job.source), "see above")  //
-      ("output", options::value(&job.output),
-       "yaml file with what differs from the defaults, for config:= and --params")  //
-      ("params", options::value(&job.params), tools::kParamsHelp)                   //
-      ("set", options::value(&job.settings)->composing(),
-       "NAME=VALUE, like edges/floor=4.5; may be repeated")                         //
-      ("reference", options::value(&job.reference.picture), "image of the target")  //
-      ("reference-corners", options::value(&job.corners),
-       "x1,y1,...,x4,y4: inner border of the opening in it")                                          //
-      ("image", options::value(&job.topic), "topic of the images in a bag; else the only one")        //
-      ("every", options::value(&job.every)->default_value(10), "take one image of a bag in so many")  //
-      ("most", options::value(&job.most)->default_value(100), "images of a bag, at most")             //
-      ("width", options::value(&job.width)->default_value(400),
-       "of each picture on the sheet of stages [px]")  //
-      ("headless", options::bool_switch(&job.headless),
-       "no windows: look at all images once, print, save")  //
-      ("sheet", options::value(&job.sheet), "headless: also write the sheet of stages of the first image");
-  return description;
+      kKeys);
+  add("source", job.source, "see above");
+  add("output", job.output, "yaml file with what differs from the defaults, for config:= and --params");
+  add("params", job.params, tools::kParamsHelp);
+  add.add_options()("set", boost::program_options::value(&job.settings)->composing(),
+                    "NAME=VALUE, like edges/floor=4.5; may be repeated");
+  add("reference", job.reference.picture, "image of the target");
+  add("reference-corners", job.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
+  add("image", job.topic, "topic of the images in a bag; else the only one");
+  add("every", job.every, "take one image of a bag in so many");
+  add("most", job.most, "images of a bag, at most");
+  add("width", job.width, "of each picture on the sheet of stages [px]");
+  add("headless", job.headless, "no windows: look at all images once, print, save");
+  add("sheet", job.sheet, "headless: also write the sheet of stages of the first image");
+  add.unnamed.add("source", 1);
+  return add;
 }
 
 void save(const std::string& file, const Bench& bench) {
@@ -221,7 +215,6 @@ int main(int argc, char** argv) {
   return tools::runTool("tune_detector", [&] {
     ros::init(argc, argv, "tune_detector",
               ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
-    return tools::runTool("tune_detector", argc, argv, describe, run,
-                          options::positional_options_description().add("source", 1));
+    return tools::runTool("tune_detector", argc, argv, describe, run);
   });
 }

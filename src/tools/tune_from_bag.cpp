@@ -1,6 +1,5 @@
 /// Fits thresholds of the detector to images whose windows are known, and says what that is worth on
 /// others. See --help.
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -17,7 +16,6 @@
 
 namespace {
 
-namespace options = boost::program_options;
 using namespace window_ingress;
 using evaluation::DetectionCounts;
 using parameters::fieldsOf;
@@ -34,37 +32,31 @@ struct Job {
 
 using Images = std::vector<evaluation::LabelledImage>;
 
-options::options_description describe(Job& job) {
-  options::options_description description(
+tools::OptionList describe(Job& job) {
+  tools::OptionList add(
       "Usage: tune_from_bag --output OVERLAY.yaml --labels FILE.csv --images FOLDER [OPTION...]\n"
       "       tune_from_bag --output OVERLAY.yaml --bag FILE.bag... --truth TOPIC --window-size W,H "
       "[OPTION...]\n"
       "Tries settings of the detector on a part of the images and writes the keys it changed, if it is "
       "better on the rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
-      "usage or unreadable input.\n\nOptions");
-  description.add_options()("help", "print this text")  //
-      ("output", options::value(&job.output),
-       "yaml file for the changed keys, to be given as config:= and --params")  //
-      ("labels", options::value(&job.labels),
-       "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)")                                  //
-      ("images", options::value(&job.images), "folder of the images that the csv names")                   //
-      ("bag", options::value(&job.bags)->multitoken(), "bags with images, calibration and truth")          //
-      ("truth", options::value(&job.topics.truth), "PoseStamped with the true T_camera_window, by stamp")  //
-      ("window-size", options::value(&job.size), "W,H: inner size of the opening [m]")                     //
-      ("image", options::value(&job.topics.image), "topic; else the only one of its type")                 //
-      ("camera-info", options::value(&job.topics.camera_info), "likewise")                                 //
-      ("every", options::value(&job.every)->default_value(1), "take one image of a bag in so many")        //
-      ("reference", options::value(&job.reference.picture), "image of the target")                         //
-      ("reference-corners", options::value(&job.corners),
-       "x1,y1,...,x4,y4: inner border of the opening in it")       //
-      ("params", options::value(&job.params), tools::kParamsHelp)  //
-      ("names", options::value(&job.names),
-       "parameters that may be changed, with commas between, like edges/floor")       //
-      ("trials", options::value(&job.trials)->default_value(120), "settings to try")  //
-      ("held-out", options::value(&job.held_out)->default_value(0.4, "0.4"),
-       "part of the groups that judges only")  //
-      ("seed", options::value(&job.seed)->default_value(1), "of the parts and of the search");
-  return description;
+      "usage or unreadable input.");
+  add("output", job.output, "yaml file for the changed keys, to be given as config:= and --params");
+  add("labels", job.labels, "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)");
+  add("images", job.images, "folder of the images that the csv names");
+  add("bag", job.bags, "bags with images, calibration and truth");
+  add("truth", job.topics.truth, "PoseStamped with the true T_camera_window, by stamp");
+  add("window-size", job.size, "W,H: inner size of the opening [m]");
+  add("image", job.topics.image, "topic; else the only one of its type");
+  add("camera-info", job.topics.camera_info, "likewise");
+  add("every", job.every, "take one image of a bag in so many");
+  add("reference", job.reference.picture, "image of the target");
+  add("reference-corners", job.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
+  add("params", job.params, tools::kParamsHelp);
+  add("names", job.names, "parameters that may be changed, with commas between, like edges/floor");
+  add("trials", job.trials, "settings to try");
+  add("held-out", job.held_out, "part of the groups that judges only");
+  add("seed", job.seed, "of the parts and of the search");
+  return add;
 }
 
 std::vector<std::string> namesOf(const std::string& text) {
