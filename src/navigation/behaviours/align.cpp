@@ -1,8 +1,7 @@
-#include "navigation/behaviours/align.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "navigation/behaviours/behaviours.hpp"
 #include "navigation/motion/stopping.hpp"
 
 namespace window_ingress::navigation {

@@ -1,8 +1,7 @@
-#include "navigation/behaviours/approach.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "navigation/behaviours/behaviours.hpp"
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/motion/stopping.hpp"
 

@@ -1,8 +1,7 @@
-#include "navigation/behaviours/back_off.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "navigation/behaviours/behaviours.hpp"
 #include "navigation/mission/mission_rules.hpp"
 
 namespace window_ingress::navigation {

@@ -1,7 +1,6 @@
-#include "navigation/behaviours/commit.hpp"
-
 #include <algorithm>
 
+#include "navigation/behaviours/behaviours.hpp"
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/motion/moving_target.hpp"
 #include "navigation/motion/stopping.hpp"

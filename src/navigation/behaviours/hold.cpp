@@ -1,6 +1,4 @@
-#include "navigation/behaviours/hold.hpp"
-
-#include "navigation/behaviours/commit.hpp"
+#include "navigation/behaviours/behaviours.hpp"
 
 namespace window_ingress::navigation {
 namespace {

@@ -12,7 +12,14 @@ namespace window_ingress::navigation {
 class Home {
  public:
   /// Keeps `MissionState::home_odom_m` right; the first call sets it.
-  void follow(const VehicleState& vehicle, MissionState& memory);
+  void follow(const VehicleState& vehicle, MissionState& memory) {
+    const Eigen::Vector3d position = vehicle.T_odom_base.translation();
+    if (!memory.home_odom_m) from_home_m_ = Eigen::Vector3d::Zero();
+    if (!position_odom_m_ || !memory.home_odom_m) memory.home_odom_m = position - from_home_m_;
+    position_odom_m_ = position;
+    from_home_m_ = position - *memory.home_odom_m;
+  }
+
   void odometryJumped() { position_odom_m_.reset(); }
   double awayM() const { return from_home_m_.head<2>().norm(); }  ///< of the vehicle, along the ground
 

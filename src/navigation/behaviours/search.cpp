@@ -1,9 +1,8 @@
-#include "navigation/behaviours/search.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
+#include "navigation/behaviours/behaviours.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation {

@@ -1,15 +1,11 @@
 /// What each state does by itself: search, height probe, steps, back-off, hold.
+#include "navigation/behaviours/behaviours.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "navigation/behaviours/align.hpp"
-#include "navigation/behaviours/approach.hpp"
-#include "navigation/behaviours/back_off.hpp"
-#include "navigation/behaviours/commit.hpp"
-#include "navigation/behaviours/hold.hpp"
-#include "navigation/behaviours/search.hpp"
 #include "navigation/motion/stopping.hpp"
 #include "navigation_samples.hpp"
 
