@@ -70,7 +70,6 @@ void Referee::watchSides(const Sample& now) {
   if (!start_y_m_) start_y_m_ = y_m;
   if (now.T_window_base.translation().x() >= 0.0) return;
   wrong_side_m_ = std::max(wrong_side_m_, std::abs(y_m) - std::abs(*start_y_m_));
-  overshoot_m_ = std::max(overshoot_m_, *start_y_m_ >= 0.0 ? -y_m : y_m);
 }
 
 void Referee::watchCrossing(const Sample& now) {

@@ -66,15 +66,12 @@ class Referee {
 
   const std::optional<Crossing>& crossing() const { return crossing_; }
   bool touched() const { return !contact_.empty(); }
-  const std::string& contact() const { return contact_; }  ///< name of what was touched first, or empty
   /// Smallest gap between the vehicle's box and the borders of the opening while the box was between them,
   /// negative if it cut into them; nothing if it never was [m].
   std::optional<double> minClearance() const { return min_clearance_m_; }
   /// While outside: the largest |y| in the window frame beyond that of the start, 0 if there was none. An
   /// overshoot past the axis counts once it reaches further than the start was [m].
   double wrongSide() const { return wrong_side_m_; }
-  /// While outside: how far the vehicle went past the window's axis, to the side where it did not start [m].
-  double overshoot() const { return overshoot_m_; }
   /// Smallest gap to anything but the ground since it took off, of the boxes about both along the window's
   /// axes: never more than the true gap [m].
   double nearest() const { return nearest_m_; }
@@ -101,8 +98,7 @@ class Referee {
   std::string contact_;
   double nearest_m_ = 1e3;
   bool airborne_ = false, stood_behind_ = false;
-  double contact_time_sec_ = 0.0, wrong_side_m_ = 0.0, overshoot_m_ = 0.0, max_speed_mps_ = 0.0,
-         time_sec_ = 0.0;
+  double contact_time_sec_ = 0.0, wrong_side_m_ = 0.0, max_speed_mps_ = 0.0, time_sec_ = 0.0;
 };
 
 }  // namespace window_ingress::simulation

@@ -33,8 +33,6 @@ class TextOverlay {
   /// No label will be put there, unless it is most of the canvas.
   void keepFree(const cv::Rect& area);
 
-  int lineHeight() const { return height_; }
-
  private:
   cv::Size sizeOf(const std::string& text) const;
   void backdrop(const cv::Rect& area);

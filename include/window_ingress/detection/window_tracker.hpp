@@ -77,8 +77,6 @@ class WindowTracker {
   const DetectionTrace& trace() const;
   /// There is a window that is followed from here on; the last frame may have been the search that found it.
   bool tracking() const;
-  /// How far the appearance has followed the light: Bhattacharyya distance from the reference as given.
-  double referenceDrift() const;
 
  private:
   struct Impl;

@@ -228,8 +228,6 @@ const DetectionTrace& WindowTracker::trace() const {
   return impl_->has_own_trace ? impl_->own_trace : impl_->detector.trace();
 }
 
-double WindowTracker::referenceDrift() const { return impl_->reference.drift(); }
-
 bool WindowTracker::tracking() const { return impl_->tracking; }
 
 }  // namespace window_ingress::detection

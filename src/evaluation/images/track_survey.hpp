@@ -62,7 +62,6 @@ class TrackSummary {
   void add(const TrackResult& result);  ///< flight by flight, frame by frame
   int frames(std::size_t range) const { return ranges_.at(range).frames; }
   int count(std::size_t range, TrackVerdict verdict) const;
-  int swaps() const { return swaps_; }  ///< frames in which the target's number was another one than before
   std::string markdown(const std::string& name) const;
   static std::string markdownHeader();
 
@@ -75,7 +74,8 @@ class TrackSummary {
   };
 
   std::array<Range, kFrom_m.size()> ranges_;
-  int swaps_ = 0, flights_ = 0;
+  int swaps_ = 0;  // frames in which the target's number was another one than before
+  int flights_ = 0;
   std::uint32_t seed_ = 0, target_id_ = 0;
 };
 

@@ -56,8 +56,13 @@ TEST(TextOverlay, TheBoxLeavesFreeWhatIsToBeFree) {
 }
 
 TEST(TextOverlay, TextGrowsWithTheImage) {
-  cv::Mat small(240, 320, CV_8UC3), large(1200, 1600, CV_8UC3);
-  EXPECT_GT(TextOverlay(large).lineHeight(), 2 * TextOverlay(small).lineHeight());
+  const auto boxHeight = [](int rows, int cols) {
+    cv::Mat canvas(rows, cols, CV_8UC3, cv::Scalar::all(100)), blank;
+    TextOverlay(canvas).box({{"corners", kWhite, true}});
+    cv::inRange(canvas, cv::Scalar::all(100), cv::Scalar::all(100), blank);
+    return cv::boundingRect(255 - blank).height;
+  };
+  EXPECT_GT(boxHeight(1200, 1600), 2 * boxHeight(240, 320));
 }
 
 TEST(TextOverlay, BadQuadrilateralsAreNotDrawn) {

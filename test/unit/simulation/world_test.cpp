@@ -177,8 +177,9 @@ TEST(World, AVehicleThatHitsTheWallStopsThereAndFallsToTheGround) {
     world.command({world.T_odom_window().linear() * (Eigen::Vector3d(1.0, 0, 0) + way)});
     world.advance();
   }
-  EXPECT_EQ(world.referee().judge(Claim::kNone).outcome, Outcome::kCollision);
-  EXPECT_EQ(world.referee().contact(), "wall");
+  const Verdict verdict = world.referee().judge(Claim::kNone);
+  EXPECT_EQ(verdict.outcome, Outcome::kCollision);
+  EXPECT_EQ(verdict.reason.rfind("touched wall at", 0), 0u) << verdict.reason;
   EXPECT_LT(inWindow().x(), 0.0) << "outside, however long it is told to go on";
   EXPECT_NEAR(world.truth().T_odom_base.translation().z(), world.vehicleHalfExtents().z(), 1e-6);
   EXPECT_EQ(world.truth().velocity_odom_mps, Eigen::Vector3d::Zero().eval());

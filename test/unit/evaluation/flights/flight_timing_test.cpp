@@ -12,10 +12,9 @@ TEST(FlightTiming, GivesEachLapToItsStageAndSumsUp) {
   }
   timing.lap(Stage::kImage);
   timing.lap(Stage::kPose);
-  EXPECT_GE(timing.spentSec(Stage::kImage), 0.0099);
-  EXPECT_LT(timing.spentSec(Stage::kPose), timing.spentSec(Stage::kImage));
-  EXPECT_EQ(timing.spentSec(Stage::kDetector), 0.0);
-  EXPECT_DOUBLE_EQ(timing.totalSec(), timing.spentSec(Stage::kImage) + timing.spentSec(Stage::kPose));
+  EXPECT_GE(timing.totalSec(), 0.0099);
+  EXPECT_NE(timing.table().find("| detector | 0.00 | 0 % |"), std::string::npos) << timing.table();
+  EXPECT_EQ(timing.table().find("| image: rendering, camera | 0.00"), std::string::npos) << timing.table();
   timing.countFrame();
   timing.addSimulated(1.5);
   FlightTiming sum;
