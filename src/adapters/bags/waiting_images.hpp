@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "adapters/images/image_conversion.hpp"
 
@@ -27,12 +28,34 @@ class WaitingImages {
   void noteAttitude(double stamp_sec) { attitude_sec_ = stamp_sec; }
 
   /// The first, if it waits for nothing more. \param newest_sec the newest stamp of all that has come
-  std::optional<Image> takeComplete(double newest_sec);
-  std::optional<Image> take();  ///< the first, whatever it waits for
-  void clear();
+  std::optional<Image> takeComplete(double newest_sec) {
+    const bool too_many = images_.size() > kMaxWaiting;
+    if (!too_many && (images_.empty() || !isComplete(images_.front(), newest_sec))) return std::nullopt;
+    return take();
+  }
+
+  /// The first, whatever it waits for.
+  std::optional<Image> take() {
+    if (images_.empty()) return std::nullopt;
+    std::optional<Image> first = std::move(images_.front());
+    images_.pop_front();
+    return first;
+  }
+
+  void clear() {
+    images_.clear();
+    odometry_sec_ = attitude_sec_ = -1.0;
+  }
 
  private:
-  bool isComplete(const Image& image, double newest_sec) const;
+  static constexpr std::size_t kMaxWaiting = 30;
+  static constexpr double kAttitudeWaitSec = 0.05;  // in time of the bag
+
+  bool isComplete(const Image& image, double newest_sec) const {
+    const double sec = image.header.stamp.toSec();
+    const bool awaits_attitude = for_attitude_ && newest_sec < sec + kAttitudeWaitSec;
+    return !(for_odometry_ && odometry_sec_ < sec) && !(awaits_attitude && attitude_sec_ < sec);
+  }
 
   bool for_odometry_, for_attitude_;
   std::deque<Image> images_;

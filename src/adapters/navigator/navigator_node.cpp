@@ -27,7 +27,7 @@ GuardParams lastGate(const navigation::LimitParams& limits) {
   return gate;
 }
 
-NavigatorNodeParams read(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
+NavigatorNodeParams readChecked(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
   navigation::VehicleParams vehicle;
   auto params = readParameters<NavigatorNodeParams>(nh, pnh, vehicle);
   params.navigator.vehicle = vehicle;
@@ -39,7 +39,7 @@ NavigatorNodeParams read(ros::NodeHandle& nh, ros::NodeHandle& pnh) {
 }  // namespace
 
 NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
-    : params_(read(nh, pnh)),
+    : params_(readChecked(nh, pnh)),
       diagnostics_(nh, pnh),
       odom_health_(diagnostics_, "odom", kSilenceSec),
       pose_health_(diagnostics_, "window_pose", kSilenceSec),

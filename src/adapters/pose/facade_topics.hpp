@@ -11,7 +11,11 @@
 #include <cstdint>
 #include <string>
 
+#include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/inputs/attitude_source.hpp"
+#include "adapters/markers/window_markers.hpp"
 #include "adapters/runtime/diagnostics.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
 
 namespace window_ingress::adapters {
@@ -23,21 +27,87 @@ class FacadeTopics {
  public:
   /// \param tracker \param tf both outlive this
   FacadeTopics(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
-               estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf,
-               const std::string& odom_frame);
+               estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf, const std::string& odom_frame)
+      : tracker_(tracker), tf_(tf), odom_frame_(odom_frame) {
+    publisher_ = nh.advertise<window_ingress::Facade>("facade", 1, true);
+    click_ = subscribeCatching<geometry_msgs::PointStamped>(
+        nh, "clicked_point", 1, diagnostics, [this](const auto& message) { receiveClick(*message); });
+    choice_ = subscribeCatching<std_msgs::UInt32>(nh, "chosen_window", 1, diagnostics,
+                                                  [this](const auto& message) { receiveChoice(*message); });
+    state_ = subscribeCatching<window_ingress::IngressState>(
+        nh, "state", 1, diagnostics, [this](const auto& message) { receiveState(*message); });
+    select_ = pnh.advertiseService("select_window", &FacadeTopics::select, this);
+    diagnostics.add("windows", [this] { return health(); });
+  }
 
   /// After an image; sends a few times a second. \param markers where rviz looks
-  void publish(const ros::Time& stamp, ros::Publisher& markers);
+  void publish(const ros::Time& stamp, ros::Publisher& markers) {
+    const double now_sec = steadyNowSec();
+    const std::uint32_t target = tracker_.facade().targetId();
+    if (now_sec - published_sec_ < kFacadePeriodSec && target == published_target_) return;
+    const window_ingress::Facade message = tell(stamp);
+    if (markers.getNumSubscribers() > 0) markers.publish(facadeMarkers(message));
+  }
+
   /// At once, to who hears of windows only now and then: after all have been forgotten.
-  void tellAnew(const ros::Time& stamp);
+  void tellAnew(const ros::Time& stamp) {
+    last_click_.clear();
+    tell(stamp);
+  }
 
  private:
-  window_ingress::Facade tell(const ros::Time& stamp);
-  bool select(window_ingress::SelectWindow::Request& request, window_ingress::SelectWindow::Response& reply);
-  void receiveChoice(const std_msgs::UInt32& message);
-  void receiveClick(const geometry_msgs::PointStamped& message);
-  void receiveState(const window_ingress::IngressState& message);
-  Health health() const;
+  static constexpr double kFacadePeriodSec = 0.5;
+
+  window_ingress::Facade tell(const ros::Time& stamp) {
+    published_sec_ = steadyNowSec();
+    published_target_ = tracker_.facade().targetId();
+    window_ingress::Facade message = toMsg(tracker_.facade(), stamp.toSec());
+    message.header = headerOf(stamp, odom_frame_);
+    publisher_.publish(message);
+    return message;
+  }
+
+  bool select(window_ingress::SelectWindow::Request& request, window_ingress::SelectWindow::Response& reply) {
+    const facade::Answer answer = tracker_.selectWindow(request.id);
+    reply.success = answer.success;
+    reply.message = answer.message;
+    return true;
+  }
+
+  void receiveChoice(const std_msgs::UInt32& message) {
+    const facade::Answer answer = tracker_.selectWindow(message.data);
+    ROS_INFO("chosen by a goal: %s", answer.message.c_str());
+    if (answer.success) published_sec_ = -1.0;  // whoever waits for it hears of it with the next image
+  }
+
+  void receiveClick(const geometry_msgs::PointStamped& message) {
+    const Eigen::Vector3d point(message.point.x, message.point.y, message.point.z);
+    const auto T_odom_frame = message.header.frame_id == odom_frame_
+                                  ? Converted<Eigen::Isometry3d>{Eigen::Isometry3d::Identity(), ""}
+                                  : mountingOf(tf_, odom_frame_, message.header.frame_id);
+    if (!T_odom_frame)
+      last_click_ = T_odom_frame.reason;
+    else if (!point.allFinite())
+      last_click_ = "the point is not finite";
+    else
+      last_click_ = tracker_.selectWindowNear(*T_odom_frame.value * point).message;
+    ROS_INFO("clicked: %s", last_click_.c_str());
+  }
+
+  void receiveState(const window_ingress::IngressState& message) {
+    tracker_.heed(message.window_id, message.given_up, message.next_window != 0);
+  }
+
+  Health health() const {
+    std::size_t shown = 0;
+    for (const auto& window : tracker_.facade().windows()) shown += tracker_.facade().isShown(window) ? 1 : 0;
+    const std::uint32_t target = tracker_.facade().targetId();
+    std::string text = std::to_string(shown) +
+                       " known, target: " + (target == 0 ? "none yet" : "window " + std::to_string(target));
+    if (tracker_.facade().isChosen()) text += " (chosen)";
+    if (!last_click_.empty()) text += "; last click: " + last_click_;
+    return {Health::kOk, text};
+  }
 
   estimation::TargetEstimator& tracker_;
   const tf2_ros::Buffer& tf_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/console.h>
 #include <ros/node_handle.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/LockstepStep.h>
@@ -12,7 +13,16 @@
 namespace window_ingress::adapters {
 
 /// \throws InputError if the scenario holds what lockstep cannot do
-void refuseInLockstep(const simulation::Scenario& scenario);
+inline void refuseInLockstep(const simulation::Scenario& scenario) {
+  if (scenario.vehicle.profile == "external")
+    throw InputError("lockstep: the time of an external vehicle is its own; set lockstep to false");
+  if (scenario.target_chosen)
+    throw InputError("lockstep: nobody points at the target there (target_chosen); set lockstep to false");
+  for (const auto& fault : scenario.faults)
+    if (fault.unit == "clock" || fault.unit == "tf")
+      throw InputError("lockstep: nobody looks at " + fault.unit +
+                       " there, its fault would do nothing; set lockstep to false");
+}
 
 /// The world's side of lockstep: says where it stands, and knows when the vehicle has answered.
 ///
@@ -20,21 +30,54 @@ void refuseInLockstep(const simulation::Scenario& scenario);
 /// setpoint, both stamped with the time of the step or later.
 class WorldLockstep {
  public:
-  WorldLockstep(ros::NodeHandle& nh, const std::string& camera_frame, double timeout_sec);
+  WorldLockstep(ros::NodeHandle& nh, const std::string& camera_frame, double timeout_sec)
+      : timeout_sec_(timeout_sec) {
+    publisher_ = nh.advertise<window_ingress::LockstepStep>("lockstep", 10, true);
+    step_.header.frame_id = camera_frame;
+  }
 
   window_ingress::LockstepStep& sent() { return step_; }  ///< to be kept up to date with what was sent
-  void ask(const ros::Time& now);
+  void ask(const ros::Time& now) {
+    step_.header.stamp = now;
+    asked_sec_ = steadyNowSec();
+    asking_ = true;
+    ++steps_;
+    publisher_.publish(step_);
+  }
+
   bool hasListeners() const { return publisher_.getNumSubscribers() > 0; }
 
   void hearState(const window_ingress::IngressState& state) { state_ = state; }
   void hearSetpoint(const ros::Time& stamp) { setpoint_stamp_ = stamp; }
   /// Whether the world may go on: answered, or waited too long (counted). \param may_give_up before the first
   /// answer the nodes may still be coming up
-  bool goesOn(bool states_are_published, bool may_give_up);
-  Health health() const;
+  bool goesOn(bool states_are_published, bool may_give_up) {
+    if (!asking_) return false;
+    const bool done = answered(states_are_published);
+    ever_answered_ = ever_answered_ || done;
+    const bool too_late = (ever_answered_ || may_give_up) && steadyNowSec() - asked_sec_ > timeout_sec_;
+    if (!done && !too_late) return false;
+    if (!done) {
+      ++timeouts_;
+      ROS_WARN("lockstep: no answer to the step at %.4f s within %.1f s, going on; %ld so far",
+               step_.header.stamp.toSec(), timeout_sec_, timeouts_);
+    }
+    asking_ = false;
+    return true;
+  }
+
+  Health health() const {
+    if (timeouts_ == 0) return {Health::kOk, std::to_string(steps_) + " steps, all answered"};
+    return {Health::kWarn, std::to_string(timeouts_) + " of " + std::to_string(steps_) +
+                               " steps were not answered in time: this run cannot be repeated exactly"};
+  }
 
  private:
-  bool answered(bool states_are_published) const;
+  bool answered(bool states_are_published) const {
+    const ros::Time& now = step_.header.stamp;
+    if (!states_are_published) return setpoint_stamp_ >= now;
+    return state_.header.stamp >= now && (!state_.enabled || setpoint_stamp_ >= now);
+  }
 
   double timeout_sec_;
   ros::Publisher publisher_;

@@ -1,20 +1,30 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <optional>
 
 #include "window_ingress/detection/window_observation.hpp"
 #include "window_ingress/detection/window_tracker.hpp"
+#include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
 namespace window_ingress::detection {
 
 /// An image that can be looked at: CV_8UC1 or CV_8UC3, not empty.
-bool isUsableImage(const cv::Mat& image);
+inline bool isUsableImage(const cv::Mat& image) {
+  return !image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3);
+}
 
 /// The same size, focal lengths, principal point and distortion.
-bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b);
+inline bool isSameCalibration(const geometry::PinholeCamera& a, const geometry::PinholeCamera& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
+         a.cy == b.cy && a.distortion == b.distortion && a.model == b.model;
+}
 
 /// Images of one camera one after the other: what lies between the last two.
 class ImageSequence {
@@ -24,24 +34,68 @@ class ImageSequence {
 
   /// \return false if it does not continue the last one: no time went by or too much, or size or calibration
   /// are others. A new sequence begins then.
-  bool take(const TrackInput& input);
-  void forget();
+  bool take(const TrackInput& input) {
+    const bool continued = isContinuedBy(input);
+    if (!continued) forget();
+    elapsed_sec_ = continued ? input.stamp_sec - *last_sec_ : 0.0;
+    size_ = input.image.size();
+    camera_.reset();
+    if (input.camera) camera_ = *input.camera;
+    const bool has_attitude = input.R_world_camera && geometry::isRotation(*input.R_world_camera);
+    turn_.reset();
+    if (has_attitude && attitude_ && camera_) {
+      const Eigen::Matrix3d K = camera_->K(), R_now_last = input.R_world_camera->transpose() * *attitude_;
+      turn_ = K * R_now_last * K.inverse();
+      noteJitter(R_now_last);
+    } else {
+      last_turn_rad_.reset();
+    }
+    attitude_.reset();
+    if (has_attitude) attitude_ = input.R_world_camera;
+    last_sec_ = input.stamp_sec;
+    return continued;
+  }
+
+  void forget() {
+    last_sec_.reset();
+    attitude_.reset();
+    last_turn_rad_.reset();
+  }
 
   double elapsedSec() const { return elapsed_sec_; }  ///< since the image before; 0 at the first [s]
   cv::Size size() const { return size_; }
-  int longerSide() const;
+  int longerSide() const { return std::max(size_.width, size_.height); }
   /// The camera if it distorts, null if not.
-  const geometry::PinholeCamera* lens() const;
+  const geometry::PinholeCamera* lens() const {
+    return camera_ && camera_->hasDistortion() ? &*camera_ : nullptr;
+  }
+
   /// Homography of the undistorted image by the turn since the image before; nothing where an attitude of
   /// the two or the camera is not known.
   const std::optional<Eigen::Matrix3d>& turn() const { return turn_; }
   /// How far the jitter of the attitudes moves what `turn` says [px]: noise makes each turn the opposite of
   /// the one before, which no vehicle does.
-  double turnSigmaPx() const;
+  double turnSigmaPx() const { return camera_ ? camera_->fx * std::sqrt(2.0 * jitter_rad2_) : 0.0; }
 
  private:
-  void noteJitter(const Eigen::Matrix3d& R_now_last);
-  bool isContinuedBy(const TrackInput& input) const;
+  // White noise of attitudes has six times its variance in the difference of two turns in a row.
+  void noteJitter(const Eigen::Matrix3d& R_now_last) {
+    constexpr double kRate = 0.1, kSquares = 6.0, kAxes = 3.0;
+    const Eigen::AngleAxisd turned(R_now_last);
+    const Eigen::Vector3d turn_rad = turned.angle() * turned.axis();
+    if (last_turn_rad_)
+      jitter_rad2_ +=
+          kRate * ((turn_rad - *last_turn_rad_).squaredNorm() / (kSquares * kAxes) - jitter_rad2_);
+    last_turn_rad_ = turn_rad;
+  }
+
+  bool isContinuedBy(const TrackInput& input) const {
+    if (!last_sec_ || input.image.size() != size_ || (input.camera != nullptr) != camera_.has_value())
+      return false;
+    if (input.camera && !isSameCalibration(*input.camera, *camera_)) return false;
+    const double elapsed = input.stamp_sec - *last_sec_;
+    return elapsed > 0.0 && elapsed <= max_gap_sec_;
+  }
 
   double max_gap_sec_;
   cv::Size size_;

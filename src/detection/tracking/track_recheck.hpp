@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
+#include "detection/quads.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"
 
@@ -15,31 +17,81 @@ namespace window_ingress::detection {
 /// confirmed track is asked about again only while it is doubtful, and then only its borders are corrected:
 /// another window never takes its place.
 class TrackRecheck {
+  using Quadrilateral = geometry::Quadrilateral;
+
  public:
   static constexpr int kEveryFrames = 2;  ///< frames between searches that are asked
 
   explicit TrackRecheck(const TrackParams& params) : params_(params) {}
 
-  void start();    ///< a new window is followed
-  void restart();  ///< the same window again, or its borders elsewhere: what is confirmed remains so
+  /// A new window is followed.
+  void start() {
+    restart();
+    confirmed_ = false;
+  }
+  /// The same window again, or its borders elsewhere: what is confirmed remains so.
+  void restart() {
+    frames_ = asked_ = for_ = against_ = 0;
+    doubtful_ = false;
+  }
 
   /// Something else says that the track may be wrong: the search is asked until it has confirmed it anew.
   void doubt() { doubtful_ = true; }
 
   /// Called in each image in which the window is followed whole. \return true: ask the search
-  bool isDue();
+  bool isDue() {
+    if (confirmed_ && !doubtful_) return false;
+    if (asked_ >= kMaxQuestions * params_.confirmations) {
+      const bool pauses = ++frames_ < kPauseFrames;
+      if (pauses || !doubtful_) return false;
+      asked_ = 0;
+    }
+    if (++frames_ < kEveryFrames) return false;
+    frames_ = 0;
+    ++asked_;
+    return true;
+  }
+
   /// \param searched its answer in the same image, if it has one; both undistorted
   /// \return true: it is to be followed in place of the track
-  bool prefers(const std::optional<geometry::Quadrilateral>& searched,
-               const geometry::Quadrilateral& followed);
+  bool prefers(const std::optional<Quadrilateral>& searched, const Quadrilateral& followed) {
+    if (!searched || !geometry::isFinite(*searched)) return false;
+    const double size = sizeOf(followed), off = furthestCorner(*searched, followed);
+    if (!(off > std::max(kAgreePx, kAgreePart * size))) {
+      against_ = 0;
+      if (++for_ >= params_.confirmations) confirmed_ = true, doubtful_ = false, for_ = asked_ = 0;
+      return false;
+    }
+    if (confirmed_ && off > kSameSpot * size) return false;
+    const Quadrilateral rival = relativeTo(followed, *searched);
+    against_ = against_ > 0 && furthestCorner(rival, rival_) < kSameRival ? against_ + 1 : 1;
+    rival_ = rival;
+    if (against_ < params_.confirmations) return false;
+    restart();
+    return true;
+  }
 
   bool isConfirmed() const { return confirmed_; }
 
  private:
+  // Corners of one window agree to the larger of these, the second in its sizes.
+  static constexpr double kAgreePx = 2.5, kAgreePart = 0.02;
+  static constexpr double kSameRival = 0.08;  // corners of one rival in two images, in sizes
+  static constexpr double kSameSpot = 0.12;   // corners of other borders of the same window, in sizes
+  static constexpr int kMaxQuestions = 4;     // times the confirmations; then it rests
+  static constexpr int kPauseFrames = 60;
+
+  static Quadrilateral relativeTo(const Quadrilateral& frame, const Quadrilateral& quad) {
+    Quadrilateral relative;
+    for (int i = 0; i < 4; ++i)
+      relative[i] = (quad[i] - geometry::centroid(frame)) / std::max(1.0, sizeOf(frame));
+    return relative;
+  }
+
   TrackParams params_;
   bool confirmed_ = false, doubtful_ = false;
   int frames_ = 0, asked_ = 0, for_ = 0, against_ = 0;
-  geometry::Quadrilateral rival_;  ///< relative to the track: in its sizes, from its centre
+  Quadrilateral rival_;  ///< relative to the track: in its sizes, from its centre
 };
 
 }  // namespace window_ingress::detection

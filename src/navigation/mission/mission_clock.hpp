@@ -1,12 +1,24 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace window_ingress::navigation {
 
 /// Time of the mission and of its present state. A clock that jumps makes the inputs stale, but uses up no
 /// time of the mission and gives none back.
 class MissionClock {
  public:
-  void pass(double to_sec);  ///< not finite: ignored
+  /// Not finite: ignored.
+  void pass(double to_sec) {
+    constexpr double kLongestStepSec = 1.0;
+    if (!std::isfinite(to_sec)) return;
+    const double jump_sec = to_sec - now_sec_ - std::clamp(to_sec - now_sec_, 0.0, kLongestStepSec);
+    started_sec_ += jump_sec;
+    since_sec_ += jump_sec;
+    now_sec_ = to_sec;
+  }
+
   void startMission(double now_sec) { now_sec_ = started_sec_ = now_sec; }
   void enterState() { since_sec_ = now_sec_; }
 

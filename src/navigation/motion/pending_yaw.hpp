@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::navigation {
 
@@ -16,13 +20,25 @@ namespace window_ingress::navigation {
 class PendingYaw {
  public:
   /// \param told_radps the yaw rate in force since the last step
-  void update(double heading_rad, double told_radps, double dt_sec);
+  void update(double heading_rad, double told_radps, double dt_sec) {
+    if (!std::isfinite(heading_rad) || !std::isfinite(told_radps) || !(dt_sec >= 0.0)) return;
+    if (last_heading_rad_) {
+      const double turned_rad = geometry::wrapAngle(heading_rad - *last_heading_rad_);
+      const double kept_rad = to_come_rad_ * std::exp(-dt_sec / kMemorySec);
+      to_come_rad_ = std::clamp(kept_rad + told_radps * dt_sec - turned_rad, -kMaxRad, kMaxRad);
+    }
+    last_heading_rad_ = heading_rad;
+  }
+
   /// The heading begins anew with the next one.
   void reset() { *this = PendingYaw(); }
   /// Positive counter-clockwise [rad].
   double rad() const { return to_come_rad_; }
 
  private:
+  static constexpr double kMemorySec = 2.0;
+  static constexpr double kMaxRad = 0.5;  // a second at the usual limit
+
   std::optional<double> last_heading_rad_;
   double to_come_rad_ = 0.0;
 };

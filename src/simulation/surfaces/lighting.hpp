@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 namespace window_ingress::simulation {
@@ -27,12 +28,27 @@ struct Lighting {
   bool shadow = false;
 
   /// Each channel, for a face in the sun or in the shadow.
-  Eigen::Vector3d brightness(const Eigen::Vector3d& normal, bool in_sun) const;
+  Eigen::Vector3d brightness(const Eigen::Vector3d& normal, bool in_sun) const {
+    const double sky = 1.0 + 0.08 * normal.z();
+    const double soft = ambient * sky + lamp * std::max(0.0, normal.dot(towards_lamp));
+    const double direct = in_sun ? sun * std::max(0.0, normal.dot(towards_sun)) : 0.0;
+    return soft * soft_colour + direct * sun_colour;
+  }
+
   /// The sun reaches faces with this normal.
   bool reaches(const Eigen::Vector3d& normal) const { return sun > 0.0 && normal.dot(towards_sun) > 0.0; }
-  bool sunlit(const Eigen::Vector3d& point) const;
+  bool sunlit(const Eigen::Vector3d& point) const {
+    const bool within = std::all_of(region.begin(), region.end(),
+                                    [&](const HalfSpace& half) { return half.beyond(point) <= 0.0; });
+    return within != shadow;
+  }
+
   /// The same without the sun.
-  Lighting inShadow() const;
+  Lighting inShadow() const {
+    Lighting light = *this;
+    light.sun = 0.0;
+    return light;
+  }
 };
 
 }  // namespace window_ingress::simulation

@@ -1,10 +1,31 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
+#include <iterator>
+#include <stdexcept>
 
 #include "simulation/vehicle/vehicle_truth.hpp"
+#include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::simulation {
+
+inline Eigen::Vector3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double fraction) {
+  return a + fraction * (b - a);
+}
+
+inline VehicleTruth between(const VehicleTruth& a, const VehicleTruth& b, double fraction) {
+  const Eigen::Quaterniond qa(a.T_odom_base.linear()), qb(b.T_odom_base.linear());
+  VehicleTruth truth;
+  truth.T_odom_base =
+      geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
+                         between(a.T_odom_base.translation(), b.T_odom_base.translation(), fraction));
+  truth.velocity_odom_mps = between(a.velocity_odom_mps, b.velocity_odom_mps, fraction);
+  truth.angular_velocity_base_radps =
+      between(a.angular_velocity_base_radps, b.angular_velocity_base_radps, fraction);
+  return truth;
+}
 
 /// A vehicle that is simulated elsewhere: between the poses that are told it moves evenly, after the last one
 /// it stays.
@@ -16,8 +37,24 @@ class FollowedVehicle {
 
   /// The vehicle is there at that time. The first one counts at once. \throws std::invalid_argument unless
   /// all numbers are finite and the times increase
-  void follow(const VehicleTruth& truth, double stamp_sec);
-  void moveTo(double now_sec);
+  void follow(const VehicleTruth& truth, double stamp_sec) {
+    if (!geometry::isValidPose(truth.T_odom_base) || !truth.velocity_odom_mps.allFinite() ||
+        !truth.angular_velocity_base_radps.allFinite() || !std::isfinite(stamp_sec))
+      throw std::invalid_argument("pose, twist or stamp of the followed vehicle is not finite");
+    if (!path_.empty() && stamp_sec <= path_.back().stamp_sec)
+      throw std::invalid_argument("stamp of the followed vehicle is not after the one before");
+    while (path_.size() > 1 && path_[1].stamp_sec <= path_.back().stamp_sec - kMemorySec) path_.pop_front();
+    if (path_.empty()) truth_ = truth;
+    path_.push_back({truth, stamp_sec});
+  }
+
+  void moveTo(double now_sec) {
+    if (path_.empty()) return;
+    truth_ = at(now_sec);
+    const VehicleTruth before = at(now_sec - kMemorySec);
+    flown_odom_mps_ = (truth_.T_odom_base.translation() - before.T_odom_base.translation()) / kMemorySec;
+  }
+
   /// As told, the twist, too.
   const VehicleTruth& truth() const { return truth_; }
   /// Over the past second, by the places alone: a twist has a bias and noise that no place follows [m/s].
@@ -28,7 +65,15 @@ class FollowedVehicle {
     VehicleTruth truth;
     double stamp_sec = 0.0;
   };
-  VehicleTruth at(double time_sec) const;
+  VehicleTruth at(double time_sec) const {
+    const auto to = std::find_if(path_.begin(), path_.end(),
+                                 [&](const Waypoint& waypoint) { return waypoint.stamp_sec >= time_sec; });
+    if (to == path_.begin()) return to->truth;
+    if (to == path_.end()) return path_.back().truth;
+    const auto from = std::prev(to);
+    return between(from->truth, to->truth, (time_sec - from->stamp_sec) / (to->stamp_sec - from->stamp_sec));
+  }
+
   VehicleTruth truth_;
   Eigen::Vector3d flown_odom_mps_ = Eigen::Vector3d::Zero();
   std::deque<Waypoint> path_;  // of the past second, with the one before it
