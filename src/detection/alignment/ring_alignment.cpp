@@ -20,6 +20,7 @@ constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of
 constexpr int kPatience = 5;          ///< steps without a better correlation, and it ends
 constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
 constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
+constexpr double kMinAlike = 0.6;     ///< nor one that correlates so much less than the whole ring
 constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
@@ -113,18 +114,27 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
   take(of_ring.vector(), segment.xx);
 }
 
+// Of the place that is looked at.
+void RingAlignment::readSegments() {
+  segments_.clear(), parts_.clear();
+  correlation_ = {};
+  for (int s = 0; s < view_.ring().segmentCount(); ++s) {
+    const RingSegment& segment = segments_.emplace_back(view_.segment(s));
+    correlation_.add(segment);
+    if (segment.weight > 0.0) parts_.push_back({segment.alike, segment.weight});
+  }
+}
+
 // The change of the homography that takes off most of the residuals; none if nothing tells.
 std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   NormalSum normal_sum;
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
   residuals_.assign(view_.ring().x.size() * view_.channels(), 0.0F);
-  correlation_ = {};
-  for (int s = 0; s < view_.ring().segmentCount(); ++s) {
-    const RingSegment segment = view_.segment(s);
-    correlation_.add(segment);
-    if (segment.gain > kMinGain) accumulate(segment, normal_sum, right, explained);
-  }
+  const double least = kMinAlike * correlation_.value();
+  for (const RingSegment& segment : segments_)
+    if (segment.gain > kMinGain && segment.alike >= least * segment.weight)
+      accumulate(segment, normal_sum, right, explained);
   spread_ = view_.spreadOf(residuals_, spread_);
   normal_ = normal_sum.matrix() - explained;
   const float noise = spread_ * spread_;
@@ -144,20 +154,23 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   return change;
 }
 
-// Steps of Gauss and Newton; of all maps passed the one with the best correlation is kept.
+// Steps of Gauss and Newton; of all maps passed the one with the best correlation of what is not covered is
+// kept.
 RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilateral& start, Matrix3d& map,
                                 int most_steps) {
   RingMatch best;
   Matrix3d at = map;
   const double reach_px = kFurthest * meanSide(start);
   int best_step = 0;
+  double best_uncovered = -1.0;
   for (int n = 0;; ++n) {
     const double seen = view_.look(scale, at);
     if (seen < RingView::kMinSeen) break;
+    readSegments();
     const auto step = change(at);
-    if (correlation_.value() > best.correlation)
-      best.correlation = correlation_.value(), best.seen = seen, map = at, best_step = n,
-      information_ = normal_ / (spread_ * spread_);
+    if (const double uncovered = meanUncovered(parts_); uncovered > best_uncovered)
+      best_uncovered = uncovered, best.correlation = correlation_.value(), best.seen = seen, map = at,
+      best_step = n, information_ = normal_ / (spread_ * spread_);
     if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);

@@ -47,6 +47,7 @@ class RingAlignment {
 
  private:
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
+  void readSegments();
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
   RingMatch refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
                    int most_steps);
@@ -56,6 +57,8 @@ class RingAlignment {
   RingScore judgement_;
   std::optional<RectanglePrior> prior_;
   RingCorrelation correlation_;
+  std::vector<RingSegment> segments_;
+  std::vector<WeightedPart> parts_;
   std::vector<float> residuals_;
   Matrix8f normal_;       ///< of the last change
   Matrix8f information_;  ///< of the best map, from its change and the spread of what was left

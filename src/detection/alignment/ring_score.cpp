@@ -8,7 +8,6 @@ namespace {
 constexpr double kGainSpread =
     0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
 constexpr int kCoverPasses = 3;
-constexpr double kMaxCovered = 1.0 / 3.0;                  ///< of the ring
 constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: another exposure or tone curve
 
 }  // namespace
@@ -25,7 +24,9 @@ RingMatch RingScore::of(RingView& view, double seen) {
   for (int n = 0; n < kCoverPasses; ++n) coverOutliers(view);
   shareOut(view);
   weighContrasts();
-  match.faithful_uncovered = faithfulUncovered();
+  parts_.clear();
+  for (const Share& share : shares_) parts_.push_back({share.faithful, share.weight});
+  match.faithful_uncovered = meanUncovered(parts_);
   return match;
 }
 
@@ -80,19 +81,6 @@ double RingScore::weighContrasts() {
     share.faithful = share.alike * std::exp(-0.5 * off * off / share.variance);
   }
   return *middle;
-}
-
-// Without the segments that fit worst: something may stand before them.
-double RingScore::faithfulUncovered() {
-  std::sort(shares_.begin(), shares_.end(),
-            [](const Share& a, const Share& b) { return a.faithful * b.weight < b.faithful * a.weight; });
-  double covered = kMaxCovered * correlation_.most, sum = 0.0;
-  for (const Share& share : shares_) {
-    const double hidden = std::min(covered, share.weight);
-    covered -= hidden;
-    sum += share.faithful * (1.0 - hidden / share.weight);
-  }
-  return sum / ((1.0 - kMaxCovered) * correlation_.most);
 }
 
 }  // namespace window_ingress::detection

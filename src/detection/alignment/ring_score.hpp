@@ -33,9 +33,9 @@ class RingScore {
   void shareOut(const RingView& view);
   double weighContrasts();
   void coverOutliers(RingView& view);
-  double faithfulUncovered();
 
   std::vector<Share> shares_;
+  std::vector<WeightedPart> parts_;
   RingCorrelation correlation_;
   std::vector<float> residuals_, gains_;
 };

@@ -13,6 +13,7 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr float kMaxGain = 2.0F;
+constexpr double kMaxCovered = 1.0 / 3.0;            ///< of the ring
 constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth, relative to the centre's
 
 // Of the samples that are seen.
@@ -26,6 +27,20 @@ RingMoments momentsOf(const float* ring, const float* image, const float* weight
 }
 
 }  // namespace
+
+double meanUncovered(std::vector<WeightedPart>& parts) {
+  std::sort(parts.begin(), parts.end(),
+            [](const WeightedPart& a, const WeightedPart& b) { return a.sum * b.weight < b.sum * a.weight; });
+  double all = 0.0, sum = 0.0;
+  for (const WeightedPart& part : parts) all += part.weight;
+  double covered = kMaxCovered * all;
+  for (const WeightedPart& part : parts) {
+    const double hidden = std::min(covered, part.weight);
+    covered -= hidden;
+    sum += part.sum * (1.0 - hidden / part.weight);
+  }
+  return all > 0.0 ? sum / ((1.0 - kMaxCovered) * all) : -1.0;
+}
 
 Matrix3d mapFromCentre(const Quadrilateral& quad) {
   Matrix3d shift = Matrix3d::Identity();

@@ -41,6 +41,14 @@ struct RingCorrelation {
   double value() const { return most > 0.0 ? alike / most : -1.0; }
 };
 
+/// What a segment says, times its weight.
+struct WeightedPart {
+  double sum, weight;
+};
+
+/// Weighted mean without the third that says least: something may stand before it.
+double meanUncovered(std::vector<WeightedPart>& parts);
+
 /// The image under the samples of the ring, at one place and resolution. Keeps its memory.
 class RingView {
  public:
