@@ -89,18 +89,18 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// By the frame, where there is one; where what lies round it is not the reference's, rather by that.
+// By what lies round the opening; where that does not tell, by the frame, if there is one.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
-  std::optional<WindowObservation> window;
-  if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
-  const auto is_sure = [&] { return window && (choice.confirmed() || !reference.knowsSurroundings(image)); };
-  const auto ask_surroundings = [&] {
+  gatherAll();
+  auto window = judgeSurroundings(image, stamp_sec, camera);
+  if (!window && (!reference.frameless() || !reference.compares(image)))
+    window = judgeFrames(image, stamp_sec, camera);
+  const bool is_sure = window && (choice.confirmed() || !reference.knowsSurroundings(image));
+  if (!is_sure && !std::exchange(looked_everywhere, true)) {
+    rivals = reference.placesEverywhere(image);
     if (auto better = judgeSurroundings(image, stamp_sec, camera)) window = better;
-  };
-  if (!is_sure()) gatherAll(), ask_surroundings();
-  if (!is_sure() && !std::exchange(looked_everywhere, true))
-    rivals = reference.placesEverywhere(image), ask_surroundings();
+  }
   done(watch, Stage::kBorders);
   return window;
 }
