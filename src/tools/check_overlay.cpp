@@ -120,10 +120,7 @@ void takeWindowSize(const std::string& text, const std::string& file, configurat
     warn(formatted("window_size %s counts more than %s, which says %g,%g", text.c_str(), file.c_str(),
                    pose.opening_width_m, pose.opening_height_m));
   }
-  pose.opening_width_m = size[0];
-  pose.opening_height_m = size[1];
-  const auto faults = parameters::outOfRange(pose);
-  if (!faults.empty()) throw InputError("window_size " + text + ": " + parameters::joined(faults));
+  tools::takeWindowSize("window_size", text, pose);
 }
 
 // Width and height exchanged, or one of them misread. Seen aslant an image may be off by less.

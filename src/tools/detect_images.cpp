@@ -178,8 +178,7 @@ Job prepare(const Options& o) {
     std::cerr << "detect_images: warning: " << tools::kGuessedOpening << "\n";
   if (!o.size.empty()) {
     estimation::PoseParams params;
-    const auto size = numbers("--window-size", o.size, 2);
-    params.opening_width_m = size[0], params.opening_height_m = size[1];
+    tools::takeWindowSize("--window-size", o.size, params);
     if (job.camera) job.estimator.emplace(params);
   }
   if (!o.overlay.empty()) tools::makeFolder(o.overlay);

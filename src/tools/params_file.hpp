@@ -8,6 +8,7 @@
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::tools {
 
@@ -26,12 +27,21 @@ inline void takeReference(const std::string& file, const configuration::Referenc
   corners = kept.corners;
 }
 
-/// The detector's parameters; image and corners of the reference, too. \throws InputError, InputError
+/// The detector's parameters; image and corners of the reference, too. \throws InputError
 inline detection::DetectorParams readParams(const std::string& file, std::string& image,
                                             std::vector<double>& corners) {
   const configuration::Overlay overlay = configuration::readOverlay(file);
   takeReference(file, overlay.window_detector.reference, image, corners);
   return overlay.window_detector.detector;
+}
+
+/// The opening's size, "W,H", of an option. \throws InputError
+inline void takeWindowSize(const std::string& option, const std::string& text, estimation::PoseParams& pose) {
+  const auto size = numbers(option, text, 2);
+  pose.opening_width_m = size[0];
+  pose.opening_height_m = size[1];
+  const auto faults = parameters::outOfRange(pose);
+  if (!faults.empty()) throw InputError(option + " " + text + ": " + parameters::joined(faults));
 }
 
 /// Writes all that differs from the defaults, so that it replaces the file that was started from.

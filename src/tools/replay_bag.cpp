@@ -15,7 +15,6 @@
 #include "command_line.hpp"
 #include "params_file.hpp"
 #include "progress.hpp"
-#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace fs = std::filesystem;
@@ -66,7 +65,6 @@ void say(const std::string& line) { std::cerr << "replay_bag: " << line << std::
 
 adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   adapters::ReplayParams params{configuration::readOverlay(o.params), adapters::chooseTopics(bag, o.topics)};
-  estimation::PoseParams& pose = params.homography_pose.pose;
   adapters::ReferenceParams reference = o.reference;
   tools::takeReference(o.params, params.window_detector.reference, reference.picture, reference.corners);
   if (!reference.picture.empty()) {
@@ -79,12 +77,7 @@ adapters::ReplayParams prepare(const Options& o, const rosbag::Bag& bag) {
   }
   params.with_pose = !o.size.empty() || params.said.count("homography_pose/pose/opening_width_m") > 0;
   if (!params.with_pose) say("nobody says the opening's size (--window-size W,H): corners, but no poses");
-  if (o.size.empty()) return params;
-  const std::vector<double> size = numbers("--window-size", o.size, 2);
-  pose.opening_width_m = size[0];
-  pose.opening_height_m = size[1];
-  const auto faults = parameters::outOfRange(pose);
-  if (!faults.empty()) throw InputError("--window-size: " + parameters::joined(faults));
+  if (!o.size.empty()) tools::takeWindowSize("--window-size", o.size, params.homography_pose.pose);
   return params;
 }
 

@@ -11,6 +11,7 @@
 #include "evaluation/output_file.hpp"
 #include "evaluation/poses/pose_chain.hpp"
 #include "evaluation/poses/pose_survey.hpp"
+#include "params_file.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
@@ -117,9 +118,7 @@ class Chain {
  private:
   static estimation::PoseParams poseParams(const Options& o) {
     auto params = configuration::readOverlay(o.params).homography_pose.pose;
-    const auto size = tools::numbers("--window-size", o.window_size, 2);
-    params.opening_width_m = size[0];
-    params.opening_height_m = size[1];
+    tools::takeWindowSize("--window-size", o.window_size, params);
     return params;
   }
 
