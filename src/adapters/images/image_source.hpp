@@ -1,19 +1,37 @@
 #pragma once
 
+#include <image_transport/exception.h>
 #include <image_transport/image_transport.h>
+#include <image_transport/subscriber_plugin.h>
 #include <ros/node_handle.h>
+#include <sensor_msgs/CompressedImage.h>
 
 #include <functional>
+#include <pluginlib/class_loader.hpp>
 #include <string>
+#include <utility>
 
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
 #include "adapters/runtime/topic_health.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 
 /// Why images cannot come by this transport, and which there are; empty if they can.
-std::string whyNoTransport(const std::string& transport);
+inline std::string whyNoTransport(const std::string& transport) {
+  using Plugin = image_transport::SubscriberPlugin;
+  std::string known = "compressed";
+  pluginlib::ClassLoader<Plugin> plugins("image_transport", "image_transport::SubscriberPlugin");
+  for (const std::string& plugin : plugins.getDeclaredClasses()) {
+    if (transport == "compressed" || plugin == Plugin::getLookupName(transport)) return "";
+    known += ", " + plugin.substr(plugin.find('/') + 1, plugin.rfind("_sub") - plugin.find('/') - 1);
+  }
+  return "image_transport is '" + transport + "', available are: " + known +
+         "; of others install the plugin (Noetic: " + "ros-noetic-" + transport +
+         "-image-transport; Debian: build it in your workspace)";
+}
 
 /// Images of the topic `image_raw`, by any transport: those that image_transport has, and "compressed",
 /// which is read here, because its plugin decodes without looking at sizes and is not in every distribution.
@@ -23,16 +41,67 @@ class ImageSource {
 
   /// \throws InputError that lists the transports if there is no such one
   ImageSource(ros::NodeHandle& nh, Diagnostics& diagnostics, const std::string& transport,
-              const ImageLimits& limits, const StampLimits& stamps, Callback callback);
+              const ImageLimits& limits, const StampLimits& stamps, Callback callback)
+      : limits_(limits),
+        gate_(stamps),
+        callback_(std::move(callback)),
+        diagnostics_(diagnostics),
+        health_(diagnostics, "image", kSilenceSec),
+        transport_(nh) {
+    if (transport == "compressed")
+      subscribeCompressed(nh);
+    else
+      subscribePlugin(transport);
+  }
 
   bool isConnected() const {
     return plugin_subscriber_.getNumPublishers() + compressed_subscriber_.getNumPublishers() > 0;
   }
 
  private:
-  void subscribeCompressed(ros::NodeHandle& nh);
-  void subscribePlugin(const std::string& transport);
-  void receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode);
+  static constexpr double kStuckSec = 1.0;
+
+  void subscribeCompressed(ros::NodeHandle& nh) {
+    compressed_subscriber_ = subscribeCatching<sensor_msgs::CompressedImage>(
+        nh, nh.resolveName("image_raw") + "/compressed", 1, diagnostics_,
+        [this](const sensor_msgs::CompressedImageConstPtr& message) {
+          receive(message->header, [&] { return decode(*message, limits_); });
+        });
+    health_.watch(compressed_subscriber_);
+  }
+
+  void subscribePlugin(const std::string& transport) {
+    const boost::function<void(const sensor_msgs::ImageConstPtr&)> callback =
+        [this](const sensor_msgs::ImageConstPtr& message) {
+          catchAll(diagnostics_, "image",
+                   [&] { receive(message->header, [&] { return decode(message, limits_); }); });
+        };
+    try {
+      plugin_subscriber_ = transport_.subscribe(
+          "image_raw", 1, callback, ros::VoidPtr(),
+          image_transport::TransportHints(transport, ros::TransportHints().tcpNoDelay()));
+    } catch (const image_transport::Exception& error) {
+      const std::string why = whyNoTransport(transport);
+      throw InputError(why.empty() ? error.what() : why);
+    }
+    health_.watch([this] { return plugin_subscriber_.getTopic(); },
+                  [this] { return static_cast<int>(plugin_subscriber_.getNumPublishers()); });
+  }
+
+  void receive(const std_msgs::Header& header, const std::function<DecodedImage()>& decode) {
+    health_.arrived();
+    const auto late = gate_.whyRefused(header.stamp, ros::Time::now().toSec());
+    if (late) return health_.refused(*late);
+    const double begun_sec = steadyNowSec();
+    DecodedImage decoded = decode();
+    decoded.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
+    if (!decoded.reason.empty()) return health_.refused(decoded.reason);
+    if (stuck_.sameForSec(decoded.image, steadyNowSec()) > kStuckSec)
+      decoded.warning = "the image does not change any more: is the camera stuck?";
+    health_.accepted(decoded.warning);
+    health_.stamped(header.stamp.toSec());
+    callback_(header, decoded);
+  }
 
   ImageLimits limits_;
   StampGate gate_;

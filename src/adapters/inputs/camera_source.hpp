@@ -4,12 +4,16 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <std_msgs/Header.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "adapters/runtime/exception_barrier.hpp"
 #include "adapters/runtime/topic_health.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 
@@ -20,12 +24,35 @@ class CameraSource {
  public:
   /// Subscribes to `camera_info`.
   /// \param rectified images are rectified, see `cameraFromMsg`
-  CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified);
+  CameraSource(ros::NodeHandle& nh, Diagnostics& diagnostics, bool rectified)
+      : rectified_(rectified),
+        image_topic_(nh.resolveName("image_raw")),
+        health_(diagnostics, "camera_info", kSilenceSec) {
+    subscriber_ = subscribeCatching<sensor_msgs::CameraInfo>(
+        nh, "camera_info", 1, diagnostics, [this](const auto& message) { receive(*message); });
+    health_.watch(subscriber_);
+    diagnostics.add("calibration", [this] { return fitHealth(); });
+    camera_.reason = "no camera_info on " + subscriber_.getTopic() + " so far";
+  }
 
   /// The camera of an image of this size, or why there is none. An empty `frame_id` fits every frame.
-  Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& image);
+  Converted<geometry::PinholeCamera> cameraOf(int width_px, int height_px, const std_msgs::Header& image) {
+    misfit_ = camera_ ? misfit(width_px, height_px, image.frame_id) : "";
+    if (camera_) compareStamps(image.stamp);
+    return misfit_.empty() ? camera_ : Converted<geometry::PinholeCamera>{std::nullopt, misfit_};
+  }
 
-  void receive(const sensor_msgs::CameraInfo& message);
+  void receive(const sensor_msgs::CameraInfo& message) {
+    health_.arrived();
+    camera_ = cameraFromMsg(message, rectified_);
+    frame_id_ = message.header.frame_id;
+    stamp_ = message.header.stamp;
+    if (camera_)
+      health_.accepted();
+    else
+      health_.refused(camera_.reason);
+    if (came_) came_();
+  }
 
   /// For lockstep: stamp of the message that came last, and something to call when one has come.
   ros::Time lastStamp() const { return stamp_; }
@@ -33,11 +60,51 @@ class CameraSource {
   void notify(std::function<void()> came) { came_ = std::move(came); }
 
  private:
-  std::string misfit(int width_px, int height_px, const std::string& frame_id) const;
-  void compareStamps(const ros::Time& image);
-  Health fitHealth() const;
+  static std::string size(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  }
 
-  std::string undoneTwice() const;
+  static constexpr double kNearSec = 0.2;  // stamps of an image and of its calibration, be it one frame off
+  static constexpr double kApartSec =
+      1.2;  // so long may no stamp be near: camera_info may come once a second
+
+  std::string misfit(int width_px, int height_px, const std::string& frame_id) const {
+    const std::string topic = "camera_info on " + subscriber_.getTopic();
+    if (camera_.value->width != width_px || camera_.value->height != height_px)
+      return "sizes differ: the image has " + size(width_px, height_px) + " pixels, " + topic + " is for " +
+             size(camera_.value->width, camera_.value->height);
+    if (!frame_id.empty() && frame_id != frame_id_)
+      return "frames differ: the image has frame_id '" + frame_id + "', " + topic + " '" + frame_id_ + "'";
+    return "";
+  }
+
+  void compareStamps(const ros::Time& image) {
+    apart_sec_ = image.toSec() - stamp_.toSec();
+    if (std::abs(apart_sec_) <= kNearSec || together_sec_ == 0.0) together_sec_ = steadyNowSec();
+  }
+
+  Health fitHealth() const {
+    if (!camera_) return {Health::kOk, "none so far"};
+    if (!misfit_.empty()) return {Health::kError, misfit_};
+    const bool apart = std::abs(apart_sec_) > kNearSec && steadyNowSec() - together_sec_ > kApartSec;
+    const std::string topic = "camera_info on " + subscriber_.getTopic();
+    if (apart && stamp_.isZero()) return {Health::kWarn, topic + " is not stamped"};
+    if (apart)
+      return {Health::kWarn, "stamps of image and " + topic + " are " +
+                                 formatted("%.2f s", std::abs(apart_sec_)) + " apart, " +
+                                 (apart_sec_ > 0.0 ? "the image is newer" : "the image is older")};
+    if (const std::string twice = undoneTwice(); !twice.empty()) return {Health::kWarn, twice};
+    return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};
+  }
+
+  // Nothing in an image tells whether its lens was taken out of it; the name of its topic may.
+  std::string undoneTwice() const {
+    const auto& lens = camera_.value->distortion;
+    const bool bends = std::any_of(lens.begin(), lens.end(), [](double number) { return number != 0.0; });
+    if (rectified_ || !bends || image_topic_.find("rect") == std::string::npos) return "";
+    return "images on " + image_topic_ + " seem to be rectified, but the distortion of camera_info on " +
+           subscriber_.getTopic() + " is undone once more; if they are, set vehicle/image_is_rectified";
+  }
 
   bool rectified_;
   std::string image_topic_;

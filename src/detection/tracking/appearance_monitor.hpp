@@ -12,12 +12,6 @@
 
 namespace window_ingress::detection {
 
-inline constexpr int kEnough = 3;       // comparisons
-inline constexpr double kWeight = 0.3;  // of the last one
-
-inline constexpr double kAdaptation =
-    0.1;  ///< part of a difference in appearance that a comparison takes over
-
 /// How like the reference the target has been: a window that is much less so does not take its place while it
 /// is out of sight. The limit of `AppearanceMatch` must let the target pass in any light; of two that pass in
 /// the same light, one that is clearly less like it is another window.
@@ -49,6 +43,9 @@ class AppearanceGate {
   double best() const { return best_; }  ///< of the target so far, smoothed; 2 where nothing is known
 
  private:
+  static constexpr int kEnough = 3;       // comparisons
+  static constexpr double kWeight = 0.3;  // of the last one
+
   static constexpr double kUnknown = 2.0;
 
   double best_ = kUnknown, smoothed_ = 0.0, last_sec_ = 0.0;
@@ -100,6 +97,9 @@ class AppearanceMonitor {
   bool isUnlike() const { return unlike_; }   ///< the last time that it was looked at
 
  private:
+  static constexpr double kAdaptation =
+      0.1;  ///< part of a difference in appearance that a comparison takes over
+
   DetectorParams params_;
   std::shared_ptr<ReferenceAppearance> reference_;  // shared with the search
   int frames_to_comparison_ = 0;

@@ -1,5 +1,6 @@
 #include "evaluation/images/corner_statistics.hpp"
 
+#include "detection/quads.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace window_ingress::evaluation {
@@ -31,12 +32,6 @@ double CornerStatistics::median() const { return quantile(distances_, 0.5); }
 double CornerStatistics::worst() const { return quantile(distances_, 1.0); }
 double CornerStatistics::outward() const { return outward_sum_ / corners(); }
 
-double worstCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
-  double worst = 0.0;
-  for (int i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).norm());
-  return worst;
-}
-
 double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) sum += (a[i] - b[i]).norm();
@@ -44,8 +39,7 @@ double meanCornerDistance(const Quadrilateral& a, const Quadrilateral& b) {
 }
 
 double hitTolerance(const Quadrilateral& truth) {
-  const auto sides = geometry::sideLengths(truth);
-  return std::max(kTolerance_px, kTolerance * 0.25 * (sides[0] + sides[1] + sides[2] + sides[3]));
+  return std::max(kTolerance_px, kTolerance * detection::meanSide(truth));
 }
 
 }  // namespace window_ingress::evaluation

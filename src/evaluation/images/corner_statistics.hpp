@@ -29,8 +29,6 @@ class CornerStatistics {
   double outward_sum_ = 0.0;
 };
 
-/// Of the corner that is farthest away [px].
-double worstCornerDistance(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);
 double meanCornerDistance(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b);  ///< [px]
 
 /// 3 px or 2 % of the true border's mean side, whichever is more [px].

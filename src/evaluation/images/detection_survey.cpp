@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "detection/quads.hpp"
 #include "evaluation/csv.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
@@ -50,7 +51,8 @@ SurveyVerdict judge(const std::optional<Quadrilateral>& found, const SurveyTruth
   consider(truth.far, SurveyVerdict::kFarBorder);
   if (geometry::intersectionOverUnion(*found, *nearest) < kOnTargetIou) return SurveyVerdict::kWrongTarget;
   if (border != SurveyVerdict::kInexact) return border;
-  return worstCornerDistance(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit : border;
+  return detection::furthestCorner(*found, truth.inner) <= hitTolerance(truth.inner) ? SurveyVerdict::kHit
+                                                                                     : border;
 }
 
 SurveyResult resultOf(const SurveyImage& sample, const std::optional<detection::WindowObservation>& window,
@@ -86,7 +88,7 @@ std::string surveyRow(const SurveyResult& result) {
   if (window && window->has_appearance) text += formatted("%.4f", window->bhattacharyya);
   text += ",";
   if (window && result.truth.present)
-    text += formatted("%.3f", worstCornerDistance(window->corners, result.truth.inner));
+    text += formatted("%.3f", detection::furthestCorner(window->corners, result.truth.inner));
   text += window ? csvCorners(window->corners, "%.4f") : ",,,,,,,,";
   text += csvCorners(result.truth.inner, "%.4f");
   return text + "," + csvField(result.outcome) + "," + result.true_candidate + "," +

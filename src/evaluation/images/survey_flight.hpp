@@ -10,13 +10,6 @@
 
 namespace window_ingress::evaluation {
 
-using Eigen::Vector3d;
-
-inline constexpr double kSway_m = 0.05, kHeight_m = 0.4;
-inline constexpr double kDifference_sec = 1e-4;
-inline constexpr double kLooksAhead_m =
-    1.5;  // behind the plane: so that close to it the camera does not turn wildly
-
 /// The way of a camera to the window and what it does on it.
 struct FlightRange {
   double nearest_start_m = 4.0, farthest_start_m = 7.0;  ///< distance of the start from the opening [m]
@@ -49,15 +42,16 @@ class SurveyFlight {
   Eigen::Isometry3d T_window_camera(double time_sec) const {
     const double left = 1.0 - time_sec / durationSec();
     const double bend = left * left;
-    const Vector3d eye(start_.x() + range_.speed_mps * time_sec, start_.y() * bend + wobbles_[3].at(time_sec),
-                       start_.z() * bend + wobbles_[4].at(time_sec));
-    const Vector3d way = Vector3d(kLooksAhead_m, 0.0, 0.0) - eye;
+    const Eigen::Vector3d eye(start_.x() + range_.speed_mps * time_sec,
+                              start_.y() * bend + wobbles_[3].at(time_sec),
+                              start_.z() * bend + wobbles_[4].at(time_sec));
+    const Eigen::Vector3d way = Eigen::Vector3d(kLooksAhead_m, 0.0, 0.0) - eye;
     const double heading_rad = std::atan2(way.y(), way.x()) + wobbles_[2].at(time_sec);
     const double pitch_rad = -std::atan2(way.z(), way.head<2>().norm()) + wobbles_[1].at(time_sec);
     const Eigen::Matrix3d look =
         geometry::yawRotation(heading_rad) *
-        Eigen::AngleAxisd(pitch_rad, Vector3d::UnitY()).toRotationMatrix() *
-        Eigen::AngleAxisd(wobbles_[0].at(time_sec), Vector3d::UnitX()).toRotationMatrix();
+        Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() *
+        Eigen::AngleAxisd(wobbles_[0].at(time_sec), Eigen::Vector3d::UnitX()).toRotationMatrix();
     return geometry::makePose(look * geometry::R_optical_flu().transpose(), eye);
   }
 
@@ -74,6 +68,11 @@ class SurveyFlight {
   }
 
  private:
+  static constexpr double kSway_m = 0.05, kHeight_m = 0.4;
+  static constexpr double kDifference_sec = 1e-4;
+  static constexpr double kLooksAhead_m =
+      1.5;  // behind the plane: so that close to it the camera does not turn wildly
+
   struct Wobble {
     double amplitude, rate_radps, phase_rad;
     double at(double time_sec) const { return amplitude * std::sin(rate_radps * time_sec + phase_rad); }

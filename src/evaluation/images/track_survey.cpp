@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/quads.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/text/text.hpp"
@@ -83,8 +84,9 @@ void judge(TrackResult& result, const geometry::PinholeCamera& camera) {
   result.sides_in_view = sidesInView(result.truth.inner, camera);
   result.error_px = 0.0;
   if (result.window)
-    result.error_px = result.window->whole() ? worstCornerDistance(result.window->corners, result.truth.inner)
-                                             : worstSideDistance(*result.window, result.truth.inner, camera);
+    result.error_px = result.window->whole()
+                          ? detection::furthestCorner(result.window->corners, result.truth.inner)
+                          : worstSideDistance(*result.window, result.truth.inner, camera);
   result.verdict = verdictOf(result);
 }
 

@@ -1,5 +1,6 @@
 #include "evaluation/poses/pose_chain.hpp"
 
+#include "detection/quads.hpp"
 #include "estimation/planar/relative_yaw.hpp"
 #include "evaluation/images/detection_survey.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
@@ -17,12 +18,6 @@ estimation::PoseParams paramsFor(const geometry::OpeningSize& opening) {
   params.max_range_m = 200.0;
   params.max_yaw_rad = 1.55;
   return params;
-}
-
-Quadrilateral undistorted(const Quadrilateral& corners, const geometry::PinholeCamera& camera) {
-  Quadrilateral ideal;
-  for (int i = 0; i < 4; ++i) ideal[i] = camera.undistort(corners[i]);
-  return ideal;
 }
 
 BorderError errorOf(const detection::Edge& edge, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
@@ -53,7 +48,7 @@ void compare(const Eigen::Isometry3d& truth, const Eigen::Vector3d& up, PoseChai
 std::array<std::optional<BorderError>, 4> borderErrors(const detection::WindowObservation& window,
                                                        const Quadrilateral& truth,
                                                        const geometry::PinholeCamera& camera) {
-  const Quadrilateral ideal = undistorted(truth, camera);
+  const Quadrilateral ideal = detection::undistorted(truth, &camera);
   std::array<std::optional<BorderError>, 4> errors;
   for (int i = 0; i < 4; ++i) {
     const detection::Edge& edge = window.edges[i];

@@ -8,15 +8,6 @@
 
 namespace window_ingress::navigation {
 
-inline bool isFinite(const Setpoint& setpoint) {
-  return setpoint.velocity_odom_mps.allFinite() && std::isfinite(setpoint.yaw_rate_radps);
-}
-
-inline Eigen::Vector3d shortenedTo(double length, const Eigen::Vector3d& vector) {
-  const double norm = vector.stableNorm();
-  return norm > length ? Eigen::Vector3d(vector * (length / norm)) : vector;
-}
-
 /// The last gate: whatever is wished, what comes out is finite and within speed, acceleration, jerk, yaw rate
 /// and yaw acceleration. Changes are measured against the setpoint before; `stop` and `cutTo` are the
 /// exceptions, they only take velocity away.
@@ -62,6 +53,15 @@ class SetpointLimiter {
   }
 
  private:
+  static bool isFinite(const Setpoint& setpoint) {
+    return setpoint.velocity_odom_mps.allFinite() && std::isfinite(setpoint.yaw_rate_radps);
+  }
+
+  static Eigen::Vector3d shortenedTo(double length, const Eigen::Vector3d& vector) {
+    const double norm = vector.stableNorm();
+    return norm > length ? Eigen::Vector3d(vector * (length / norm)) : vector;
+  }
+
   // As fast as it can still end at the wish: a^2 / (2 jerk) = way.
   const Eigen::Vector3d& accelerated(const Eigen::Vector3d& way_mps, double dt_sec) {
     const double way = way_mps.norm();

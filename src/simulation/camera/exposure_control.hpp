@@ -8,13 +8,6 @@
 
 namespace window_ingress::simulation {
 
-// Planck's law up to a factor: h c / k = 14388 um K.
-inline double radiance(double wavelength_um, double temperature_k) {
-  return 1.0 / (std::exp(14388.0 / (wavelength_um * temperature_k)) - 1.0);
-}
-
-inline double nearer(double value, double goal, double part) { return value * std::pow(goal / value, part); }
-
 /// Brightness and colour: gain and white balance, fixed or automatic with a lag. The automatic ones follow
 /// what the images before this one needed, exponentially in the logarithm of the gains.
 class ExposureControl {
@@ -63,6 +56,15 @@ class ExposureControl {
   }
 
  private:
+  // Planck's law up to a factor: h c / k = 14388 um K.
+  static double radiance(double wavelength_um, double temperature_k) {
+    return 1.0 / (std::exp(14388.0 / (wavelength_um * temperature_k)) - 1.0);
+  }
+
+  static double nearer(double value, double goal, double part) {
+    return value * std::pow(goal / value, part);
+  }
+
   static constexpr double kNeutral_k = 6500.0;
   static constexpr double kGreatestBalance = 4.0;
 

@@ -9,10 +9,6 @@
 
 namespace window_ingress::simulation {
 
-inline int countFor(double shifts, int most) {
-  return std::clamp(static_cast<int>(std::ceil(shifts)), 1, most);
-}
-
 /// Images by a camera that moves while it takes them: the mean of several over the time in which the
 /// shutter is open, row by row as they are read out. The middle row's middle of exposure is the motion's
 /// stamp. Few images are drawn when little moves, one when nothing does.
@@ -47,6 +43,10 @@ class Shutter {
   }
 
  private:
+  static int countFor(double shifts, int most) {
+    return std::clamp(static_cast<int>(std::ceil(shifts)), 1, most);
+  }
+
   double exposure_sec_, readout_sec_;
   cv::Mat one_, sum_;
 };

@@ -11,22 +11,6 @@
 
 namespace window_ingress::simulation {
 
-inline Eigen::Vector3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double fraction) {
-  return a + fraction * (b - a);
-}
-
-inline VehicleTruth between(const VehicleTruth& a, const VehicleTruth& b, double fraction) {
-  const Eigen::Quaterniond qa(a.T_odom_base.linear()), qb(b.T_odom_base.linear());
-  VehicleTruth truth;
-  truth.T_odom_base =
-      geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
-                         between(a.T_odom_base.translation(), b.T_odom_base.translation(), fraction));
-  truth.velocity_odom_mps = between(a.velocity_odom_mps, b.velocity_odom_mps, fraction);
-  truth.angular_velocity_base_radps =
-      between(a.angular_velocity_base_radps, b.angular_velocity_base_radps, fraction);
-  return truth;
-}
-
 /// A vehicle that is simulated elsewhere: between the poses that are told it moves evenly, after the last one
 /// it stays.
 class FollowedVehicle {
@@ -61,6 +45,22 @@ class FollowedVehicle {
   const Eigen::Vector3d& flownVelocity() const { return flown_odom_mps_; }
 
  private:
+  static Eigen::Vector3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double fraction) {
+    return a + fraction * (b - a);
+  }
+
+  static VehicleTruth between(const VehicleTruth& a, const VehicleTruth& b, double fraction) {
+    const Eigen::Quaterniond qa(a.T_odom_base.linear()), qb(b.T_odom_base.linear());
+    VehicleTruth truth;
+    truth.T_odom_base =
+        geometry::makePose(qa.slerp(fraction, qb).normalized().toRotationMatrix(),
+                           between(a.T_odom_base.translation(), b.T_odom_base.translation(), fraction));
+    truth.velocity_odom_mps = between(a.velocity_odom_mps, b.velocity_odom_mps, fraction);
+    truth.angular_velocity_base_radps =
+        between(a.angular_velocity_base_radps, b.angular_velocity_base_radps, fraction);
+    return truth;
+  }
+
   struct Waypoint {
     VehicleTruth truth;
     double stamp_sec = 0.0;

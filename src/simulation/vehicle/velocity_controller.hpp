@@ -9,8 +9,6 @@
 
 namespace window_ingress::simulation {
 
-inline double limitOr(double limit) { return limit > 0.0 ? limit : std::numeric_limits<double>::infinity(); }
-
 /// The vector, made `longest` long if it is longer.
 inline Eigen::Vector3d shortened(const Eigen::Vector3d& v, double longest) {
   const double length = v.norm();
@@ -61,6 +59,10 @@ class VelocityController {
   const Eigen::Vector3d& trim() const { return trim_mps2_; }
 
  private:
+  static double limitOr(double limit) {
+    return limit > 0.0 ? limit : std::numeric_limits<double>::infinity();
+  }
+
   static constexpr double kLongestLag_m = 1.0;      // beyond, the place that it is pulled to comes along
   static constexpr double kNearSetpoint_mps = 0.3;  // beyond, the trim learns the less the further
 

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "detection/quads.hpp"
+
 namespace window_ingress::evaluation::corner_statistics_test {
 
 using Eigen::Vector2d;
@@ -77,7 +79,7 @@ TEST(CornerStatistics, OfNothingIsZero) {
 TEST(CornerStatistics, DistancesBetweenTwo) {
   Quadrilateral other = kTruth;
   other[2] += Vector2d(3.0, 4.0);
-  EXPECT_NEAR(worstCornerDistance(other, kTruth), 5.0, 1e-12);
+  EXPECT_NEAR(detection::furthestCorner(other, kTruth), 5.0, 1e-12);
   EXPECT_NEAR(meanCornerDistance(other, kTruth), 1.25, 1e-12);
 }
 
