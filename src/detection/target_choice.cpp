@@ -42,9 +42,8 @@ double TargetChoice::leastScore(const ScoredCandidate& rival) const {
 bool TargetChoice::showsOpening(const ScoredCandidate& rival, const RefinedBorders& found,
                                 const View& view) const {
   if (!rival.correlation) return !isByFrameAlone(rival) || found.seen == kAllSeen;
-  const bool is_seen = found.seen >= kFewestSeen;
-  if (is_seen && !reference_.frameless()) return true;
-  return (is_seen || reference_.isSure(rival.match)) &&
+  if (found.seen < reference_.bordersNeeded(rival.match)) return false;
+  return (found.seen >= kFewestSeen && !reference_.frameless()) ||
          reference_.showsOpening(view.image, found.corners, view.camera);
 }
 
@@ -111,6 +110,8 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
   if (!found || !showsOpening(rival, *found, view))
     return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
   fitted = *found;
+  if (rival.correlation && found->seen == kAllSeen)
+    if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera, false)) return fault;
   if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
   if (const double inside = distanceToBorder(fitted.corners, view.image.size()); inside < least)

@@ -16,7 +16,7 @@ constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
-constexpr double kSureUncovered = 0.92;                        ///< nothing else looks like that
+constexpr double kSureUncovered = 0.92;                        ///< hardly anything else looks like that
 constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;      ///< correlation, where no frame's colours tell
 constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
@@ -201,9 +201,9 @@ double ReferenceJudge::sureCorrelation() const {
   return hasOwnFrame() ? 1.1 : kSureOfFrame;
 }
 
-bool ReferenceJudge::isSure(const RingMatch& match) const {
-  return match.correlation >= sureCorrelation() ||
-         (match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered);
+int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
+  if (match.correlation >= sureCorrelation()) return 0;
+  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered ? 2 : 3;
 }
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,

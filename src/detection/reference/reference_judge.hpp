@@ -60,8 +60,8 @@ class ReferenceJudge {
   /// \param worth of the borders, see ScoredCandidate
   bool frameTells(const cv::Mat& image, double worth) const;
 
-  /// So like what lies round the reference's opening that nothing else can be.
-  bool isSure(const RingMatch& match) const;
+  /// How many borders must show where this fits: the fewer, the less anything else can be like it.
+  int bordersNeeded(const RingMatch& match) const;
 
   /// Why the colours of a frame are not the reference's (P9).
   std::optional<Rejection> objectionTo(const AppearanceMatch& match) const;

@@ -51,10 +51,31 @@ TEST(ReferenceJudge, AWallWithoutAFrameIsNotExcusedByWhatIsCovered) {
 
 TEST(ReferenceJudge, AFrameAloneTellsOnlyWhereItsColoursAreItsOwn) {
   const cv::Mat image(480, 640, CV_8UC3, kWall);
-  EXPECT_TRUE(judgeOf(true).frameTells(image));
-  EXPECT_FALSE(judgeOf(true, 0.5 * kWall).frameTells(image)) << "darker than the wall, and of its colour";
-  EXPECT_FALSE(judgeOf(false).frameTells(image));
-  EXPECT_TRUE(judgeOf(false).frameTells(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)))) << "nothing is compared";
+  EXPECT_TRUE(judgeOf(true).frameTells(image, 0.5));
+  EXPECT_FALSE(judgeOf(true).frameTells(image, 0.2)) << "borders that are hardly the reference's";
+  EXPECT_FALSE(judgeOf(true, 0.5 * kWall).frameTells(image, 0.5))
+      << "darker than the wall, and of its colour";
+  EXPECT_FALSE(judgeOf(false).frameTells(image, 0.5));
+  EXPECT_TRUE(judgeOf(false).frameTells(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)), 0.0))
+      << "nothing is compared";
+}
+
+// In the light of another hour a frame's contrasts are others; a frame in another paint correlates as well.
+TEST(ReferenceJudge, CorrelationAloneDecidesWhereNoFramesColoursTell) {
+  RingMatch match;
+  match.correlation = 0.9, match.faithful = 0.6, match.faithful_uncovered = 0.8;
+  const ReferenceJudge darker = judgeOf(true, 0.5 * kWall), painted = judgeOf(true);
+  EXPECT_FALSE(darker.objectionTo(match, std::nullopt));
+  EXPECT_EQ(darker.bordersNeeded(match), 0);
+  EXPECT_TRUE(painted.objectionTo(match, std::nullopt));
+  EXPECT_EQ(painted.bordersNeeded(match), 3);
+  match.faithful = 0.8, match.faithful_uncovered = 0.95;
+  EXPECT_FALSE(painted.objectionTo(match, std::nullopt));
+  EXPECT_EQ(painted.bordersNeeded(match), 2);
+  match.correlation = 0.6;
+  EXPECT_EQ(judgeOf(false).bordersNeeded(match), 2);
+  match.correlation = 0.7;
+  EXPECT_EQ(judgeOf(false).bordersNeeded(match), 0);
 }
 
 // A blind in the colour of the wall, drawn but for a slit at the left.
