@@ -126,7 +126,7 @@ struct WindowFilter::Impl {
   // What was believed before is kept until a new start succeeds.
   bool start(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
     if (!estimate) return false;
-    const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera};
+    const FilterView alone{view.alone, view.alone, view.camera, view.T_odom_camera, {}, true, view.motion};
     const Eigen::Isometry3d T_odom_window = alone.T_odom_camera * estimate->best.T_camera_window;
     hold();
     const double yaw_rad = geometry::yawOf(T_odom_window.linear());
@@ -156,7 +156,8 @@ struct WindowFilter::Impl {
   }
 
   bool update(const WindowPoseEstimate* estimate, const detection::WindowObservation& window,
-              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) {
+              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera,
+              const CameraMotion& camera_motion) {
     if (!geometry::isValidPose(T_odom_camera) || !camera.validate().empty() || !isInOrder(window.stamp_sec) ||
         (window.whole() && (!geometry::isFinite(window.corners) || !geometry::isConvex(window.corners))))
       return false;
@@ -172,7 +173,8 @@ struct WindowFilter::Impl {
     const bool moves = motion && motion->velocity_mps.norm() >= kMinScaleMps;
     const Eigen::Vector3d jitter =
         motion ? Eigen::Vector3d(T_odom_camera.translation() - motion->position_m) : Eigen::Vector3d::Zero();
-    return apply(estimate, window.stamp_sec, {*shared, *first, camera, T_odom_camera, jitter, moves});
+    return apply(estimate, window.stamp_sec,
+                 {*shared, *first, camera, T_odom_camera, jitter, moves, camera_motion});
   }
 
   // Jitter is no way flown. But where the way is the measure of the scale, its jitter counts as drift: what
@@ -219,13 +221,14 @@ WindowFilter::WindowFilter(WindowFilter&&) noexcept = default;
 WindowFilter& WindowFilter::operator=(WindowFilter&&) noexcept = default;
 
 bool WindowFilter::update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
-                          const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera) {
-  return impl_->update(&estimate, window, camera, T_odom_camera);
+                          const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera,
+                          const CameraMotion& motion) {
+  return impl_->update(&estimate, window, camera, T_odom_camera, motion);
 }
 
 bool WindowFilter::update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_odom_camera) {
-  return impl_->update(nullptr, window, camera, T_odom_camera);
+                          const Eigen::Isometry3d& T_odom_camera, const CameraMotion& motion) {
+  return impl_->update(nullptr, window, camera, T_odom_camera, motion);
 }
 
 std::optional<SizeEstimate> WindowFilter::sizeOf(const detection::WindowObservation& window) const {
@@ -241,6 +244,10 @@ std::optional<FilteredWindow> WindowFilter::state(double now_sec) const {
 }
 
 void WindowFilter::reset() { impl_->reset(); }
+
+void WindowFilter::assumeDrift(double m_per_sqrt_sec) {
+  impl_->beliefs.assumeDrift(std::max(m_per_sqrt_sec, impl_->params.drift_m_per_sqrt_sec));
+}
 
 void WindowFilter::forgetPlaces() {
   impl_->forgetPlaces();

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "window_ingress/detection/window_observation.hpp"
+#include "window_ingress/estimation/camera_motion.hpp"
 #include "window_ingress/estimation/consistency_monitor.hpp"
 #include "window_ingress/estimation/filter_params.hpp"
 #include "window_ingress/estimation/size_estimate.hpp"
@@ -18,6 +19,8 @@ namespace window_ingress::estimation {
 struct CameraTurn {
   Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// About y, with the error of odometry's heading: what carries the vehicle off its way.
+  double with_heading_rad = 0.0, with_heading_sigma_rad = 0.0;
 };
 
 /// The window in the odometry frame, upright: position and yaw, filtered over time.
@@ -62,14 +65,16 @@ class WindowFilter {
   /// A new `target_id`, a jump of the clock or a long silence starts anew.
   /// \param estimate computed with the size of `sizeOf`
   /// \param T_odom_camera from odometry, interpolated to the image's stamp
+  /// \param motion at that stamp; matters where odometry's stamps may be late
   /// \return false if the observation was gated out or is older than the last one
   bool update(const WindowPoseEstimate& estimate, const detection::WindowObservation& window,
-              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera);
+              const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_odom_camera,
+              const CameraMotion& motion = {});
 
   /// The same without a pose of its own, for a window of which only some borders are seen. Never starts a
   /// filter.
   bool update(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-              const Eigen::Isometry3d& T_odom_camera);
+              const Eigen::Isometry3d& T_odom_camera, const CameraMotion& motion = {});
 
   /// What is known of the size of the window in this observation, for the estimator: what the filter was made
   /// with, or what was found since; nothing if neither is there.
@@ -80,6 +85,8 @@ class WindowFilter {
   std::optional<FilteredWindow> state(double now_sec) const;
 
   void reset();
+  /// Odometry walks so much from here on, but no less than the parameters say [m/sqrt(s)].
+  void assumeDrift(double m_per_sqrt_sec);
   /// The odometry frame is another one: places are void, the size of the opening is not.
   void forgetPlaces();
 

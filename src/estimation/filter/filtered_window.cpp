@@ -8,8 +8,14 @@ namespace window_ingress::estimation {
 namespace {
 
 CameraTurn cameraTurn(const WindowHypothesis& window) {
-  return {-window.state().values.segment<3>(WindowState::kPitchBias),
-          window.covariance().block<3, 3>(WindowState::kPitchBias, WindowState::kPitchBias)};
+  constexpr auto kYaw = WindowState::kYawBias, kHeading = WindowState::kHeadingBias;
+  const auto& values = window.state().values;
+  const auto& covariance = window.covariance();
+  const double together =
+      covariance(kYaw, kYaw) + covariance(kHeading, kHeading) - 2.0 * covariance(kYaw, kHeading);
+  return {-values.segment<3>(WindowState::kPitchBias),
+          covariance.block<3, 3>(WindowState::kPitchBias, WindowState::kPitchBias),
+          values(kHeading) - values(kYaw), std::sqrt(std::max(0.0, together))};
 }
 
 Matrix6d covarianceOf(const WindowHypothesis& window, const FilterParams& params) {

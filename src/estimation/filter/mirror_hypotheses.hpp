@@ -12,6 +12,7 @@ namespace window_ingress::estimation {
 class MirrorHypotheses {
  public:
   explicit MirrorHypotheses(const FilterParams& params) : params_(params) {}
+  void assumeDrift(double m_per_sqrt_sec) { params_.drift_m_per_sqrt_sec = m_per_sqrt_sec; }
 
   struct Weighted {
     WindowHypothesis window;

@@ -99,7 +99,7 @@ class HypothesisFit {
         prior_.values(WindowState::kInverseHeight) / state.values(WindowState::kInverseHeight);
     Eigen::Isometry3d T = view_.T_odom_camera;
     T.translation() += (share - 1.0) * view_.jitter_m;
-    return {T, share * view_.jitter_m};
+    return {T, view_.motion, share * view_.jitter_m};
   }
 
   const WindowState& prior_;
@@ -123,12 +123,14 @@ WindowHypothesis::WindowHypothesis(const FilterParams& params, const Eigen::Isom
   state_.anchor_m = anchor_m;
   state_.values << inverse_height * (T_odom_window.translation() - anchor_m),
       geometry::yawOf(T_odom_window.linear()), 0.0, yaw_bias.rad, 0.0,
-      std::log(size.size.width_m / size.size.height_m), inverse_height, Eigen::Vector3d::Zero();
+      std::log(size.size.width_m / size.size.height_m), inverse_height, 0.0, 0.0, Eigen::Vector3d::Zero();
   const double speed = inverse_height * params.target_speed_mps;
   Vector sigma = Vector::Zero();
   sigma.tail<3>().setConstant(std::max(speed, kStandingSigma));
   sigma.head<7>() << Eigen::Vector3d::Constant(inverse_height * kPriorPositionSigmaM), kPriorYawSigmaRad,
       params.attitude_bias_sigma_rad, yaw_bias.sigma_rad, params.attitude_bias_sigma_rad;
+  sigma(WindowState::kHeadingBias) = params.heading_bias_sigma_rad;
+  sigma(WindowState::kLate) = params.late_sigma_sec;
   covariance_ = sigma.cwiseAbs2().asDiagonal();
   Eigen::Matrix2d aspect_and_scale;
   aspect_and_scale << 1.0, -1.0, 0.0, -inverse_height;

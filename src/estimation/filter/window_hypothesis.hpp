@@ -22,7 +22,8 @@ struct FilterView {
   /// How far the camera's position lies from the smooth way that it is on. The scale is learned from the way
   /// alone: jitter that was taken for motion would pass for a way flown past a window of infinite size.
   Eigen::Vector3d jitter_m = Eigen::Vector3d::Zero();
-  bool moves = true;  ///< else this image tells nothing about the scale
+  bool moves = true;         ///< else this image tells nothing about the scale
+  CameraMotion motion = {};  ///< matters where odometry's stamps may be late
 };
 
 /// What is known of the camera's yaw on the vehicle, and of odometry's heading beside its positions.

@@ -29,6 +29,15 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& vector) {
          (angle - std::sin(angle)) / (square * angle) * cross * cross;
 }
 
+// Where the camera was if heading and stamps are off by what the state says.
+Eigen::Isometry3d correctedCamera(const WindowState& state, const ScaledCamera& at) {
+  const double late_sec = state.values(WindowState::kLate);
+  const Eigen::Matrix3d R_turned = geometry::yawRotation(-state.values(WindowState::kHeadingBias)) *
+                                   rotation(late_sec * at.motion.turn_radps);
+  return geometry::makePose(R_turned * at.T_odom_camera.linear(),
+                            at.T_odom_camera.translation() + late_sec * at.motion.velocity_mps);
+}
+
 // How the pose in the camera moves when the whole world turns about the camera's axes.
 Eigen::Matrix<double, 6, 3> byCameraTurn(const Eigen::Isometry3d& T_camera_window) {
   Eigen::Matrix<double, 6, 3> turn;
@@ -46,6 +55,11 @@ Eigen::Matrix<double, 6, WindowState::kSize> poseByState(const WindowState& stat
   jacobian.block<3, 1>(3, WindowState::kYaw) = R_camera_odom.col(2);
   jacobian.block<6, 3>(0, WindowState::kPitchBias) =
       byCameraTurn(T_camera_window) * leftJacobian(attitudeError(state));
+  jacobian.col(WindowState::kHeadingBias) = byCameraTurn(T_camera_window) * R_camera_odom.col(2);
+  const Eigen::Vector3d turn_radps =
+      geometry::yawRotation(-state.values(WindowState::kHeadingBias)) * at.motion.turn_radps;
+  jacobian.col(WindowState::kLate) = -byCameraTurn(T_camera_window) * R_camera_odom * turn_radps;
+  jacobian.block<3, 1>(0, WindowState::kLate) -= R_camera_odom * at.motion.velocity_mps;
   jacobian.block<3, 1>(0, WindowState::kInverseHeight) =
       R_camera_odom * (-height * height * state.values.head<3>() + height * at.unscaled_m);
   return jacobian;
@@ -80,11 +94,11 @@ WindowState::Vector difference(const WindowState::Vector& a, const WindowState::
 std::optional<LinearisedView> linearise(const ImageMeasurement& image, const geometry::PinholeCamera& camera,
                                         const ScaledCamera& at, const WindowState& state) {
   if (!(state.values(WindowState::kInverseHeight) > kMinInverseHeight)) return std::nullopt;
-  const Eigen::Isometry3d T = state.T_camera_window(at.T_odom_camera);
+  const Eigen::Isometry3d T_odom_camera = correctedCamera(state, at);
+  const Eigen::Isometry3d T = state.T_camera_window(T_odom_camera);
   const auto predicted = predictOpening(camera, T, state.opening());
   if (!predicted) return std::nullopt;
-  const Eigen::Matrix3d R_camera_odom =
-      rotation(attitudeError(state)) * at.T_odom_camera.linear().transpose();
+  const Eigen::Matrix3d R_camera_odom = rotation(attitudeError(state)) * T_odom_camera.linear().transpose();
   Eigen::Matrix<double, 8, WindowState::kSize> corners_by_state =
       predicted->by_pose * poseByState(state, at, T, R_camera_odom);
   corners_by_state.col(WindowState::kLogAspect) += predicted->by_log_size.col(0);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "estimation/planar/image_measurement.hpp"
+#include "window_ingress/estimation/camera_motion.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 
@@ -16,7 +17,7 @@ namespace window_ingress::estimation {
 /// images depend on the inverse height nearly linearly, so that a scale known to a factor of two is no
 /// trouble.
 struct WindowState {
-  static constexpr int kSize = 12;
+  static constexpr int kSize = 14;
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   enum Index {
@@ -29,6 +30,8 @@ struct WindowState {
     kRollBias,       ///< about its own z axis [rad]
     kLogAspect,      ///< logarithm of width over height of the opening
     kInverseHeight,  ///< of the opening [1/m]
+    kHeadingBias,    ///< lasting error of odometry's heading beside its positions [rad]
+    kLate,           ///< how much older than the image odometry of the same stamp is [s]
     kVelocityX,      ///< of the window, odom axes [heights of the opening per second]
     kVelocityY,
     kVelocityZ,
@@ -56,6 +59,7 @@ WindowState::Vector difference(const WindowState::Vector& a, const WindowState::
 /// window by a fixed number of the window's heights, whatever their length.
 struct ScaledCamera {
   Eigen::Isometry3d T_odom_camera;
+  CameraMotion motion;
   Eigen::Vector3d unscaled_m = Eigen::Vector3d::Zero();
 };
 

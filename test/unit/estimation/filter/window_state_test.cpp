@@ -18,7 +18,8 @@ WindowState randomState(std::mt19937& random) {
   state.anchor_m = {unit(random), unit(random), 1.5};
   state.values << 4.0 + unit(random), unit(random), 0.3 * unit(random), 0.6 * unit(random),
       0.3 * unit(random), 0.3 * unit(random), 0.3 * unit(random), 0.3 * unit(random),
-      1.0 + 0.3 * unit(random), 0.2 * unit(random), 0.2 * unit(random), 0.2 * unit(random);
+      1.0 + 0.3 * unit(random), 0.1 * unit(random), 0.05 * unit(random), 0.2 * unit(random),
+      0.2 * unit(random), 0.2 * unit(random);
   return state;
 }
 
@@ -28,6 +29,7 @@ ScaledCamera randomCamera(std::mt19937& random) {
       geometry::rotationFromEuler({0.1 * unit(random), 0.1 * unit(random), 0.2 * unit(random)}) *
       geometry::R_optical_flu().transpose();
   return {geometry::makePose(R, {unit(random), unit(random), 1.5 + 0.2 * unit(random)}),
+          {{unit(random), unit(random), unit(random)}, {unit(random), unit(random), unit(random)}},
           {0.02 * unit(random), 0.02 * unit(random), 0.02 * unit(random)}};
 }
 
@@ -43,7 +45,7 @@ ScaledCamera at(const ScaledCamera& camera, const WindowState& from, const Windo
 TEST(WindowState, PlaceAndSizeComeInHeightsOfTheOpening) {
   WindowState state;
   state.anchor_m = {1, 2, 3};
-  state.values << 4, 0, 1, 0.5, 0, 0, 0, std::log(1.5), 1.0 / 0.8, 0.1, 0.0, -0.2;
+  state.values << 4, 0, 1, 0.5, 0, 0, 0, std::log(1.5), 1.0 / 0.8, 0, 0, 0.1, 0.0, -0.2;
   EXPECT_LT((state.position() - Eigen::Vector3d(1 + 3.2, 2, 3 + 0.8)).norm(), 1e-12);
   EXPECT_LT((state.velocity() - Eigen::Vector3d(0.08, 0.0, -0.16)).norm(), 1e-12);
   EXPECT_NEAR(state.opening().width_m, 1.2, 1e-12);
@@ -81,6 +83,24 @@ TEST(WindowState, DerivativesOfTheImageAgainstDifferences) {
       EXPECT_LT((numeric - linear.by_state.col(k)).norm(), 1e-4 * (1.0 + numeric.norm())) << k;
     }
   }
+}
+
+TEST(WindowState, WhereTheHeadingIsOffOrOdometryLateTheCameraWasElsewhere) {
+  std::mt19937 random(5);
+  const auto lens = camera();
+  WindowState state = randomState(random);
+  state.values.segment<5>(WindowState::kPitchBias).setZero();
+  state.values(WindowState::kInverseHeight) = 1.0;
+  state.values(WindowState::kHeadingBias) = 0.08;
+  state.values(WindowState::kLate) = 0.1;
+  ScaledCamera at = randomCamera(random);
+  at.motion.turn_radps = {0.0, 0.0, 0.5};
+  Eigen::Isometry3d was = at.T_odom_camera;
+  was.linear() = geometry::yawRotation(0.05 - 0.08) * was.linear();
+  was.translation() += 0.1 * at.motion.velocity_mps;
+  const auto window = bordersSeen(lens, state.T_camera_window(was), 1e-9, random, state.opening());
+  const auto image = ImageMeasurement::make(window, lens, {}).value();
+  EXPECT_LT(linearise(image, lens, at, state)->residual.norm(), 1e-6);
 }
 
 TEST(WindowState, DerivativesOfThePlaceAgainstDifferences) {
