@@ -64,6 +64,7 @@ void TargetEstimator::forgetPlaces() {
   attitude_.clear();
   odometry_stamp_sec_.reset();
   pending_.reset();
+  unverified_.clear();
   last_ = TargetUpdate();
 }
 
@@ -90,6 +91,28 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
   odometry_stamp_sec_ = stamp_sec;
   last_T_odom_base_ = T_odom_base;
   if (pending_ && pending_->stamp_sec <= stamp_sec) flush();
+  verifyMounting(stamp_sec);
+}
+
+// Once odometry from after the image is there, too: how the vehicle moved then is in the check.
+void TargetEstimator::verifyMounting(double odometry_sec) {
+  constexpr double kAroundSec = 0.1;
+  while (!unverified_.empty() && unverified_.front().stamp_sec + kAroundSec <= odometry_sec) {
+    const ObservedImage image = std::move(unverified_.front());
+    unverified_.pop_front();
+    const auto T_odom_base = odometry_.at(image.stamp_sec, kMaxPoseGapSec);
+    const auto before = odometry_.at(image.stamp_sec - kAroundSec, kMaxPoseGapSec);
+    const auto after = odometry_.at(image.stamp_sec + kAroundSec, kMaxPoseGapSec);
+    if (!T_odom_base) continue;
+    checks_->frames.mounting().assumeDrift(checks_->frames.twist().driftMPerSqrtSec());
+    CameraMotion motion;
+    if (before && after) {
+      motion.velocity_mps = (after->translation() - before->translation()) / (2.0 * kAroundSec);
+      const Eigen::AngleAxisd turn(after->linear() * before->linear().transpose());
+      motion.turn_radps = turn.angle() * turn.axis() / (2.0 * kAroundSec);
+    }
+    checks_->frames.mounting().see(*image.window, image.camera, *T_odom_base, *image.T_base_camera, motion);
+  }
 }
 
 // Is odom another frame from here on? Then nothing in it is where it was. What is less, the filter's outliers
@@ -142,6 +165,8 @@ void TargetEstimator::noticeTarget(std::uint32_t target_id) {
   if (target_id == target_id_) return;
   target_id_ = target_id;
   checks_->parallax.clear();
+  unverified_.clear();
+  checks_->frames.mounting().startAnewForAnotherTarget(target_id);
   clocks_.forgetPlaces();
 }
 
@@ -228,9 +253,7 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
         !other.empty())
       return other;
   // A camera that is not mounted as said may give no pose at all.
-  if (T_odom_camera)
-    checks_->frames.mounting().see(window, image.camera, *T_odom_camera * image.T_base_camera->inverse(),
-                                   *image.T_base_camera);
+  if (T_odom_camera) unverified_.push_back(image);
   if (!last_.pose.estimate && is_whole) return last_.pose.detail;
   if (!image.T_base_camera) return "mounting of the camera unknown";
   if (!T_odom_camera) return "no odometry near the exposure";
@@ -268,6 +291,7 @@ std::optional<TargetEstimate> TargetEstimator::target(double now_sec) const {
   TargetEstimate target = targetFrom(*state);
   target.fit = fit(*state).fit;
   target.approach_forbidden = approachForbidden(*state);
+  target.unverified = unverified();
   target.other_window = otherWindow();
   target.openness = openness();
   target.window_id = facade_.targetId();

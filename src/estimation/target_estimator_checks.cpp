@@ -62,6 +62,11 @@ void TargetEstimator::judgeOpenness(const ObservedImage& image) {
       {*image.window, image.camera, back * *T_odom_camera, back * window->T_odom_window, window->size.size});
 }
 
+std::string TargetEstimator::unverified() const {
+  const FramesVerdict mounting = checks_->frames.mounting().verdict();
+  return mounting.state == FramesVerdict::kGood ? "" : mounting.what;
+}
+
 FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }
 
 const std::optional<SizeEstimate>& TargetEstimator::measuredSize() const {

@@ -30,6 +30,8 @@ struct TargetEstimate {
   /// the camera's mounting or the velocity's frame are not what they are said to be. Empty if there is no
   /// reason.
   std::string approach_forbidden;
+  /// What the way flown has yet to show before anybody flies in; empty if nothing.
+  std::string unverified;
   /// The way flown has shown that it is not the window looked for, but one so many times as large.
   std::optional<double> other_window;
   /// Whether it is open, by parallax; UNKNOWN until that is seen.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -107,6 +108,9 @@ class TargetEstimator {
   const std::optional<ClockCheck::Offset>& clockOffset() const { return clocks_.offset(); }
   /// Why nobody should fly towards this window; empty if there is no reason.
   std::string approachForbidden(const FilteredWindow& window) const;
+  /// What the way flown has yet to show before anybody flies in: that the camera is mounted as said. Empty if
+  /// it has.
+  std::string unverified() const;
   /// The window seen is not the one looked for, but so many times as large.
   std::optional<double> otherWindow() const;
 
@@ -118,6 +122,7 @@ class TargetEstimator {
                                             const std::optional<Eigen::Isometry3d>& T_base_camera) const;
   void rememberWindows(const ObservedImage& image);
   void startAnewIfNot(std::uint32_t target_before);
+  void verifyMounting(double odometry_sec);
   std::string updateFilter(const ObservedImage& image);  // empty, or why it was not used
   void forgetPlaces();
   void noticeTarget(std::uint32_t target_id);
@@ -145,6 +150,7 @@ class TargetEstimator {
   std::optional<double> odometry_stamp_sec_;
   Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
   std::optional<ObservedImage> pending_;
+  std::deque<ObservedImage> unverified_;  ///< images that the check of the mounting has yet to look at
   TargetUpdate last_;
 };
 

@@ -15,8 +15,12 @@ constexpr char kNothingYet[] = "camera mounting: no way flown yet";
 constexpr double kLastingSec = 10000.0;                    // a mounting does not change
 constexpr double kPriorSigmaRad = 0.35;                    // of the camera's attitude before anything is seen
 constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
-constexpr double kCertainSigmas = 2.5;
-constexpr double kImageSpacingM = 0.05;  // nearer images are not looked at
+constexpr double kMaxTurnWithHeadingRad = 0.09;            // more than any heading that is off for long
+constexpr double kHeadingSigmaRad = 0.03;                  // of odometry beside its positions: a compass
+constexpr double kLateSigmaSec = 0.08;                     // of odometry's stamps beside the images'
+constexpr double kFaultSigmas = 2.0;                       // that it is turned
+constexpr double kCertainSigmas = 2.5;                     // that it is not, and that the size is another one
+constexpr double kImageSpacingM = 0.05;                    // nearer images are not looked at
 constexpr double kSpacingSec = 0.5, kGoodSpacingFactor = 3.0;
 constexpr std::size_t kMaxImages = 16, kEnoughImages = 10;
 constexpr double kKeptSpacingM = 0.1;
@@ -30,6 +34,8 @@ constexpr int kSetupsAnImage = 4;
 FilterParams openParams(FilterParams filter) {
   filter.attitude_bias_sigma_rad = filter.mounting_yaw_sigma_rad = kPriorSigmaRad;
   filter.attitude_bias_time_sec = kLastingSec;
+  filter.heading_bias_sigma_rad = kHeadingSigmaRad;
+  filter.late_sigma_sec = kLateSigmaSec;
   filter.yaw_bias_lasts = false;
   filter.trusted_yaw_sigma_rad = 0.5;
   filter.outliers_until_restart = 1000;
@@ -40,13 +46,16 @@ FilterParams openParams(FilterParams filter) {
 struct BodyTurn {
   Eigen::Vector3d roll_pitch_yaw_rad;
   double least_rad, most_rad;
+  double least_with_heading_rad;  ///< of yaw and odometry's heading together
 };
 
-BodyTurn bodyTurn(const CameraTurn& camera, double sigmas) {
+BodyTurn bodyTurn(const CameraTurn& camera) {
   const Eigen::Vector3d turn(camera.turn_rad.z(), -camera.turn_rad.x(), -camera.turn_rad.y());
   const Eigen::Vector3d variance = camera.covariance.diagonal();
   const Eigen::Vector3d sigma = Eigen::Vector3d(variance.z(), variance.x(), variance.y()).cwiseSqrt();
-  return {turn, (turn.cwiseAbs() - sigmas * sigma).maxCoeff(), (turn.cwiseAbs() + sigmas * sigma).maxCoeff()};
+  return {turn, (turn.cwiseAbs() - kFaultSigmas * sigma).maxCoeff(),
+          (turn.cwiseAbs() + kCertainSigmas * sigma).maxCoeff(),
+          std::abs(camera.with_heading_rad) - kFaultSigmas * camera.with_heading_sigma_rad};
 }
 
 std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
@@ -59,6 +68,11 @@ std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
                       geometry::kDegreesPerRad * roll_pitch_yaw_rad(axis), kAxes[axis]);
   }
   return "camera mounting turned by about " + text;
+}
+
+std::string openText(const BodyTurn& turn) {
+  return formatted("camera mounting: a turn of %.0f deg cannot be excluded yet",
+                   geometry::kDegreesPerRad * turn.most_rad);
 }
 
 // All ways to lay right-handed axes on others.
@@ -159,11 +173,12 @@ bool MountingCheck::isFarFromLast(const Image& image) const {
 }
 
 void MountingCheck::see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera) {
+                        const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera,
+                        const CameraMotion& motion) {
   if (!geometry::isValidPose(T_odom_base) || !geometry::isValidPose(T_base_camera)) return;
   if (!window.whole() && !filter_.state(window.stamp_sec)) return;
   startAnewForAnotherTarget(window.target_id);
-  const Image image{window, camera, T_odom_base, T_base_camera};
+  const Image image{window, camera, T_odom_base, T_base_camera, motion};
   if (!isFarFromLast(image)) return;
   if (window.whole()) keep(image);
   last_ = Place{window.stamp_sec, T_odom_base.translation()};
@@ -188,11 +203,12 @@ void MountingCheck::keep(const Image& image) {
 
 bool MountingCheck::feed(WindowFilter& filter, const Image& image,
                          const Eigen::Isometry3d& T_odom_camera) const {
-  if (filter.state(image.window.stamp_sec)) return filter.update(image.window, image.camera, T_odom_camera);
+  if (filter.state(image.window.stamp_sec))
+    return filter.update(image.window, image.camera, T_odom_camera, image.motion);
   PoseHints hints;
   hints.size = open_;
   const auto start = estimator_.estimate(image.window, image.camera, hints).estimate;
-  return start && filter.update(*start, image.window, image.camera, T_odom_camera);
+  return start && filter.update(*start, image.window, image.camera, T_odom_camera, image.motion);
 }
 
 void MountingCheck::judge() {
@@ -205,20 +221,23 @@ void MountingCheck::judge() {
 
 // Both planar hypotheses must agree: a turned camera and a turned window look alike for a while.
 void MountingCheck::judgeTurn(const FilteredWindow& found) {
-  BodyTurn turn = bodyTurn(found.camera_turn, kCertainSigmas);
+  BodyTurn turn = bodyTurn(found.camera_turn);
   if (found.alternative) {
-    const BodyTurn other = bodyTurn(found.alternative->camera_turn, kCertainSigmas);
+    const BodyTurn other = bodyTurn(found.alternative->camera_turn);
     turn.least_rad = std::min(turn.least_rad, other.least_rad);
     turn.most_rad = std::max(turn.most_rad, other.most_rad);
+    turn.least_with_heading_rad = std::min(turn.least_with_heading_rad, other.least_with_heading_rad);
   }
   const std::string size_fault = faultOfSize(found.size);
   const FramesVerdict before = verdict_;
-  if (turn.least_rad > kMaxTurnRad)
+  if (turn.least_rad > kMaxTurnRad || turn.least_with_heading_rad > kMaxTurnWithHeadingRad)
     verdict_ = {FramesVerdict::kWrong, turnText(turn.roll_pitch_yaw_rad)};
   else if (!size_fault.empty())
     verdict_ = {FramesVerdict::kWrong, size_fault};
   else if (turn.most_rad < 2.0 * kMaxTurnRad)
     verdict_ = {FramesVerdict::kGood, ""};
+  else if (verdict_.state != FramesVerdict::kWrong)
+    verdict_ = {FramesVerdict::kOpen, openText(turn)};
   if (!(verdict_ == before)) size_is_fault_ = verdict_.what == size_fault && !size_fault.empty();
 }
 

@@ -14,7 +14,7 @@ namespace window_ingress::estimation {
 
 /// Whether the camera looks where its mounting says, and the opening has the size it is said to have: a
 /// filter of its own that knows neither, fed with images a little apart. What moves past the camera while
-/// odometry flies a known way tells both.
+/// odometry flies a known way tells both. Heading and stamps of odometry may be off, too.
 ///
 /// Where that filter explains nothing, the mounting may be wrong by a right angle or more, or odometry's axes
 /// exchanged: these are tried on the last images, and the one that explains them is named.
@@ -26,8 +26,12 @@ class MountingCheck {
   /// A filter begins with a whole window and goes on with what is left of it: a camera turned aside has the
   /// window at the image's border.
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
-           const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera);
+           const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera,
+           const CameraMotion& motion = {});
+  void startAnewForAnotherTarget(std::uint32_t seen_id);
   void clear();
+  /// How much odometry's position is seen to walk [m/sqrt(s)].
+  void assumeDrift(double m_per_sqrt_sec) { filter_.assumeDrift(m_per_sqrt_sec); }
   void forgetPlaces();  ///< the odometry frame is another one; what was found out stays
   FramesVerdict verdict() const { return verdict_; }
 
@@ -39,11 +43,11 @@ class MountingCheck {
     detection::WindowObservation window;
     geometry::PinholeCamera camera;
     Eigen::Isometry3d T_odom_base, T_base_camera;
+    CameraMotion motion;
   };
   struct Setup;
   struct Trial;
   static std::vector<Setup> setups();
-  void startAnewForAnotherTarget(std::uint32_t seen_id);
   bool isFarFromLast(const Image& image) const;
   bool feed(WindowFilter& filter, const Image& image, const Eigen::Isometry3d& T_odom_camera) const;
   void keep(const Image& image);

@@ -17,6 +17,7 @@ constexpr double kMaxVelocityMisfit = 0.3;        // relative, of way and veloci
 constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
+constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // taken for seen: satellites
 constexpr double kMaxBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
 constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
@@ -90,6 +91,19 @@ void TwistCheck::closePiece(const Eigen::Vector3d& moved_m) {
   if (pieces_.size() > kMaxPieces) pieces_.pop_front();
   startAt(*last_);
   judge();
+}
+
+// Pieces that follow each other: of what their errors a second differ by, a steady bias is no part.
+double TwistCheck::driftMPerSqrtSec() const {
+  double squares = kFirstDriftAxes * square(kFirstDriftMPerSqrtSec), axes = kFirstDriftAxes;
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+    const Piece &a = pieces_[i - 1], &b = pieces_[i];
+    const Eigen::Vector2d apart_mps = (b.error_base_m[0] / b.sec - a.error_base_m[0] / a.sec).head<2>();
+    const double jitter = 2.0 * square(kJitterM) * (1.0 / square(a.sec) + 1.0 / square(b.sec));
+    squares += (apart_mps.squaredNorm() - 2.0 * jitter) / (1.0 / a.sec + 1.0 / b.sec);
+    axes += 2.0;
+  }
+  return std::sqrt(std::max(0.0, squares / axes));
 }
 
 double TwistCheck::Sums::misfit() const { return std::sqrt(misfits[0] / squares); }

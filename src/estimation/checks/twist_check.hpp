@@ -27,6 +27,9 @@ class TwistCheck {
   void clear() { *this = TwistCheck(); }
   void startPiece() { last_.reset(); }  ///< what follows is no continuation of what was
   FramesVerdict verdict() const { return verdict_; }
+  /// How fast the position walks beside the velocity, root mean square of an axis; that of a satellite
+  /// receiver before it is known [m/sqrt(s)].
+  double driftMPerSqrtSec() const;
 
   static constexpr int kMeanings = 6;
 

@@ -56,6 +56,28 @@ TEST(TwistCheck, AVelocityInWorldAxesIsNamedWhereTheHeadingShowsIt) {
   EXPECT_EQ(fly(0.1, 1, kWorld).state, FramesVerdict::kGood) << "both are nearly the same";
 }
 
+TEST(TwistCheck, MeasuresHowThePositionWalksBesideABiasedVelocity) {
+  double squares = 0.0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> step(0.0, 0.07 * std::sqrt(1.0 / 50.0));
+    TwistCheck walking, steady;
+    Eigen::Vector3d way(0, 0, 1), walk(0, 0, 0);
+    const Eigen::Vector3d velocity(0.7, 0.0, 0.0), bias(0.1, -0.2, 0.0);
+    for (int i = 0; i < 400; ++i) {
+      way += velocity / 50.0;
+      walk.head<2>() += Eigen::Vector2d(step(random), step(random));
+      const Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+      walking.add(i / 50.0, geometry::makePose(R, way + walk), velocity + bias);
+      steady.add(i / 50.0, geometry::makePose(R, way), velocity + bias);
+    }
+    EXPECT_LT(steady.driftMPerSqrtSec(), 0.03);
+    squares += walking.driftMPerSqrtSec() * walking.driftMPerSqrtSec() / 100.0;
+  }
+  EXPECT_NEAR(std::sqrt(squares), 0.07, 0.02);
+  EXPECT_GT(TwistCheck().driftMPerSqrtSec(), 0.03) << "nothing seen yet";
+}
+
 TEST(TwistCheck, NamesExchangedAndMirroredAxes) {
   const auto exchanged = fly(0.7, 1, [](const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
     const Eigen::Vector3d body = R.transpose() * v;

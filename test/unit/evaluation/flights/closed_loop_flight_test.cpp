@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "evaluation/flights/flight_table.hpp"
+#include "simulation/scenario/vehicle_profiles.hpp"
 
 namespace window_ingress::evaluation::closed_loop_flight_test {
 
@@ -52,6 +53,38 @@ TEST(ClosedLoopFlight, WithoutImagesNobodyWaitsForATargetToBeChosen) {
   params.without_images = true;
   const auto flight = flyOnce(scenario, 1, params);
   EXPECT_EQ(flight.outcome, Outcome::kPassed) << flight.reason;
+}
+
+// ArduCopter stamps its odometry 0.08 s late, and the heading beside its positions is off.
+simulation::Scenario ofArduCopter(const std::string& profile, double off_axis_rad, double heading_rad) {
+  auto scenario = shortFlight();
+  scenario.start.distance_m = 5.0;
+  scenario.start.off_axis_rad = off_axis_rad;
+  scenario.start.heading_rad = heading_rad;
+  scenario.time_limit_sec = 60.0;
+  simulation::applyProfile(profile, scenario.vehicle, scenario.odometry);
+  return scenario;
+}
+
+TEST(ClosedLoopFlight, ACameraTurnedByTenDegreesIsFoundBesideAHeadingThatIsOff) {
+  auto scenario = ofArduCopter("arducopter_4_0_default", -0.4, -1.0);
+  scenario.camera.told_yaw_error_rad = 10.0 * M_PI / 180.0;
+  FlightParams params;
+  params.without_images = true;
+  for (const std::uint32_t seed : {1u, 2u, 6u, 8u, 10u}) {
+    const auto flight = flyOnce(scenario, seed, params);
+    EXPECT_EQ(flight.outcome, Outcome::kAborted) << seed << ": " << flight.reason;
+    EXPECT_NE(flight.reason.find("camera mounting"), std::string::npos) << seed << ": " << flight.reason;
+  }
+}
+
+TEST(ClosedLoopFlight, OdometryStampedLateIsNoTurnedCamera) {
+  FlightParams params;
+  params.without_images = true;
+  for (const std::uint32_t seed : {3u, 4u, 7u, 8u, 12u}) {
+    const auto flight = flyOnce(ofArduCopter("arducopter_4_0", -0.1, 2.0), seed, params);
+    EXPECT_EQ(flight.outcome, Outcome::kPassed) << seed << ": " << flight.reason;
+  }
 }
 
 TEST(ClosedLoopFlight, WhereItIsDeniedNobodyEntersWhatWasNotSeenToBeOpen) {
