@@ -109,7 +109,7 @@ def test_nothing_is_lost_and_little_is_added(bags, kind):
         else:
             added.append(leaf)
     assert not missing
-    known = {"WindowPose": [0, 0, 1], "WindowDetection": [0] + 4 * [True]}.get(name, [])  # header's number, reject; visible
+    known = {"WindowPose": [0, 0, 1, ""], "WindowDetection": [0] + 4 * [True]}.get(name, [])  # header's number, reject; visible
     assert len(added) <= len(known), added
 
 

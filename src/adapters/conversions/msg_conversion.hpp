@@ -112,7 +112,7 @@ struct VerifiedTarget {
   estimation::FitVerdict fit{estimation::Fit::kUnknown, ""};
   estimation::Consistency consistency;
   std::optional<double> other_window;
-  std::string approach_forbidden;
+  std::string approach_forbidden, unverified;
 };
 
 window_ingress::ImagePose toMsg(const estimation::PoseResult& result);

@@ -139,6 +139,7 @@ window_ingress::SystemChecks toMsg(const VerifiedTarget& verified) {
   message.is_other_window = verified.other_window.has_value();
   message.other_window_factor = verified.other_window.value_or(0.0);
   message.approach_forbidden = verified.approach_forbidden;
+  message.unverified = verified.unverified;
   return message;
 }
 
@@ -213,6 +214,7 @@ Converted<navigation::TargetEstimate> targetFromMsg(const window_ingress::Window
   target.updates = static_cast<int>(std::min<std::uint32_t>(filtered.updates, 1u << 30));
   target.opening = opening;
   target.approach_forbidden = checks.approach_forbidden;
+  target.unverified = checks.unverified;
   target.openness = fromMsg(message.openness);
   if (checks.is_other_window) {
     if (!(checks.other_window_factor > 0.0) || !std::isfinite(checks.other_window_factor))

@@ -164,8 +164,12 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   if (state) {
     out.filtered = toMsg(*state);
     out.size = toMsg(state->size);
-    verified = {verified.frames, tracker_.fit(*state), state->consistency, tracker_.otherWindow(),
-                tracker_.approachForbidden(*state)};
+    verified = {verified.frames,
+                tracker_.fit(*state),
+                state->consistency,
+                tracker_.otherWindow(),
+                tracker_.approachForbidden(*state),
+                tracker_.unverified()};
   } else if (unused.reason.empty()) {
     unused = {window_ingress::FilteredPose::REFUSED, "no image has contributed lately"};
   }

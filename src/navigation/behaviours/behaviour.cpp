@@ -121,6 +121,7 @@ CommitCriterion criterionWith(const TargetEstimate& target, const VehicleState& 
   const std::string why_not = whyNotEntered(target, memory, params.commit);
   criterion.opening_unverified = !why_not.empty();
   if (criterion.holds) criterion.unmet = whyNoOdometryToCommitBy(memory);
+  if (criterion.unmet.empty()) criterion.unmet = target.unverified;
   if (criterion.unmet.empty()) criterion.unmet = why_not;
   criterion.holds = criterion.unmet.empty();
   return criterion;

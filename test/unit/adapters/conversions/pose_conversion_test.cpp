@@ -100,6 +100,7 @@ TEST(WindowPose, CarriesWhatWasVerified) {
   verified.consistency = {40, 1.5, true};
   verified.other_window = 1.8;
   verified.approach_forbidden = "fit NO_GO";
+  verified.unverified = "camera mounting";
   const window_ingress::SystemChecks message = toMsg(verified);
   EXPECT_EQ(message.fit, window_ingress::SystemChecks::FIT_NO_GO);
   EXPECT_EQ(message.frames, window_ingress::SystemChecks::FRAMES_WRONG);
@@ -109,6 +110,7 @@ TEST(WindowPose, CarriesWhatWasVerified) {
   EXPECT_TRUE(message.is_other_window);
   EXPECT_EQ(message.other_window_factor, 1.8);
   EXPECT_EQ(message.approach_forbidden, "fit NO_GO");
+  EXPECT_EQ(message.unverified, "camera mounting");
 }
 
 TEST(WindowPose, CarriesOpennessThereAndBackAndWhatIsNoVerdictIsNone) {
@@ -183,6 +185,8 @@ TEST(WindowPose, WhatForbidsTheApproachReachesTheTarget) {
   message.checks.approach_forbidden = "fit UNKNOWN";
   EXPECT_EQ(targetFromMsg(message, "odom").value->fit, estimation::Fit::kUnknown);
   EXPECT_EQ(targetFromMsg(message, "odom").value->approach_forbidden, "fit UNKNOWN");
+  message.checks.unverified = "camera mounting";
+  EXPECT_EQ(targetFromMsg(message, "odom").value->unverified, "camera mounting");
 }
 
 TEST(WindowPose, TargetsThatCannotBeUsedAreRefused) {

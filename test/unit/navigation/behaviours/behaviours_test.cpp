@@ -185,6 +185,22 @@ TEST(ApproachBehaviour, TurnsBackToAligningWhenTheApproachIsForbidden) {
   EXPECT_NE(decision.reason.find("0.50 m"), std::string::npos);
 }
 
+TEST(ApproachBehaviour, WaitsAtTheLineForWhatIsUnverifiedAndBacksOff) {
+  Approach approach{kDefaults};
+  MissionState memory;
+  Decision decision;
+  double now_sec = 10.0;
+  for (; !decision.event && now_sec < 20.0; now_sec += 0.03) {
+    Situation situation = situationAt({-0.8, 0, 1.5}, now_sec, true);
+    situation.target->unverified = "camera mounting: a turn of 9 deg cannot be excluded yet";
+    decision = approach.step(situation, memory);
+    EXPECT_EQ(decision.reason, situation.target->unverified);
+  }
+  EXPECT_EQ(decision.event, Event::kContractUnmet);
+  EXPECT_NEAR(now_sec - 10.0, kDefaults.approach.patience_sec, 0.1);
+  EXPECT_NE(memory.unmet.find("camera mounting"), std::string::npos) << "what is said where it gives up";
+}
+
 TEST(ApproachBehaviour, GoesBackToTheLineThatItWasBlownAcross) {
   Approach approach{kDefaults};
   MissionState memory;
