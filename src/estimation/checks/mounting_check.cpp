@@ -70,6 +70,11 @@ std::string turnText(const Eigen::Vector3d& roll_pitch_yaw_rad) {
   return "camera mounting turned by about " + text;
 }
 
+std::string turnWithHeadingText(const CameraTurn& camera) {
+  return formatted("camera mounting or odometry's heading turned by about %.0f deg in yaw",
+                   -geometry::kDegreesPerRad * camera.with_heading_rad);
+}
+
 std::string openText(const BodyTurn& turn) {
   return formatted("camera mounting: a turn of %.0f deg cannot be excluded yet",
                    geometry::kDegreesPerRad * turn.most_rad);
@@ -230,8 +235,10 @@ void MountingCheck::judgeTurn(const FilteredWindow& found) {
   }
   const std::string size_fault = faultOfSize(found.size);
   const FramesVerdict before = verdict_;
-  if (turn.least_rad > kMaxTurnRad || turn.least_with_heading_rad > kMaxTurnWithHeadingRad)
+  if (turn.least_rad > kMaxTurnRad)
     verdict_ = {FramesVerdict::kWrong, turnText(turn.roll_pitch_yaw_rad)};
+  else if (turn.least_with_heading_rad > kMaxTurnWithHeadingRad)
+    verdict_ = {FramesVerdict::kWrong, turnWithHeadingText(found.camera_turn)};
   else if (!size_fault.empty())
     verdict_ = {FramesVerdict::kWrong, size_fault};
   else if (turn.most_rad < 2.0 * kMaxTurnRad)
