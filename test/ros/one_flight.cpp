@@ -120,8 +120,12 @@ class Words {
     if (const auto state = tracker.filtered(stamp_sec)) {
       message.filtered = adapters::toMsg(*state);
       message.size = adapters::toMsg(state->size);
-      verified = {verified.frames, tracker.fit(*state), state->consistency, tracker.otherWindow(),
-                  tracker.approachForbidden(*state)};
+      verified = {verified.frames,
+                  tracker.fit(*state),
+                  state->consistency,
+                  tracker.otherWindow(),
+                  tracker.approachForbidden(*state),
+                  tracker.unverified()};
     } else if (reason.empty()) {
       reject = FilteredPose::REFUSED;
       reason = "no image has contributed lately";
