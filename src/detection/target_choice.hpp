@@ -31,8 +31,9 @@ class TargetChoice {
   std::optional<WindowObservation> choose(std::vector<ScoredCandidate>& rivals, int search_factor,
                                           const View& view);
 
-  /// What lies round the window that was chosen last is what lies round the reference's.
-  bool confirmed() const { return confirmed_; }
+  /// Correlation of what lies round the window that was chosen last with what lies round the reference's; 0
+  /// where that does not fit.
+  double ringThere() const { return ring_there_; }
 
   /// Where the borders of a window near this place are: where what lies round the reference's opening fits,
   /// averaged with what shows of its borders there. Nothing without a camera, or where that does not fit.
@@ -56,7 +57,7 @@ class TargetChoice {
   DetectionTrace& trace_;
   BorderRefinement refinement_;
   int search_factor_ = 1;
-  bool confirmed_ = false;
+  double ring_there_ = 0.0;
 };
 
 }  // namespace window_ingress::detection

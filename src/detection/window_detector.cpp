@@ -6,6 +6,7 @@
 
 #include "detection/candidates/candidate_search.hpp"
 #include "detection/candidates/nested_quads.hpp"
+#include "detection/quads.hpp"
 #include "detection/reference/reference_judge.hpp"
 #include "detection/target_choice.hpp"
 #include "window_ingress/parameters/fields.hpp"
@@ -13,7 +14,9 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller image [px]
+constexpr int kSmallestSide = 16;   ///< no window can be found in a smaller image [px]
+constexpr double kSureRing = 0.85;  ///< correlation of what lies round a window that nothing else can be
+
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("detector: " + parameters::joined(faults));
@@ -89,18 +92,22 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// By what lies round the opening; where that does not tell, by the frame, if there is one.
+// By the frame, where there is one and what lies round it is surely the reference's; otherwise by what lies
+// round the opening: also where its borders are those that the frame tells, for these are located better.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
-  gatherAll();
-  auto window = judgeSurroundings(image, stamp_sec, camera);
-  if (!window && (!reference.frameless() || !reference.compares(image)))
-    window = judgeFrames(image, stamp_sec, camera);
-  const bool is_sure = window && (choice.confirmed() || !reference.knowsSurroundings(image));
-  if (!is_sure && !std::exchange(looked_everywhere, true)) {
-    rivals = reference.placesEverywhere(image);
-    if (auto better = judgeSurroundings(image, stamp_sec, camera)) window = better;
-  }
+  std::optional<WindowObservation> window;
+  if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
+  bool confirmed = window && choice.ringThere() > 0.0;
+  const auto ask_surroundings = [&] {
+    const auto other = judgeSurroundings(image, stamp_sec, camera);
+    if (other && !(confirmed && Sameness(window->corners).samePlace(other->corners))) window = other;
+    confirmed = confirmed || (other && choice.ringThere() > 0.0);
+  };
+  if (!confirmed || choice.ringThere() < kSureRing) gatherAll(), ask_surroundings();
+  const bool is_sure = window && (confirmed || !reference.knowsSurroundings(image));
+  if (!is_sure && !std::exchange(looked_everywhere, true))
+    rivals = reference.placesEverywhere(image), ask_surroundings();
   done(watch, Stage::kBorders);
   return window;
 }

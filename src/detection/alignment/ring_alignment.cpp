@@ -20,7 +20,7 @@ constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of
 constexpr int kPatience = 5;          ///< steps without a better correlation, and it ends
 constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
 constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
-constexpr double kMinAlike = 0.6;     ///< nor one that correlates so much less than the whole ring
+constexpr double kMinAlike = 0.6;     ///< of the ring's correlation: a segment with less may be covered
 constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
@@ -131,7 +131,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
   residuals_.assign(view_.ring().x.size() * view_.channels(), 0.0F);
-  const double least = kMinAlike * correlation_.value();
+  const double least = prior_ ? kMinAlike * correlation_.value() : -1.0;
   for (const RingSegment& segment : segments_)
     if (segment.gain > kMinGain && segment.alike >= least * segment.weight)
       accumulate(segment, normal_sum, right, explained);
@@ -154,23 +154,23 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   return change;
 }
 
-// Steps of Gauss and Newton; of all maps passed the one with the best correlation of what is not covered is
-// kept.
+// Steps of Gauss and Newton; of all maps passed the one that fits best is kept. A calibrated camera's view of
+// a rectangle is known by three of its sides: there what may be covered does not count.
 RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilateral& start, Matrix3d& map,
                                 int most_steps) {
   RingMatch best;
   Matrix3d at = map;
   const double reach_px = kFurthest * meanSide(start);
   int best_step = 0;
-  double best_uncovered = -1.0;
+  double best_fit = -1.0;
   for (int n = 0;; ++n) {
     const double seen = view_.look(scale, at);
     if (seen < RingView::kMinSeen) break;
     readSegments();
     const auto step = change(at);
-    if (const double uncovered = meanUncovered(parts_); uncovered > best_uncovered)
-      best_uncovered = uncovered, best.correlation = correlation_.value(), best.seen = seen, map = at,
-      best_step = n, information_ = normal_ / (spread_ * spread_);
+    if (const double fits = prior_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
+      best_fit = fits, best.correlation = correlation_.value(), best.seen = seen, map = at, best_step = n,
+      information_ = normal_ / (spread_ * spread_);
     if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);
