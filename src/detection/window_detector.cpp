@@ -92,8 +92,8 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// By the frame, where there is one and what lies round it is surely the reference's; otherwise by what lies
-// round the opening: also where its borders are those that the frame tells, for these are located better.
+// By the frame, where there is one: its borders are located best. Where the ring is not sure of what it
+// finds, the ring is asked, and its answer stands if it is another window.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
   std::optional<WindowObservation> window;

@@ -16,11 +16,13 @@ using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
 constexpr int kCoarseSteps = 10, kFineSteps = 6, kLastSteps = 20;
-constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of the level]
-constexpr int kPatience = 5;          ///< steps without a better correlation, and it ends
-constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
-constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
-constexpr double kMinAlike = 0.6;     ///< of the ring's correlation: a segment with less may be covered
+constexpr double kStill_px = 0.04;  ///< a shorter step is the last one [px of the level]
+constexpr int kPatience = 5;        ///< steps without a better correlation, and it ends
+constexpr double kFurthest = 0.3;   ///< a corner may move this far from the start [mean sides]
+constexpr float kMinGain = 0.15F;   ///< a segment that shows less of the reference tells nothing
+constexpr double kMinAlike = 0.6;   ///< of the ring's correlation: a segment with less may be covered
+constexpr double kKnownAspect =
+    0.03;  ///< standard deviation of its logarithm, at most: three sides are enough
 constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
@@ -61,6 +63,7 @@ void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geom
   view_.set(model, image, camera);
   prior_.reset();
   if (camera && model.aspect()) prior_.emplace(*camera, *model.aspect());
+  leaves_out_ = prior_ && model.aspect()->log_sigma <= kKnownAspect;
 }
 
 RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
@@ -131,7 +134,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   DerivativeSum right;
   Matrix8f explained = Matrix8f::Zero();  // by gains and offsets
   residuals_.assign(view_.ring().x.size() * view_.channels(), 0.0F);
-  const double least = prior_ ? kMinAlike * correlation_.value() : -1.0;
+  const double least = leaves_out_ ? kMinAlike * correlation_.value() : -1.0;
   for (const RingSegment& segment : segments_)
     if (segment.gain > kMinGain && segment.alike >= least * segment.weight)
       accumulate(segment, normal_sum, right, explained);
@@ -154,8 +157,8 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   return change;
 }
 
-// Steps of Gauss and Newton; of all maps passed the one that fits best is kept. A calibrated camera's view of
-// a rectangle is known by three of its sides: there what may be covered does not count.
+// Steps of Gauss and Newton; of all maps passed the one that fits best is kept, where the shape is known
+// without what may be covered.
 RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilateral& start, Matrix3d& map,
                                 int most_steps) {
   RingMatch best;
@@ -168,7 +171,7 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
     if (seen < RingView::kMinSeen) break;
     readSegments();
     const auto step = change(at);
-    if (const double fits = prior_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
+    if (const double fits = leaves_out_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
       best_fit = fits, best.correlation = correlation_.value(), best.seen = seen, map = at, best_step = n,
       information_ = normal_ / (spread_ * spread_);
     if (!step || n == most_steps || n - best_step == kPatience) break;

@@ -56,6 +56,7 @@ class RingAlignment {
   RingView view_;
   RingScore judgement_;
   std::optional<RectanglePrior> prior_;
+  bool leaves_out_ = false;  ///< what may be covered: a rectangle of known shape is known by three sides
   RingCorrelation correlation_;
   std::vector<RingSegment> segments_;
   std::vector<WeightedPart> parts_;

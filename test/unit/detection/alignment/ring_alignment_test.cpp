@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "patched_wall.hpp"
 
 namespace window_ingress::detection::ring_alignment_test {
@@ -138,6 +140,29 @@ TEST(RingAlignment, ACalibratedCameraKeepsAHiddenSideFromShearing) {
     };
     EXPECT_LT(worst(OpeningAspect{PatchedWall::kAspect, 0.01}), 0.3) << seed;
     EXPECT_GT(worst(std::nullopt), 10.0) << seed;
+  }
+}
+
+// Someone in a patterned coat stands before a third of the ring.
+TEST(RingAlignment, WhatStandsBeforeOneSideDoesNotPullWhereTheShapeIsKnown) {
+  const geometry::PinholeCamera camera = PatchedWall::lensless();
+  for (unsigned seed = 3; seed < 9; ++seed) {
+    Scene scene{PatchedWall(seed)};
+    scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+    scene.look(seenFrom(2.5, -0.2));
+    std::mt19937 random(seed);
+    const int left = static_cast<int>(scene.opening[0].x()) - 60;
+    for (int y = 0; y < 480; y += 24)
+      for (int x = left; x < left + 100; x += 20)
+        cv::rectangle(scene.image, {x, y, 20, 24}, cv::Scalar(random() % 256, random() % 256, random() % 256),
+                      cv::FILLED);
+    RingAlignment alignment;
+    alignment.set(scene.model, scene.image, &camera);
+    Quadrilateral start = scene.opening;
+    for (auto& corner : start) corner.x() += 5.0;
+    const auto aligned = alignment.align(start, 400.0, 15.0);
+    ASSERT_TRUE(aligned) << seed;
+    EXPECT_LT(test::worstCorner(aligned->quad, scene.opening), 1.5) << seed;
   }
 }
 
