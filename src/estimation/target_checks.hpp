@@ -10,6 +10,7 @@ namespace window_ingress::estimation {
 struct TargetEstimator::Checks {
   FramesCheck frames;      ///< mounting, attitude, frame of the velocity
   ParallaxCheck parallax;  ///< the opening's size
+  bool mounting_is_sure;   ///< by what was said of it: odometry is made from the camera's own images
 };
 
 }  // namespace window_ingress::estimation

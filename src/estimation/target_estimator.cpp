@@ -13,6 +13,8 @@
 namespace window_ingress::estimation {
 namespace {
 
+constexpr double kSureMountingRad = 0.001;  ///< standard deviation of what nobody has to check
+
 TargetEstimatorParams checked(const TargetEstimatorParams& params) {
   const auto faults = parameters::outOfRange(params);
   if (!faults.empty()) throw std::invalid_argument("tracker: " + parameters::joined(faults));
@@ -43,7 +45,9 @@ TargetEstimator::TargetEstimator(const PoseParams& pose, const FilterParams& fil
     : params_(checked(params)),
       estimator_(pose),
       filter_(filter, sizeSaid(pose)),
-      checks_(new Checks{{pose, filter, sizeSaid(pose)}, ParallaxCheck(filter.target_speed_mps)}),
+      checks_(new Checks{{pose, filter, sizeSaid(pose)},
+                         ParallaxCheck(filter.target_speed_mps),
+                         filter.mounting_yaw_sigma_rad <= kSureMountingRad}),
       judge_(params.openness, params.needed),
       facade_(params.facade),
       size_is_known_(sizeSaid(pose).log_covariance.isZero(0.0)),

@@ -64,7 +64,7 @@ void TargetEstimator::judgeOpenness(const ObservedImage& image) {
 
 std::string TargetEstimator::unverified() const {
   const FramesVerdict mounting = checks_->frames.mounting().verdict();
-  return mounting.state == FramesVerdict::kGood ? "" : mounting.what;
+  return checks_->mounting_is_sure || mounting.state == FramesVerdict::kGood ? "" : mounting.what;
 }
 
 FramesVerdict TargetEstimator::frames() const { return checks_->frames.verdict(); }
