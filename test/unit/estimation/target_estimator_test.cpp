@@ -53,6 +53,13 @@ TEST(TargetEstimator, FindsTheWindowInOdomAtTheTimeOfTheExposure) {
   EXPECT_GT(target->updates, 10);
 }
 
+TEST(TargetEstimator, TheMountingIsUnverifiedUntilItWasWatchedOrIsSaidToBeSure) {
+  EXPECT_NE(tracker().unverified(), "");
+  FilterParams sure;
+  sure.mounting_yaw_sigma_rad = 0.001;
+  EXPECT_EQ(TargetEstimator(PoseParams(), sure, TargetEstimatorParams()).unverified(), "");
+}
+
 TEST(TargetEstimator, AnImageWaitsForItsOdometry) {
   auto track = tracker();
   track.addOdometry(0.0, vehicleAt(0.0));
