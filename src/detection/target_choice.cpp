@@ -103,6 +103,7 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
   return std::nullopt;
 }
 
+// Where all four borders show, they themselves have the reference's shape; the ring would give it to them.
 std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const View& view,
                                            RefinedBorders& fitted) {
   double inliers = 0.0;

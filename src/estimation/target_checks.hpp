@@ -10,7 +10,7 @@ namespace window_ingress::estimation {
 struct TargetEstimator::Checks {
   FramesCheck frames;      ///< mounting, attitude, frame of the velocity
   ParallaxCheck parallax;  ///< the opening's size
-  bool mounting_is_sure;   ///< by what was said of it: odometry is made from the camera's own images
+  bool mounting_is_sure;   ///< it was said to be; nothing has to be verified
 };
 
 }  // namespace window_ingress::estimation

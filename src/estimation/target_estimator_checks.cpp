@@ -62,6 +62,27 @@ void TargetEstimator::judgeOpenness(const ObservedImage& image) {
       {*image.window, image.camera, back * *T_odom_camera, back * window->T_odom_window, window->size.size});
 }
 
+// Once odometry from after the image is there, too: how the vehicle moved then is in the check.
+void TargetEstimator::verifyMounting(double odometry_sec) {
+  constexpr double kAroundSec = 0.1;
+  while (!unverified_.empty() && unverified_.front().stamp_sec + kAroundSec <= odometry_sec) {
+    const ObservedImage image = std::move(unverified_.front());
+    unverified_.pop_front();
+    const auto T_odom_base = odometry_.at(image.stamp_sec, kMaxPoseGapSec);
+    const auto before = odometry_.at(image.stamp_sec - kAroundSec, kMaxPoseGapSec);
+    const auto after = odometry_.at(image.stamp_sec + kAroundSec, kMaxPoseGapSec);
+    if (!T_odom_base) continue;
+    checks_->frames.mounting().assumeDrift(checks_->frames.twist().driftMPerSqrtSec());
+    CameraMotion motion;
+    if (before && after) {
+      motion.velocity_mps = (after->translation() - before->translation()) / (2.0 * kAroundSec);
+      const Eigen::AngleAxisd turn(after->linear() * before->linear().transpose());
+      motion.turn_radps = turn.angle() * turn.axis() / (2.0 * kAroundSec);
+    }
+    checks_->frames.mounting().see(*image.window, image.camera, *T_odom_base, *image.T_base_camera, motion);
+  }
+}
+
 std::string TargetEstimator::unverified() const {
   const FramesVerdict mounting = checks_->frames.mounting().verdict();
   return checks_->mounting_is_sure || mounting.state == FramesVerdict::kGood ? "" : mounting.what;

@@ -17,6 +17,7 @@ constexpr int kVariantsLocated = 2;         ///< loops of one place from which t
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
 constexpr double kSureUncovered = 0.92;                        ///< hardly anything else looks like that
+constexpr double kNeverSure = 2.0;                             ///< more than any correlation
 constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;      ///< correlation, where no frame's colours tell
 constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
@@ -198,7 +199,7 @@ bool ReferenceJudge::frameTells(const cv::Mat& image, double worth) const {
 // The colours of a frame that are its own tell it from one in another paint, which correlates as well.
 double ReferenceJudge::sureCorrelation() const {
   if (frameless()) return kSureOfWall;
-  return hasOwnFrame() ? 1.1 : kSureOfFrame;
+  return hasOwnFrame() ? kNeverSure : kSureOfFrame;
 }
 
 int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
