@@ -14,9 +14,11 @@ constexpr double kSearchRadius = 1.5;     ///< likewise, of what the search foun
 constexpr double kBlobRadius = 3.0;       ///< and where that is a blob's outline
 constexpr double kLocatedSigmaPx = 1.4;   ///< how well they are located
 constexpr double kAlignedStrayPx = 2.0;   ///< of fitted borders from where the surroundings were aligned
+constexpr double kAlignedStray = 0.015;   ///< likewise, near: a frame stands out of the wall [mean sides]
 constexpr double kCutAway = 0.01;         ///< of a corner beyond the image [longer image sides]
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
 constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
+constexpr double kSureRing = 0.85;  ///< correlation of what lies round a window that nothing else can be
 
 // Neither its geometry nor its surroundings have told that it is a window.
 bool isByFrameAlone(const ScoredCandidate& rival) { return rival.doubtful && !rival.correlation; }
@@ -31,6 +33,8 @@ double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate
 }
 
 }  // namespace
+
+bool TargetChoice::isSure() const { return ring_there_ >= kSureRing; }
 
 double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   if (rival.correlation) return params_.min_correlation;
@@ -65,7 +69,10 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
   start.radius_px =
       rival.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
   if (rival.located) start.knowAll(kLocatedSigmaPx);
-  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
+  if (rival.correlation) {
+    start.max_stray_px = std::max(kAlignedStrayPx, kAlignedStray * meanSide(rival.quad));
+    start.radius_px = std::max(start.radius_px, start.max_stray_px);
+  }
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 

@@ -14,8 +14,7 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSmallestSide = 16;   ///< no window can be found in a smaller image [px]
-constexpr double kSureRing = 0.85;  ///< correlation of what lies round a window that nothing else can be
+constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller image [px]
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -92,22 +91,27 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// By the frame, where there is one: its borders are located best. Where the ring is not sure of what it
-// finds, the ring is asked, and its answer stands if it is another window.
+// What lies round a window decides where it is sure. Where it is not, or a border does not show, the frame is
+// asked, if there is one; what it finds stands unless the ring names another window.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
-  std::optional<WindowObservation> window;
-  if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
+  gatherAll();
+  auto window = judgeSurroundings(image, stamp_sec, camera);
   bool confirmed = window && choice.ringThere() > 0.0;
-  const auto ask_surroundings = [&] {
-    const auto other = judgeSurroundings(image, stamp_sec, camera);
-    if (other && !(confirmed && Sameness(window->corners).samePlace(other->corners))) window = other;
-    confirmed = confirmed || (other && choice.ringThere() > 0.0);
-  };
-  if (!confirmed || choice.ringThere() < kSureRing) gatherAll(), ask_surroundings();
+  if (window && choice.isSure()) return window;
+  if (!reference.frameless() || !reference.compares(image)) {
+    const auto framed = judgeFrames(image, stamp_sec, camera);
+    const bool same = framed && window && Sameness(window->corners).samePlace(framed->corners);
+    if (framed && (same || !confirmed)) {
+      window = framed;
+      confirmed = choice.ringThere() > 0.0;
+    }
+  }
   const bool is_sure = window && (confirmed || !reference.knowsSurroundings(image));
-  if (!is_sure && !std::exchange(looked_everywhere, true))
-    rivals = reference.placesEverywhere(image), ask_surroundings();
+  if (!is_sure && !std::exchange(looked_everywhere, true)) {
+    rivals = reference.placesEverywhere(image);
+    if (auto found = judgeSurroundings(image, stamp_sec, camera)) window = found;
+  }
   done(watch, Stage::kBorders);
   return window;
 }

@@ -12,11 +12,45 @@ constexpr double kSkewSigma =
     0.003;  ///< of the cosine between the sides: how well corners and camera are known
 constexpr double kBeyondASide = 0.05;  ///< of the camera, from a side, to be beyond it [sides]
 
-using RowVector8d = Eigen::Matrix<double, 1, 8>;
+constexpr double kFocal = 0.9;  ///< of a camera without a calibration [longer image sides]
+constexpr double kLogFocalSigma = 0.4,
+                 kCentreSigma = 0.2;  ///< of its logarithm; of the centre [focal lengths]
 
-void add(double value, const RowVector8d& slope, double weight, Matrix8f& normal, Vector8f& right) {
-  normal += (weight * slope.transpose() * slope).cast<float>();
-  right -= (weight * value * slope.transpose()).cast<float>();
+template <int kCount>
+using Sides = Eigen::Matrix<double, 3, kCount>;
+template <int kCount>
+using Slopes = Eigen::Matrix<double, 1, kCount>;
+
+// The two sides of the rectangle in the view, and what they say of its shape.
+struct SeenRectangle {
+  Eigen::Vector3d across, down;
+  double width = across.norm(), height = down.norm();
+  double skew = across.dot(down) / (width * height);
+
+  template <int kCount>
+  Slopes<kCount> logAspectBy(const Sides<kCount>& d_across, const Sides<kCount>& d_down) const {
+    return across.transpose() * d_across / (width * width) - down.transpose() * d_down / (height * height);
+  }
+
+  template <int kCount>
+  Slopes<kCount> skewBy(const Sides<kCount>& d_across, const Sides<kCount>& d_down) const {
+    return (down.transpose() * d_across + across.transpose() * d_down) / (width * height) -
+           skew * (across.transpose() * d_across / (width * width) +
+                   down.transpose() * d_down / (height * height));
+  }
+};
+
+// What a change of the camera moves a side by: of its focal length's logarithm, of its centre in x and in y.
+Sides<3> byCamera(const Eigen::Vector3d& side) {
+  Sides<3> slopes;
+  slopes << -side.x(), -side.z(), 0.0, -side.y(), 0.0, -side.z(), 0.0, 0.0, 0.0;
+  return slopes;
+}
+
+void add(double value, const Slopes<8>& slope, double variance, double noise, Matrix8f& normal,
+         Vector8f& right) {
+  normal += (noise / variance * slope.transpose() * slope).cast<float>();
+  right -= (noise / variance * value * slope.transpose()).cast<float>();
 }
 
 }  // namespace
@@ -24,26 +58,32 @@ void add(double value, const RowVector8d& slope, double weight, Matrix8f& normal
 RectanglePrior::RectanglePrior(const geometry::PinholeCamera& camera, const OpeningAspect& aspect)
     : inverse_camera_(camera.K().inverse()), aspect_(aspect) {}
 
+RectanglePrior::RectanglePrior(const cv::Size& image, const OpeningAspect& aspect)
+    : aspect_(aspect), camera_sigma_(kLogFocalSigma, kCentreSigma, kCentreSigma) {
+  const double focal_px = kFocal * std::max(image.width, image.height);
+  Eigen::Matrix3d camera;
+  camera << focal_px, 0, 0.5 * (image.width - 1), 0, focal_px, 0.5 * (image.height - 1), 0, 0, 1;
+  inverse_camera_ = camera.inverse();
+}
+
 void RectanglePrior::addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal,
                            Vector8f& right) const {
   const Eigen::Matrix3d view = inverse_camera_ * map;
-  const Eigen::Vector3d across = view.col(0), down = view.col(1);
-  const double width = across.norm(), height = down.norm();
-  if (!(width > 0.0 && height > 0.0)) return;
-  Eigen::Matrix<double, 3, 8> d_across, d_down;  // by p
-  d_across.setZero(), d_down.setZero();
+  const SeenRectangle shape{view.col(0), view.col(1)};
+  if (!(shape.width > 0.0 && shape.height > 0.0)) return;
+  Sides<8> d_across = Sides<8>::Zero(), d_down = Sides<8>::Zero();  // by p
   for (int k = 0; k < 3; ++k) {
     d_across.col(3 * k) = -view.col(k);
     d_down.col(3 * k + 1) = -view.col(k);
   }
-  const RowVector8d d_log_width = across.transpose() * d_across / (width * width);
-  const RowVector8d d_log_height = down.transpose() * d_down / (height * height);
-  const double log_aspect = std::log(width / height / aspect_.value);
-  add(log_aspect, d_log_width - d_log_height, noise / (aspect_.log_sigma * aspect_.log_sigma), normal, right);
-  const double skew = across.dot(down) / (width * height);
-  const RowVector8d d_skew = (down.transpose() * d_across + across.transpose() * d_down) / (width * height) -
-                             skew * (d_log_width + d_log_height);
-  add(skew, d_skew, noise / (kSkewSigma * kSkewSigma), normal, right);
+  const Sides<3> across_by_camera = byCamera(shape.across), down_by_camera = byCamera(shape.down);
+  const auto variance = [this](double sigma, const Slopes<3>& by_camera) {
+    return sigma * sigma + by_camera.transpose().cwiseProduct(camera_sigma_).squaredNorm();
+  };
+  add(std::log(shape.width / shape.height / aspect_.value), shape.logAspectBy(d_across, d_down),
+      variance(aspect_.log_sigma, shape.logAspectBy(across_by_camera, down_by_camera)), noise, normal, right);
+  add(shape.skew, shape.skewBy(d_across, d_down),
+      variance(kSkewSigma, shape.skewBy(across_by_camera, down_by_camera)), noise, normal, right);
 }
 
 // The camera's place before the opening, from its centre: in its sides and from its plane.

@@ -62,7 +62,9 @@ RowVector8d slopeAcross(const Matrix3d& map, int corner, const Eigen::Vector2d& 
 void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
   view_.set(model, image, camera);
   prior_.reset();
-  if (camera && model.aspect()) prior_.emplace(*camera, *model.aspect());
+  if (model.aspect())
+    prior_ =
+        camera ? RectanglePrior(*camera, *model.aspect()) : RectanglePrior(image.size(), *model.aspect());
   leaves_out_ = prior_ && model.aspect()->log_sigma <= kKnownAspect;
 }
 
@@ -189,7 +191,7 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
 std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   std::array<SideSigma, 4> sides{};
   Quadrilateral quad;
-  if (!prior_ || !cornersOf(map, quad)) return sides;
+  if (!prior_ || !prior_->isCalibrated() || !cornersOf(map, quad)) return sides;
   const Eigen::Matrix<double, 8, 8> covariance = kDependent * information_.cast<double>().inverse();
   const auto views = prior_->viewsOfSides(map);
   const bool framed = view_.model().framed();

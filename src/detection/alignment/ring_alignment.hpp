@@ -18,8 +18,8 @@ namespace window_ingress::detection {
 struct AlignedRing {
   geometry::Quadrilateral quad;  ///< order as the start, pixels of the image as it came
   RingMatch match;
-  /// How well its sides are known, in that order. Without a camera, which alone keeps it from shearing, none
-  /// is; nor is the side of a frame from beyond which the camera looks.
+  /// How well its sides are known, in that order. Without a calibrated camera none is; nor is the side of a
+  /// frame from beyond which the camera looks.
   std::array<SideSigma, 4> sides;
 };
 
@@ -29,8 +29,7 @@ struct AlignedRing {
 /// shadows change nothing. Keeps its memory; one object a thread.
 class RingAlignment {
  public:
-  /// \param model, image outlive the comparisons \param camera null: the image is taken as free of
-  /// distortion, and any homography as possible
+  /// \param model, image outlive the comparisons \param camera null: the image is taken as free of distortion
   void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
 
   /// \param side_px resolution at which they are compared, at most [px a mean side]

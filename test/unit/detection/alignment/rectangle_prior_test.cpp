@@ -71,6 +71,23 @@ TEST(RectanglePrior, WhatAPoseMayChangeCostsNothing) {
   EXPECT_LT(eigen.eigenvalues()[5], 1e-4F * eigen.eigenvalues()[6]) << "six of eight are free";
 }
 
+// A rectangle seen from the front is one whatever the camera; foreshortened, its perspective
+// depends on the focal length.
+TEST(RectanglePrior, WithoutACalibrationAForeshortenedViewSaysLess) {
+  const auto told = [](const RectanglePrior& prior, const Eigen::Matrix3d& map) {
+    Matrix8f normal = Matrix8f::Zero();
+    Vector8f right = Vector8f::Zero();
+    prior.addTo(map, 1.0, normal, right);
+    return Eigen::SelfAdjointEigenSolver<Matrix8f>(normal).eigenvalues()[6];  // the less certain of the two
+  };
+  Eigen::Matrix3d frontal = Eigen::Matrix3d::Identity();
+  frontal(0, 0) = kAspect, frontal(2, 2) = 4.0;
+  const RectanglePrior calibrated(camera(), {kAspect, 0.01}), guessed(cv::Size(640, 480), {kAspect, 0.01});
+  const Eigen::Matrix3d from_the_front = camera().K() * frontal, from_the_side = mapOf(kAspect, 0.0);
+  EXPECT_GT(told(guessed, from_the_front), 0.9F * told(calibrated, from_the_front));
+  EXPECT_LT(told(guessed, from_the_side), 0.1F * told(calibrated, from_the_side));
+}
+
 // Seen from before its right side, a little above its top.
 TEST(RectanglePrior, TellsFromWhereEachSideIsSeen) {
   Eigen::Matrix3d view;

@@ -122,24 +122,26 @@ TEST(RingAlignment, WhatCrossesAllOfTheRingIsLeftOut) {
 }
 
 // The left side is hidden by something that ends in an edge like a border's.
-TEST(RingAlignment, ACalibratedCameraKeepsAHiddenSideFromShearing) {
+TEST(RingAlignment, WhatIsKnownOfTheCameraKeepsAHiddenSideFromShearing) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
   for (unsigned seed : {3, 9}) {
     Scene scene{PatchedWall(seed)};
     scene.look(seenFrom(2.5, -0.2));
     test::fillQuad(scene.image, test::rectangle(0, 0, scene.opening[0].x() + 30, 480),
                    cv::Scalar(40, 90, 60));
-    const auto worst = [&](const std::optional<OpeningAspect>& aspect) {
+    const auto worst = [&](const std::optional<OpeningAspect>& aspect, const geometry::PinholeCamera* known) {
       scene.model.setAspect(aspect);
       RingAlignment alignment;
-      alignment.set(scene.model, scene.image, &camera);
+      alignment.set(scene.model, scene.image, known);
       Quadrilateral start = scene.opening;
       start[0].x() += 12.0, start[3].x() += 12.0;
       const auto aligned = alignment.align(start, 400.0, 15.0);
       return aligned ? test::worstCorner(aligned->quad, scene.opening) : 1e9;
     };
-    EXPECT_LT(worst(OpeningAspect{PatchedWall::kAspect, 0.01}), 0.3) << seed;
-    EXPECT_GT(worst(std::nullopt), 10.0) << seed;
+    const OpeningAspect aspect{PatchedWall::kAspect, 0.01};
+    EXPECT_LT(worst(aspect, &camera), 0.3) << seed;
+    EXPECT_LT(worst(aspect, nullptr), 3.0) << seed << ", of a camera without a calibration";
+    EXPECT_GT(worst(std::nullopt, &camera), 10.0) << seed;
   }
 }
 
