@@ -20,6 +20,13 @@ inline bool isUsable(const GravityPrior& prior) {
          prior.sigma_rad < 1e6;
 }
 
+/// Cross product of the window's up with gravity's, weighted; and by rotation about the camera's axes.
+struct GravityResidual {
+  Eigen::Vector3d residual;
+  Eigen::Matrix3d by_rotation;
+};
+GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window);
+
 /// Where the window is expected in the camera, from elsewhere: with it two or three visible sides are enough
 /// for a pose.
 struct PosePrior {

@@ -20,6 +20,11 @@ Eigen::Matrix3d vectorByTurn(const Eigen::Vector3d& vector) {
 
 }  // namespace
 
+GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window) {
+  const Eigen::Vector3d up = prior.up_camera.normalized(), window_up = R_camera_window.col(2);
+  return {window_up.cross(up) / prior.sigma_rad, skew(up) * skew(window_up) / prior.sigma_rad};
+}
+
 bool isUsable(const PosePrior& prior) {
   if (!geometry::isValidPose(prior.T_camera_window) || !prior.covariance.allFinite()) return false;
   const Eigen::LLT<Matrix6d> llt(prior.covariance);

@@ -64,11 +64,6 @@ geometry::OpeningSize openingAt(const RefinementProblem& problem, const FitPoint
   return scaled(problem.opening, problem.size_root * point.size_deviation);
 }
 
-GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window) {
-  const Eigen::Vector3d up = prior.up_camera.normalized(), window_up = R_camera_window.col(2);
-  return {window_up.cross(up) / prior.sigma_rad, skew(up) * skew(window_up) / prior.sigma_rad};
-}
-
 std::optional<NormalEquations> linearise(const RefinementProblem& problem, const FitPoint& point) {
   const auto predicted = predictOpening(problem.camera, point.T_camera_window, openingAt(problem, point));
   if (!predicted) return std::nullopt;

@@ -47,11 +47,4 @@ std::optional<NormalEquations> linearise(const RefinementProblem& problem, const
 /// the information is singular.
 std::optional<PlanarSolution> refine(const RefinementProblem& problem, const FitPoint& start);
 
-/// Cross product of the window's up with gravity's, weighted; and by rotation about the camera's axes.
-struct GravityResidual {
-  Eigen::Vector3d residual;
-  Eigen::Matrix3d by_rotation;
-};
-GravityResidual gravityResidual(const GravityPrior& prior, const Eigen::Matrix3d& R_camera_window);
-
 }  // namespace window_ingress::estimation
