@@ -37,11 +37,19 @@ class OutputFile : public std::ofstream {
   std::filesystem::path file_;
 };
 
-/// An image as its pixels lie in the file. \throws InputError that names it
+/// An image as its pixels lie in the file; empty if it cannot be read as one.
+inline cv::Mat imageOrNone(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};  // OpenCV warns by itself of a file that is not there
+  try {
+    return cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+/// The same. \throws InputError that names it
 inline cv::Mat readImage(const std::filesystem::path& file) {
-  cv::Mat image;
-  if (std::filesystem::exists(file))  // OpenCV warns by itself of a file that is not there
-    image = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  const cv::Mat image = imageOrNone(file);
   if (image.empty()) throw InputError(file.string() + ": cannot be read as an image");
   return image;
 }

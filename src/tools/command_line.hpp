@@ -75,12 +75,32 @@ int runTool(const char* name, const Body& body) {
   }
 }
 
+/// What a number may be.
+struct Bounds {
+  double least, most;
+};
+
 /// The options of a tool, each bound to a variable that holds its default. A bool is a switch, a vector takes
-/// any number of values.
+/// any number of values; `required` takes no default.
 class OptionList : public boost::program_options::options_description {
  public:
   explicit OptionList(const std::string& usage) : options_description(usage + "\n\nOptions") {
     add_options()("help,h", "this text");
+  }
+
+  void required(const char* name, std::string& variable, const std::string& text) {
+    add_options()(name, boost::program_options::value(&variable)->required(), text.c_str());
+  }
+
+  template <typename Number>
+  void operator()(const std::string& name, Number& number, const std::string& text, const Bounds& bounds) {
+    auto* const value = boost::program_options::value(&number);
+    value->default_value(number, formatted("%g", static_cast<double>(number)));
+    value->notifier([name, bounds](const Number& given) {
+      if (!(given >= bounds.least && given <= bounds.most))
+        throw InputError(formatted("--%s: needs %g to %g", name.c_str(), bounds.least, bounds.most));
+    });
+    add_options()(name.c_str(), value, text.c_str());
   }
 
   template <typename Variable>

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,14 +94,14 @@ tools::OptionList describe(Options& o) {
       "Finds the window in each image and writes one csv row an image, in the order given.\n"
       "Exit code: 0 done, 1 some image could not be read, 2 wrong usage or unreadable input.");
   add("input", o.inputs, "images, or folders of them; needs no name");
-  add("output,o", o.output, "csv file to write");
+  add.required("output,o", o.output, "csv file to write");
   add("camera", o.camera, "calibration, yaml of camera_info_manager");
   add("reference", o.reference, "image of the target with its frame");
   add("reference-corners", o.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
   add("window-size", o.size, "W,H: inner size of the opening [m]; with --camera: poses");
   add("params", o.params, tools::kParamsHelp);
   add("track", o.track, "the images are a sequence: follow the window through it");
-  add("rate", o.rate_hz, "with --track: images a second");
+  add("rate", o.rate_hz, "with --track: images a second", {1e-3, 1e4});
   add("candidates", o.candidates, "csv file of every candidate and what became of it");
   add("overlay", o.overlay, "folder for pictures of what happened to each candidate");
   add.unnamed.add("input", -1);
@@ -110,9 +109,7 @@ tools::OptionList describe(Options& o) {
 }
 
 void check(const Options& o) {
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
   if (o.inputs.empty()) throw InputError("no image given; see --help");
-  if (!(o.rate_hz > 0.0 && o.rate_hz <= 10000.0)) throw InputError("--rate: needs images a second, above 0");
   if (!o.size.empty() && o.camera.empty())
     throw InputError("--window-size needs --camera: no pose without it");
   if (!o.corners.empty() && o.reference.empty()) throw InputError("--reference-corners needs --reference");
@@ -145,18 +142,9 @@ std::vector<std::string> listImages(const std::vector<std::string>& inputs) {
   return images;
 }
 
-cv::Mat readImage(const std::string& file) {
-  try {
-    return cv::imread(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
-
 detection::ReferenceAppearance readReference(const std::string& file, const std::vector<double>& v,
                                              const detection::DetectorParams& params) {
-  const cv::Mat image = fs::exists(file) ? readImage(file) : cv::Mat();
-  if (image.empty()) throw InputError(file + ": cannot be read as an image; give --reference a photograph");
+  const cv::Mat image = evaluation::readImage(file);
   if (v.empty()) return detection::referenceFromImage(image, params);
   const auto quad = geometry::canonical({Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]),
                                          Eigen::Vector2d(v[4], v[5]), Eigen::Vector2d(v[6], v[7])});
@@ -233,7 +221,7 @@ int run(const Options& o) {
   int unreadable = 0, found = 0, not_compared = 0;
   tools::Progress progress("detect_images", "images", images.size());
   for (const std::string& file : images) {
-    const cv::Mat image = readImage(file);
+    const cv::Mat image = evaluation::imageOrNone(file);
     evaluation::DetectionRow row;
     if (image.empty()) {
       ++unreadable;

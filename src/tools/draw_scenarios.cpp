@@ -23,10 +23,10 @@ struct Job {
 
 tools::OptionList describe(Job& job) {
   tools::OptionList add("Usage: draw_scenarios --output SHEET.png [OPTION...] FILE.yaml...");
-  add("output,o", job.output, "the sheet");
+  add.required("output,o", job.output, "the sheet");
   add("seed", job.seed, "of the first scenario; each further one has the next");
-  add("columns", job.columns, "pictures in a row");
-  add("width", job.cell_width_px, "of each picture [px]");
+  add("columns", job.columns, "pictures in a row", {1, 1000});
+  add("width", job.cell_width_px, "of each picture [px]", {64, 4096});
   add("scenario", job.files, "scenario files; need no name");
   job.view.describe(add);
   add.unnamed.add("scenario", -1);
@@ -34,9 +34,7 @@ tools::OptionList describe(Job& job) {
 }
 
 int run(const Job& job) {
-  if (job.output.empty()) throw InputError("--output is missing; see --help");
   if (job.files.empty()) throw InputError("no scenario file is given; see --help");
-  if (job.columns < 1 || job.cell_width_px < 64) throw InputError("--columns or --width is too small");
   job.view.check();
   evaluation::ContactSheet sheet(job.columns, job.cell_width_px);
   std::uint32_t seed = job.seed;

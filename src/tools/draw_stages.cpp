@@ -31,12 +31,12 @@ struct Subject {
 
 tools::OptionList describe(Job& job) {
   tools::OptionList add("Usage: draw_stages --output SHEET.jpg [OPTION...] --scenario FILE.yaml | IMAGE");
-  add("output,o", job.output, "the sheet");
+  add.required("output,o", job.output, "the sheet");
   add("scenario", job.scenario, "scenario file; the view is from its start");
   add("seed", job.seed, "of the scenario");
   add("image", job.image, "an image instead of a scenario; without a reference");
   add("params", job.params, tools::kParamsHelp);
-  add("width", job.cell_width_px, "of each picture on the sheet [px]");
+  add("width", job.cell_width_px, "of each picture on the sheet [px]", {64, 4096});
   job.view.describe(add);
   add.unnamed.add("image", 1);
   return add;
@@ -52,7 +52,6 @@ Subject photograph(const Job& job) {
 }
 
 int run(const Job& job) {
-  if (job.output.empty()) throw InputError("--output is missing; see --help");
   if (job.scenario.empty() == job.image.empty())
     throw InputError("give either a scenario or an image; see --help");
   job.view.check();

@@ -49,8 +49,8 @@ inline OptionList describeFly(FlyOptions& o) {
       "Usage: fly --scenario FILE.yaml --output DIR [OPTION...]\n"
       "Exit code 0: all flown, however the flights ended; 1: not all, e.g. after Ctrl-C, which lets the "
       "flights under way end (--resume goes on with the others); 2: wrong usage");
-  add("scenario", o.scenario, "scenario file, e.g. config/scenarios/nominal.yaml");
-  add("output,o", o.output, "folder for the results; made if missing");
+  add.required("scenario", o.scenario, "scenario file, e.g. config/scenarios/nominal.yaml");
+  add.required("output,o", o.output, "folder for the results; made if missing");
   add("seeds", o.seeds, "A..B, a flight each");
   add("draws", o.draws,
       "csv file in place of --seeds: a row a flight, its seed and where in its range each named key lies, 0 "
@@ -58,7 +58,7 @@ inline OptionList describeFly(FlyOptions& o) {
   add("resume", o.resume,
       "goes on with the flights in DIR: same scenario, parameters and build, or it is refused");
   add("overwrite", o.overwrite, "replaces the flights in DIR");
-  add("jobs", o.jobs, "flights at the same time");
+  add("jobs", o.jobs, "flights at the same time", {1, 256});
   add("shard", o.shard, "I/N: only every N-th seed, from the I-th on (1 to N)");
   add("join", o.join, "flies nothing: joins the folders of several shards into one");
   add("params", o.params, kParamsHelp);
@@ -96,13 +96,10 @@ inline void checkOutput(const FlyJob& job) {
 }
 
 inline FlyJob jobOf(const FlyOptions& o) {
-  if (o.scenario.empty()) throw InputError("--scenario is missing; see --help");
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
   FlyJob job{o};
   checkOutput(job);
   if (!o.draws.empty()) job.draws = evaluation::readDraws(o.draws);
   job.seeds = seedsOf(job);
-  if (o.jobs < 1 || o.jobs > 256) throw InputError("--jobs: give a number from 1 to 256");
   if (!o.params.empty()) job.params = {configuration::readOverlay(o.params)};
   job.params.without_images = o.no_pictures;
   for (const auto seed : job.seeds) job.scenario(seed);

@@ -35,8 +35,8 @@ tools::OptionList describe(Options& o) {
       "Usage: replay_bag --bag FILE.bag --output DIR [options]\n"
       "Runs detector, pose and filter over a bag; writes DIR/frames.csv,\n"
       "details.csv, latency.csv, replay.png, and all of it as one page: report.html.");
-  add("bag", o.bag, "bag to read");
-  add("output,o", o.output, "folder to write into");
+  add.required("bag", o.bag, "bag to read");
+  add.required("output,o", o.output, "folder to write into");
   add("overwrite", o.overwrite, "replaces the replay in DIR");
   add("image", o.topics.image, "topic; else the only one of its type");
   add("camera-info", o.topics.camera_info, "likewise");
@@ -51,7 +51,6 @@ tools::OptionList describe(Options& o) {
 }
 
 Options checked(Options o) {
-  if (o.bag.empty() || o.output.empty()) throw InputError("--bag and --output are needed; see --help");
   if (!o.corners.empty() && o.reference.picture.empty())
     throw InputError("--reference-corners needs --reference");
   if (!o.topics.truth.empty() && o.size.empty()) throw InputError("--truth needs --window-size");
@@ -118,8 +117,7 @@ void judge(const Options& options, const adapters::ReplayParams& params,
     throw InputError(options.bag + ": no image in " + params.topics.image + " can be read");
   if (params.with_pose && summary.calibrated == 0)
     throw InputError(options.bag + ": no calibration: " + summary.refusal);
-  say(std::to_string(summary.images) + " images, " +
-      formatted("%.2f", summary.milliseconds / summary.images) + " ms each");
+  say(formatted("%d images, %.2f ms each", summary.images, summary.milliseconds / summary.images));
 }
 
 int run(const Options& options, const std::string& command) {

@@ -42,14 +42,14 @@ tools::OptionList describe(Options& o) {
       "Draws random views of each scenario, looks for the window in each, and compares with the truth.\n"
       "Writes DIR/frames.csv and DIR/summary.csv, prints the summary as tables.");
   add("scenario", o.scenarios, "scenario files");
-  add("frames", o.frames, "of each scenario");
+  add("frames", o.frames, "of each scenario", {1, 1e6});
   add("seed", o.seed, "of the first frame; each further one has the next");
-  add("output,o", o.output, "folder of the results");
+  add.required("output,o", o.output, "folder of the results");
   add("params", o.params, tools::kParamsHelp);
   add("no-reference", o.no_reference, "without the image of the target");
   add("distance", o.distance, "NEAREST,FARTHEST [m]");
   add("at", o.at, "D1,D2,...: at these distances in turn, instead of --distance [m]");
-  add("off-axis", o.off_axis_deg, "to either side, at most [deg]");
+  add("off-axis", o.off_axis_deg, "to either side, at most [deg]", {0.0, 84.9});
   add("static-camera", o.still, "the camera does not move");
   add("without-target", o.without_target, "the scenario, but the wall closed at the target");
   add("antialiasing", o.antialiasing, "instead of the scenario's: edges or multisampling");
@@ -72,8 +72,6 @@ std::vector<double> fixedDistances(const Options& o) {
 
 // Of the i-th frame.
 evaluation::ViewRange rangeOf(const Options& o, int i) {
-  if (!(o.off_axis_deg >= 0.0 && o.off_axis_deg < 85.0))
-    throw InputError("--off-axis: needs 0 to 85 degrees");
   const std::vector<double> fixed = fixedDistances(o), range_m = risingDistances("--distance", o.distance);
   if (range_m.size() != 2) throw InputError("--distance: needs two distances");
   evaluation::ViewRange range;
@@ -85,11 +83,9 @@ evaluation::ViewRange rangeOf(const Options& o, int i) {
 }
 
 void check(const Options& o) {
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
   if (o.scenarios.empty() == o.folders.empty())
     throw InputError("needs either --scenario or --load; see --help");
   if (!o.folders.empty() && !o.save.empty()) throw InputError("--save has no use with --load");
-  if (o.frames < 1) throw InputError("--frames: needs 1 at least");
 }
 
 /// Looks for the window in one image after the other.

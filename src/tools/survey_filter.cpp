@@ -31,18 +31,12 @@ tools::OptionList describe(Options& o) {
       "attitude that is wrong) through estimator and filter and compares with the truth.\n"
       "Writes DIR/filter.csv with a row an image; prints the normalised error squared beside its 95 % "
       "band.\n");
-  add("output,o", o.output, "folder of the results");
-  add("runs", o.runs, "approaches");
+  add.required("output,o", o.output, "folder of the results");
+  add("runs", o.runs, "approaches", {2, 1e5});
   add("seed", o.seed, "of the first approach");
   add("size", o.size, "of the opening: known or unknown");
   add("params", o.params, tools::kParamsHelp);
   return add;
-}
-
-void check(const Options& o) {
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
-  if (o.runs < 2 || o.runs > 100000) throw InputError("--runs: needs 2 to 100000");
-  if (o.size != "known" && o.size != "unknown") throw InputError("--size: known or unknown");
 }
 
 void write(std::ostream& out, int run, const FilterSample& s) {
@@ -92,7 +86,7 @@ class AtWay {
 };
 
 int survey(const Options& o) {
-  check(o);
+  if (o.size != "known" && o.size != "unknown") throw InputError("--size: known or unknown");
   const auto filter = configuration::readOverlay(o.params).homography_pose.filter;
   tools::makeFolder(o.output);
   evaluation::OutputFile table(o.output + "/filter.csv");

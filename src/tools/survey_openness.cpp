@@ -41,10 +41,10 @@ tools::OptionList describe(Options& o) {
   add("scenario", o.scenarios, "scenario files instead of random windows, --open approaches each");
   add("seed", o.seed, "of the first approach; each further one has the next");
   add("params", o.params, tools::kParamsHelp);
-  add("rate", o.range.rate_hz, "of the images [1/s]");
+  add("rate", o.range.rate_hz, "of the images [1/s]", {1.0, 120.0});
   add("decide", o.range.decide_m, "distance at which the verdict counts [m]");
   add("trace", o.trace, "csv file: the verdict over each approach");
-  add("output,o", o.output, "folder of the results");
+  add.required("output,o", o.output, "folder of the results");
   return add;
 }
 
@@ -163,10 +163,8 @@ class Survey {
 };
 
 int run(const Options& o) {
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
   if (o.open + o.closed + o.synthetic + o.glass < 1)
     throw InputError("nothing to do: --open, --closed, --synthetic or --glass");
-  if (!(o.range.rate_hz >= 1.0 && o.range.rate_hz <= 120.0)) throw InputError("--rate: needs 1 to 120");
   tools::makeFolder(o.output);
   Survey survey(o);
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(o.open); ++i) {

@@ -16,6 +16,7 @@
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace {
 
@@ -42,12 +43,12 @@ tools::OptionList describe(Options& o) {
       "same\nborders cross. Writes DIR/cells.csv, prints yaw RMSE over bound as a table.\n"
       "With --load: from the pixels of images that survey_detector has saved to the pose, against the "
       "truth.\nWrites DIR/pictures.csv, prints the errors of poses and of borders as tables.");
-  add("draws", o.draws, "of each cell");
+  add("draws", o.draws, "of each cell", {1, 1e7});
   add("at", o.distances, "distances [m]");
   add("yaw", o.yaws, "against the line of sight, to either side [deg]");
   add("noise", o.noises, "of each pixel along a border [px]");
   add("seed", o.seed, "of the first cell; each further one has the next");
-  add("output,o", o.output, "folder of the results");
+  add.required("output,o", o.output, "folder of the results");
   add("camera", o.camera, "calibration without distortion; default 640 x 480, f = 554 px");
   add("window-size", o.window_size, "W,H of the opening; default 1,1 [m]");
   add("load", o.folders, "folders of images");
@@ -68,7 +69,6 @@ evaluation::PoseSurveySetup setupOf(const Options& o) {
 }
 
 int surveyNoise(const Options& o) {
-  if (o.draws < 1) throw InputError("--draws: needs 1 at least");
   const auto setup = setupOf(o);
   const auto distances = tools::numbersWithin("--at", o.distances, 0.3, 100.0);
   const auto yaws = tools::numbersWithin("--yaw", o.yaws, 0.0, 80.0);
@@ -84,8 +84,7 @@ int surveyNoise(const Options& o) {
         results.push_back(
             evaluation::surveyCell(setup, {distance, yaw * kRadPerDegree, noise}, o.draws, seed++));
         if (results.back().draws == 0)
-          throw InputError("--at: the window does not fit into the image from " + std::to_string(distance) +
-                           " m");
+          throw InputError(formatted("--at: the window does not fit into the image from %g m", distance));
         table << evaluation::poseSurveyRow(results.back()) << "\n";
       }
     std::cerr << "survey_pose: " << results.size() << " cells" << std::endl;
@@ -157,10 +156,7 @@ int surveyImages(const Options& o) {
   return 0;
 }
 
-int run(const Options& o) {
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
-  return o.folders.empty() ? surveyNoise(o) : surveyImages(o);
-}
+int run(const Options& o) { return o.folders.empty() ? surveyNoise(o) : surveyImages(o); }
 
 }  // namespace
 

@@ -41,27 +41,16 @@ tools::OptionList describe(Options& o) {
       "Follows the window on random flights towards it, without a navigator, and compares with the truth.\n"
       "Writes DIR/<scenario>.csv with a row a frame, prints a table.");
   add("scenario", o.scenarios, "scenario files");
-  add("flights", o.flights, "in each scenario");
+  add("flights", o.flights, "in each scenario", {1, 1e6});
   add("seed", o.seed, "of the first flight; each further one has the next");
-  add("output,o", o.output, "folder of the results");
+  add.required("output,o", o.output, "folder of the results");
   add("params", o.params, tools::kParamsHelp);
-  add("speed", o.range.speed_mps, "towards the plane [m/s]");
-  add("end", o.range.end_m, "of the flight, before the plane [m]");
-  add("wobble", o.range.wobble_rad, "of the attitude [rad]");
+  add("speed", o.range.speed_mps, "towards the plane [m/s]", {0.1, 10.0});
+  add("end", o.range.end_m, "of the flight, before the plane [m]", {0.2, 3.0});
+  add("wobble", o.range.wobble_rad, "of the attitude [rad]", {0.0, 0.3});
   add("no-reference", o.no_reference, "without the image of the target");
   add("no-attitude", o.no_attitude, "the tracker does not know the attitude");
   return add;
-}
-
-void check(const Options& o) {
-  if (o.output.empty()) throw InputError("--output is missing; see --help");
-  if (o.scenarios.empty()) throw InputError("--scenario is missing; see --help");
-  if (o.flights < 1) throw InputError("--flights: needs 1 at least");
-  if (!(o.range.speed_mps >= 0.1 && o.range.speed_mps <= 10.0))
-    throw InputError("--speed: needs 0.1 to 10 m/s");
-  if (!(o.range.end_m >= 0.2 && o.range.end_m <= 3.0)) throw InputError("--end: needs 0.2 to 3 m");
-  if (!(o.range.wobble_rad >= 0.0 && o.range.wobble_rad <= 0.3))
-    throw InputError("--wobble: needs 0 to 0.3 rad");
 }
 
 detection::DetectorParams paramsOf(const Options& o) {
@@ -149,7 +138,7 @@ class Flight {
 };
 
 int run(const Options& o) {
-  check(o);
+  if (o.scenarios.empty()) throw InputError("--scenario is missing; see --help");
   tools::makeFolder(o.output);
   std::cout << evaluation::TrackSummary::markdownHeader();
   tools::Progress progress("survey_tracker", "flights", o.scenarios.size() * o.flights);

@@ -50,9 +50,9 @@ tools::OptionList describe(Job& job) {
   add("reference", job.reference.picture, "image of the target");
   add("reference-corners", job.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
   add("image", job.topic, "topic of the images in a bag; else the only one");
-  add("every", job.every, "take one image of a bag in so many");
-  add("most", job.most, "images of a bag, at most");
-  add("width", job.width, "of each picture on the sheet of stages [px]");
+  add("every", job.every, "take one image of a bag in so many", {1, 1e6});
+  add("most", job.most, "images of a bag, at most", {1, 1e6});
+  add("width", job.width, "of each picture on the sheet of stages [px]", {64, 4096});
   add("headless", job.headless, "no windows: look at all images once, print, save");
   add("sheet", job.sheet, "headless: also write the sheet of stages of the first image");
   add.unnamed.add("source", 1);
@@ -191,8 +191,6 @@ class Desk {
 
 int run(Job job) {
   if (job.source.empty()) throw InputError("no SOURCE given; see --help");
-  if (job.every < 1 || job.most < 1 || job.width < 64)
-    throw InputError("--every, --most: at least 1; --width: at least 64");
   if (!job.headless && job.output.empty())
     throw InputError("--output is missing: where 's' saves; see --help");
   if (!job.corners.empty()) job.reference.corners = tools::numbers("--reference-corners", job.corners, 8);

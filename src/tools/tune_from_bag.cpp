@@ -40,7 +40,7 @@ tools::OptionList describe(Job& job) {
       "Tries settings of the detector on a part of the images and writes the keys it changed, if it is "
       "better on the rest, too.\nExit code: 0 better and written, 1 not better, nothing written, 2 wrong "
       "usage or unreadable input.");
-  add("output", job.output, "yaml file for the changed keys, to be given as config:= and --params");
+  add.required("output", job.output, "yaml file for the changed keys, to be given as config:= and --params");
   add("labels", job.labels, "csv with columns file, x1, y1 .. x4, y4 (no numbers: no window)");
   add("images", job.images, "folder of the images that the csv names");
   add("bag", job.bags, "bags with images, calibration and truth");
@@ -48,13 +48,13 @@ tools::OptionList describe(Job& job) {
   add("window-size", job.size, "W,H: inner size of the opening [m]");
   add("image", job.topics.image, "topic; else the only one of its type");
   add("camera-info", job.topics.camera_info, "likewise");
-  add("every", job.every, "take one image of a bag in so many");
+  add("every", job.every, "take one image of a bag in so many", {1, 1e6});
   add("reference", job.reference.picture, "image of the target");
   add("reference-corners", job.corners, "x1,y1,...,x4,y4: inner border of the opening in it");
   add("params", job.params, tools::kParamsHelp);
   add("names", job.names, "parameters that may be changed, with commas between, like edges/floor");
-  add("trials", job.trials, "settings to try");
-  add("held-out", job.held_out, "part of the groups that judges only");
+  add("trials", job.trials, "settings to try", {1, 1e6});
+  add("held-out", job.held_out, "part of the groups that judges only", {0.01, 0.99});
   add("seed", job.seed, "of the parts and of the search");
   return add;
 }
@@ -67,13 +67,10 @@ std::vector<std::string> namesOf(const std::string& text) {
 }
 
 void check(const Job& job) {
-  if (job.output.empty()) throw InputError("--output is missing; see --help");
   if (job.labels.empty() == job.bags.empty()) throw InputError("give either --labels or --bag; see --help");
   if (job.labels.empty() != job.images.empty()) throw InputError("--labels and --images go together");
   if (!job.bags.empty() && (job.topics.truth.empty() || job.size.empty()))
     throw InputError("--bag needs --truth and --window-size: without them nobody knows what is right");
-  if (job.every < 1 || job.trials < 1) throw InputError("--every and --trials: at least 1");
-  if (!(job.held_out > 0.0 && job.held_out < 1.0)) throw InputError("--held-out: between 0 and 1");
   if (!job.corners.empty() && job.reference.picture.empty())
     throw InputError("--reference-corners needs --reference");
 }

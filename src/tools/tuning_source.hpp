@@ -16,6 +16,7 @@
 #include "adapters/bags/labelled_bag.hpp"
 #include "adapters/images/image_conversion.hpp"
 #include "command_line.hpp"
+#include "evaluation/output_file.hpp"
 
 namespace window_ingress::tools {
 
@@ -79,7 +80,7 @@ class Camera : public TuningSource {
 };
 
 inline void addFile(const std::filesystem::path& path, StoredImages& images) {
-  const cv::Mat image = cv::imread(path.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  const cv::Mat image = evaluation::imageOrNone(path);
   if (!image.empty()) images.add(path.filename().string(), image);
 }
 

@@ -218,7 +218,7 @@ def test_nothing_is_written_where_nothing_is_better(labelled, tmp_path):
 
 
 @pytest.mark.parametrize("arguments, words", [
-    ([], "--output is missing"), (["--output", "x"], "either --labels or --bag"),
+    ([], "'--output' is required"), (["--output", "x"], "either --labels or --bag"),
     (["--output", "x", "--labels", "/nowhere.csv", "--images", "/"], "/nowhere.csv"), (["--output", "x", "--labels", "a"], "go together"),
     (["--output", "x", "--bag", "a.bag"], "--truth and --window-size"),
     (["--output", "x", "--bag", "/nowhere.bag", "--truth", "/t", "--window-size", "1,1"], "/nowhere.bag"),

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <set>
 #include <stdexcept>
 
 #include "evaluation/csv.hpp"
+#include "evaluation/output_file.hpp"
 #include "evaluation/statistics.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/text/text.hpp"
@@ -124,12 +124,9 @@ std::vector<LabelledImage> readLabelled(const std::string& csv_file, const std::
   std::vector<LabelledImage> samples;
   for (const auto& [file, targets] : Annotations(csv_file).targets()) {
     const std::string path = (std::filesystem::path(folder) / file).string();
-    LabelledImage sample{file, groupOf(file),
-                         cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), targets,
-                         std::nullopt};
-    if (sample.image.empty())
+    samples.push_back({file, groupOf(file), imageOrNone(path), targets, std::nullopt});
+    if (samples.back().image.empty())
       throw InputError(path + ": cannot be read as an image; " + csv_file + " names it");
-    samples.push_back(sample);
   }
   if (samples.empty()) throw InputError(csv_file + ": no image in it");
   return samples;
