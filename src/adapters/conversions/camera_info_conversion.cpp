@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "adapters/conversions/msg_conversion.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -17,8 +18,6 @@ constexpr const char* kEquidistant = "equidistant";
 
 bool isFisheye(const std::string& model) { return model == kEquidistant || model == "fisheye"; }
 
-std::string text(std::uint64_t value) { return std::to_string(value); }
-
 template <typename Array>
 bool finite(const Array& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
@@ -31,7 +30,7 @@ bool zero(const Array& numbers) {
 
 std::string badSize(const sensor_msgs::CameraInfo& m) {
   const bool sane = m.width > 0 && m.height > 0 && m.width <= kLargestSidePx && m.height <= kLargestSidePx;
-  return sane ? "" : "size " + text(m.width) + "x" + text(m.height) + " is not within 1..20000 pixels";
+  return sane ? "" : formatted("size %ux%u is not within 1..20000 pixels", m.width, m.height);
 }
 
 std::string badNumbers(const sensor_msgs::CameraInfo& m) {
@@ -58,7 +57,7 @@ std::string badDistortion(const sensor_msgs::CameraInfo& m) {
            "use rectified images (image_proc) and set vehicle/image_is_rectified";
   if (m.D.empty() && !isFisheye(m.distortion_model)) return "";
   if (m.D.size() != wanted)
-    return "D holds " + text(m.D.size()) + " numbers, " + m.distortion_model + " has " + text(wanted);
+    return formatted("D holds %zu numbers, %s has %zu", m.D.size(), m.distortion_model.c_str(), wanted);
   if (m.distortion_model == kRational &&
       std::any_of(m.D.begin() + 5, m.D.end(), [](double d) { return d != 0.0; }))
     return "distortion model rational_polynomial is supported with k4 = k5 = k6 = 0 only; calibrate with "
@@ -68,7 +67,7 @@ std::string badDistortion(const sensor_msgs::CameraInfo& m) {
 
 std::string badRegion(const sensor_msgs::CameraInfo& m, bool rectified) {
   if (m.binning_x > kMaxBinning || m.binning_y > kMaxBinning)
-    return "binning " + text(m.binning_x) + "x" + text(m.binning_y) + " is above 16";
+    return formatted("binning %ux%u is above 16", m.binning_x, m.binning_y);
   const bool full = m.roi.width == 0 && m.roi.height == 0;
   const bool fits = std::uint64_t{m.roi.x_offset} + m.roi.width <= m.width &&
                     std::uint64_t{m.roi.y_offset} + m.roi.height <= m.height;

@@ -3,6 +3,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/conversions/stamps.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -146,9 +147,8 @@ Converted<detection::WindowObservation> fromMsg(const DetectionMsg& message) {
   if (!stamp_sec) return {std::nullopt, "header.stamp is zero or not normalised"};
   if (!message.detected) return {std::nullopt, "no window: " + message.reason};
   if (message.interior.id.size() > kMaxInteriorPoints)
-    return {std::nullopt, std::to_string(message.interior.id.size()) +
-                              " points within the opening, at most " + std::to_string(kMaxInteriorPoints) +
-                              " are taken"};
+    return {std::nullopt, formatted("%zu points within the opening, at most %zu are taken",
+                                    message.interior.id.size(), kMaxInteriorPoints)};
   if (!isFinite(message)) return {std::nullopt, "a number of the detection is not finite"};
   detection::WindowObservation window;
   window.stamp_sec = *stamp_sec;

@@ -1,8 +1,11 @@
 #include "adapters/guard/guard_node.hpp"
 
+#include <cmath>
+
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/runtime/exception_barrier.hpp"
 #include "adapters/runtime/parameter_server.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -55,9 +58,9 @@ Health GuardNode::inputHealth() const {
   const std::string publishers = "(" + std::to_string(subscriber_.getNumPublishers()) + " publishers)";
   const std::string input = "input on " + subscriber_.getTopic() + " ";
   if (gate_.isSilent(now_sec))
-    return {Health::kError, input + "is silent or refused " + publishers + " for " +
-                                std::to_string(static_cast<int>(gate_.sinceSaneSec(now_sec))) +
-                                " s, sending nothing: the autopilot's failsafe has to act"};
+    return {Health::kError, input + "is silent or refused " + publishers +
+                                formatted(" for %.0f s, sending nothing: the autopilot's failsafe has to act",
+                                          std::floor(gate_.sinceSaneSec(now_sec)))};
   if (gate_.isLate(now_sec)) return {Health::kWarn, input + "is silent " + publishers + ", sending zero"};
   if (!gate_.fault().empty()) return {Health::kError, input + "is refused, sending zero: " + gate_.fault()};
   if (subscriber_.getNumPublishers() > 1)

@@ -9,6 +9,7 @@
 #include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -200,7 +201,7 @@ Health DetectorNode::detectionHealth() const {
   if (last_image_.image.empty()) return {Health::kOk, "no image so far"};
   const double silent_sec = steadyNowSec() - searched_sec_;
   if (silent_sec > kSilenceSec)
-    return {Health::kWarn, "no image for " + std::to_string(static_cast<int>(silent_sec)) + " s"};
+    return {Health::kWarn, formatted("no image for %.0f s", std::floor(silent_sec))};
   return {Health::kOk, perception_.window() ? "window in view" : "no window: " + perception_.trace().detail};
 }
 
@@ -209,7 +210,7 @@ Health DetectorNode::referenceHealth() const {
   std::string text = "from " + reference_from_;
   if (perception_.window())
     text += perception_.window()->has_appearance
-                ? "; distance " + std::to_string(perception_.window()->bhattacharyya)
+                ? formatted("; distance %.3f", perception_.window()->bhattacharyya)
                 : "; not compared in the last image: geometry alone";
   return {reference_is_guess_ ? Health::kWarn : Health::kOk, text};
 }

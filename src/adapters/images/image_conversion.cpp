@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "adapters/images/image_files.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -111,14 +112,10 @@ std::string unknownEncoding(const std::string& name) {
   return text;
 }
 
-std::string sizeText(std::uint64_t width, std::uint64_t height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
-std::string tooLarge(std::uint64_t width, std::uint64_t height, const ImageLimits& limits) {
+std::string tooLarge(std::uint32_t width, std::uint32_t height, const ImageLimits& limits) {
   if (width > 0 && height > 0 && height <= static_cast<std::uint64_t>(limits.max_pixels) / width) return "";
-  return "image of " + sizeText(width, height) +
-         " pixels is empty or above max_pixels = " + std::to_string(limits.max_pixels);
+  return formatted("image of %ux%u pixels is empty or above max_pixels = %d", width, height,
+                   limits.max_pixels);
 }
 
 std::string badLayout(const sensor_msgs::Image& message, const Encoding& encoding) {
@@ -129,8 +126,7 @@ std::string badLayout(const sensor_msgs::Image& message, const Encoding& encodin
     return "step of " + std::to_string(message.step) + " bytes is below the " + std::to_string(row) +
            " of a row of " + std::to_string(message.width) + " " + encoding.name + " pixels";
   if (message.data.size() != bytes)
-    return "data holds " + std::to_string(message.data.size()) + " bytes, step * height is " +
-           std::to_string(bytes);
+    return formatted("data holds %zu bytes, step * height is ", message.data.size()) + std::to_string(bytes);
   if (encoding.isSixteenBit() && message.step % 2 != 0) return "step of a 16-bit image is odd";
   if (encoding.isSixteenBit() && message.is_bigendian) return "big-endian 16-bit images are not supported";
   if (std::string(encoding.name) == "yuv422" && message.width % 2 != 0) return "yuv422 needs an even width";

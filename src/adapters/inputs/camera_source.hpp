@@ -60,10 +60,6 @@ class CameraSource {
   void notify(std::function<void()> came) { came_ = std::move(came); }
 
  private:
-  static std::string size(int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-  }
-
   static constexpr double kNearSec = 0.2;  // stamps of an image and of its calibration, be it one frame off
   static constexpr double kApartSec =
       1.2;  // so long may no stamp be near: camera_info may come once a second
@@ -71,8 +67,8 @@ class CameraSource {
   std::string misfit(int width_px, int height_px, const std::string& frame_id) const {
     const std::string topic = "camera_info on " + subscriber_.getTopic();
     if (camera_.value->width != width_px || camera_.value->height != height_px)
-      return "sizes differ: the image has " + size(width_px, height_px) + " pixels, " + topic + " is for " +
-             size(camera_.value->width, camera_.value->height);
+      return formatted("sizes differ: the image has %dx%d pixels, %s is for %dx%d", width_px, height_px,
+                       topic.c_str(), camera_.value->width, camera_.value->height);
     if (!frame_id.empty() && frame_id != frame_id_)
       return "frames differ: the image has frame_id '" + frame_id + "', " + topic + " '" + frame_id_ + "'";
     return "";
@@ -90,9 +86,9 @@ class CameraSource {
     const std::string topic = "camera_info on " + subscriber_.getTopic();
     if (apart && stamp_.isZero()) return {Health::kWarn, topic + " is not stamped"};
     if (apart)
-      return {Health::kWarn, "stamps of image and " + topic + " are " +
-                                 formatted("%.2f s", std::abs(apart_sec_)) + " apart, " +
-                                 (apart_sec_ > 0.0 ? "the image is newer" : "the image is older")};
+      return {Health::kWarn,
+              formatted("stamps of image and %s are %.2f s apart, the image is %s", topic.c_str(),
+                        std::abs(apart_sec_), apart_sec_ > 0.0 ? "newer" : "older")};
     if (const std::string twice = undoneTwice(); !twice.empty()) return {Health::kWarn, twice};
     return {Health::kOk, "fits the image", {{"stamps_apart_s", apart_sec_}}};
   }

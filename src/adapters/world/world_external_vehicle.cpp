@@ -2,6 +2,7 @@
 #include <deque>
 
 #include "adapters/world/world_node.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -19,8 +20,8 @@ void WorldNode::receiveVehicle(const nav_msgs::OdometryConstPtr& message) {
   if (!vehicle) return vehicle_health_->refused(vehicle.reason);
   const double back_sec = followed_sec_ - vehicle.value->stamp_sec;
   if (running_ && back_sec >= 0.0 && back_sec <= kMaxLateSec)
-    return vehicle_health_->refused("stamp is " + std::to_string(back_sec) +
-                                    " s before the latest: late samples are left out");
+    return vehicle_health_->refused(
+        formatted("stamp is %.3f s before the latest: late samples are left out", back_sec));
   const Eigen::Vector3d turning = toEigen(message->twist.twist.angular);
   if (!turning.allFinite()) return vehicle_health_->refused("angular velocity is not finite");
   vehicle_health_->accepted();
@@ -60,8 +61,8 @@ Health WorldNode::externalHealth() const {
   if (!running_) return {Health::kOk, "no vehicle_odom so far"};
   if (images_lost_ * 10 <= images_due_ || images_lost_ <= kForgivenImages)
     return {Health::kOk, "time is that of vehicle_odom"};
-  return {Health::kWarn, std::to_string(images_lost_) + " of " + std::to_string(images_due_) +
-                             " images are lost: this machine draws too slowly"};
+  return {Health::kWarn,
+          formatted("%ld of %ld images are lost: this machine draws too slowly", images_lost_, images_due_)};
 }
 
 }  // namespace window_ingress::adapters

@@ -9,6 +9,7 @@
 
 #include "adapters/runtime/diagnostics.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 
@@ -68,8 +69,9 @@ class WorldLockstep {
 
   Health health() const {
     if (timeouts_ == 0) return {Health::kOk, std::to_string(steps_) + " steps, all answered"};
-    return {Health::kWarn, std::to_string(timeouts_) + " of " + std::to_string(steps_) +
-                               " steps were not answered in time: this run cannot be repeated exactly"};
+    return {Health::kWarn,
+            formatted("%ld of %ld steps were not answered in time: this run cannot be repeated exactly",
+                      timeouts_, steps_)};
   }
 
  private:

@@ -7,6 +7,7 @@
 #include "adapters/runtime/exception_barrier.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "adapters/world/world_messages.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
 namespace {
@@ -262,8 +263,8 @@ bool WorldNode::inject(Inject::Request& request, Inject::Response& response) {
     if (unheard) throw InputError("fault: in lockstep nobody looks at " + fault.unit);
     world_->inject(fault);
     response.success = true;
-    response.message = fault.unit + " " + fault.kind + " from " + std::to_string(now().toSec()) + " s for " +
-                       std::to_string(fault.duration_sec) + " s";
+    response.message =
+        fault.unit + " " + fault.kind + formatted(" from %.3f s for %g s", now().toSec(), fault.duration_sec);
   } catch (const InputError& error) {
     response.message = error.what();
   }
@@ -278,7 +279,7 @@ Health WorldNode::speedHealth() const {
   if (!running_) return {Health::kWarn, "waiting for subscribers of image_raw and odom"};
   const double part = lost_sec_ / std::max(1e-3, lost_sec_ + world_->timeSec());
   if (part > 0.1)
-    return {Health::kWarn, "slower than asked: " + std::to_string(part * 100.0) + " % of the time lost"};
+    return {Health::kWarn, formatted("slower than asked: %.0f %% of the time lost", 100.0 * part)};
   return {};
 }
 

@@ -34,12 +34,12 @@ std::string OpennessTable::markdown() const {
       "| within the border | is | approaches | OPEN at the decision | CLOSED | UNKNOWN | ever OPEN | ever "
       "CLOSED | OPEN from, median m | ms an image |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [kind, row] : rows_)
-    out += "| " + kind + " | " + (row.is_open ? "open" : "not open") + " | " + std::to_string(row.flights) +
-           " | " + rate(row.open, row.flights) + " | " + rate(row.closed, row.flights) + " | " +
-           std::to_string(row.flights - row.open - row.closed) + " | " + std::to_string(row.ever_open) +
-           " | " + std::to_string(row.ever_closed) + " | " +
-           (row.open_from_m.empty() ? "" : formatted("%.2f", quantile(row.open_from_m, 0.5))) + " | " +
-           formatted("%.3f", quantile(row.milliseconds, 0.5)) + " |\n";
+    out += formatted("| %s | %s | %d | %s | %s | %d | %d | %d | %s | %.3f |\n", kind.c_str(),
+                     row.is_open ? "open" : "not open", row.flights, rate(row.open, row.flights).c_str(),
+                     rate(row.closed, row.flights).c_str(), row.flights - row.open - row.closed,
+                     row.ever_open, row.ever_closed,
+                     row.open_from_m.empty() ? "" : formatted("%.2f", quantile(row.open_from_m, 0.5)).c_str(),
+                     quantile(row.milliseconds, 0.5));
   return out;
 }
 

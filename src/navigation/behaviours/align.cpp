@@ -3,6 +3,7 @@
 
 #include "navigation/behaviours/behaviours.hpp"
 #include "navigation/motion/stopping.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::navigation {
 namespace {
@@ -85,8 +86,7 @@ Decision Align::resolveSign(const Situation& situation, const MissionState& memo
   decision.reason = "sign of the window's yaw unknown: height probe " + std::to_string(probe_.count() + 1);
   if (probe_.isExhausted()) {
     decision.event = Event::kGiveUp;
-    decision.reason =
-        "sign of the window's yaw unknown after " + std::to_string(probe_.count()) + " height probes";
+    decision.reason = formatted("sign of the window's yaw unknown after %d height probes", probe_.count());
   }
   return decision;
 }
