@@ -1,7 +1,6 @@
 /// A framed window in a wall of bricks, drawn: the hard case for everything that follows edges.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

@@ -2,7 +2,6 @@
 /// OpenCV's methods on the corners of the same borders, one thread, in one run.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <opencv2/core/utility.hpp>
 #include <random>
 #include <vector>

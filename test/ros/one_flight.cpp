@@ -18,7 +18,6 @@
 #include "adapters/bags/flight_bag.hpp"
 #include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay.hpp"
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/images/reference_source.hpp"
 #include "evaluation/flights/closed_loop_flight.hpp"
 #include "evaluation/flights/flight_perception.hpp"

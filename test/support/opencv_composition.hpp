@@ -1,7 +1,6 @@
 /// The paper's pipeline composed straight from OpenCV's functions: what the detector is compared with.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -1,10 +1,8 @@
 /// Windows side by side in a wall, as a vehicle sees them; for tests of what is remembered of them.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <random>
-#include <vector>
 
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/estimation/window_filter.hpp"

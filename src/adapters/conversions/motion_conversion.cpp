@@ -1,6 +1,5 @@
 #include <tf2_eigen/tf2_eigen.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"

@@ -11,7 +11,6 @@
 #include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
-#include "window_ingress/geometry/quadrilateral.hpp"
 
 namespace window_ingress::adapters {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "adapters/conversions/stamps.hpp"
 #include "adapters/runtime/exception_barrier.hpp"
 #include "window_ingress/text/text.hpp"
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "evaluation/flights/flight_perception.hpp"
 #include "evaluation/flights/projected_detector.hpp"
 #include "simulation/world.hpp"
-#include "window_ingress/navigation/navigator_params.hpp"
+#include "window_ingress/configuration/overlay.hpp"
 
 namespace window_ingress::evaluation {
 

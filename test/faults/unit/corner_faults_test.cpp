@@ -1,7 +1,6 @@
 /// M47 to M53: corners as they should not come, and poses that must not be believed.
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <limits>
 #include <random>
 

@@ -3,7 +3,6 @@
 #include <window_ingress/WindowDetectorConfig.h>
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>

@@ -1,8 +1,6 @@
 /// The edges that lead out of every live state, from each of these states.
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "navigation_samples.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 

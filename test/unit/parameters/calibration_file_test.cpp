@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <stdexcept>
 
 #include "window_ingress/text/text.hpp"
 

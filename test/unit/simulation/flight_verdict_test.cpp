@@ -4,8 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <vector>
 
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/frames.hpp"

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "edge_fit.hpp"
 #include "simulation/random_stream.hpp"
 #include "simulation/scene/scene.hpp"

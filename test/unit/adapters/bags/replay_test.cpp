@@ -5,8 +5,6 @@
 #include <sensor_msgs/Imu.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -17,7 +15,6 @@
 #include "adapters/bags/replay_output.hpp"
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/pose/camera_mounting.hpp"
-#include "adapters/world/world_messages.hpp"
 
 namespace window_ingress::adapters::replay_test {
 

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace window_ingress::adapters::stamp_gate_test {
 
 TEST(StampGate, AdmitsRecentStampsInOrder) {

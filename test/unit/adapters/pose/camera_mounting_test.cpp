@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "adapters/runtime/parameter_server.hpp"
-
 namespace window_ingress::adapters::camera_mounting_test {
 
 using Eigen::Vector3d;

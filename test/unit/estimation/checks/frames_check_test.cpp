@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <stdexcept>
-
 #include "evaluation/poses/filter_survey.hpp"
 
 namespace window_ingress::estimation::frames_check_test {

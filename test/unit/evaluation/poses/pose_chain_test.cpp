@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "evaluation/poses/noisy_borders.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
