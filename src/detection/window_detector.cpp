@@ -91,24 +91,22 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// What lies round a window decides where it is sure. Where it is not, or a border does not show, the frame is
-// asked, if there is one; what it finds stands unless the ring names another window.
+// What lies round a window decides where it is sure. Where it is not, the frame is asked, if there is one;
+// what it finds stands unless the ring names another window.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
   gatherAll();
   auto window = judgeSurroundings(image, stamp_sec, camera);
-  bool confirmed = window && choice.ringThere() > 0.0;
-  if (window && choice.isSure()) return window;
-  if (!reference.frameless() || !reference.compares(image)) {
+  bool confirmed = window.has_value();
+  if (!(window && choice.isSure()) && (!reference.frameless() || !reference.compares(image))) {
     const auto framed = judgeFrames(image, stamp_sec, camera);
-    const bool same = framed && window && Sameness(window->corners).samePlace(framed->corners);
-    if (framed && (same || !confirmed)) {
+    if (framed && (!window || Sameness(window->corners).samePlace(framed->corners))) {
       window = framed;
       confirmed = choice.ringThere() > 0.0;
     }
   }
-  const bool is_sure = window && (confirmed || !reference.knowsSurroundings(image));
-  if (!is_sure && !std::exchange(looked_everywhere, true)) {
+  const bool is_known = window && (confirmed || !reference.knowsSurroundings(image));
+  if (!is_known && !std::exchange(looked_everywhere, true)) {
     rivals = reference.placesEverywhere(image);
     if (auto found = judgeSurroundings(image, stamp_sec, camera)) window = found;
   }
