@@ -14,11 +14,9 @@ constexpr double kSearchRadius = 1.5;     ///< likewise, of what the search foun
 constexpr double kBlobRadius = 3.0;       ///< and where that is a blob's outline
 constexpr double kLocatedSigmaPx = 1.4;   ///< how well they are located
 constexpr double kAlignedStrayPx = 2.0;   ///< of fitted borders from where the surroundings were aligned
-constexpr double kAlignedStray = 0.015;   ///< likewise, near: a frame stands out of the wall [mean sides]
 constexpr double kCutAway = 0.01;         ///< of a corner beyond the image [longer image sides]
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
 constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
-constexpr double kSureRing = 0.85;  ///< correlation of what lies round a window that nothing else can be
 
 // Neither its geometry nor its surroundings have told that it is a window.
 bool isByFrameAlone(const ScoredCandidate& rival) { return rival.doubtful && !rival.correlation; }
@@ -33,8 +31,6 @@ double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate
 }
 
 }  // namespace
-
-bool TargetChoice::isSure() const { return ring_there_ >= kSureRing; }
 
 double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   if (rival.correlation) return params_.min_correlation;
@@ -69,10 +65,7 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
   start.radius_px =
       rival.located ? kLocatedRadiusPx : (is_blob ? kBlobRadius : kSearchRadius) * search_factor_ + 1.0;
   if (rival.located) start.knowAll(kLocatedSigmaPx);
-  if (rival.correlation) {
-    start.max_stray_px = std::max(kAlignedStrayPx, kAlignedStray * meanSide(rival.quad));
-    start.radius_px = std::max(start.radius_px, start.max_stray_px);
-  }
+  if (rival.correlation) start.max_stray_px = kAlignedStrayPx;
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 
@@ -87,8 +80,7 @@ std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrila
   return ring ? fitWhere(*ring, view) : std::nullopt;
 }
 
-// Without a camera nothing keeps the surroundings from shearing, and the borders are left. What another
-// window has in common with the reference is aligned, too, and its borders contradict that.
+// What another window has in common with the reference is aligned, too, and its borders contradict that.
 std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                            RefinedBorders& fitted) {
   const auto ring =
@@ -100,7 +92,6 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
   }
   if (!rival.correlation)
     if (auto fault = reference_.objectionTo(*ring, view.image, rival.appearance)) return fault;
-  if (!view.camera) return std::nullopt;
   const auto anew = fitWhere(*ring, view);
   if (!anew) return std::nullopt;
   const auto agreeing = std::count(anew->fitted.begin(), anew->fitted.end(), true);

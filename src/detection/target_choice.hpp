@@ -35,9 +35,6 @@ class TargetChoice {
   /// where that does not fit.
   double ringThere() const { return ring_there_; }
 
-  /// Likewise: it correlates as nothing else does.
-  bool isSure() const;
-
   /// Where the borders of a window near this place are: where what lies round the reference's opening fits,
   /// averaged with what shows of its borders there. Nothing without a camera, or where that does not fit.
   std::optional<RefinedBorders> bordersNear(const geometry::Quadrilateral& place, const View& view) const;

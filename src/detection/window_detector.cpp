@@ -14,7 +14,8 @@
 namespace window_ingress::detection {
 namespace {
 
-constexpr int kSmallestSide = 16;  ///< no window can be found in a smaller image [px]
+constexpr int kSmallestSide = 16;   ///< no window can be found in a smaller image [px]
+constexpr double kSureRing = 0.85;  ///< correlation of what lies round a window that nothing else can be
 
 void check(const DetectorParams& params) {
   const auto faults = parameters::outOfRange(params);
@@ -91,25 +92,22 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// What lies round a window decides where it is sure. Where it is not, the frame is asked, if there is one;
-// what it finds stands unless the ring names another window.
+// By the frame, where there is one: its borders are located best. Where the ring is not sure of what it
+// finds, the ring is asked, and its answer stands if it is another window.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
-  gatherAll();
-  auto window = judgeSurroundings(image, stamp_sec, camera);
-  bool confirmed = window.has_value();
-  if (!(window && choice.isSure()) && (!reference.frameless() || !reference.compares(image))) {
-    const auto framed = judgeFrames(image, stamp_sec, camera);
-    if (framed && (!window || Sameness(window->corners).samePlace(framed->corners))) {
-      window = framed;
-      confirmed = choice.ringThere() > 0.0;
-    }
-  }
-  const bool is_known = window && (confirmed || !reference.knowsSurroundings(image));
-  if (!is_known && !std::exchange(looked_everywhere, true)) {
-    rivals = reference.placesEverywhere(image);
-    if (auto found = judgeSurroundings(image, stamp_sec, camera)) window = found;
-  }
+  std::optional<WindowObservation> window;
+  if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
+  bool confirmed = window && choice.ringThere() > 0.0;
+  const auto ask_surroundings = [&] {
+    const auto other = judgeSurroundings(image, stamp_sec, camera);
+    if (other && !(confirmed && Sameness(window->corners).samePlace(other->corners))) window = other;
+    confirmed = confirmed || (other && choice.ringThere() > 0.0);
+  };
+  if (!confirmed || choice.ringThere() < kSureRing) gatherAll(), ask_surroundings();
+  const bool is_sure = window && (confirmed || !reference.knowsSurroundings(image));
+  if (!is_sure && !std::exchange(looked_everywhere, true))
+    rivals = reference.placesEverywhere(image), ask_surroundings();
   done(watch, Stage::kBorders);
   return window;
 }

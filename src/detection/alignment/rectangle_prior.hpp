@@ -33,13 +33,11 @@ class RectanglePrior {
   /// of a larger one. The less the rectangle is foreshortened, the more that says.
   RectanglePrior(const cv::Size& image, const OpeningAspect& aspect);
 
-  bool isCalibrated() const { return camera_sigma_.isZero(); }
-
   /// Adds it to the normal equations of a step p, for maps that become map * (1 + P)^-1.
   /// \param map from the opening, its sides of length 1, to ideal pixels \param noise variance of a residual
   void addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal, Vector8f& right) const;
 
-  /// Top, right, bottom, left of the opening in this view of a calibrated camera. \param map as above
+  /// Top, right, bottom, left of the opening in this view. \param map as above
   std::array<SideView, 4> viewsOfSides(const Eigen::Matrix3d& map) const;
 
  private:

@@ -191,7 +191,7 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
 std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   std::array<SideSigma, 4> sides{};
   Quadrilateral quad;
-  if (!prior_ || !prior_->isCalibrated() || !cornersOf(map, quad)) return sides;
+  if (!prior_ || !cornersOf(map, quad)) return sides;
   const Eigen::Matrix<double, 8, 8> covariance = kDependent * information_.cast<double>().inverse();
   const auto views = prior_->viewsOfSides(map);
   const bool framed = view_.model().framed();

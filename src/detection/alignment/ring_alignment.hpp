@@ -18,8 +18,7 @@ namespace window_ingress::detection {
 struct AlignedRing {
   geometry::Quadrilateral quad;  ///< order as the start, pixels of the image as it came
   RingMatch match;
-  /// How well its sides are known, in that order. Without a calibrated camera none is; nor is the side of a
-  /// frame from beyond which the camera looks.
+  /// How well its sides are known, in that order; that of a frame from beyond which the camera looks is not.
   std::array<SideSigma, 4> sides;
 };
 
