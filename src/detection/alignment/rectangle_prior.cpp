@@ -40,6 +40,12 @@ struct SeenRectangle {
   }
 };
 
+geometry::PinholeCamera usualCamera(const cv::Size& image) {
+  const double focal_px = kFocal * std::max(image.width, image.height);
+  return geometry::PinholeCamera::fromFieldOfView(image.width, image.height,
+                                                  2.0 * std::atan(0.5 * image.width / focal_px));
+}
+
 // What a change of the camera moves a side by: of its focal length's logarithm, of its centre in x and in y.
 Sides<3> byCamera(const Eigen::Vector3d& side) {
   Sides<3> slopes;
@@ -59,11 +65,8 @@ RectanglePrior::RectanglePrior(const geometry::PinholeCamera& camera, const Open
     : inverse_camera_(camera.K().inverse()), aspect_(aspect) {}
 
 RectanglePrior::RectanglePrior(const cv::Size& image, const OpeningAspect& aspect)
-    : aspect_(aspect), camera_sigma_(kLogFocalSigma, kCentreSigma, kCentreSigma) {
-  const double focal_px = kFocal * std::max(image.width, image.height);
-  Eigen::Matrix3d camera;
-  camera << focal_px, 0, 0.5 * (image.width - 1), 0, focal_px, 0.5 * (image.height - 1), 0, 0, 1;
-  inverse_camera_ = camera.inverse();
+    : RectanglePrior(usualCamera(image), aspect) {
+  camera_sigma_ = {kLogFocalSigma, kCentreSigma, kCentreSigma};
 }
 
 void RectanglePrior::addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal,
