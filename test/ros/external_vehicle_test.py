@@ -60,6 +60,12 @@ def with_late_samples(message, count):
         message.header.stamp += rospy.Duration(0.15) if count % 40 == 0 else rospy.Duration(-0.055)
 
 
+def after_a_long_beginning(message, count):
+    """While the world builds its house, which it does at the first sample, six seconds pass."""
+    if count > 0:
+        message.header.stamp += rospy.Duration(6.0)
+
+
 class Flight:
     """Another simulator, with a time of its own; not faster than the world, which may be slow here, can follow."""
 
@@ -167,6 +173,12 @@ class ExternalVehicleTest(unittest.TestCase):
         anew = [text for text in said if "anew" in text]
         self.assertEqual(len(anew), 1, anew)  # the flight itself, which begins 100 s after the one before
         self.assertTrue(any("late samples are left out" in text for text in said), said)
+
+    def test_3_building_the_house_takes_none_of_the_flights_time(self):
+        verdict, _, said = self.judged(after_a_long_beginning)
+        self.assertEqual(verdict.outcome_name, "PASSED", verdict.reason)
+        anew = [text for text in said if "anew" in text]
+        self.assertEqual(len(anew), 1, anew)
 
     def test_3_a_reset_begins_another_flight_without_a_leap_of_time(self):
         verdicts, log = support.Listener("referee", FlightVerdict), support.Listener("/rosout", Log)

@@ -35,12 +35,15 @@ void WorldNode::begin(const navigation::VehicleState& vehicle) {
   running_ = true;
 }
 
-// Time is that of the stamps; where none come it stands still, and no image shows what nobody said.
+// Time is that of the stamps; where none come it stands still, and no image shows what nobody said. It begins
+// with the first sample that comes once the house stands: building it may take longer than a silence may.
 void WorldNode::follow(const navigation::VehicleState& vehicle, const Eigen::Vector3d& turning_radps) {
   const double passed_sec = vehicle.stamp_sec - followed_sec_;
-  const bool leaps = running_ && (passed_sec <= 0.0 || passed_sec > kMaxSilenceSec);
+  const bool follows = followed_sec_ >= 0.0;
+  const bool leaps = follows && (passed_sec <= 0.0 || passed_sec > kMaxSilenceSec);
   if (leaps) ROS_WARN("vehicle_odom: stamps moved by %.2f s: the world starts anew", passed_sec);
-  if (leaps || !running_) begin(vehicle);
+  if (leaps || !running_) return begin(vehicle);
+  if (!follows) epoch_sec_ = vehicle.stamp_sec;
   followed_sec_ = vehicle.stamp_sec;
   const double until_sec = vehicle.stamp_sec - epoch_sec_;
   world_->follow({vehicle.T_odom_base, vehicle.velocity_odom_mps, turning_radps}, until_sec);
