@@ -33,8 +33,9 @@ bool distancesAgree(const WindowPlace& a, const WindowPlace& b, const Eigen::Vec
   return std::max(further, 1.0 / further) < kSizeRatio;
 }
 
-double apartM(const KnownWindow& a, const KnownWindow& b) {
-  return (a.place.position_m - b.place.position_m).norm();
+bool inOneSpot(const WindowPlace& a, const WindowPlace& b) {
+  const double width_m = std::min(a.size.width_m, b.size.width_m);
+  return (a.position_m - b.position_m).norm() <= kSameSpot * width_m;
 }
 
 // What is known of two that are one.
@@ -53,10 +54,13 @@ void absorb(KnownWindow& window, const KnownWindow& twin) {
 
 }  // namespace
 
+// In one spot there is no room for another window: there odometry has slid, by more than it was said to
+// drift.
 double FacadeMap::squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const {
   const double since_sec = std::abs(stamp_sec - window.last_seen_sec);
-  return squaresBetween(window.place, place,
-                        std::pow(kSightsOverFilter * params_.odom_drift_m_per_sqrt_sec, 2) * since_sec);
+  const double squares = squaresBetween(
+      window.place, place, std::pow(kSightsOverFilter * params_.odom_drift_m_per_sqrt_sec, 2) * since_sec);
+  return inOneSpot(window.place, place) ? std::min(squares, kMaxSquares) : squares;
 }
 
 void FacadeMap::associate(const FacadeView& view, std::vector<Sight>& sights) const {
@@ -65,7 +69,7 @@ void FacadeMap::associate(const FacadeView& view, std::vector<Sight>& sights) co
   for (const KnownWindow& window : windows_)
     for (Sight& sight : sights)
       if (const double squares = this->squares(window, sight.place, view.stamp_sec);
-          squares < kMaxSquares && sizesAgree(window.place, sight.place) &&
+          squares <= kMaxSquares && sizesAgree(window.place, sight.place) &&
           distancesAgree(window.place, sight.place, eye_m))
         pairs.emplace_back(squares, window.key, &sight);
   std::sort(pairs.begin(), pairs.end());
@@ -106,13 +110,12 @@ void FacadeMap::noteSideBySide(const std::vector<Sight>& sights) {
 }
 
 // The older one stays.
-void FacadeMap::merge(double stamp_sec) {
+void FacadeMap::merge() {
   for (std::size_t i = 0; i < windows_.size(); ++i)
     for (std::size_t k = windows_.size(); --k > i;) {
       KnownWindow &older = windows_[i], &younger = windows_[k];
-      const double width_m = std::min(older.place.size.width_m, younger.place.size.width_m);
-      if (apart_.count({older.key, younger.key}) != 0 || apartM(older, younger) > kSameSpot * width_m ||
-          squares(older, younger.place, stamp_sec) > kMaxSquares || !sizesAgree(older.place, younger.place))
+      if (apart_.count({older.key, younger.key}) != 0 || !inOneSpot(older.place, younger.place) ||
+          !sizesAgree(older.place, younger.place))
         continue;
       if (followed_key_ == younger.key) followed_key_ = older.key;
       absorb(older, younger);
@@ -137,7 +140,7 @@ void FacadeMap::see(const FacadeView& view, const std::optional<Wall>& wall,
   associate(view, sights);
   for (Sight& sight : sights) learn(view.stamp_sec, sight);
   noteSideBySide(sights);
-  merge(view.stamp_sec);
+  merge();
   prune(view.stamp_sec);
 }
 
@@ -150,7 +153,7 @@ const KnownWindow* FacadeMap::at(const WindowPlace& place, double stamp_sec) con
   double least = kMaxSquares;
   for (const KnownWindow& window : windows_)
     if (const double squares = this->squares(window, place, stamp_sec);
-        squares < least && sizesAgree(window.place, place))
+        squares <= least && sizesAgree(window.place, place))
       least = squares, nearest = &window;
   return nearest;
 }

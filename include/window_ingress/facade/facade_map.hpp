@@ -39,10 +39,11 @@ struct FacadeView {
 
 /// All windows seen, in the odometry frame, each with a number of its own.
 ///
-/// A sight belongs to the window whose place it fits (Mahalanobis distance, odometry's drift included), each
-/// sight to one window and each window to one sight of an image, the nearest first. Two windows that come to
-/// lie in one place without ever having been seen side by side are one. So neighbours of the same look stay
-/// apart, and a window is found again after a loss where it was.
+/// A sight belongs to the window whose place it fits (Mahalanobis distance, odometry's drift included, or
+/// closer to it than another window can be), each sight to one window and each window to one sight of an
+/// image, the nearest first. Two windows that come to lie in one place without ever having been seen side by
+/// side are one. So neighbours of the same look stay apart, and a window is found again after a loss where it
+/// was.
 class FacadeMap {
  public:
   explicit FacadeMap(const FacadeParams& params) : params_(params) {}
@@ -75,7 +76,7 @@ class FacadeMap {
   void associate(const FacadeView& view, std::vector<Sight>& sights) const;
   void learn(double stamp_sec, Sight& sight);
   void noteSideBySide(const std::vector<Sight>& sights);
-  void merge(double stamp_sec);
+  void merge();
   void prune(double stamp_sec);
   double squares(const KnownWindow& window, const WindowPlace& place, double stamp_sec) const;
 

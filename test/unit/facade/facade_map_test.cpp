@@ -53,6 +53,20 @@ TEST(FacadeMap, FindsAWindowAgainWhereItWasAfterALossAlthoughOdometryDrifted) {
   EXPECT_EQ(map.windows().size(), before.size());
 }
 
+TEST(FacadeMap, FindsAWindowAgainWhereNoOtherOneCanBeHoweverFarOdometrySlid) {
+  std::mt19937 random(5);
+  const test::WindowRow row;
+  FacadeMap map{FacadeParams()};
+  walkAlong(map, row, kWall, 10.0, 3);
+  const auto before = map.windows();
+  for (int n = 0; n < 10; ++n) {  // at once, by 0.35 m
+    auto look = row.look(16.0 + 0.1 * n, row.from({-5.0, -2.0, 1.5}), -1, random);
+    look.from.T_odom_camera.translation() += Eigen::Vector3d(0.0, 0.35, 0.0);
+    map.see(look, kWall, row.size);
+  }
+  EXPECT_EQ(map.windows().size(), before.size());
+}
+
 TEST(FacadeMap, ForgetsWhatWasSeenButOnce) {
   std::mt19937 random(6);
   const test::WindowRow row;
