@@ -152,12 +152,17 @@ void TwistCheck::judge() {
   }
   const std::size_t better = betterMeaning(all);
   const double mean_squares = all.misfits[0] / (3.0 * static_cast<double>(pieces_.size()));
+  const bool is_refuted = all.misfits[0] <= all.misfits[accused_];
   if (better > 0) {
     verdict_ = {FramesVerdict::kWrong, kNames[better]};
+    accused_ = better;
   } else if (is_biased || (pieces_.size() >= kMinPieces && mean_squares > kMaxMeanSquares)) {
     verdict_ = {FramesVerdict::kWrong,
                 formatted("twist does not fit the way flown: off by %.0f %% and by %.2f m/s throughout",
                           100.0 * all.misfit(), all.bias_mps)};
+    accused_ = 0;
+  } else if (verdict_.state == FramesVerdict::kWrong && is_refuted) {
+    verdict_ = {FramesVerdict::kOpen, "velocity: what spoke against its axes is refuted"};
   }
 }
 

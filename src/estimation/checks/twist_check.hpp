@@ -63,6 +63,7 @@ class TwistCheck {
   std::optional<Sample> first_, last_;
   Way integrated_m_{};
   std::deque<Piece> pieces_;
+  std::size_t accused_ = 0;  ///< meaning that a wrong verdict names; 0: none
   FramesVerdict verdict_{FramesVerdict::kOpen, "velocity: no way flown yet"};
 };
 

@@ -154,6 +154,46 @@ TEST(TwistCheck, APositionThatStandsStillWhileTheVehicleFliesIsAFault) {
   EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
 }
 
+TEST(TwistCheck, WhatDoesNotFitIsTakenBackWhereMostFitsAgain) {
+  TwistCheck check;
+  Eigen::Vector3d position(0, 0, 1);
+  for (int i = 0; i < 900; ++i) {
+    const Eigen::Vector3d velocity(0.5, 0.1, 0.0);
+    if (i >= 500) position += velocity / 50.0;  // stood still until now
+    check.add(i / 50.0, geometry::makePose(geometry::yawRotation(1.0), position), velocity);
+    if (i == 499) {
+      EXPECT_EQ(check.verdict().state, FramesVerdict::kWrong);
+    }
+  }
+  EXPECT_EQ(check.verdict().state, FramesVerdict::kOpen) << check.verdict().what;
+}
+
+// Velocity of the body, always off by `bias`, and a position that walks as a satellite receiver's.
+TEST(TwistCheck, ABiasThatPassedForOtherAxesIsRefutedOnceItIsKnown) {
+  int accused = 0, lasting = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> step(0.0, 0.09 * std::sqrt(1.0 / 50.0));
+    const Eigen::Matrix3d R = geometry::yawRotation(1.0);
+    const Eigen::Vector3d first(0.28, 0.0, 0.0), then(-0.1, 0.25, 0.0);
+    const Eigen::Vector3d bias =
+        R * (first - R.transpose() * first);  // in odom: `first` in axes of the world
+    TwistCheck check;
+    Eigen::Vector3d position(0, 0, 1);
+    bool is_accused = false;
+    for (int i = 0; i < 50 * 25; ++i) {
+      const Eigen::Vector3d velocity = i < 50 * 8 ? first : then;
+      position += velocity / 50.0 + Eigen::Vector3d(step(random), step(random), 0.0);
+      check.add(i / 50.0, geometry::makePose(R, position), velocity + bias);
+      is_accused = is_accused || check.verdict().state == FramesVerdict::kWrong;
+    }
+    accused += is_accused;
+    lasting += check.verdict().state == FramesVerdict::kWrong;
+  }
+  EXPECT_LE(lasting, 5);
+  EXPECT_GT(accused, 50) << "or nothing is there to be refuted";
+}
+
 TEST(TwistCheck, AGapOrAJumpBackIsNoWay) {
   TwistCheck check;
   for (int i = 0; i < 20; ++i) {
