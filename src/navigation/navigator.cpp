@@ -170,6 +170,7 @@ void Navigator::Impl::change(State to, const std::string& why) {
   memory.was_near = memory.was_near || to == State::kApproach;
   behaviour = behaviourOf(to, state, clock.nowSec(), !memory.was_near, params);
   if (to == State::kBackOff) ++memory.back_offs;
+  if (isMoving(to) && to != State::kCommit) memory.committed.reset();  // its place is that of back then
   if (to == State::kHold) observer.restart();  // what moves the vehicle now is not known to be wind
   state = to;
 }

@@ -196,6 +196,7 @@ TEST_F(NavigatorSteps, TurnsBackFromACommitWhenTheWindowIsSeenElsewhere) {
   }
   EXPECT_EQ(output.state, State::kBackOff) << output.reason;
   EXPECT_LE(output.setpoint.velocity_odom_mps.x(), 0.0);
+  EXPECT_NEAR(output.report.lateral_m, -0.3, 1e-3) << "by the window as it is seen now";
 }
 
 TEST_F(NavigatorSteps, TurnsBackFromACommitWhenItIsCarriedOffTheAxisAgainstWhatItIsTold) {
