@@ -25,6 +25,7 @@ SPEED_MPS = 1.0
 WINDOW_X_M, CENTRE_Z_M, STOP_X_M = 5.0, 1.5, 6.8   # of config/scenarios/external.yaml
 CAMERA_AHEAD_M, CAMERA_UP_M = 0.10, 0.02
 OFFSET_Y_M = 0.07
+NEWEST_S = 0.03 + 1.0 / 30.0 + 0.005   # latency, period and step of the camera: the age of the newest image at most
 PATIENCE_S = 0.5   # with a world that draws nothing: a reset forgets images
 TOPIC = "/mavros/local_position/odom"
 
@@ -201,7 +202,7 @@ class ExternalVehicleTest(unittest.TestCase):
         begin, leap = time.monotonic(), int(4.0 * RATE_HZ)
         last = odometry_at(flight.began, leap)
         Flight._publisher.publish(last)
-        images.wait(lambda i: last.header.stamp - i.header.stamp < rospy.Duration(0.05), "the newest image", begin=begin)
+        images.wait(lambda i: last.header.stamp - i.header.stamp < rospy.Duration(NEWEST_S), "the newest image", begin=begin)
         support.wait_for(lambda: time.monotonic() - begin > 1.0, "a second for others")
         of_the_gap = [i for i in images.since(begin) if i.header.stamp > flight.began + rospy.Duration(1.6)]
         self.assertEqual(len(of_the_gap), 2)
