@@ -1,10 +1,45 @@
-/// What the navigator's node says of itself in the diagnostics.
+/// Which inputs of the navigator's node are stale, and what its diagnostics say of them and of itself.
 #include <cmath>
 
 #include "adapters/navigator/navigator_node.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {
+namespace {
+
+constexpr double kFrozenClockSec = 0.2;
+
+}  // namespace
+
+void NavigatorNode::reportHealth() {
+  diagnostics_.add("engaged",
+                   [this] { return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec()); });
+  odom_health_.watch(odom_subscriber_);
+  pose_health_.watch(pose_subscriber_);
+  diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
+  diagnostics_.add("mission", [this] { return missionHealth(); });
+  diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
+  diagnostics_.add("camera", [this] { return cameraHealth(); });
+  diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
+}
+
+// Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
+void NavigatorNode::forgetSilentInputs() {
+  if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
+  if (pose_health_.silentSec() > params_.max_pose_silence_sec) {
+    input_.target.reset();
+    input_.camera_fault.clear();
+  }
+  input_.engaged = engagement_.holds(steadyNowSec());
+  input_.passed_on = guard_.passesOn();
+}
+
+bool NavigatorNode::clockStandsStill(double now_sec) {
+  const double steady_sec = steadyNowSec();
+  if (now_sec != last_now_sec_) clock_moved_sec_ = steady_sec;
+  last_now_sec_ = now_sec;
+  return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
+}
 
 Health NavigatorNode::missionHealth() const {
   const std::string text = std::string(navigation::toString(last_.state)) + ": " + last_.reason;

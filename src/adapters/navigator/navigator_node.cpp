@@ -13,7 +13,6 @@ namespace {
 
 // Which axes, not which name: frame_id is filled from odom_frame and base_frame.
 constexpr const char *kOdomAxes = "odom", *kBaseAxes = "base_link";
-constexpr double kFrozenClockSec = 0.2;
 constexpr double kStatePeriodEnabledSec = 0.1, kStatePeriodIdleSec = 1.0;
 constexpr double kMarkerPeriodSec = 0.095;
 constexpr double kRounding = 1e-6;
@@ -61,15 +60,7 @@ NavigatorNode::NavigatorNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
   engaged_subscriber_ = subscribeCatching<std_msgs::Bool>(
       nh, "engaged", 1, diagnostics_,
       [this](const auto& message) { engagement_.hear(message->data, steadyNowSec()); });
-  diagnostics_.add("engaged",
-                   [this] { return engagement_.health(engaged_subscriber_.getTopic(), steadyNowSec()); });
-  odom_health_.watch(odom_subscriber_);
-  pose_health_.watch(pose_subscriber_);
-  diagnostics_.addOutput("cmd_vel", {setpoint_publisher_});
-  diagnostics_.add("mission", [this] { return missionHealth(); });
-  diagnostics_.add("vehicle", [this] { return vehicleHealth(); });
-  diagnostics_.add("camera", [this] { return cameraHealth(); });
-  diagnostics_.add("last_gate", [this] { return lastGateHealth(); });
+  reportHealth();
   advertiseServices(pnh);
   if (params_.lockstep)
     lockstep_.emplace(
@@ -180,17 +171,6 @@ navigation::NavigatorOutput NavigatorNode::decide(double now_sec) {
   return output;
 }
 
-// Data that no longer arrives is gone, whatever its stamps say against a clock that may stand still.
-void NavigatorNode::forgetSilentInputs() {
-  if (odom_health_.silentSec() > params_.max_silence_sec) input_.vehicle.reset();
-  if (pose_health_.silentSec() > params_.max_pose_silence_sec) {
-    input_.target.reset();
-    input_.camera_fault.clear();
-  }
-  input_.engaged = engagement_.holds(steadyNowSec());
-  input_.passed_on = guard_.passesOn();
-}
-
 void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
   if (!clock_.jumpedBack(now_sec)) return;
   ROS_WARN("the clock jumped back: inputs forgotten%s", last_.enabled ? ", mission aborted" : "");
@@ -199,13 +179,6 @@ void NavigatorNode::restartIfClockJumpedBack(double now_sec) {
   trail_.clear();
   marker_publisher_.publish(allGone(toStamp(now_sec), frames().odom));
   if (last_.enabled) navigator_.abort("aborted: the clock jumped back");
-}
-
-bool NavigatorNode::clockStandsStill(double now_sec) {
-  const double steady_sec = steadyNowSec();
-  if (now_sec != last_now_sec_) clock_moved_sec_ = steady_sec;
-  last_now_sec_ = now_sec;
-  return now_sec == 0.0 || steady_sec - clock_moved_sec_ > kFrozenClockSec;
 }
 
 void NavigatorNode::publish(const navigation::NavigatorOutput& output, const ros::Time& now) {

@@ -70,6 +70,7 @@ class NavigatorNode : public Node {
   void publishSetpoint(const navigation::Setpoint& setpoint, const ros::Time& now);
   void publishState(const navigation::NavigatorOutput& output, const ros::Time& now);
   void publishMarkers(const navigation::NavigatorOutput& output, const ros::Time& now);
+  void reportHealth();
   Health missionHealth() const;
   Health vehicleHealth() const;
   Health cameraHealth() const;
