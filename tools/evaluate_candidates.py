@@ -6,7 +6,6 @@ A candidate is right if it overlaps an annotated quadrilateral by IoU >= 0.7; an
 quadrilaterals was found, and rates are averaged over scenes, as in evaluate_detections.py. Labels that end in _small count
 neither for nor against.
 """
-import argparse
 import collections
 import os
 import sys
@@ -87,15 +86,7 @@ def print_table(records, title="", per_scene=False):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("candidates", help="csv of detect_images --candidates")
-    parser.add_argument("--annotations", required=True)
-    parser.add_argument("--meta", required=True)
-    parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image the reference is from")
-    parser.add_argument("--iou", type=float, default=0.7)
-    parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
-    parser.add_argument("--per-scene", action="store_true")
-    options = parser.parse_args()
+    options = rules.parser_for(__doc__, "candidates", "csv of detect_images --candidates").parse_args()
     try:
         candidates, annotations, meta = map(rules.read, (options.candidates, options.annotations, options.meta))
     except OSError as error:

@@ -8,13 +8,15 @@ annotated. Labels that start with pose_only_, or end in _small, are no targets.
 The images fall into two halves, by a hash of scene and file name: what is tuned is tuned on the half `tune`, what is
 reported is measured on the half `report`. Names that differ in their last digit only, neighbours in a video, go together.
 """
-import argparse
 import collections
 import csv
 import hashlib
 import os
 import re
 import sys
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from ingress_tools.command_line import Parser  # noqa: E402
 
 
 def cross(o, a, b):
@@ -150,15 +152,21 @@ def print_misses(records):
         print(f"{r['tier']:3s} {r['scene'][:44]:44s} {r['file']:46s} {said}")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("detections", help="csv of detect_images")
+def parser_for(description, table, text):
+    """For what judges a csv by annotations."""
+    parser = Parser(description)
+    parser.add_argument(table, help=text)
     parser.add_argument("--annotations", required=True)
     parser.add_argument("--meta", required=True)
     parser.add_argument("--leave-out", action="append", default=[], metavar="FILE", help="image the reference is from")
     parser.add_argument("--iou", type=float, default=0.7)
     parser.add_argument("--half", choices=("all", "tune", "report"), default="all", help="only those images")
     parser.add_argument("--per-scene", action="store_true")
+    return parser
+
+
+def main():
+    parser = parser_for(__doc__, "detections", "csv of detect_images")
     parser.add_argument("--misses", action="store_true", help="list the images whose target was not found")
     options = parser.parse_args()
     try:

@@ -12,7 +12,6 @@ exposure  0.5 to 1.7 of the exposure with clipping, another tone curve
 person, plants, rope, leaf
           something stands, grows, hangs or is hinged before the window and hides 10 to 33 % of the ring round the opening
 """
-import argparse
 import csv
 import os
 import pathlib
@@ -26,6 +25,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from ingress_tools import package_paths  # noqa: E402
+from ingress_tools.command_line import Parser  # noqa: E402
 
 RING = 0.22  # width of the ring of which a part is hidden [sides of the opening]
 LEAST_HIDDEN, MOST_HIDDEN = 0.10, 0.33
@@ -204,7 +204,7 @@ def row_of(kind, file):
 
 
 def parse():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("--views", required=True, type=pathlib.Path, help="folder written by survey_detector --save")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the images drawn and the tables")
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS), help="all, if not given")

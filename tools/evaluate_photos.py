@@ -5,7 +5,6 @@ each scene that has one, on that scene and on every image without a target.
 Rules, and the halves `tune` and `report`, as in evaluate_detections.py. With a reference another rectangle is no target,
 so every detection that is not on an annotated one is false.
 """
-import argparse
 import os
 import pathlib
 import struct
@@ -16,6 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import evaluate_candidates  # noqa: E402
 import evaluate_detections as rules  # noqa: E402
 from ingress_tools import package_paths  # noqa: E402
+from ingress_tools.command_line import Parser  # noqa: E402
 
 MARGIN = 0.25  # of the references `ref_with_margin`: at each side, of the target's own width or height
 CELL, COLUMNS = (280, 210), 8  # of the sheet of what went wrong [px]
@@ -159,7 +159,7 @@ def sheet(photographs, records, path):
 
 
 def parse():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = Parser(__doc__)
     parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder with meta.csv and images/")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the csv files")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")

@@ -6,7 +6,6 @@ it, cut from the photograph; the view is the whole photograph, up to 29 degrees 
 before the wall is drawn flat with it. Each reference also looks at views of four other façades, where nothing is right.
 One seed gives the same images. Rows of the table: right at IoU 0.7; its twin, another annotated window; elsewhere.
 """
-import argparse
 import collections
 import os
 import pathlib
@@ -19,6 +18,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import evaluate_detections as rules  # noqa: E402
 from ingress_tools import package_paths  # noqa: E402
+from ingress_tools.command_line import Parser  # noqa: E402
 
 MARGIN, LEAST_SIDE = 0.25, 50  # of a reference [sides of the window; px]
 WINDOWS = 2  # of one photograph, the largest
@@ -115,8 +115,7 @@ def facade_of(name):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("--photos", required=True, type=pathlib.Path, help="folder with images/ and annotations.csv")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for the views and what is found")
     parser.add_argument("--seed", type=int, default=20261127)

@@ -5,7 +5,6 @@ FOLDER/gt.csv has a row a frame: file and the target's corners x1, y1, ... x4, y
 corners say: that frame is the reference. A frame is lost if nothing is found in it, or if what is found overlaps the
 target by less than an intersection over union of 0.7. Corners are compared in the cyclic order that fits best.
 """
-import argparse
 import os
 import pathlib
 import subprocess
@@ -14,6 +13,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import evaluate_detections as rules  # noqa: E402
 from ingress_tools import package_paths  # noqa: E402
+from ingress_tools.command_line import Parser  # noqa: E402
 
 DEFAULT_TOOL = package_paths.program("detect_images") or "detect_images"
 SAME_IOU = 0.7
@@ -80,7 +80,7 @@ def report(frames, detections):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = Parser(__doc__)
     parser.add_argument("folder", type=pathlib.Path, help="with gt.csv")
     parser.add_argument("--output", required=True, type=pathlib.Path, help="folder for sequence.csv")
     parser.add_argument("--tool", default=DEFAULT_TOOL, help="the program detect_images")

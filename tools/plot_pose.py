@@ -5,9 +5,9 @@ OpenCV's methods are; prints the comparison as a Markdown table.
 Writes pose_bound.png and pose_methods.png. --noise chooses the noise of methods and table; --doc puts the table into
 FILE.md, between its marks.
 """
-import argparse
 import csv
 import math
+import os
 import pathlib
 import sys
 
@@ -15,6 +15,9 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from ingress_tools.command_line import Parser  # noqa: E402
 
 METHODS = {
     "ours": ("ours", "black", "o"), "ours_attitude": ("ours, attitude known to 0.02 rad", "tab:green", "D"),
@@ -103,7 +106,7 @@ def write_doc(path, lines):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(__doc__)
     parser.add_argument("folder")
     parser.add_argument("--output")
     parser.add_argument("--noise", type=float)

@@ -33,12 +33,13 @@ std::string shortest(double value) {
   return text.insert(std::min(text.find('e'), text.size()), ".0");
 }
 
-double number(const std::string& text) {
+double number(const std::string& name, const std::string& text) {
   if (text == "true") return 1.0;
   if (text == "false") return 0.0;
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) throw InputError("'" + text + "' is no number");
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw InputError(name + ": '" + text + "' is no number");
   return value;
 }
 
@@ -57,7 +58,7 @@ void assign(const std::vector<Field>& fields, const std::string& assignment) {
     throw InputError("'" + assignment + "': needs NAME=VALUE with the name of a number, like " +
                      (fields.empty() ? "none" : fields.front().name));
   if (!field) throw InputError(name + ": unknown name" + didYouMean(name, keysOf(fields)));
-  double value = number(assignment.substr(sign + 1));
+  double value = number(name, assignment.substr(sign + 1));
   const std::string fault = faultOf({name, &value, field->minimum, field->maximum});
   if (!fault.empty()) throw InputError(fault);
   field->set(value);

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
@@ -66,6 +67,8 @@ int runTool(const char* name, const Body& body) {
   };
   try {
     return body();
+  } catch (const boost::program_options::too_many_positional_options_error&) {
+    return fail("a value stands where none is expected: give it behind its option; see --help", 2);
   } catch (const boost::program_options::error& error) {
     return fail(std::string(error.what()) + "; see --help", 2);
   } catch (const std::invalid_argument& error) {
@@ -119,6 +122,12 @@ class OptionList : public boost::program_options::options_description {
     add_options()(name, value, text.c_str());
   }
 
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& option : options()) names.push_back(option->long_name());
+    return names;
+  }
+
   boost::program_options::positional_options_description unnamed;  ///< which need no name
 };
 
@@ -134,7 +143,14 @@ int runTool(const char* name, int argc, char** argv, OptionList (*describe)(Opti
     po::command_line_parser parser(argc, argv);
     parser.options(list).positional(list.unnamed).style(style::default_style & ~style::allow_guessing);
     po::variables_map given;
-    po::store(parser.run(), given);
+    try {
+      po::store(parser.run(), given);
+    } catch (const po::unknown_option& error) {
+      const std::string option = error.get_option_name();
+      throw InputError(error.what() +
+                       parameters::didYouMean(option.substr(option.find_first_not_of('-')), list.names()) +
+                       "; see --help");
+    }
     if (given.count("help") > 0) {
       std::cout << list;
       return 0;

@@ -69,9 +69,12 @@ inline bool isNumber(const std::string& text) {
   return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() && *end == '\0';
 }
 
-/// What to do about a relative path: nodes run in a folder of their own.
+/// What to do about a relative path: nodes run in a folder of their own, and ~ is known to shells alone.
 inline std::string wholePathOf(const std::string& file) {
-  return "give its whole path, as " + (std::filesystem::current_path() / file).string();
+  const char* home = std::getenv("HOME");
+  const bool at_home = home && file.rfind("~/", 0) == 0;
+  return "give its whole path, as " +
+         (at_home ? home + file.substr(1) : (std::filesystem::current_path() / file).string());
 }
 
 /// Why this cannot be the argument's value; empty if nothing speaks against it. Its text lists the words

@@ -67,6 +67,14 @@ def test_unknown_option_is_wrong_usage(tool):
     assert_refused(run(tool, "--no-such-option"), 2, "no-such-option")
 
 
+def test_an_option_mistyped_is_answered_with_the_nearest():
+    assert_refused(run("fly", "--seed", "1..3"), 2, "unrecognised option '--seed'; did you mean 'seeds'?")
+
+
+def test_a_value_without_its_option_is_wrong_usage():
+    assert_refused(run("fly", NOMINAL), 2, "give it behind its option")
+
+
 def test_missing_image_is_named(tmp_path):
     missing = tmp_path / "missing.png"
     assert_refused(run("detect_images", "--output", tmp_path / "out.csv", missing), 2, missing)

@@ -46,6 +46,12 @@ def test_what_report_cannot_read_is_said_with_what_can(tmp_path):
 
 
 @pytest.mark.parametrize("words", ingress.COMMANDS)
+def test_wrong_usage_is_said_in_one_line(words):
+    done = run(INGRESS, *words.split(), "--no-such-option")
+    assert done.returncode == 2 and not done.stdout and len(done.stderr.splitlines()) == 1, done.stderr
+
+
+@pytest.mark.parametrize("words", ingress.COMMANDS)
 def test_help_has_one_shape(words):
     """What it does, usage, options, one example whose options there are, exit codes."""
     _, does, example = ingress.COMMANDS[words]

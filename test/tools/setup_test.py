@@ -86,6 +86,13 @@ def test_a_script_that_takes_no_such_argument_says_so_and_does_nothing(script, a
     assert done.returncode == 2 and not done.stdout and f"scripts/{script}" in done.stderr
 
 
+@pytest.mark.parametrize("arguments", [["--seed"], ["--seed", "two"], ["--scenario"], ["--scenario", "nominal"]])
+def test_the_demo_refuses_a_wrong_value_in_one_line_before_it_installs(arguments):
+    done = subprocess.run([SETUP.parent / "demo", *arguments], capture_output=True, text=True, check=False, timeout=10)
+    assert done.returncode == 2 and not done.stdout and done.stderr.startswith(f"demo: {arguments[0]} needs a "), done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
 @pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])
 def test_check_platform_refuses_what_it_cannot_do(arguments):
     done = subprocess.run([SETUP.parents[1] / "dev/check_platform", *arguments], capture_output=True, text=True, check=False)

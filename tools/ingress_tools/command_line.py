@@ -1,11 +1,11 @@
-"""What the plotting tools share: wrong usage is one line on stderr, and exit code 2."""
+"""What the tools in Python share: wrong usage is one line on stderr, and exit code 2."""
 import argparse
 import sys
 
 
 class Parser(argparse.ArgumentParser):
-    def __init__(self, prog, description):
-        super().__init__(prog=prog, description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    def __init__(self, description):
+        super().__init__(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
 
     def error(self, message):
         fail(2, f"{self.prog}: {message}; see --help")
