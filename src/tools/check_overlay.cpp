@@ -13,6 +13,7 @@
 #include "adapters/pose/camera_mounting.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "command_line.hpp"
+#include "display.hpp"
 #include "input_faults.hpp"
 #include "launch_arguments.hpp"
 #include "navigation/mission/mission_rules.hpp"
@@ -28,7 +29,7 @@ using namespace window_ingress;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, needs_package, scenario, launch_folder;
+      image_transport, needs_package, needs_display, scenario, launch_folder;
 };
 
 tools::OptionList describe(Options& o) {
@@ -51,6 +52,7 @@ tools::OptionList describe(Options& o) {
   add("image-transport", o.image_transport, "by which images come; FILE.yaml counts more");
   add("scenario", o.scenario, "yaml file of the simulated world");
   add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
+  add("needs-display", o.needs_display, "true: the calling roslaunch starts rviz");
   add("defaults", o.defaults, "yaml file that lies below FILE.yaml");
   add("fly", o.fly, "true: refused if the vehicle does not fit through the opening");
   add("launch-folder", o.launch_folder,
@@ -226,6 +228,10 @@ void checkLaunch(const Options& o, tools::InputFaults& faults) {
   if (tools::startsNothing(words)) return;
   faults.collect([&] { tools::checkFilesAreThere(words, file); });
   faults.collect([&] { checkInstalled(o.needs_package); });
+  if (o.needs_display == "true" && !tools::hasDisplay())
+    faults.collect([] {
+      throw InputError("rviz has no display: export DISPLAY=:0 of a screen, or go without (rviz:=false)");
+    });
 }
 
 // Nodes run in a folder of their own, roslaunch does not: there a relative path is as good, if the file is

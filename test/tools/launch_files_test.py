@@ -130,6 +130,7 @@ def test_only_what_has_no_default_is_listed_as_required(file):
 @pytest.mark.parametrize("argument, said", [
     ("reference:=/nowhere/window.jpg", "reference/picture: cannot read '/nowhere/window.jpg' as JPEG or PNG"),
     ("reference:=window.jpg", "reference:=window.jpg: give its whole path, as /"),
+    ("reference:=~/window.jpg", f"give its whole path, as {pathlib.Path.home()}/window.jpg"),
     ("reference_corners:=1,2,3", "reference_corners: '1,2,3' is not 8 numbers"),
     ("window_size:=1.2", "window_size: '1.2' is not 2 numbers"), ("window_size:=0,1", "window_size 0,1: opening_width_m = 0 is not within"),
     ("config:=/nowhere/drone.yaml", "/nowhere/drone.yaml")])
@@ -302,6 +303,13 @@ def test_a_driver_that_is_not_installed_ends_the_launch_before_anything_starts(n
     done = run("roslaunch", "window_ingress", f"{name}.launch", *(["rviz:=false"] if name == "rehearse" else []))
     assert done.returncode == 1 and "started with pid" not in done.stdout
     assert "check_overlay: the package usb_cam is not installed: apt install ros-noetic-usb-cam" in done.stderr
+
+
+@pytest.mark.parametrize("words", ["sim.launch rviz:=true", "view.launch"])
+def test_rviz_without_a_display_ends_the_launch_before_anything_starts(words):
+    done = run("env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "roslaunch", "window_ingress", *words.split())
+    assert done.returncode == 1 and "started with pid" not in done.stdout
+    assert "check_overlay: rviz has no display: " in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("name, argument", [("replay", "bag:={0}/there.bag {0}/none.bag"), ("rehearse", "video:={0}/none.bag"), ("view", "bag:={0}/none.bag")])
