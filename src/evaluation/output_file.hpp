@@ -1,4 +1,4 @@
-/// Files that are written to their end, or somebody hears of it.
+/// Files that are written to their end, or somebody hears of it. Their folder is made if it is missing.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +15,11 @@ namespace window_ingress::evaluation {
   throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
 }
 
+inline void makeFolderOf(const std::filesystem::path& file) {
+  std::error_code ignored;  // then the file cannot be written either
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
+}
+
 /// A text file. \throws std::runtime_error that names it if it cannot be made or finished
 class OutputFile : public std::ofstream {
  public:
@@ -22,6 +27,7 @@ class OutputFile : public std::ofstream {
   explicit OutputFile(const std::filesystem::path& file) { open(file); }
 
   void open(const std::filesystem::path& file) {
+    makeFolderOf(file);
     std::ofstream::open(file_ = file);
     check();
   }
@@ -57,6 +63,7 @@ inline cv::Mat readImage(const std::filesystem::path& file) {
 /// An image, in the format that the name says. \throws std::runtime_error that names it
 inline void writeImage(const std::filesystem::path& file, const cv::Mat& image,
                        const std::vector<int>& how = {}) {
+  makeFolderOf(file);
   if (image.empty() || !cv::imwrite(file.string(), image, how)) cannotBeWritten(file);
 }
 

@@ -204,8 +204,6 @@ void writeOverlay(const std::string& file, const cv::Mat& image, const WindowFin
 }
 
 void begin(evaluation::OutputFile& output, const std::string& file, const std::string& header) {
-  const fs::path folder = fs::path(file).parent_path();
-  if (!folder.empty()) tools::makeFolder(folder.string());
   output.open(file);
   output << "file," << header << "\n";
 }

@@ -102,6 +102,8 @@ def test_folder_of_the_output_is_made(tmp_path, image):
     output = tmp_path / "new" / "out.csv"
     assert run("detect_images", "--output", output, image).returncode == 0
     assert len(output.read_text().splitlines()) == 2
+    sheet = tmp_path / "newer" / "sheet.jpg"
+    assert run("draw_stages", "--output", sheet, image).returncode == 0 and sheet.is_file()
 
 
 def test_camera_without_calibration_is_refused(tmp_path, image):

@@ -1,5 +1,6 @@
 """What the tools in Python share: wrong usage is one line on stderr, and exit code 2."""
 import argparse
+import os
 import sys
 
 
@@ -17,8 +18,9 @@ def fail(code, text):
 
 
 def save(tool, figure, file):
-    """Writes the picture; ends the program with code 1 if that cannot be done."""
+    """Writes the picture, and its folder if it is missing; ends the program with code 1 if that cannot be done."""
     try:
+        os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
         figure.savefig(file, dpi=80)
     except (OSError, ValueError) as error:
         fail(1, f"{tool}: {file}: cannot write: {error}")

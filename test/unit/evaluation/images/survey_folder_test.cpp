@@ -93,7 +93,8 @@ TEST_F(SurveyFolderTest, FoldersThatAreNoneAreErrorsWithTheirName) {
   fs::remove(folder_ / "calm_3.png");
   whole.readTable();
   EXPECT_THROW(whole.load(0), InputError) << "an image is missing";
-  EXPECT_THROW(SurveyFolder("/no/such/folder").writeTable(), std::runtime_error);
+  const fs::path below_a_file = folder_ / "truth.csv/folder";
+  EXPECT_THROW(SurveyFolder(below_a_file.string()).writeTable(), std::runtime_error);
 }
 
 TEST_F(SurveyFolderTest, CutRowsAreErrors) {
