@@ -21,7 +21,8 @@ inline double share(double dt_sec, double time_constant_sec) {
 /// whose velocity is most like the measured one. Half of them make up for the way by which they are behind
 /// their setpoints, as some autopilots do: what these overshoot by and creep back is no wind. A steady
 /// difference (wind, a biased velocity) counts for nothing: each model learns its own and is judged by what
-/// remains. Where none explains the motion (turned axes, a vehicle that is held), what was assumed stays.
+/// remains. Where none explains the motion (turned axes, a vehicle that is held, more gusts than commands),
+/// what was assumed stays.
 class ResponseEstimator {
  public:
   /// \param assumed_sec is believed until the vehicle has been asked to change its velocity often enough to
@@ -74,14 +75,15 @@ class ResponseEstimator {
     models_.push_back({assumed_sec_, 0.0, 0.0});  // stands, whatever it is told
     best_ = 0;
     excitation_ = 0.0;
-    is_started_ = false;
+    is_started_ = is_measured_ = false;
   }
 
   /// From a setpoint to the velocity following it [s]: 0.12 to 0.9 s, or as assumed.
   double responseSec() const { return models_[best_].response_sec; }
   /// The vehicle changes its velocity no faster; infinite where no limit has shown.
   double accelerationMps2() const { return models_[best_].acceleration_mps2; }
-  bool isMeasured() const { return excitation_ >= kEnoughExcitation; }
+  /// A model has explained what the vehicle did.
+  bool isMeasured() const { return is_measured_; }
   /// Velocity that the setpoints alone would have given the vehicle [m/s].
   const Eigen::Vector3d& velocity() const { return models_[best_].velocity_mps; }
 
@@ -116,11 +118,13 @@ class ResponseEstimator {
   }
 
   void choose() {
-    if (!isMeasured()) return;
+    if (excitation_ < kEnoughExcitation) return;
     const auto better = [](const Model& a, const Model& b) { return a.error < b.error; };
     const Model& standing = models_.back();
     const auto least = std::min_element(models_.begin(), std::prev(models_.end()), better);
-    if (least->error < kExplains * standing.error && least->error < kClearlyBetter * models_[best_].error)
+    if (!(least->error < kExplains * standing.error)) return;
+    is_measured_ = true;
+    if (least->error < kClearlyBetter * models_[best_].error)
       best_ = static_cast<std::size_t>(least - models_.begin());
   }
 
@@ -135,7 +139,7 @@ class ResponseEstimator {
   double now_sec_ = 0.0;
   Eigen::Vector3d usual_command_mps_ = Eigen::Vector3d::Zero();
   double excitation_ = 0.0;  ///< how much the setpoints have changed so far [m^2/s]
-  bool is_started_ = false;
+  bool is_started_ = false, is_measured_ = false;
 };
 
 }  // namespace window_ingress::navigation

@@ -87,6 +87,25 @@ TEST(DisturbanceObserver, WhatAnAutopilotMakesUpForIsNoWind) {
   EXPECT_LT(std::sqrt(squares_m2ps / (kSec - kSettledSec)), 0.025);
 }
 
+// As assumed it would answer sooner than any other axis, and what it is behind by would be wind.
+TEST(DisturbanceObserver, UpAndDownIsAnsweredAsTheRestIsAsLongAsGustsHideIt) {
+  constexpr double kStep = 1.0 / 30.0, kGainMps2 = 0.6, kCalmSec = 10.0, kGustMps = 0.3;
+  auto observe = observer();
+  Eigen::Vector3d velocity_mps(0, 0, 0);
+  for (double t = 0.0; t < 20.0; t += kStep) {
+    const bool is_calm = t < kCalmSec;
+    const double climb_mps = std::fmod(t, 2.0) < 1.0 ? 0.15 : -0.15;
+    const Eigen::Vector3d told_mps(std::fmod(t, 6.0) < 3.0 ? 0.75 : 0.0, 0.0, is_calm ? 0.0 : climb_mps);
+    const Eigen::Vector3d change_mps = told_mps - velocity_mps;
+    velocity_mps += std::min(1.0, kGainMps2 * kStep / std::max(1e-9, change_mps.norm())) * change_mps;
+    const double gust_mps = is_calm ? 0.0 : kGustMps * std::sin(1.7 * t);
+    observe.update(velocity_mps + Eigen::Vector3d(0.0, 0.0, gust_mps), told_mps, kStep);
+  }
+  ASSERT_LT(observe.response().accelerationMps2(), 1.0);
+  EXPECT_EQ(observe.climbResponse().accelerationMps2(), observe.response().accelerationMps2());
+  EXPECT_EQ(observe.climbResponse().responseSec(), observe.response().responseSec());
+}
+
 TEST(DisturbanceObserver, TellsGustsFromWind) {
   auto steady = observer(), gusty = observer();
   for (int i = 0; i < 600; ++i) {

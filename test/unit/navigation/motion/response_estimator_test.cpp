@@ -58,6 +58,7 @@ TEST(ResponseEstimator, AVehicleThatDoesNotAnswerIsBelievedToBeAsAssumed) {
   ResponseEstimator estimator(kAssumedSec);
   for (int i = 0; i < 600; ++i)
     estimator.update({0.01 * std::sin(0.7 * i), 0.0, 0.0}, {i % 120 < 60 ? 0.8 : -0.4, 0.0, 0.0}, kStep);
+  EXPECT_FALSE(estimator.isMeasured());
   EXPECT_EQ(estimator.responseSec(), kAssumedSec);
   EXPECT_GT(estimator.accelerationMps2(), 100.0);
 }
