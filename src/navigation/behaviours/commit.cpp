@@ -25,11 +25,6 @@ bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
              criterion.clearance_vertical_m + given_m;
 }
 
-std::string carriedOff(const CommitCriterion& criterion) {
-  return formatted("carried off the axis, at the plane by %.2f m to the side and %.2f m up or down",
-                   criterion.settled_lateral_m, criterion.settled_vertical_m);
-}
-
 /// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
 /// up, in the part of the way before it that `reserve` leaves.
 bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& memory,
@@ -90,7 +85,7 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
 void Commit::turnBackIfUnsafe(const CommitCriterion& criterion, double blind_sec, Decision& decision) const {
   if (isBroken(criterion, *params_)) {
     decision.event = Event::kContractUnmet;
-    decision.reason = "turning back: " + (criterion.unmet.empty() ? carriedOff(criterion) : criterion.unmet);
+    decision.reason = "turning back: " + criterion.unmet;
   } else if (disagreements_ >= kInARow) {
     decision.event = Event::kContractUnmet;
     decision.reason =

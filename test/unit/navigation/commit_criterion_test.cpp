@@ -165,4 +165,14 @@ TEST(CommitCriterion, SettlesOffTheAxisWhereTheVelocityDoesNotFollowWhatSteering
   EXPECT_NEAR(settledAt(0.2, 0.0), 0.2, 1e-12) << "kept where it is";
 }
 
+TEST(CommitCriterion, DoesNotHoldWhileTheVehicleIsCarriedOffTheAxis) {
+  RelativeState relative = at(2.2, 0.06);
+  relative.velocity_window_mps = {0.9, 0.0, 0.0};
+  EXPECT_TRUE(criterionOf(relative).holds);
+  relative.velocity_window_mps.y() = 0.295;
+  const CommitCriterion carried = criterionOf(relative);
+  EXPECT_LT(carried.missM(), carried.clearance_lateral_m);
+  EXPECT_EQ(carried.unmet.find("carried off the axis"), 0u) << carried.unmet;
+}
+
 }  // namespace window_ingress::navigation::commit_criterion_test
