@@ -16,6 +16,7 @@ constexpr double kLocatedSigmaPx = 1.4;   ///< how well they are located
 constexpr double kAlignedStrayPx = 2.0;   ///< of fitted borders from where the surroundings were aligned
 constexpr double kCutAway = 0.01;         ///< of a corner beyond the image [longer image sides]
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
+constexpr double kWholeRing = 0.9;        ///< correlation from which nothing of the ring is hidden
 constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
 
 // Neither its geometry nor its surroundings have told that it is a window.
@@ -69,8 +70,15 @@ std::optional<RefinedBorders> TargetChoice::refine(const ScoredCandidate& rival,
   return refinement_.run(view.image, start, view.camera, &inliers);
 }
 
+// A hidden side lies where it must by the borders of the three others.
 std::optional<RefinedBorders> TargetChoice::fitWhere(const AlignedRing& ring, const View& view) const {
-  return refinement_.run(view.image, {ring.quad, kLocatedRadiusPx, ring.sides, kAlignedStrayPx}, view.camera);
+  BorderStart start{ring.quad, kLocatedRadiusPx, ring.sides, kAlignedStrayPx, ring.hidden};
+  auto found = refinement_.run(view.image, start, view.camera);
+  if (!found || !ring.hidden) return found;
+  const auto whole = reference_.completed(found->corners, *ring.hidden);
+  if (!whole) return found;
+  start.quad = *whole;
+  return refinement_.run(view.image, start, view.camera);
 }
 
 std::optional<RefinedBorders> TargetChoice::bordersNear(const geometry::Quadrilateral& place,
@@ -115,7 +123,19 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
   if (const double inside = distanceToBorder(fitted.corners, view.image.size()); inside < least)
     return Rejection{RejectReason::kBorder, inside, least};
-  return reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival));
+  if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival)))
+    return fault;
+  if (ring_there_ < kWholeRing && reference_.frameGoesOn(view.image, fitted.corners, view.camera))
+    return Rejection{RejectReason::kUnlike, ring_there_, kWholeRing};
+  uncover(view, fitted);
+  return std::nullopt;
+}
+
+// What stands before a side may end in an edge that was taken for its border.
+void TargetChoice::uncover(const View& view, RefinedBorders& fitted) {
+  const auto ring = reference_.uncovered(fitted.corners, view.image, view.camera);
+  const auto anew = ring ? fitWhere(*ring, view) : std::nullopt;
+  if (anew && std::count(anew->fitted.begin(), anew->fitted.end(), true) >= kFewestSeen) fitted = *anew;
 }
 
 // The best to which there is no objection and whose borders can be fitted.

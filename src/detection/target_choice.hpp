@@ -46,6 +46,7 @@ class TargetChoice {
   std::optional<Rejection> fit(const ScoredCandidate& rival, const View& view, RefinedBorders& fitted);
   std::optional<Rejection> judgeSurroundingsOf(const ScoredCandidate& rival, const View& view,
                                                RefinedBorders& fitted);
+  void uncover(const View& view, RefinedBorders& fitted);
   bool showsOpening(const ScoredCandidate& rival, const RefinedBorders& found, const View& view) const;
   double leastScore(const ScoredCandidate& rival) const;
   void record(const ScoredCandidate& rival, RejectReason reason, double value, double limit) {

@@ -44,6 +44,8 @@ struct WindowDetector::Impl {
                                                const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> judgeFrameAlone(const cv::Mat& image, double stamp_sec,
                                                    const geometry::PinholeCamera* camera);
+  std::optional<WindowObservation> judgeCovered(const cv::Mat& image, double stamp_sec,
+                                                const geometry::PinholeCamera* camera);
   void searchOnColours();
   void gatherAll();
   std::optional<WindowObservation> judgeSurroundings(const cv::Mat& image, double stamp_sec,
@@ -109,6 +111,18 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
   if (!is_sure && !std::exchange(looked_everywhere, true))
     rivals = reference.placesEverywhere(image), ask_surroundings();
   done(watch, Stage::kBorders);
+  return window;
+}
+
+// Nothing was found: something may stand before the window.
+std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const cv::Mat& image, double stamp_sec,
+                                                                    const geometry::PinholeCamera* camera) {
+  gatherAll();
+  const auto places = reference.placesEverywhere(image);
+  rivals.insert(rivals.end(), places.begin(), places.end());
+  reference.setCovered(true);
+  const auto window = judgeSurroundings(image, stamp_sec, camera);
+  reference.setCovered(false);
   return window;
 }
 
@@ -179,6 +193,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     window = impl_->judge(image, stamp_sec, camera);
   }
   if (!window && !impl_->reference.frameless()) window = impl_->judgeFrameAlone(image, stamp_sec, camera);
+  if (!window) window = impl_->judgeCovered(image, stamp_sec, camera);
   explain(impl_->trace);
   return window;
 }

@@ -40,6 +40,7 @@ struct BorderStart {
   std::array<SideSigma, 4> known = {};
   /// A fitted border with an end farther from the start than this is another edge [px].
   double max_stray_px = 1e3;
+  std::optional<int> hidden = {};  ///< a known side that has no border to be seen: it stays where it started
 
   /// All sides to within `sigma_px`, from end to end.
   void knowAll(double sigma_px);

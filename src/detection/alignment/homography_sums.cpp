@@ -1,5 +1,8 @@
 #include "detection/alignment/homography_sums.hpp"
 
+#include <Eigen/LU>
+#include <cmath>
+
 namespace window_ingress::detection {
 namespace {
 
@@ -33,6 +36,16 @@ Monomials monomialsOf(float x, float y) {
       for (int k = 0; k < power; ++k) m[at] *= y;
     }
   return m;
+}
+
+std::optional<Eigen::Matrix3d> homographyOf(const Vector8f& p) {
+  if (!p.allFinite()) return std::nullopt;
+  Eigen::Matrix3d change = Eigen::Matrix3d::Identity();
+  change.row(0) += Eigen::RowVector3f(p[0], p[1], p[2]).cast<double>();
+  change.row(1) += Eigen::RowVector3f(p[3], p[4], p[5]).cast<double>();
+  change(2, 0) += p[6], change(2, 1) += p[7];
+  if (!(std::abs(change.determinant()) > 0.1)) return std::nullopt;
+  return change;
 }
 
 Vector8f DerivativeSum::vector() const {

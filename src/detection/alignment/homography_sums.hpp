@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace window_ingress::detection {
 
@@ -24,6 +25,9 @@ struct DerivativeSum {
   }
   Vector8f vector() const;
 };
+
+/// The homography of these parameters, 1 + P; nothing if it is not near the identity.
+std::optional<Eigen::Matrix3d> homographyOf(const Vector8f& p);
 
 /// The sum of derivatives times their transposes.
 struct NormalSum {

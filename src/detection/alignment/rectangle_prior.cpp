@@ -1,12 +1,17 @@
 #include "detection/alignment/rectangle_prior.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace window_ingress::detection {
 namespace {
+
+using Eigen::Matrix3d;
+using geometry::Quadrilateral;
 
 constexpr double kSkewSigma =
     0.003;  ///< of the cosine between the sides: how well corners and camera are known
@@ -15,6 +20,12 @@ constexpr double kBeyondASide = 0.05;  ///< of the camera, from a side, to be be
 constexpr double kFocal = 0.9;  ///< of a camera without a calibration [longer image sides]
 constexpr double kLogFocalSigma = 0.4,
                  kCentreSigma = 0.2;  ///< of its logarithm; of the centre [focal lengths]
+
+constexpr double kX[] = {-0.5, 0.5, 0.5, -0.5}, kY[] = {-0.5, -0.5, 0.5, 0.5};  ///< corners of the opening
+constexpr double kLinePx = 0.05;  ///< how well the sides are known by which another is placed
+constexpr int kCompletingSteps = 4;
+constexpr double kVague =
+    0.03;  ///< standard deviation of the end of a side from which it is not placed [of its length]
 
 template <int kCount>
 using Sides = Eigen::Matrix<double, 3, kCount>;
@@ -53,6 +64,12 @@ Sides<3> byCamera(const Eigen::Vector3d& side) {
   return slopes;
 }
 
+// Across a line.
+Eigen::Vector2d normalOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const Eigen::Vector2d along = (to - from).normalized();
+  return {along.y(), -along.x()};
+}
+
 void add(double value, const Slopes<8>& slope, double variance, double noise, Matrix8f& normal,
          Vector8f& right) {
   normal += (noise / variance * slope.transpose() * slope).cast<float>();
@@ -60,6 +77,26 @@ void add(double value, const Slopes<8>& slope, double variance, double noise, Ma
 }
 
 }  // namespace
+
+bool cornersOf(const Matrix3d& map, Quadrilateral& quad) {
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d p = map * Eigen::Vector3d(kX[i], kY[i], 1.0);
+    if (!(p.z() > 1e-6)) return false;
+    quad[i] = p.hnormalized();
+  }
+  return geometry::isFinite(quad) && geometry::isConvex(quad);
+}
+
+RowVector8d slopeAcross(const Matrix3d& map, int corner, const Eigen::Vector2d& direction) {
+  const double x = kX[corner], y = kY[corner];
+  const Eigen::Vector3d p = map * Eigen::Vector3d(x, y, 1.0);
+  const Eigen::Vector2d at = p.hnormalized();
+  Eigen::Matrix2d to_image;
+  for (int k = 0; k < 2; ++k) to_image.col(k) = (map.block<2, 1>(0, k) - at * map(2, k)) / p.z();
+  Eigen::Matrix<double, 2, 8> in_plane;
+  in_plane << x, y, 1, 0, 0, 0, -x * x, -x * y, 0, 0, 0, x, y, 1, -x * y, -y * y;
+  return direction.transpose() * to_image * in_plane;
+}
 
 RectanglePrior::RectanglePrior(const geometry::PinholeCamera& camera, const OpeningAspect& aspect)
     : inverse_camera_(camera.K().inverse()), aspect_(aspect) {}
@@ -69,11 +106,12 @@ RectanglePrior::RectanglePrior(const cv::Size& image, const OpeningAspect& aspec
   camera_sigma_ = {kLogFocalSigma, kCentreSigma, kCentreSigma};
 }
 
-void RectanglePrior::addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& normal,
-                           Vector8f& right) const {
-  const Eigen::Matrix3d view = inverse_camera_ * map;
+// Aspect and angle.
+std::optional<std::array<RectanglePrior::Contradiction, 2>> RectanglePrior::contradictions(
+    const Matrix3d& map) const {
+  const Matrix3d view = inverse_camera_ * map;
   const SeenRectangle shape{view.col(0), view.col(1)};
-  if (!(shape.width > 0.0 && shape.height > 0.0)) return;
+  if (!(shape.width > 0.0 && shape.height > 0.0)) return std::nullopt;
   Sides<8> d_across = Sides<8>::Zero(), d_down = Sides<8>::Zero();  // by p
   for (int k = 0; k < 3; ++k) {
     d_across.col(3 * k) = -view.col(k);
@@ -83,15 +121,64 @@ void RectanglePrior::addTo(const Eigen::Matrix3d& map, double noise, Matrix8f& n
   const auto variance = [this](double sigma, const Slopes<3>& by_camera) {
     return sigma * sigma + by_camera.transpose().cwiseProduct(camera_sigma_).squaredNorm();
   };
-  add(std::log(shape.width / shape.height / aspect_.value), shape.logAspectBy(d_across, d_down),
-      variance(aspect_.log_sigma, shape.logAspectBy(across_by_camera, down_by_camera)), noise, normal, right);
-  add(shape.skew, shape.skewBy(d_across, d_down),
-      variance(kSkewSigma, shape.skewBy(across_by_camera, down_by_camera)), noise, normal, right);
+  const Contradiction in_aspect{
+      std::log(shape.width / shape.height / aspect_.value), shape.logAspectBy(d_across, d_down),
+      variance(aspect_.log_sigma, shape.logAspectBy(across_by_camera, down_by_camera))};
+  const Contradiction in_angle{shape.skew, shape.skewBy(d_across, d_down),
+                               variance(kSkewSigma, shape.skewBy(across_by_camera, down_by_camera))};
+  return std::array<Contradiction, 2>{in_aspect, in_angle};
+}
+
+void RectanglePrior::addTo(const Matrix3d& map, double noise, Matrix8f& normal, Vector8f& right) const {
+  if (const auto both = contradictions(map))
+    for (const Contradiction& c : *both) add(c.value, c.slope, c.variance, noise, normal, right);
+}
+
+double RectanglePrior::misfit(const Matrix3d& map) const {
+  const auto both = contradictions(map);
+  if (!both) return std::numeric_limits<double>::infinity();
+  double squares = 0.0;
+  for (const Contradiction& c : *both) squares += c.value * c.value / c.variance;
+  return std::sqrt(squares);
+}
+
+// The ends of the others stay on their lines.
+std::optional<CompletedView> RectanglePrior::completed(const Matrix3d& map, int side) const {
+  Quadrilateral from, to;
+  if (!cornersOf(map, from)) return std::nullopt;
+  CompletedView view{map, 0.0};
+  for (int n = 0; n < kCompletingSteps; ++n) {
+    if (!cornersOf(view.map, to)) return std::nullopt;
+    Matrix8f normal = 1e-3F * Matrix8f::Identity();
+    Vector8f right = Vector8f::Zero();
+    for (int i = 0; i < 4; ++i) {
+      if (i == side) continue;
+      const int next = (i + 1) % 4;
+      const Eigen::Vector2d across = normalOf(from[i], from[next]);
+      for (int corner : {i, next})
+        add(-across.dot(to[corner] - from[i]), slopeAcross(view.map, corner, across), kLinePx * kLinePx, 1.0,
+            normal, right);
+    }
+    addTo(view.map, 1.0, normal, right);
+    const auto factors = normal.ldlt();
+    const auto change = homographyOf(factors.solve(right));
+    if (!change) return std::nullopt;
+    const int next = (side + 1) % 4;
+    view.sigma_px = 0.0;
+    for (int corner : {side, next}) {
+      const Vector8f slope = slopeAcross(view.map, corner, normalOf(to[side], to[next])).cast<float>();
+      view.sigma_px =
+          std::max(view.sigma_px, std::sqrt(static_cast<double>(slope.dot(factors.solve(slope)))));
+    }
+    view.map = view.map * change->inverse();
+  }
+  if (!(view.sigma_px < kVague * (to[(side + 1) % 4] - to[side]).norm())) return std::nullopt;
+  return view;
 }
 
 // The camera's place before the opening, from its centre: in its sides and from its plane.
-std::array<SideView, 4> RectanglePrior::viewsOfSides(const Eigen::Matrix3d& map) const {
-  const Eigen::Matrix3d view = inverse_camera_ * map;
+std::array<SideView, 4> RectanglePrior::viewsOfSides(const Matrix3d& map) const {
+  const Matrix3d view = inverse_camera_ * map;
   const Eigen::Vector3d across = view.col(0), down = view.col(1), centre = view.col(2);
   const double x = -across.dot(centre) / across.squaredNorm(), y = -down.dot(centre) / down.squaredNorm();
   const double away = std::abs(across.cross(down).normalized().dot(centre));

@@ -16,11 +16,15 @@ using Eigen::Matrix3d;
 using geometry::Quadrilateral;
 
 constexpr int kCoarseSteps = 10, kFineSteps = 6, kLastSteps = 20;
-constexpr double kStill_px = 0.04;  ///< a shorter step is the last one [px of the level]
-constexpr int kPatience = 5;        ///< steps without a better correlation, and it ends
-constexpr double kFurthest = 0.3;   ///< a corner may move this far from the start [mean sides]
-constexpr float kMinGain = 0.15F;   ///< a segment that shows less of the reference tells nothing
-constexpr double kMinAlike = 0.6;   ///< of the ring's correlation: a segment with less may be covered
+constexpr double kStill_px = 0.04;    ///< a shorter step is the last one [px of the level]
+constexpr int kPatience = 5;          ///< steps without a better correlation, and it ends
+constexpr double kFurthest = 0.3;     ///< a corner may move this far from the start [mean sides]
+constexpr float kMinGain = 0.15F;     ///< a segment that shows less of the reference tells nothing
+constexpr double kMinAlike = 0.6;     ///< of the ring's correlation: a segment with less may be covered
+constexpr double kByChance = 0.1;     ///< of a correlation, where what does not fit is taken for covered
+constexpr double kThreeSides = 0.75;  ///< correlation of three sides, at least, that tell of the fourth
+constexpr double kContradicts = 1.5;  ///< misfit of a view of which a side may be wrong [sigma]
+constexpr double kHiddenSide = 0.05;  ///< by which the ring correlates better without one side that is hidden
 constexpr double kKnownAspect =
     0.03;  ///< standard deviation of its logarithm, at most: three sides are enough
 constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are known
@@ -32,35 +36,12 @@ constexpr float kDimRing = 40.0F;   ///< of a darker ring the noise shows in the
 constexpr double kFloorPx = 0.03;   ///< no side is claimed to be known better than this
 /// Of a frame: how far it is out of true, and how far it stands out of the opening's plane [sides].
 constexpr double kOutOfTrue = 0.0003, kStandsOut = 0.005;
-constexpr double kX[] = {-0.5, 0.5, 0.5, -0.5}, kY[] = {-0.5, -0.5, 0.5, 0.5};  ///< corners of the opening
-
-using RowVector8d = Eigen::Matrix<double, 1, 8>;
-
-bool cornersOf(const Matrix3d& map, Quadrilateral& quad) {
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector3d p = map * Eigen::Vector3d(kX[i], kY[i], 1.0);
-    if (!(p.z() > 1e-6)) return false;
-    quad[i] = p.hnormalized();
-  }
-  return geometry::isFinite(quad) && geometry::isConvex(quad);
-}
-
-// What a change of the homography moves a corner by across a line of the image.
-RowVector8d slopeAcross(const Matrix3d& map, int corner, const Eigen::Vector2d& normal) {
-  const double x = kX[corner], y = kY[corner];
-  const Eigen::Vector3d p = map * Eigen::Vector3d(x, y, 1.0);
-  const Eigen::Vector2d at = p.hnormalized();
-  Eigen::Matrix2d to_image;
-  for (int k = 0; k < 2; ++k) to_image.col(k) = (map.block<2, 1>(0, k) - at * map(2, k)) / p.z();
-  Eigen::Matrix<double, 2, 8> in_plane;
-  in_plane << x, y, 1, 0, 0, 0, -x * x, -x * y, 0, 0, 0, x, y, 1, -x * y, -y * y;
-  return normal.transpose() * to_image * in_plane;
-}
 
 }  // namespace
 
-void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
-  view_.set(model, image, camera);
+void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
+                        bool covered) {
+  view_.set(model, image, camera, covered);
   prior_.reset();
   if (model.aspect())
     prior_ =
@@ -74,14 +55,16 @@ RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   if (match.seen < RingView::kMinSeen) return match;
   RingCorrelation correlation;
   for (int s = 0; s < view_.ring().segmentCount(); ++s) correlation.add(view_.segment(s));
-  match.correlation = correlation.value();
+  match.correlation = correlation.value() - (view_.covered() ? kByChance : 0.0);
   return match;
 }
 
 RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   double seen = view_.look(quad, side_px);
   if (view_.meanLog() < logOf(kDimRing)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
-  return judgement_.of(view_, seen);
+  RingMatch match = judgement_.of(view_, seen);
+  if (view_.covered()) match.correlation -= kByChance;
+  return match;
 }
 
 // Residuals with the segments' gains and offsets taken off, and the normal equations with both left free.
@@ -101,7 +84,7 @@ void RingAlignment::accumulate(const RingSegment& segment, NormalSum& normal, De
       const RingMoments& m = segment.moments[c];
       const float x = ring.values[at] - m.meanX(), r = view_.value(at) - m.meanY() - segment.gain * x;
       residuals_[at] = r;
-      const float weight = 1.0F / (1.0F + outlier * r * r);
+      const float weight = view_.weight(i) / (1.0F + outlier * r * r);
       const float a = segment.gain * ring.slopes_x[at], b = segment.gain * ring.slopes_y[at];
       const float wa = weight * a, wb = weight * b;
       aa += wa * a, ab += wa * b, bb += wb * b, ar += wa * r, br += wb * r, ax += wa * x, bx += wb * x;
@@ -124,9 +107,11 @@ void RingAlignment::readSegments() {
   segments_.clear(), parts_.clear();
   correlation_ = {};
   for (int s = 0; s < view_.ring().segmentCount(); ++s) {
-    const RingSegment& segment = segments_.emplace_back(view_.segment(s));
+    RingSegment& segment = segments_.emplace_back(view_.segment(s));
+    if (hidden_ && sideOf(s) == *hidden_) segment = {};
     correlation_.add(segment);
     if (segment.weight > 0.0) parts_.push_back({segment.alike, segment.weight});
+    if (segment.hidden > 0.0) parts_.push_back({0.0, segment.hidden});
   }
 }
 
@@ -149,14 +134,7 @@ std::optional<Matrix3d> RingAlignment::change(const Matrix3d& map) {
   }
   Vector8f toward = right.vector();
   if (prior_) prior_->addTo(map, noise, normal_, toward);
-  const Vector8f p = normal_.ldlt().solve(toward);
-  if (!p.allFinite()) return std::nullopt;
-  Matrix3d change = Matrix3d::Identity();
-  change.row(0) += Eigen::RowVector3f(p[0], p[1], p[2]).cast<double>();
-  change.row(1) += Eigen::RowVector3f(p[3], p[4], p[5]).cast<double>();
-  change(2, 0) += p[6], change(2, 1) += p[7];
-  if (!(std::abs(change.determinant()) > 0.1)) return std::nullopt;
-  return change;
+  return homographyOf(normal_.ldlt().solve(toward));
 }
 
 // Steps of Gauss and Newton; of all maps passed the one that fits best is kept, where the shape is known
@@ -169,13 +147,13 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
   int best_step = 0;
   double best_fit = -1.0;
   for (int n = 0;; ++n) {
-    const double seen = view_.look(scale, at);
+    const double seen = view_.look(scale, at, n > 0);
     if (seen < RingView::kMinSeen) break;
     readSegments();
     const auto step = change(at);
     if (const double fits = leaves_out_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
-      best_fit = fits, best.correlation = correlation_.value(), best.seen = seen, map = at, best_step = n,
-      information_ = normal_ / (spread_ * spread_);
+      best_fit = fits, best.correlation = correlation_.value() - (view_.covered() ? kByChance : 0.0),
+      best.seen = seen, map = at, best_step = n, information_ = normal_ / (spread_ * spread_);
     if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);
@@ -239,6 +217,54 @@ std::optional<AlignedRing> RingAlignment::align(const Quadrilateral& start, doub
   if (!cornersOf(map, found.quad)) return std::nullopt;
   found.quad = distorted(found.quad, view_.lens());
   return found;
+}
+
+// Where three sides fit far better than all four something stands before the fourth; nothing otherwise.
+std::optional<int> RingAlignment::hiddenSide() const {
+  double most = std::max(kThreeSides, correlation_.value() + kHiddenSide);
+  std::optional<int> hidden;
+  for (int side = 0; side < 4; ++side) {
+    RingCorrelation others;
+    for (std::size_t s = 0; s < segments_.size(); ++s)
+      if (sideOf(s) != side) others.add(segments_[s]);
+    if (others.value() > most) most = others.value(), hidden = side;
+  }
+  return hidden;
+}
+
+std::optional<AlignedRing> RingAlignment::uncovered(const Quadrilateral& quad, double finest_px) {
+  const Quadrilateral ideal = undistorted(quad, view_.lens());
+  if (!leaves_out_ || !geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
+  Matrix3d map = mapFromCentre(ideal);
+  map /= map(2, 2);
+  if (prior_->misfit(map) < kContradicts) return std::nullopt;
+  const double side_px = meanSide(ideal);
+  const RingView::Scale scale = view_.scaleFor(side_px, std::min(finest_px, side_px));
+  view_.look(scale, map);
+  readSegments();
+  AlignedRing found;
+  found.hidden = hiddenSide();
+  const auto start = found.hidden ? prior_->completed(map, *found.hidden) : std::nullopt;
+  if (!start) return std::nullopt;
+  hidden_ = found.hidden;
+  map = start->map;
+  found.match = refine(scale, ideal, map, kLastSteps);
+  found.sides = sidesOf(map);
+  hidden_.reset();
+  const double sigma_px = start->sigma_px;
+  found.sides[*found.hidden] = {sigma_px, sigma_px * std::sqrt(12.0) / side_px};
+  if (!cornersOf(map, found.quad)) return std::nullopt;
+  found.quad = distorted(found.quad, view_.lens());
+  return found;
+}
+
+std::optional<Quadrilateral> RingAlignment::completed(const Quadrilateral& quad, int side) const {
+  const Quadrilateral ideal = undistorted(quad, view_.lens());
+  if (!prior_ || !geometry::isFinite(ideal) || !geometry::isConvex(ideal)) return std::nullopt;
+  const auto map = prior_->completed(mapFromCentre(ideal), side);
+  Quadrilateral whole;
+  if (!map || !cornersOf(map->map, whole)) return std::nullopt;
+  return distorted(whole, view_.lens());
 }
 
 }  // namespace window_ingress::detection

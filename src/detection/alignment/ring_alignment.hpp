@@ -20,6 +20,7 @@ struct AlignedRing {
   RingMatch match;
   /// How well its sides are known, in that order; that of a frame from beyond which the camera looks is not.
   std::array<SideSigma, 4> sides;
+  std::optional<int> hidden;  ///< side before which something stands: known by the three others alone
 };
 
 /// Compares the reference's ring with places in an image, and moves a quadrilateral to where it fits best:
@@ -29,7 +30,9 @@ struct AlignedRing {
 class RingAlignment {
  public:
   /// \param model, image outlive the comparisons \param camera null: the image is taken as free of distortion
-  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
+  /// \param covered something stands before the ring: what does not fit is left out from the beginning
+  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
+           bool covered = false);
 
   /// \param side_px resolution at which they are compared, at most [px a mean side]
   RingMatch compare(const geometry::Quadrilateral& quad, double side_px);
@@ -43,9 +46,19 @@ class RingAlignment {
   std::optional<AlignedRing> align(const geometry::Quadrilateral& start, double finest_px,
                                    double coarsest_px);
 
+  /// Where the ring lies if this is no view of the opening because the edge of something before one side was
+  /// taken for its border: without that side. Nothing where all sides fit, or it does not help.
+  std::optional<AlignedRing> uncovered(const geometry::Quadrilateral& quad, double finest_px);
+
+  /// With this side where it must lie by the three others; nothing where the opening's shape is not known.
+  /// \param quad pixels of the image as it came, order as the reference's
+  std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& quad, int side) const;
+
  private:
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
+  int sideOf(int segment) const { return 4 * segment / view_.ring().segmentCount(); }
   void readSegments();
+  std::optional<int> hiddenSide() const;
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);
   RingMatch refine(const RingView::Scale& scale, const geometry::Quadrilateral& start, Eigen::Matrix3d& map,
                    int most_steps);
@@ -54,7 +67,8 @@ class RingAlignment {
   RingView view_;
   RingScore judgement_;
   std::optional<RectanglePrior> prior_;
-  bool leaves_out_ = false;  ///< what may be covered: a rectangle of known shape is known by three sides
+  bool leaves_out_ = false;    ///< what may be covered: a rectangle of known shape is known by three sides
+  std::optional<int> hidden_;  ///< side that is left out
   RingCorrelation correlation_;
   std::vector<RingSegment> segments_;
   std::vector<WeightedPart> parts_;

@@ -41,7 +41,7 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
 std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image) {
   std::vector<ScoredCandidate> rivals;
   if (!known() || image.channels() != model_.channels()) return rivals;
-  for (const RingSearch::Place& place : search_.run(model_, image, kPlacesSearched)) {
+  for (const RingSearch::Place& place : search_.run(image, kPlacesSearched)) {
     ScoredCandidate rival;
     rival.quad = place.quad;
     rival.candidate.source = CandidateSource::kReference;
@@ -94,8 +94,15 @@ void RingMatcher::keep(const ScoredCandidate& rival) {
 std::optional<AlignedRing> RingMatcher::alignedAt(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                                   const geometry::Quadrilateral& quad, double coarsest_px) {
   if (!known() || image.channels() != model_.channels()) return std::nullopt;
-  alignment_.set(model_, image, camera);
+  alignment_.set(model_, image, camera, covered_);
   return alignment_.align(quad, kFinestPx, coarsest_px);
+}
+
+std::optional<AlignedRing> RingMatcher::uncovered(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                                  const geometry::Quadrilateral& quad) {
+  if (!known() || image.channels() != model_.channels()) return std::nullopt;
+  alignment_.set(model_, image, camera, covered_);
+  return alignment_.uncovered(quad, kFinestPx);
 }
 
 const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,
@@ -103,7 +110,7 @@ const std::vector<ScoredCandidate>& RingMatcher::align(const cv::Mat& image,
                                                        std::vector<ScoredCandidate>& rivals) {
   aligned_.clear();
   if (!known() || image.channels() != model_.channels()) return aligned_;
-  alignment_.set(model_, image, camera);
+  alignment_.set(model_, image, camera, covered_);
   compareAll(rivals);
   std::vector<std::size_t> places;
   struct {

@@ -22,10 +22,14 @@ class RingMatcher {
     model_.learn(image, opening, colour);
     model_.setAspect(aspect);
     model_.setFramed(framed);
-    search_.learn(model_);
+    search_.forget();
+    if (model_.known()) search_.learn(image, opening);
   }
   void forget() { model_.forget(), search_.forget(); }
   bool known() const { return model_.known(); }
+
+  /// From now on something stands before the ring, or nothing does. See RingAlignment.
+  void setCovered(bool covered) { covered_ = covered; }
 
   /// Best first, each place once; the score is the correlation. Valid until the next call. Notes the
   /// correlation of every rival as it is. \param image with as many channels as the reference image
@@ -42,6 +46,13 @@ class RingMatcher {
   /// reference's.
   RingMatch judged(const geometry::Quadrilateral& quad);
 
+  /// See RingAlignment.
+  std::optional<AlignedRing> uncovered(const cv::Mat& image, const geometry::PinholeCamera* camera,
+                                       const geometry::Quadrilateral& quad);
+  std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& quad, int side) const {
+    return alignment_.completed(quad, side);
+  }
+
  private:
   std::optional<ScoredCandidate> aligned(const ScoredCandidate& rough, double finest_px);
   void keep(const ScoredCandidate& rival);
@@ -50,6 +61,7 @@ class RingMatcher {
   RingModel model_;
   RingAlignment alignment_;
   RingSearch search_;
+  bool covered_ = false;
   std::vector<std::pair<double, std::size_t>>
       order_;  ///< by correlation before anything is moved; of `rivals`
   std::vector<ScoredCandidate> aligned_;

@@ -7,7 +7,6 @@ namespace {
 
 constexpr double kGainSpread =
     0.3;  ///< of a segment's contrast over the whole ring's: standard deviation [1]
-constexpr int kCoverPasses = 3;
 constexpr double kMinRingGain = 0.8, kMaxRingGain = 1.25;  ///< of the ring: another exposure or tone curve
 
 }  // namespace
@@ -21,11 +20,14 @@ RingMatch RingScore::of(RingView& view, double seen) {
   if (!(correlation_.most > 0.0)) return match;
   match.contrast = weighContrasts();
   for (const Share& share : shares_) match.faithful += share.faithful / correlation_.most;
-  for (int n = 0; n < kCoverPasses; ++n) coverOutliers(view);
+  view.coverOutliers(RingView::kCoverPasses);
   shareOut(view);
   weighContrasts();
   parts_.clear();
-  for (const Share& share : shares_) parts_.push_back({share.faithful, share.weight});
+  for (const Share& share : shares_) {
+    parts_.push_back({share.faithful, share.weight});
+    if (share.hidden > 0.0) parts_.push_back({0.0, share.hidden});
+  }
   match.faithful_uncovered = meanUncovered(parts_);
   return match;
 }
@@ -38,31 +40,8 @@ void RingScore::shareOut(const RingView& view) {
     const RingSegment segment = view.segment(s);
     correlation_.add(segment);
     if (segment.weight > 0.0)
-      shares_.push_back({segment.alike, segment.weight, segment.gain,
+      shares_.push_back({segment.alike, segment.weight, segment.hidden, segment.gain,
                          kGainSpread * kGainSpread + segment.noise / segment.xx, 0.0});
-  }
-}
-
-// Where most of the ring fits well, what does not is something before it; where nothing fits, all counts.
-void RingScore::coverOutliers(RingView& view) {
-  const RingLevel& ring = view.ring();
-  const std::size_t count = ring.x.size();
-  residuals_.assign(count * view.channels(), 0.0F);
-  for (int s = 0; s < ring.segmentCount(); ++s) {
-    const RingSegment segment = view.segment(s);
-    for (int c = 0; c < view.channels(); ++c) {
-      const RingMoments& m = segment.moments[c];
-      for (std::size_t i = segment.begin, at = c * count + i; static_cast<int>(i) < segment.end; ++i, ++at)
-        residuals_[at] = view.value(at) - m.meanY() - segment.gain * (ring.values[at] - m.meanX());
-    }
-  }
-  const float outlier = robustFactor(view.spreadOf(residuals_, RingView::kNoise));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (view.weight(i) == 0.0F) continue;
-    float squares = 0.0F;
-    for (int c = 0; c < view.channels(); ++c)
-      squares += residuals_[c * count + i] * residuals_[c * count + i];
-    view.setWeight(i, 1.0F / (1.0F + outlier * squares));
   }
 }
 

@@ -27,24 +27,16 @@ class RingScore {
  private:
   /// What a segment adds to the likeness of its weight, and with which contrast, beside the reference's.
   struct Share {
-    double alike, weight, gain, variance;  ///< variance: of the logarithm of the gain
-    double faithful;                       ///< of `alike`
+    double alike, weight, hidden, gain, variance;  ///< variance: of the logarithm of the gain
+    double faithful;                               ///< of `alike`
   };
   void shareOut(const RingView& view);
   double weighContrasts();
-  void coverOutliers(RingView& view);
 
   std::vector<Share> shares_;
   std::vector<WeightedPart> parts_;
   RingCorrelation correlation_;
-  std::vector<float> residuals_, gains_;
+  std::vector<float> gains_;
 };
-
-/// Weight of a sample by its squared residual: a scale of the robust weights of Cauchy, in standard
-/// deviations.
-inline float robustFactor(float spread) {
-  constexpr float kOutlier = 2.0F;
-  return 1.0F / (kOutlier * spread * kOutlier * spread);
-}
 
 }  // namespace window_ingress::detection

@@ -1,6 +1,7 @@
 #include "detection/alignment/ring_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -10,93 +11,114 @@ namespace window_ingress::detection {
 namespace {
 
 constexpr double kSidePx = 14.0;                          ///< of the pattern [px a mean side]
+constexpr int kReach = 3;                                 ///< of the pattern beyond the opening [px]
+constexpr int kFine = 8;                                  ///< pixels that are averaged, in each direction
 constexpr double kSmallestPx = 40.0, kLargestPart = 0.8;  ///< mean side [px; of the shorter image side]
 constexpr double kStep = 1.3;                             ///< from one size to the next
 constexpr float kLeast = 0.25F;                           ///< correlation of a place
-constexpr float kLogNoise = 0.02F;                        ///< of a logarithm of a colour
+constexpr double kNoise = 0.02;                           ///< of a slope of a logarithm [1/px]
+constexpr int kFewestSides = 3;                           ///< that the reference must show
 constexpr int kPeakPx = 5;
 
-// Logarithms of all colours, each difference with its weight.
-void logsOf(const RingModel& model, const cv::Mat& image, cv::Mat& logs) {
-  logs.create(image.size(), CV_32FC(image.channels()));
-  const int channels = image.channels();
-  for (int row = 0; row < image.rows; ++row) {
-    const uchar* from = image.ptr(row);
-    auto* to = logs.ptr<float>(row);
-    for (int i = 0; i < image.cols * channels; ++i) to[i] = kLogsOfColours[from[i]];
-    if (channels == 3)
-      for (int i = 0; i < 3 * image.cols; i += 3) model.weighColour(to[i], to[i + 1], to[i + 2]);
+void greyOf(const cv::Mat& image, cv::Mat& grey) {
+  if (image.channels() == 3)
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  else
+    grey = image;
+}
+
+// The part about the opening that the reference shows.
+cv::Rect shownAbout(const cv::Rect& opening, const cv::Mat& is_shown) {
+  const auto shows = [&](const cv::Rect& part) { return cv::countNonZero(is_shown(part) < 255) == 0; };
+  cv::Rect shown = opening;
+  for (int n = 0; n < kReach; ++n) {
+    if (shows({shown.x - 1, shown.y, 1, shown.height})) --shown.x, ++shown.width;
+    if (shows({shown.x, shown.y - 1, shown.width, 1})) --shown.y, ++shown.height;
+    if (shows({shown.br().x, shown.y, 1, shown.height})) ++shown.width;
+    if (shows({shown.x, shown.br().y, shown.width, 1})) ++shown.height;
   }
+  return shown;
 }
 
 }  // namespace
 
-void RingSearch::learn(const RingModel& model) {
-  forget();
-  if (!model.known()) return;
-  const RingLevel& ring = model.level(kSidePx);
-  const int channels = model.channels(), count = ring.size();
-  opening_ = cv::Size2d(ring.side_px * ring.width, ring.side_px * ring.height);
-  double reach_x = 0.0, reach_y = 0.0;
-  for (int i = 0; i < count; ++i) {
-    reach_x = std::max(reach_x, std::abs(ring.x[i]) * opening_.width);
-    reach_y = std::max(reach_y, std::abs(ring.y[i]) * opening_.height);
-  }
-  const cv::Size size(2 * static_cast<int>(std::lround(reach_x + 0.5)),
-                      2 * static_cast<int>(std::lround(reach_y + 0.5)));
-  pattern_ = cv::Mat::zeros(size, CV_32FC(channels));
-  mask_ = cv::Mat::zeros(size, CV_32F);
-  count_ = count, norm_ = 0.0;
-  for (int c = 0; c < channels; ++c) {
-    const float* values = ring.values.data() + static_cast<std::size_t>(c) * count;
-    double mean = 0.0;
-    for (int i = 0; i < count; ++i) mean += values[i] / count;
-    for (int i = 0; i < count; ++i) {
-      const int column = static_cast<int>(std::floor(ring.x[i] * opening_.width + 0.5 * size.width));
-      const int row = static_cast<int>(std::floor(ring.y[i] * opening_.height + 0.5 * size.height));
-      const auto value = static_cast<float>(values[i] - mean);
-      pattern_.ptr<float>(row)[column * channels + c] = value;
-      mask_.at<float>(row, column) = 1.0F;
-      norm_ += value * value;
-    }
-  }
+// Of the logarithms: the strength of the light is not in them.
+void RingSearch::readSlopes(const cv::Mat& grey) {
+  static const cv::Mat logs(1, 256, CV_32F, const_cast<float*>(kLogsOfColours.data()));
+  cv::LUT(grey, logs, logs_);
+  cv::Sobel(logs_, slopes_x_, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+  cv::Sobel(logs_, slopes_y_, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+  cv::merge(std::array<cv::Mat, 2>{slopes_x_, slopes_y_}.data(), 2, slopes_);
 }
 
-// Of the image of this scale with the pattern, at every place.
-bool RingSearch::correlate(const RingModel& model, double factor) {
-  const int k = std::max(0, static_cast<int>(std::floor(-std::log2(factor))));
-  const cv::Mat& from = pyramid_.level(k);
+void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& opening) {
+  forget();
+  const double aspect = geometry::aspectRatio(opening);
+  opening_ = {kSidePx * 2.0 * aspect / (1.0 + aspect), kSidePx * 2.0 / (1.0 + aspect)};
+  const auto width = static_cast<float>(opening_.width), height = static_cast<float>(opening_.height);
+  pattern_ = {2 * kReach + cvRound(width), 2 * kReach + cvRound(height)};
+  const auto left = 0.5F * (static_cast<float>(pattern_.width) - width),
+             top = 0.5F * (static_cast<float>(pattern_.height) - height);
+  std::array<cv::Point2f, 4> from,
+      to{{{left, top}, {left + width, top}, {left + width, top + height}, {left, top + height}}};
+  for (int i = 0; i < 4; ++i) {
+    from[i] = {static_cast<float>(opening[i].x()), static_cast<float>(opening[i].y())};
+    to[i] = to[i] * kFine - cv::Point2f(0.5F, 0.5F);
+  }
+  const cv::Mat map = cv::getPerspectiveTransform(from.data(), to.data());
+  const cv::Size fine = pattern_ * kFine;
+  cv::Mat shown, grey, is_shown;
+  greyOf(image, grey);
+  cv::warpPerspective(grey, shown, map, fine, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::warpPerspective(cv::Mat(image.size(), CV_8U, cv::Scalar(255)), is_shown, map, fine, cv::INTER_NEAREST);
+  cv::resize(shown, shown, pattern_, 0, 0, cv::INTER_AREA);
+  cv::resize(is_shown, is_shown, pattern_, 0, 0, cv::INTER_AREA);
+  readSlopes(shown);
+  const cv::Rect inner(kReach, kReach, pattern_.width - 2 * kReach, pattern_.height - 2 * kReach);
+  const cv::Rect seen = shownAbout(inner, is_shown);
+  const cv::Point end = inner.br();
+  for (const cv::Rect& beside :
+       {cv::Rect(0, 0, pattern_.width, kReach), cv::Rect(end.x, 0, kReach, pattern_.height),
+        cv::Rect(0, end.y, pattern_.width, kReach), cv::Rect(0, 0, kReach, pattern_.height)})
+    if (const cv::Rect at = beside & seen; at.area() > 0)
+      sides_.push_back({at, slopes_(at).clone(), cv::norm(slopes_(at), cv::NORM_L2SQR)});
+  if (sides_.size() < kFewestSides) forget();
+}
+
+// Of this size of the image with the pattern, at every place.
+bool RingSearch::correlate(double factor) {
   const cv::Size full = pyramid_.level(0).size();
   const cv::Size size(static_cast<int>(full.width * factor), static_cast<int>(full.height * factor));
-  if (size.width < pattern_.cols || size.height < pattern_.rows) return false;
-  cv::resize(from, level_, size, 0, 0, cv::INTER_AREA);
-  logsOf(model, level_, logs_);
-  cv::matchTemplate(logs_, pattern_, alike_, cv::TM_CCORR);
-  cv::split(logs_, channels_);
-  squares_ = cv::Mat::zeros(size, CV_32F);
-  for (const cv::Mat& channel : channels_) cv::accumulateSquare(channel, squares_);
-  cv::matchTemplate(squares_, mask_, variance_, cv::TM_CCORR);
-  for (const cv::Mat& channel : channels_) {
-    cv::matchTemplate(channel, mask_, sum_, cv::TM_CCORR);
-    variance_ -= sum_.mul(sum_, 1.0 / count_);
+  const cv::Size places(size.width - pattern_.width + 1, size.height - pattern_.height + 1);
+  if (places.width < 1 || places.height < 1) return false;
+  const int k = std::max(0, static_cast<int>(std::floor(-std::log2(factor))));
+  cv::resize(pyramid_.level(k), level_, size, 0, 0, cv::INTER_AREA);
+  readSlopes(level_);
+  squares_ = slopes_x_.mul(slopes_x_) + slopes_y_.mul(slopes_y_);
+  sum_ = cv::Mat::zeros(places, CV_32F);
+  for (const Side& side : sides_) {
+    cv::matchTemplate(slopes_, side.slopes, alike_, cv::TM_CCORR);
+    cv::boxFilter(squares_, norm_, CV_32F, side.at.size(), {0, 0}, false);
+    const double noise = kNoise * kNoise * 2.0 * side.at.area();
+    norm_ = (norm_(cv::Rect({0, 0}, alike_.size())) + noise) * (side.squares + noise);
+    cv::sqrt(norm_, norm_);
+    cv::divide(alike_, norm_, alike_);
+    cv::dilate(alike_, alike_, cv::Mat());
+    sum_ += alike_(cv::Rect(side.at.tl(), places));
   }
-  const auto noise =
-      static_cast<float>(kLogNoise * kLogNoise * count_ * static_cast<double>(channels_.size()));
-  variance_ = cv::max(variance_, 0.0F) + noise;
-  cv::sqrt(variance_, variance_);
-  cv::divide(alike_, variance_, alike_, 1.0 / std::sqrt(norm_ + noise));
+  sum_ *= 1.0 / static_cast<double>(sides_.size());
   return true;
 }
 
 void RingSearch::takePeaks(double factor) {
-  cv::dilate(alike_, peaks_, cv::Mat::ones(kPeakPx, kPeakPx, CV_8U));
-  const double x0 = 0.5 * (pattern_.cols - opening_.width), y0 = 0.5 * (pattern_.rows - opening_.height);
+  cv::dilate(sum_, peaks_, cv::Mat::ones(kPeakPx, kPeakPx, CV_8U));
+  const double x0 = 0.5 * (pattern_.width - opening_.width), y0 = 0.5 * (pattern_.height - opening_.height);
   const auto in_image = [factor](double x, double y) {
     return Eigen::Vector2d(x / factor - 0.5, y / factor - 0.5);
   };
-  for (int row = 0; row < alike_.rows; ++row)
-    for (int column = 0; column < alike_.cols; ++column) {
-      const float value = alike_.at<float>(row, column);
+  for (int row = 0; row < sum_.rows; ++row)
+    for (int column = 0; column < sum_.cols; ++column) {
+      const float value = sum_.at<float>(row, column);
       if (value < kLeast || value < peaks_.at<float>(row, column)) continue;
       const double left = column + x0, top = row + y0, right = left + opening_.width,
                    bottom = top + opening_.height;
@@ -106,14 +128,14 @@ void RingSearch::takePeaks(double factor) {
     }
 }
 
-const std::vector<RingSearch::Place>& RingSearch::run(const RingModel& model, const cv::Mat& image,
-                                                      std::size_t most) {
+const std::vector<RingSearch::Place>& RingSearch::run(const cv::Mat& image, std::size_t most) {
   places_.clear();
   if (!known()) return places_;
-  pyramid_.set(image);
+  greyOf(image, grey_);
+  pyramid_.set(grey_);
   const double largest = kLargestPart * std::min(image.cols, image.rows);
   for (double side_px = kSmallestPx; side_px < largest; side_px *= kStep)
-    if (const double factor = kSidePx / side_px; correlate(model, factor)) takePeaks(factor);
+    if (const double factor = kSidePx / side_px; correlate(factor)) takePeaks(factor);
   std::stable_sort(places_.begin(), places_.end(),
                    [](const Place& a, const Place& b) { return a.correlation > b.correlation; });
   std::size_t kept = 0;

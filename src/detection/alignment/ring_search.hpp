@@ -7,34 +7,43 @@
 
 namespace window_ingress::detection {
 
-/// Where in an image the ring may be, without any edge: its coarsest level, upright and as the reference
-/// shows it, is correlated with the whole image at every size, all of the ring with one gain and one offset a
-/// channel. Within a twelfth of a side or so: the alignment does the rest. Keeps its memory.
+/// Where in an image the opening may be, without any edge being found: the slopes of brightness along its
+/// four sides, upright and as the reference shows them, are correlated with the whole image at every size.
+/// Each side may lie a pixel off, a fourteenth of a side: a view from elsewhere moves them by that, and the
+/// alignment does the rest. Keeps its memory.
 class RingSearch {
  public:
   struct Place {
     geometry::Quadrilateral quad;  ///< pixels of the image
-    double correlation;
+    double correlation;            ///< mean of the sides'
   };
 
-  void learn(const RingModel& model);
-  void forget() { pattern_.release(); }
-  bool known() const { return !pattern_.empty(); }
+  /// \param image CV_8UC1 or CV_8UC3 \param opening canonical order, in its pixels
+  void learn(const cv::Mat& image, const geometry::Quadrilateral& opening);
+  void forget() { sides_.clear(); }
+  bool known() const { return !sides_.empty(); }
 
-  /// Best first, each place once, at most `most`. Valid until the next call. \param model the one learned
-  /// \param image with as many channels
-  const std::vector<Place>& run(const RingModel& model, const cv::Mat& image, std::size_t most);
+  /// Best first, each place once, at most `most`. Valid until the next call.
+  /// \param image CV_8UC1 or CV_8UC3
+  const std::vector<Place>& run(const cv::Mat& image, std::size_t most);
 
  private:
-  bool correlate(const RingModel& model, double factor);
+  /// What the reference shows along one side.
+  struct Side {
+    cv::Rect at;     ///< in the pattern
+    cv::Mat slopes;  ///< along x and y
+    double squares;  ///< their sum
+  };
+  void readSlopes(const cv::Mat& grey);
+  bool correlate(double factor);
   void takePeaks(double factor);
 
-  cv::Mat pattern_, mask_;  ///< zero mean under the mask
-  double norm_ = 0.0, count_ = 0.0;
-  cv::Size2d opening_;  ///< in the pattern [px]
+  cv::Size pattern_;
+  cv::Size2d opening_;  ///< in the middle of the pattern [px]
+  std::vector<Side> sides_;
   ImagePyramid pyramid_;
-  cv::Mat level_, logs_, squares_, alike_, sum_, variance_, peaks_;
-  std::vector<cv::Mat> channels_;
+  cv::Mat grey_, level_, logs_, slopes_x_, slopes_y_, slopes_, squares_;  ///< of one size of the image
+  cv::Mat alike_, norm_, sum_, peaks_;
   std::vector<Place> places_;
 };
 

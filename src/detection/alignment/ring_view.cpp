@@ -13,6 +13,8 @@ using Eigen::Vector2d;
 using geometry::Quadrilateral;
 
 constexpr float kMaxGain = 2.0F;
+constexpr float kUsualWeight =
+    0.5F;  ///< mean of the samples', at least, where nothing stands before a segment
 constexpr double kMaxCovered = 1.0 / 3.0;            ///< of the ring
 constexpr float kHorizon = 1e-3F, kNowhere = -1e6F;  ///< least depth, relative to the centre's
 
@@ -48,8 +50,10 @@ Matrix3d mapFromCentre(const Quadrilateral& quad) {
   return geometry::UnitSquare(quad).matrix() * shift;
 }
 
-void RingView::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera) {
+void RingView::set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera,
+                   bool covered) {
   model_ = &model;
+  covered_ = covered;
   lens_ = lensOf(camera);
   pyramid_.set(image);
 }
@@ -83,7 +87,7 @@ void RingView::place(const Matrix3d& map, int level) {
 }
 
 template <int kChannels>
-int RingView::readPixels(const cv::Mat& image) {
+int RingView::readPixels(const cv::Mat& image, bool keeps_weights) {
   const auto count = at_x_.size();
   const auto row_step = image.step[0];
   const auto right = static_cast<float>(image.cols - 1), bottom = static_cast<float>(image.rows - 1);
@@ -91,7 +95,7 @@ int RingView::readPixels(const cv::Mat& image) {
   for (std::size_t i = 0; i < count; ++i) {
     const float x = at_x_[i], y = at_y_[i];
     const bool inside = x >= 0.0F && y >= 0.0F && x < right && y < bottom;
-    weights_[i] = inside ? 1.0F : 0.0F;
+    weights_[i] = !inside ? 0.0F : keeps_weights && weights_[i] > 0.0F ? weights_[i] : 1.0F;
     seen += inside;
     if (!inside) {
       for (int c = 0; c < kChannels; ++c) values_[c * count + i] = 0.0F;
@@ -111,14 +115,17 @@ int RingView::readPixels(const cv::Mat& image) {
   return seen;
 }
 
-double RingView::look(const Scale& scale, const Matrix3d& map) {
+double RingView::look(const Scale& scale, const Matrix3d& map, bool nearby) {
   ring_ = scale.ring;
   place(map, scale.level);
   const std::size_t count = at_x_.size();
   channels_ = scale.image->channels();
   values_.resize(channels_ * count);
   weights_.resize(count);
-  const int seen = channels_ == 1 ? readPixels<1>(*scale.image) : readPixels<3>(*scale.image);
+  const bool keeps_weights = covered_ && nearby;
+  const int seen = channels_ == 1 ? readPixels<1>(*scale.image, keeps_weights)
+                                  : readPixels<3>(*scale.image, keeps_weights);
+  if (covered_) coverOutliers(nearby ? 1 : kCoverPasses);
   return static_cast<double>(seen) / static_cast<double>(std::max<std::size_t>(1, count));
 }
 
@@ -153,7 +160,37 @@ RingSegment RingView::segment(int s) const {
   segment.xx += segment.noise;
   segment.alike = segment.weight * xy / std::sqrt(segment.xx * (yy + segment.noise));
   segment.gain = std::min(kMaxGain, xy / segment.xx);
+  if (!covered_) return segment;
+  const auto seen = std::count_if(weights_.begin() + segment.begin, weights_.begin() + segment.end,
+                                  [](float weight) { return weight > 0.0F; });
+  const float usual = kUsualWeight * static_cast<float>(seen * channels_);
+  segment.hidden = segment.weight * std::max(0.0F, usual / samples - 1.0F);
   return segment;
+}
+
+void RingView::coverOutliers(int passes) {
+  for (int n = 0; n < passes; ++n) weighByResiduals();
+}
+
+// A step of iteratively reweighted least squares: gains and offsets of the segments follow from the weights.
+void RingView::weighByResiduals() {
+  const std::size_t count = ring_->x.size();
+  residuals_.assign(count * channels_, 0.0F);
+  for (int s = 0; s < ring_->segmentCount(); ++s) {
+    const RingSegment fitted = segment(s);
+    for (int c = 0; c < channels_; ++c) {
+      const RingMoments& m = fitted.moments[c];
+      for (std::size_t i = fitted.begin, at = c * count + i; static_cast<int>(i) < fitted.end; ++i, ++at)
+        residuals_[at] = values_[at] - m.meanY() - fitted.gain * (ring_->values[at] - m.meanX());
+    }
+  }
+  const float outlier = robustFactor(spreadOf(residuals_, kNoise));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (weights_[i] == 0.0F) continue;
+    float squares = 0.0F;
+    for (int c = 0; c < channels_; ++c) squares += residuals_[c * count + i] * residuals_[c * count + i];
+    weights_[i] = 1.0F / (1.0F + outlier * squares);
+  }
 }
 
 float RingView::spreadOf(const std::vector<float>& residuals, float before) {

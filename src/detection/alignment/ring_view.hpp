@@ -32,6 +32,7 @@ struct RingSegment {
   double alike = 0.0;            ///< correlation times `weight`
   double weight = 0.0;  ///< what it can tell: that grows with its samples, and slowly with their contrast, so
                         ///< that one strong edge does not stand for all
+  double hidden = 0.0;  ///< what it could tell more if nothing stood before it
 };
 
 /// Weighted mean of the segments' correlations.
@@ -46,17 +47,21 @@ struct WeightedPart {
   double sum, weight;
 };
 
-/// Weighted mean without the third that says least: something may stand before it.
+/// Weighted mean without the third that says least: something may stand before it. Sorts the parts; none may
+/// be without weight.
 double meanUncovered(std::vector<WeightedPart>& parts);
 
 /// The image under the samples of the ring, at one place and resolution. Keeps its memory.
 class RingView {
  public:
   static constexpr double kMinSeen = 0.3;  ///< part of the ring that must lie in the image
+  static constexpr int kCoverPasses = 3;   ///< of `coverOutliers`, at a new place
   static constexpr float kNoise = 0.01F;   ///< of a logarithm of a colour
 
   /// \param model, image outlive the view \param camera null: the image is taken as free of distortion
-  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera);
+  /// \param covered something stands before the ring: wherever the view looks, `coverOutliers` follows
+  void set(const RingModel& model, const cv::Mat& image, const geometry::PinholeCamera* camera, bool covered);
+  bool covered() const { return covered_; }
   const geometry::PinholeCamera* lens() const { return lens_; }  ///< null: no distortion
 
   /// One resolution of model and image.
@@ -68,8 +73,9 @@ class RingView {
   Scale scaleFor(double quad_side_px, double wanted_px);
 
   /// Looks at this place, which stays until the next look. \param map from the opening, its sides of length 1
-  /// and its centre at 0, to ideal pixels \return part of the ring that lies in the image
-  double look(const Scale& scale, const Eigen::Matrix3d& map);
+  /// and its centre at 0, to ideal pixels \param nearby the last look was near here, at this scale: what was
+  /// covered still is \return part of the ring that lies in the image
+  double look(const Scale& scale, const Eigen::Matrix3d& map, bool nearby = false);
   /// The same. \param quad pixels of the image as it came \param side_px resolution, at most [px a mean side]
   double look(const geometry::Quadrilateral& quad, double side_px);
 
@@ -82,7 +88,10 @@ class RingView {
 
   /// How much a sample counts; 0 where it lies beside the image.
   float weight(std::size_t i) const { return weights_[i]; }
-  void setWeight(std::size_t i, float weight) { weights_[i] = weight; }
+
+  /// Samples that differ from the reference far more than most count less from now on: where most of the ring
+  /// fits well, what does not is something before it; where nothing fits, all counts.
+  void coverOutliers(int passes);
 
   /// What one segment shows of the reference, channel by channel and in all.
   RingSegment segment(int s) const;
@@ -94,16 +103,25 @@ class RingView {
  private:
   void place(const Eigen::Matrix3d& map, int level);
   template <int kChannels>
-  int readPixels(const cv::Mat& image);
+  int readPixels(const cv::Mat& image, bool keeps_weights);
+  void weighByResiduals();
 
   const RingModel* model_ = nullptr;
   const geometry::PinholeCamera* lens_ = nullptr;
   ImagePyramid pyramid_;
   const RingLevel* ring_ = nullptr;
   int channels_ = 0;
+  bool covered_ = false;
   std::vector<float> at_x_, at_y_;  ///< the ring's samples on the image's level
-  std::vector<float> values_, weights_, scratch_;
+  std::vector<float> values_, weights_, residuals_, scratch_;
 };
+
+/// Weight of a sample by its squared residual: a scale of the robust weights of Cauchy, in standard
+/// deviations.
+inline float robustFactor(float spread) {
+  constexpr float kOutlier = 2.0F;
+  return 1.0F / (kOutlier * spread * kOutlier * spread);
+}
 
 /// From the opening, its sides of length 1 and its centre at 0, to a quadrilateral.
 Eigen::Matrix3d mapFromCentre(const geometry::Quadrilateral& quad);

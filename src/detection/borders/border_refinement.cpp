@@ -43,7 +43,11 @@ namespace {
 class Side {
  public:
   Side(BorderRefinement::Workspace& memory, const BorderFitLimits& limits, const BorderStart& start, int side)
-      : memory_(memory), limits_(limits), start_(start), known_(start.known[side]) {}
+      : memory_(memory),
+        limits_(limits),
+        start_(start),
+        known_(start.known[side]),
+        is_hidden_(start.hidden == side) {}
 
   bool run(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a, const Vector2d& b) {
     return run(image, lens, a, b, reach());
@@ -51,7 +55,7 @@ class Side {
   // Again, where nothing lies near the start: for a border further away that shows over most of its length.
   void runWider(const cv::Mat& image, const geometry::PinholeCamera* lens, const Vector2d& a,
                 const Vector2d& b) {
-    if (shows_edge_) return;
+    if (shows_edge_ || is_hidden_) return;
     border_ = FittedBorder();
     const bool found = run(image, lens, a, b, kWider * reach());
     fitted_ = found && inliers_ > kMaxInliers;
@@ -87,7 +91,7 @@ class Side {
     if (!fit({radius_px, 0.6 * radius_px, std::max(limits_.outlier_px, 0.35 * radius_px)})) return false;
     if (!fit({limits_.radius_px, kWidePx, limits_.outlier_px}) || stray() > reachOf(radius_px)) return false;
     toFront();
-    seen_ = stray() <= start_.max_stray_px;
+    seen_ = stray() <= start_.max_stray_px && !is_hidden_;
     fitted_ = seen_ && agrees();
     if (fitted_ && known_.known()) average();
     return fitted_;
@@ -157,6 +161,7 @@ class Side {
   const BorderFitLimits& limits_;  // of the last pass, for this image's size
   const BorderStart& start_;
   const SideSigma known_;
+  const bool is_hidden_;
   int count_ = 0;
   FittedBorder border_;
   bool shows_edge_ = false, fitted_ = false, seen_ = false;

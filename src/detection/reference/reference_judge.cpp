@@ -25,8 +25,19 @@ constexpr double kMaxThroughHaze =
     0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;  ///< of the mean colours there, relative to them; right ones have 0.2 to 1
+constexpr double kWallFrom = 0.16, kWallTo = 0.2;  ///< where the wall is, from a border [mean sides]
+constexpr double kAlikePart =
+    0.2;                         ///< of the contrast of frame and wall: by so much a frame's colours differ
+constexpr int kFewestAlike = 3;  ///< sides of one frame, to be sure of its colour
+constexpr double kBeyondFrom = 0.08, kBeyondTo = 0.15;  ///< of the end of a side, where its frame may go on
+                                                        ///< [sides]
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
+
+// Colours.
+bool differ(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  return (a - b).norm() > 0.5 * kMinStep * (a + b).norm();
+}
 
 // Bayes: a score taken for a probability, but never for certainty, after evidence of these odds.
 double updated(double score, double odds) {
@@ -71,6 +82,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   ring_.learn(inChannels(reference_->image()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
               shape_.aspect(), !frameless());
   open_borders_ = openBorders(reference_->image(), reference_->opening(), nullptr);
+  beyond_ = framesBeyond(reference_->image(), reference_->opening(), nullptr);
   if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), RingWidths(), 1);
 }
 
@@ -182,6 +194,8 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
     if (value >= least) return std::nullopt;
     return Rejection{RejectReason::kUnlike, value, least};
   };
+  if (frameless() && covered_ && match.faithful_uncovered < kFaithful)
+    return below(match.faithful_uncovered, kFaithful);
   if (frameless()) return below(match.correlation, 0.0);
   if (match.correlation >= sureCorrelation()) return std::nullopt;
   const auto objection = below(match.faithful_uncovered, kFaithfulUncovered);
@@ -204,7 +218,7 @@ double ReferenceJudge::sureCorrelation() const {
 
 int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
   if (match.correlation >= sureCorrelation()) return 0;
-  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered ? 2 : 3;
+  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered && !covered_ ? 2 : 3;
 }
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,
@@ -230,16 +244,63 @@ std::optional<AlignedRing> ReferenceJudge::surroundingsOf(const geometry::Quadri
   return ring;
 }
 
+std::optional<AlignedRing> ReferenceJudge::uncovered(const geometry::Quadrilateral& corners,
+                                                     const cv::Mat& image,
+                                                     const geometry::PinholeCamera* camera) {
+  return compares(image) ? ring_.uncovered(inChannels(image), camera, corners) : std::nullopt;
+}
+
 int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                 const geometry::PinholeCamera* camera) {
   const geometry::PinholeCamera* lens = lensOf(camera);
   measureSides(inChannels(image), undistorted(corners, lens), lens, {kStepReach, kStepReach}, sides_);
-  const auto differs = [](const SideProfile& side) {
+  return static_cast<int>(std::count_if(sides_.begin(), sides_.end(), [](const SideProfile& side) {
     Eigen::Vector3f within, without;
-    if (!side.mean(-kStepTo, -kStepFrom, within) || !side.mean(kStepFrom, kStepTo, without)) return false;
-    return (within - without).norm() > 0.5 * kMinStep * (within + without).norm();
+    return side.mean(-kStepTo, -kStepFrom, within) && side.mean(kStepFrom, kStepTo, without) &&
+           differ(within, without);
+  }));
+}
+
+// By the contrast of frame and wall here, whatever the haze. A side tells that looks like two others.
+ReferenceJudge::FrameEnds ReferenceJudge::framesBeyond(const cv::Mat& image,
+                                                       const geometry::Quadrilateral& corners,
+                                                       const geometry::PinholeCamera* camera) {
+  const geometry::PinholeCamera* lens = lensOf(camera);
+  const geometry::Quadrilateral ideal = undistorted(corners, lens);
+  std::array<Eigen::Vector3f, 4> frames, walls;
+  std::array<bool, 4> seen{};
+  ProfileReach reach{0.0, kWallTo + kStepFrom};
+  measureSides(inChannels(image), ideal, lens, reach, sides_);
+  for (int i = 0; i < 4; ++i)
+    seen[i] = sides_[i].mean(kStepFrom, kStepTo, frames[i]) && sides_[i].mean(kWallFrom, kWallTo, walls[i]);
+  const auto is_frame = [&](const Eigen::Vector3f& colour, int side) {
+    return (colour - frames[side]).norm() < kAlikePart * (walls[side] - frames[side]).norm();
   };
-  return static_cast<int>(std::count_if(sides_.begin(), sides_.end(), differs));
+  const auto tells = [&](int side) {
+    int alike = 0;
+    for (int k = 0; k < 4; ++k) alike += seen[k] && is_frame(frames[k], side);
+    return seen[side] && alike >= kFewestAlike;
+  };
+  FrameEnds beyond{};
+  for (int end = 0; end < 2; ++end) {
+    reach.from = end ? 1.0 + kBeyondFrom : -kBeyondTo;
+    reach.to = end ? 1.0 + kBeyondTo : -kBeyondFrom;
+    measureSides(inChannels(image), ideal, lens, reach, sides_);
+    Eigen::Vector3f colour;
+    for (int i = 0; i < 4; ++i)
+      beyond[i][end] = tells(i) && sides_[i].mean(kStepFrom, kStepTo, colour) && is_frame(colour, i);
+  }
+  return beyond;
+}
+
+bool ReferenceJudge::frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                                 const geometry::PinholeCamera* camera) {
+  if (frameless() || !compares(image)) return false;
+  const FrameEnds here = framesBeyond(image, corners, camera);
+  for (int side = 0; side < 4; ++side)
+    for (int end = 0; end < 2; ++end)
+      if (here[side][end] && !beyond_[side][end]) return true;
+  return false;
 }
 
 bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,

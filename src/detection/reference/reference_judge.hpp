@@ -52,6 +52,9 @@ class ReferenceJudge {
   bool judgeSurroundings(const cv::Mat& image, const geometry::PinholeCamera* camera,
                          std::vector<ScoredCandidate>& rivals);
 
+  /// From now on something stands before what lies round the opening, or nothing does.
+  void setCovered(bool covered) { covered_ = covered, ring_.setCovered(covered); }
+
   /// Rivals for that from the whole image, without any edge; none if it cannot be compared.
   std::vector<ScoredCandidate> placesEverywhere(const cv::Mat& image);
 
@@ -76,6 +79,13 @@ class ReferenceJudge {
   std::optional<AlignedRing> surroundingsOf(const geometry::Quadrilateral& corners, const cv::Mat& image,
                                             const geometry::PinholeCamera* camera, double coarsest_px);
 
+  /// See RingAlignment.
+  std::optional<AlignedRing> uncovered(const geometry::Quadrilateral& corners, const cv::Mat& image,
+                                       const geometry::PinholeCamera* camera);
+  std::optional<geometry::Quadrilateral> completed(const geometry::Quadrilateral& corners, int side) const {
+    return ring_.completed(corners, side);
+  }
+
   /// The same of surroundings that `surroundingsOf` found last; haze that took their contrasts is none.
   std::optional<Rejection> objectionTo(const AlignedRing& ring, const cv::Mat& image,
                                        const std::optional<AppearanceMatch>& frame);
@@ -86,12 +96,21 @@ class ReferenceJudge {
   bool showsOpening(const cv::Mat& image, const geometry::Quadrilateral& corners,
                     const geometry::PinholeCamera* camera);
 
+  /// True if a frame beside one of the sides is seen beyond its end, too, as it is not in the reference:
+  /// three sides are those of a larger window.
+  bool frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                   const geometry::PinholeCamera* camera);
+
   /// Why fitted borders cannot be the reference's, if they cannot. \param by_frame_alone its width must be
   /// seen
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
                                        const geometry::PinholeCamera* camera, bool by_frame_alone);
 
  private:
+  /// Of each side, whether its frame is seen before its beginning and beyond its end, too.
+  using FrameEnds = std::array<std::array<bool, 2>, 4>;
+  FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& corners,
+                         const geometry::PinholeCamera* camera);
   int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                   const geometry::PinholeCamera* camera);
   bool hasOwnFrame() const;
@@ -113,6 +132,8 @@ class ReferenceJudge {
   std::shared_ptr<const ReferenceAppearance> reference_;
   std::optional<RingColours> frame_colours_;  ///< of the reference
   int open_borders_ = 4;  ///< of the reference: within them something else is seen than without
+  FrameEnds beyond_{};    ///< in the reference
+  bool covered_ = false;
   bool is_grey_ = false;  ///< the reference; then by brightness alone
   cv::Mat channels_;
   std::array<SideProfile, 4> sides_;

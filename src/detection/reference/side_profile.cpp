@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3f;
 
-constexpr double kProfileSkip = 0.08;  ///< left out at both ends of a side
 constexpr int kFewestAcross = 12;
 
 // Point of the unit square's plane beside side `i`, t along it, `out` from it in sides across.
@@ -31,12 +30,12 @@ Vector2d beside(int i, double t, double out) {
 
 // Mean along side `i`; false if less than a third of it lies within the image.
 bool meanAlong(const cv::Mat& image, const geometry::UnitSquare& map, const geometry::PinholeCamera* lens,
-               int i, double out, int along, Vector3f& mean) {
+               int i, double out, const ProfileReach& reach, Vector3f& mean) {
   const double right = image.cols - 0.5, bottom = image.rows - 0.5;
   int count = 0;
   mean.setZero();
-  for (int n = 0; n < along; ++n) {
-    Vector2d p = map.toImage(beside(i, kProfileSkip + (1.0 - 2.0 * kProfileSkip) * (n + 0.5) / along, out));
+  for (int n = 0; n < reach.along; ++n) {
+    Vector2d p = map.toImage(beside(i, reach.from + (reach.to - reach.from) * (n + 0.5) / reach.along, out));
     if (lens) p = lens->distort(p);
     if (!(p.x() > -0.5 && p.y() > -0.5 && p.x() < right && p.y() < bottom)) continue;
     const cv::Vec3b& pixel =
@@ -45,7 +44,7 @@ bool meanAlong(const cv::Mat& image, const geometry::UnitSquare& map, const geom
     ++count;
   }
   mean /= static_cast<float>(std::max(count, 1));
-  return count >= along / 3;
+  return count >= reach.along / 3;
 }
 
 }  // namespace
@@ -95,7 +94,7 @@ void measureSides(const cv::Mat& image, const geometry::Quadrilateral& ideal,
     const double across = i % 2 ? width : height;
     Vector3f mean;
     for (int k = 0; k < steps; ++k) {
-      if (!meanAlong(image, map, lens, i, profile.at(k) / across, reach.along, mean)) break;
+      if (!meanAlong(image, map, lens, i, profile.at(k) / across, reach, mean)) break;
       profile.means.push_back(mean);
     }
   }

@@ -31,8 +31,9 @@ struct SideProfile {
 struct ProfileReach {
   double inward = 0.0, outward = 0.0;  ///< [mean sides of the opening]
   double aspect = 1.0;                 ///< of the opening: width over height
-  int along = 24;                      ///< samples along a side
+  int along = 24;                      ///< samples along it
   int across = 140;                    ///< samples across it, at most; no more than one a pixel
+  double from = 0.08, to = 0.92;       ///< along a side [of its length]
 };
 
 /// Measures the profiles of all four sides. A profile ends where the image does.

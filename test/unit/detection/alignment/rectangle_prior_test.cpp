@@ -8,6 +8,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "detection/alignment/ring_view.hpp"
+
 namespace window_ingress::detection::rectangle_prior_test {
 
 constexpr double kAspect = 1.3;
@@ -39,12 +41,7 @@ Eigen::Matrix3d stepped(const Eigen::Matrix3d& map) {
   Matrix8f normal = 1e-3F * Matrix8f::Identity();
   Vector8f right = Vector8f::Zero();
   RectanglePrior(camera(), {kAspect, 0.01}).addTo(map, 1.0, normal, right);
-  const Vector8f p = normal.ldlt().solve(right);
-  Eigen::Matrix3d change = Eigen::Matrix3d::Identity();
-  change.row(0) += Eigen::RowVector3f(p[0], p[1], p[2]).cast<double>();
-  change.row(1) += Eigen::RowVector3f(p[3], p[4], p[5]).cast<double>();
-  change(2, 0) += p[6], change(2, 1) += p[7];
-  return map * change.inverse();
+  return map * homographyOf(normal.ldlt().solve(right))->inverse();
 }
 
 TEST(RectanglePrior, AViewOfTheRectangleStaysAsItIs) {
@@ -69,6 +66,29 @@ TEST(RectanglePrior, WhatAPoseMayChangeCostsNothing) {
   RectanglePrior(camera(), {kAspect, 0.01}).addTo(mapOf(kAspect, 0.0), 1.0, normal, right);
   const Eigen::SelfAdjointEigenSolver<Matrix8f> eigen(normal);
   EXPECT_LT(eigen.eigenvalues()[5], 1e-4F * eigen.eigenvalues()[6]) << "six of eight are free";
+}
+
+TEST(RectanglePrior, TellsHowFarAViewIsFromThoseOfTheRectangle) {
+  const RectanglePrior prior(camera(), {kAspect, 0.01});
+  EXPECT_LT(prior.misfit(mapOf(kAspect, 0.0)), 1e-6);
+  EXPECT_NEAR(prior.misfit(mapOf(1.05 * kAspect, 0.0)), std::log(1.05) / 0.01, 1e-3);
+  EXPECT_GT(prior.misfit(mapOf(kAspect, 0.03)), 9.0);
+}
+
+// The left side was taken for something within the opening.
+TEST(RectanglePrior, ASideIsPlacedByTheThreeOthers) {
+  const RectanglePrior prior(camera(), {kAspect, 0.01});
+  geometry::Quadrilateral truth, seen, whole;
+  ASSERT_TRUE(cornersOf(mapOf(kAspect, 0.0), truth));
+  seen = truth;
+  seen[0] += 0.1 * (truth[1] - truth[0]), seen[3] += 0.1 * (truth[2] - truth[3]);
+  const auto view = prior.completed(mapFromCentre(seen), 3);
+  ASSERT_TRUE(view);
+  ASSERT_TRUE(cornersOf(view->map, whole));
+  for (int i = 0; i < 4; ++i) EXPECT_LT((whole[i] - truth[i]).norm(), 0.2) << i;
+  EXPECT_LT(view->sigma_px, 0.02 * (truth[3] - truth[0]).norm());
+  EXPECT_FALSE(prior.completed(mapFromCentre(truth), 2))
+      << "how far it is turned shows in the heights of two sides, which end at the one that is hidden";
 }
 
 // A rectangle seen from the front is one whatever the camera; foreshortened, its perspective

@@ -121,6 +121,25 @@ TEST(RingAlignment, WhatCrossesAllOfTheRingIsLeftOut) {
   EXPECT_LT(alignment.judge(other.opening, 200.0).faithful_uncovered, 0.6) << "nothing fits another wall";
 }
 
+TEST(RingAlignment, WhatStandsBeforeTheRingIsLeftOutFromTheBeginningWhereItIsExpected) {
+  for (unsigned seed : {3, 6}) {
+    Scene scene{PatchedWall(seed)}, other{PatchedWall(seed + 1)};
+    const auto look = [](Scene& at) {
+      at.look(seenFrom(2.5, -0.2));
+      for (int n = 0; n < 16; ++n)
+        cv::line(at.image, {50 * n - 60, 0}, {50 * n, 480}, cv::Scalar(30, 120, 230), 9);
+    };
+    look(scene), look(other);
+    RingAlignment plain, covered;
+    plain.set(scene.model, scene.image, nullptr);
+    covered.set(scene.model, scene.image, nullptr, true);
+    EXPECT_LT(plain.compare(scene.opening, 200.0).correlation, 0.58) << seed;
+    EXPECT_GT(covered.compare(scene.opening, 200.0).correlation, 0.6) << seed;
+    covered.set(scene.model, other.image, nullptr, true);
+    EXPECT_LT(covered.compare(other.opening, 200.0).correlation, 0.5) << seed << ", another wall";
+  }
+}
+
 // The left side is hidden by something that ends in an edge like a border's.
 TEST(RingAlignment, WhatIsKnownOfTheCameraKeepsAHiddenSideFromShearing) {
   const geometry::PinholeCamera camera = PatchedWall::lensless();
@@ -142,6 +161,31 @@ TEST(RingAlignment, WhatIsKnownOfTheCameraKeepsAHiddenSideFromShearing) {
     EXPECT_LT(worst(aspect, &camera), 0.3) << seed;
     EXPECT_LT(worst(aspect, nullptr), 3.0) << seed << ", of a camera without a calibration";
     EXPECT_GT(worst(std::nullopt, &camera), 10.0) << seed;
+  }
+}
+
+// The left side is hidden by something that ends in an edge like a border's, within the opening.
+TEST(RingAlignment, AHiddenSideIsPlacedByTheThreeOthers) {
+  const geometry::PinholeCamera camera = PatchedWall::lensless();
+  for (unsigned seed : {3, 9}) {
+    Scene scene{PatchedWall(seed, 0.07)};
+    scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+    scene.look(seenFrom(2.5, -0.3));
+    RingAlignment alignment;
+    alignment.set(scene.model, scene.image, &camera);
+    EXPECT_FALSE(alignment.uncovered(scene.opening, 200.0)) << "nothing hides it";
+    Quadrilateral seen = scene.opening;
+    seen[0].x() += 16.0, seen[3].x() += 16.0;
+    test::fillQuad(scene.image, test::rectangle(0, 0, seen[3].x(), 480), cv::Scalar(40, 90, 60));
+    alignment.set(scene.model, scene.image, &camera);
+    const auto found = alignment.uncovered(seen, 200.0);
+    ASSERT_TRUE(found) << seed;
+    EXPECT_EQ(found->hidden, 3);
+    EXPECT_LT(test::worstCorner(found->quad, scene.opening), 3.0) << seed;
+    EXPECT_GT(found->sides[3].px, 1.0) << "and said to be less sure";
+    const auto whole = alignment.completed(scene.opening, 3);
+    ASSERT_TRUE(whole);
+    EXPECT_LT(test::worstCorner(*whole, scene.opening), 0.3);
   }
 }
 

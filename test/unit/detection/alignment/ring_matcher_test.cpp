@@ -68,6 +68,21 @@ TEST(RingMatcher, ThePlaceIsFoundInTheWholeImageWithoutAnyEdge) {
   EXPECT_LT(test::worstCorner(found[0].quad, known.opening), 0.25);
 }
 
+TEST(RingMatcher, APlaceIsFoundEverywhereThoughTheReferenceEndsBesideTheOpening) {
+  const PatchedWall wall(3);
+  Quadrilateral corners, opening;
+  const cv::Mat reference = wall.draw(seenFrom(2.5, 0.0), &corners);
+  const int left = static_cast<int>(corners[0].x()) - 8;
+  for (Eigen::Vector2d& corner : corners) corner.x() -= left;
+  RingMatcher matcher;
+  matcher.learn(reference.colRange(left, reference.cols).clone(), corners);
+  const cv::Mat image = wall.draw(seenFrom(3.5, 0.4), &opening, cv::Scalar(20, 30, 40));
+  auto rivals = matcher.placesEverywhere(image);
+  const auto& found = matcher.align(image, nullptr, rivals);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(test::worstCorner(found[0].quad, opening), 0.5);
+}
+
 TEST(RingMatcher, NoPlaceOnAnotherWallFits) {
   Known known{PatchedWall(3)};
   const cv::Mat other = PatchedWall(4).draw(seenFrom(3.5, 0.4), nullptr);
@@ -120,6 +135,8 @@ struct Detected {
     if (outlined)
       for (int i = 0; i < 4; ++i) drawLine(image, (*opening)[i], (*opening)[(i + 1) % 4]);
     if (person) cover(image, *opening);
+    for (int n = 0; ropes && n < 16; ++n)
+      cv::line(image, {50 * n - 60, 0}, {50 * n, 480}, cv::Scalar(30, 120, 230), 7, cv::LINE_AA);
     test::addNoise(image, 2.0, 3);
     const geometry::PinholeCamera camera = PatchedWall::lensless();
     return detector.detect(image, 0.0, &camera);
@@ -142,7 +159,7 @@ struct Detected {
   }
 
   WindowDetector detector;
-  bool evening = false, outlined = false, person = false;
+  bool evening = false, outlined = false, person = false, ropes = false;
 };
 
 TEST(WindowDetector, AFrameOfWhichOneSideIsHiddenIsFound) {
@@ -155,6 +172,19 @@ TEST(WindowDetector, AFrameOfWhichOneSideIsHiddenIsFound) {
     ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
     EXPECT_LT(test::worstCorner(window->corners, opening), 3.0) << yaw;
   }
+}
+
+TEST(WindowDetector, AHoleIsFoundBehindRopes) {
+  const PatchedWall wall(3, 0.0, 25.0);
+  Detected detected(wall);
+  detected.ropes = true;
+  Quadrilateral opening;
+  for (double yaw : {-0.3, 0.3}) {
+    const auto window = detected.look(wall, yaw, &opening);
+    ASSERT_TRUE(window) << yaw << ": " << detected.detector.trace().detail;
+    EXPECT_LT(test::worstCorner(window->corners, opening), 1.5) << yaw;
+  }
+  EXPECT_FALSE(detected.look(PatchedWall(4, 0.0, 25.0), 0.3, &opening)) << "in another wall";
 }
 
 // A wall whose pattern repeats itself, with something of the opening's outline on it.

@@ -78,6 +78,32 @@ TEST(ReferenceJudge, CorrelationAloneDecidesWhereNoFramesColoursTell) {
   EXPECT_EQ(judgeOf(false).bordersNeeded(match), 0);
 }
 
+// A taller window in the same frame, of which three sides are taken for those of the target.
+TEST(ReferenceJudge, AFrameThatGoesOnBeyondACornerIsAnother) {
+  ReferenceJudge judge = judgeOf(true);
+  cv::Mat tall(480, 640, CV_8UC3, kWall), right = tall.clone();
+  test::fillQuad(tall, test::rectangle(185, 65, 455, 365), kOrange);
+  test::fillQuad(tall, test::rectangle(200, 80, 440, 350), cv::Scalar(70, 72, 70));
+  test::fillQuad(right, test::rectangle(185, 135, 455, 365), kOrange);
+  test::fillQuad(right, kOpening, cv::Scalar(70, 72, 70));
+  EXPECT_FALSE(judge.frameGoesOn(right, kOpening, nullptr));
+  EXPECT_TRUE(judge.frameGoesOn(tall, kOpening, nullptr));
+  const cv::Mat fog = 0.15 * right + 0.85 * cv::Scalar::all(180);
+  EXPECT_FALSE(judge.frameGoesOn(fog, kOpening, nullptr)) << "where all colours are alike";
+  EXPECT_FALSE(judgeOf(false).frameGoesOn(tall, kOpening, nullptr)) << "a wall goes on";
+}
+
+TEST(ReferenceJudge, BehindWhatCoversItAWallMustBeFaithful) {
+  ReferenceJudge judge = judgeOf(false);
+  RingMatch match;
+  match.correlation = 0.67, match.faithful = 0.53, match.faithful_uncovered = 0.69;
+  EXPECT_FALSE(judge.objectionTo(match, std::nullopt));
+  judge.setCovered(true);
+  EXPECT_TRUE(judge.objectionTo(match, std::nullopt));
+  match.faithful_uncovered = 0.8;
+  EXPECT_FALSE(judge.objectionTo(match, std::nullopt));
+}
+
 // A blind in the colour of the wall, drawn but for a slit at the left.
 TEST(ReferenceJudge, AnOpeningShowsWhereItShowsInTheReference) {
   cv::Mat closed(480, 640, CV_8UC3, kWall), slit = closed.clone();
