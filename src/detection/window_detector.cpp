@@ -55,7 +55,7 @@ struct WindowDetector::Impl {
   DetectionTrace trace;
   TargetChoice choice;
   std::vector<ScoredCandidate> rivals;
-  bool looked_everywhere = false;  ///< in this image
+  std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, once it was asked for
   StageTimer* watch = nullptr;
 };
 
@@ -108,8 +108,8 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
   };
   if (!confirmed || choice.ringThere() < kSureRing) gatherAll(), ask_surroundings();
   const bool is_sure = window && (confirmed || !reference.knowsSurroundings(image));
-  if (!is_sure && !std::exchange(looked_everywhere, true))
-    rivals = reference.placesEverywhere(image), ask_surroundings();
+  if (!is_sure && !everywhere)
+    rivals = everywhere.emplace(reference.placesEverywhere(image)), ask_surroundings();
   done(watch, Stage::kBorders);
   return window;
 }
@@ -118,8 +118,7 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
 std::optional<WindowObservation> WindowDetector::Impl::judgeCovered(const cv::Mat& image, double stamp_sec,
                                                                     const geometry::PinholeCamera* camera) {
   gatherAll();
-  const auto places = reference.placesEverywhere(image);
-  rivals.insert(rivals.end(), places.begin(), places.end());
+  if (everywhere) rivals.insert(rivals.end(), everywhere->begin(), everywhere->end());
   reference.setCovered(true);
   const auto window = judgeSurroundings(image, stamp_sec, camera);
   reference.setCovered(false);
@@ -175,7 +174,7 @@ void WindowDetector::clearReference() { impl_->reference.learn(nullptr); }
 std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, double stamp_sec,
                                                         const geometry::PinholeCamera* camera) {
   impl_->trace.clear();
-  impl_->looked_everywhere = false;
+  impl_->everywhere.reset();
   if (const std::string fault = imageFault(image); !fault.empty()) {
     impl_->trace.outcome = RejectReason::kBadImage;
     impl_->trace.detail = fault;

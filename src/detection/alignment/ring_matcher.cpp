@@ -14,6 +14,7 @@ constexpr std::size_t kPlacesSearched = 6;      ///< at most, without edges
 constexpr std::size_t kFinePlaces = 2;          ///< and of these, to the last
 constexpr int kVariants = 2;                    ///< rough loops of one place from which it is aligned
 constexpr double kSure = 0.85, kBehind = 0.3;   ///< a place found, and what promises so much less is left out
+constexpr double kHopeless = 0.15;              ///< of a place, where what does not fit is left out
 constexpr double kPale = 0.8, kUnsharp = 1.25;  ///< contrast, and how much more half the resolution shows
 constexpr double kProposalWeight = 0.3;  ///< of the score by geometry, where a comparison says little yet
 
@@ -30,7 +31,7 @@ void RingMatcher::compareAll(std::vector<ScoredCandidate>& rivals) {
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const RingMatch match = alignment_.compare(rivals[i].quad, kComparedPx);
     rivals[i].correlation = std::max(0.0, match.correlation);
-    if (match.correlation > -1.0)
+    if (match.correlation > (covered_ ? kHopeless : -1.0))
       order_.emplace_back(match.correlation + kProposalWeight * rivals[i].score, i);
   }
   std::sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) {

@@ -16,9 +16,10 @@ constexpr std::size_t kPlacesFine = 3;      ///< of these the best are looked at
 constexpr int kVariantsLocated = 2;         ///< loops of one place from which they are looked for
 constexpr double kColourOfFrames = 1.75;    ///< weight of colour where the reference shows a frame
 constexpr double kFaithful = 0.75, kFaithfulUncovered = 0.88;  ///< of what lies round a frame, see RingMatch
-constexpr double kSureUncovered = 0.92;                        ///< hardly anything else looks like that
-constexpr double kNeverSure = 2.0;                             ///< more than any correlation
-constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;      ///< correlation, where no frame's colours tell
+constexpr double kFaithfulBehind = 0.9;  ///< of a wall without a frame, where something stands before it
+constexpr double kSureUncovered = 0.92;  ///< hardly anything else looks like that
+constexpr double kNeverSure = 2.0;       ///< more than any correlation
+constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;  ///< correlation, where no frame's colours tell
 constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
 constexpr double kMaxThroughHaze =
@@ -194,8 +195,8 @@ std::optional<Rejection> ReferenceJudge::objectionTo(const RingMatch& match,
     if (value >= least) return std::nullopt;
     return Rejection{RejectReason::kUnlike, value, least};
   };
-  if (frameless() && covered_ && match.faithful_uncovered < kFaithful)
-    return below(match.faithful_uncovered, kFaithful);
+  if (frameless() && covered_ && match.faithful_uncovered < kFaithfulBehind)
+    return below(match.faithful_uncovered, kFaithfulBehind);
   if (frameless()) return below(match.correlation, 0.0);
   if (match.correlation >= sureCorrelation()) return std::nullopt;
   const auto objection = below(match.faithful_uncovered, kFaithfulUncovered);
@@ -218,7 +219,8 @@ double ReferenceJudge::sureCorrelation() const {
 
 int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
   if (match.correlation >= sureCorrelation()) return 0;
-  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered && !covered_ ? 2 : 3;
+  if (covered_) return 4;
+  return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered ? 2 : 3;
 }
 
 bool ReferenceJudge::isHazy(const cv::Mat& image, const geometry::Quadrilateral& corners,

@@ -136,7 +136,7 @@ struct Detected {
       for (int i = 0; i < 4; ++i) drawLine(image, (*opening)[i], (*opening)[(i + 1) % 4]);
     if (person) cover(image, *opening);
     for (int n = 0; ropes && n < 16; ++n)
-      cv::line(image, {50 * n - 60, 0}, {50 * n, 480}, cv::Scalar(30, 120, 230), 7, cv::LINE_AA);
+      cv::line(image, {100 * n - 60, 0}, {100 * n, 480}, cv::Scalar(30, 120, 230), 12, cv::LINE_AA);
     test::addNoise(image, 2.0, 3);
     const geometry::PinholeCamera camera = PatchedWall::lensless();
     return detector.detect(image, 0.0, &camera);

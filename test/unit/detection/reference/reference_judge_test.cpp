@@ -93,15 +93,18 @@ TEST(ReferenceJudge, AFrameThatGoesOnBeyondACornerIsAnother) {
   EXPECT_FALSE(judgeOf(false).frameGoesOn(tall, kOpening, nullptr)) << "a wall goes on";
 }
 
-TEST(ReferenceJudge, BehindWhatCoversItAWallMustBeFaithful) {
-  ReferenceJudge judge = judgeOf(false);
+TEST(ReferenceJudge, WhereSomethingStandsBeforeItMoreMustFit) {
+  ReferenceJudge wall = judgeOf(false), frame = judgeOf(true);
   RingMatch match;
-  match.correlation = 0.67, match.faithful = 0.53, match.faithful_uncovered = 0.69;
-  EXPECT_FALSE(judge.objectionTo(match, std::nullopt));
-  judge.setCovered(true);
-  EXPECT_TRUE(judge.objectionTo(match, std::nullopt));
-  match.faithful_uncovered = 0.8;
-  EXPECT_FALSE(judge.objectionTo(match, std::nullopt));
+  match.correlation = 0.67, match.faithful = 0.76, match.faithful_uncovered = 0.87;
+  EXPECT_FALSE(wall.objectionTo(match, std::nullopt));
+  wall.setCovered(true);
+  EXPECT_TRUE(wall.objectionTo(match, std::nullopt));
+  match.faithful_uncovered = 0.95;
+  EXPECT_FALSE(wall.objectionTo(match, std::nullopt));
+  EXPECT_EQ(frame.bordersNeeded(match), 2);
+  frame.setCovered(true);
+  EXPECT_EQ(frame.bordersNeeded(match), 4) << "a poster has three";
 }
 
 // A blind in the colour of the wall, drawn but for a slit at the left.
