@@ -162,8 +162,9 @@ def test_what_cannot_be_used_is_one_line_and_code_2(name, words, log):
 
 
 def test_a_picture_that_cannot_be_written_is_code_1(log, tmp_path):
-    done = run("plot_flight", log, "--output", tmp_path / "nowhere/a.png")
-    assert done.returncode == 1 and "nowhere" in done.stderr and done.stderr.count("\n") == 1
+    (tmp_path / "a_file").write_text("")
+    done = run("plot_flight", log, "--output", tmp_path / "a_file/a.png")
+    assert done.returncode == 1 and "a_file" in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
 @pytest.mark.parametrize("truth", ["truth", "no_truth"])

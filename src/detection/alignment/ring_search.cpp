@@ -16,8 +16,8 @@ constexpr int kFine = 8;                                  ///< pixels that are a
 constexpr double kSmallestPx = 40.0, kLargestPart = 0.8;  ///< mean side [px; of the shorter image side]
 constexpr double kStep = 1.3;                             ///< from one size to the next
 constexpr float kLeast = 0.25F;                           ///< correlation of a place
-constexpr double kNoise = 0.02;                           ///< of a slope of a logarithm [1/px]
-constexpr int kFewestSides = 3;                           ///< that the reference must show
+constexpr double kSlopeNoise = 0.02;                      ///< of a slope of a logarithm [1/px]
+constexpr int kFewestShown = 3;                           ///< that the reference must show
 constexpr int kPeakPx = 5;
 
 void greyOf(const cv::Mat& image, cv::Mat& grey) {
@@ -82,7 +82,7 @@ void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& open
         cv::Rect(0, end.y, pattern_.width, kReach), cv::Rect(0, 0, kReach, pattern_.height)})
     if (const cv::Rect at = beside & seen; at.area() > 0)
       sides_.push_back({at, slopes_(at).clone(), cv::norm(slopes_(at), cv::NORM_L2SQR)});
-  if (sides_.size() < kFewestSides) forget();
+  if (sides_.size() < kFewestShown) forget();
 }
 
 // Of this size of the image with the pattern, at every place.
@@ -99,7 +99,7 @@ bool RingSearch::correlate(double factor) {
   for (const Side& side : sides_) {
     cv::matchTemplate(slopes_, side.slopes, alike_, cv::TM_CCORR);
     cv::boxFilter(squares_, norm_, CV_32F, side.at.size(), {0, 0}, false);
-    const double noise = kNoise * kNoise * 2.0 * side.at.area();
+    const double noise = kSlopeNoise * kSlopeNoise * 2.0 * side.at.area();
     norm_ = (norm_(cv::Rect({0, 0}, alike_.size())) + noise) * (side.squares + noise);
     cv::sqrt(norm_, norm_);
     cv::divide(alike_, norm_, alike_);
