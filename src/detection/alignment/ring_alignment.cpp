@@ -49,13 +49,18 @@ void RingAlignment::set(const RingModel& model, const cv::Mat& image, const geom
   leaves_out_ = prior_ && model.aspect()->log_sigma <= kKnownAspect;
 }
 
+// Where what does not fit is left out more correlates by chance.
+double RingAlignment::beyondChance(double correlation) const {
+  return view_.covered() ? correlation - kByChance : correlation;
+}
+
 RingMatch RingAlignment::compare(const Quadrilateral& quad, double side_px) {
   RingMatch match;
   match.seen = view_.look(quad, side_px);
   if (match.seen < RingView::kMinSeen) return match;
   RingCorrelation correlation;
   for (int s = 0; s < view_.ring().segmentCount(); ++s) correlation.add(view_.segment(s));
-  match.correlation = correlation.value() - (view_.covered() ? kByChance : 0.0);
+  match.correlation = beyondChance(correlation.value());
   return match;
 }
 
@@ -63,7 +68,7 @@ RingMatch RingAlignment::judge(const Quadrilateral& quad, double side_px) {
   double seen = view_.look(quad, side_px);
   if (view_.meanLog() < logOf(kDimRing)) seen = view_.look(quad, 0.5 * std::min(side_px, meanSide(quad)));
   RingMatch match = judgement_.of(view_, seen);
-  if (view_.covered()) match.correlation -= kByChance;
+  match.correlation = beyondChance(match.correlation);
   return match;
 }
 
@@ -152,8 +157,8 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
     readSegments();
     const auto step = change(at);
     if (const double fits = leaves_out_ ? meanUncovered(parts_) : correlation_.value(); fits > best_fit)
-      best_fit = fits, best.correlation = correlation_.value() - (view_.covered() ? kByChance : 0.0),
-      best.seen = seen, map = at, best_step = n, information_ = normal_ / (spread_ * spread_);
+      best_fit = fits, best.correlation = beyondChance(correlation_.value()), best.seen = seen, map = at,
+      best_step = n, information_ = normal_ / (spread_ * spread_);
     if (!step || n == most_steps || n - best_step == kPatience) break;
     at = at * step->inverse();
     at /= at(2, 2);

@@ -57,6 +57,7 @@ class RingAlignment {
  private:
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
   int sideOf(int segment) const { return 4 * segment / view_.ring().segmentCount(); }
+  double beyondChance(double correlation) const;
   void readSegments();
   std::optional<int> hiddenSide() const;
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);

@@ -20,18 +20,13 @@ constexpr double kFaithfulBehind = 0.9;  ///< of a wall without a frame, where s
 constexpr double kSureUncovered = 0.92;  ///< hardly anything else looks like that
 constexpr double kNeverSure = 2.0;       ///< more than any correlation
 constexpr double kSureOfWall = 0.68, kSureOfFrame = 0.85;  ///< correlation, where no frame's colours tell
+constexpr int kAllBorders = 4;
 constexpr int kOpenBorders = 3;            ///< within which something else must be seen than without
 constexpr double kMinClearContrast = 0.8;  ///< over its correlation, of a ring that is not seen through haze
 constexpr double kMaxThroughHaze =
     0.45;  ///< distance of frame colours; in fog 0.25 and less, other paint 0.7
 constexpr double kStepFrom = 0.015, kStepTo = 0.06, kStepReach = 0.08;  ///< from a border [mean sides]
 constexpr double kMinStep = 0.12;  ///< of the mean colours there, relative to them; right ones have 0.2 to 1
-constexpr double kWallFrom = 0.16, kWallTo = 0.2;  ///< where the wall is, from a border [mean sides]
-constexpr double kAlikePart =
-    0.2;                         ///< of the contrast of frame and wall: by so much a frame's colours differ
-constexpr int kFewestAlike = 3;  ///< sides of one frame, to be sure of its colour
-constexpr double kBeyondFrom = 0.08, kBeyondTo = 0.15;  ///< of the end of a side, where its frame may go on
-                                                        ///< [sides]
 constexpr double kUnlocatedPart =
     0.7;  ///< of its score keeps a loop whose borders are not those of the reference
 
@@ -83,7 +78,7 @@ void ReferenceJudge::learn(std::shared_ptr<const ReferenceAppearance> reference)
   ring_.learn(inChannels(reference_->image()), reference_->opening(), frameless() ? 1.0 : kColourOfFrames,
               shape_.aspect(), !frameless());
   open_borders_ = openBorders(reference_->image(), reference_->opening(), nullptr);
-  beyond_ = framesBeyond(reference_->image(), reference_->opening(), nullptr);
+  beyond_ = framesBeyond(inChannels(reference_->image()), reference_->opening(), nullptr, sides_);
   if (!frameless()) frame_colours_ = ringColours(reference_->image(), reference_->opening(), RingWidths(), 1);
 }
 
@@ -219,7 +214,7 @@ double ReferenceJudge::sureCorrelation() const {
 
 int ReferenceJudge::bordersNeeded(const RingMatch& match) const {
   if (match.correlation >= sureCorrelation()) return 0;
-  if (covered_) return 4;
+  if (covered_) return kAllBorders;
   return match.faithful >= kFaithful && match.faithful_uncovered >= kSureUncovered ? 2 : 3;
 }
 
@@ -263,42 +258,11 @@ int ReferenceJudge::openBorders(const cv::Mat& image, const geometry::Quadrilate
   }));
 }
 
-// By the contrast of frame and wall here, whatever the haze. A side tells that looks like two others.
-ReferenceJudge::FrameEnds ReferenceJudge::framesBeyond(const cv::Mat& image,
-                                                       const geometry::Quadrilateral& corners,
-                                                       const geometry::PinholeCamera* camera) {
-  const geometry::PinholeCamera* lens = lensOf(camera);
-  const geometry::Quadrilateral ideal = undistorted(corners, lens);
-  std::array<Eigen::Vector3f, 4> frames, walls;
-  std::array<bool, 4> seen{};
-  ProfileReach reach{0.0, kWallTo + kStepFrom};
-  measureSides(inChannels(image), ideal, lens, reach, sides_);
-  for (int i = 0; i < 4; ++i)
-    seen[i] = sides_[i].mean(kStepFrom, kStepTo, frames[i]) && sides_[i].mean(kWallFrom, kWallTo, walls[i]);
-  const auto is_frame = [&](const Eigen::Vector3f& colour, int side) {
-    return (colour - frames[side]).norm() < kAlikePart * (walls[side] - frames[side]).norm();
-  };
-  const auto tells = [&](int side) {
-    int alike = 0;
-    for (int k = 0; k < 4; ++k) alike += seen[k] && is_frame(frames[k], side);
-    return seen[side] && alike >= kFewestAlike;
-  };
-  FrameEnds beyond{};
-  for (int end = 0; end < 2; ++end) {
-    reach.from = end ? 1.0 + kBeyondFrom : -kBeyondTo;
-    reach.to = end ? 1.0 + kBeyondTo : -kBeyondFrom;
-    measureSides(inChannels(image), ideal, lens, reach, sides_);
-    Eigen::Vector3f colour;
-    for (int i = 0; i < 4; ++i)
-      beyond[i][end] = tells(i) && sides_[i].mean(kStepFrom, kStepTo, colour) && is_frame(colour, i);
-  }
-  return beyond;
-}
-
 bool ReferenceJudge::frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
                                  const geometry::PinholeCamera* camera) {
   if (frameless() || !compares(image)) return false;
-  const FrameEnds here = framesBeyond(image, corners, camera);
+  const geometry::PinholeCamera* lens = lensOf(camera);
+  const FrameEnds here = framesBeyond(inChannels(image), undistorted(corners, lens), lens, sides_);
   for (int side = 0; side < 4; ++side)
     for (int end = 0; end < 2; ++end)
       if (here[side][end] && !beyond_[side][end]) return true;

@@ -8,6 +8,7 @@
 #include "detection/alignment/ring_matcher.hpp"
 #include "detection/candidates/candidate_gates.hpp"
 #include "detection/candidates/candidate_search.hpp"
+#include "detection/reference/frame_ends.hpp"
 #include "detection/reference/reference_borders.hpp"
 #include "detection/reference/reference_shape.hpp"
 #include "detection/reference/ring_histogram.hpp"
@@ -107,10 +108,6 @@ class ReferenceJudge {
                                        const geometry::PinholeCamera* camera, bool by_frame_alone);
 
  private:
-  /// Of each side, whether its frame is seen before its beginning and beyond its end, too.
-  using FrameEnds = std::array<std::array<bool, 2>, 4>;
-  FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                         const geometry::PinholeCamera* camera);
   int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,
                   const geometry::PinholeCamera* camera);
   bool hasOwnFrame() const;

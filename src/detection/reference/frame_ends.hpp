@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+
+#include "detection/reference/side_profile.hpp"
+#include "window_ingress/geometry/pinhole_camera.hpp"
+#include "window_ingress/geometry/quadrilateral.hpp"
+
+namespace window_ingress::detection {
+
+/// Of each side of a window, whether its frame is seen before its beginning and beyond its end, too.
+using FrameEnds = std::array<std::array<bool, 2>, 4>;
+
+/// By the contrast of frame and wall there, whatever the haze. A side tells whose frame looks like those of
+/// two others. \param image CV_8UC3 \param ideal corners, canonical order, pixels of the undistorted image
+/// \param lens null: no distortion \param sides memory that is used again
+FrameEnds framesBeyond(const cv::Mat& image, const geometry::Quadrilateral& ideal,
+                       const geometry::PinholeCamera* lens, std::array<SideProfile, 4>& sides);
+
+}  // namespace window_ingress::detection
