@@ -48,7 +48,6 @@ void RingSearch::readSlopes(const cv::Mat& grey) {
   cv::LUT(grey, logs, logs_);
   cv::Sobel(logs_, slopes_x_, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
   cv::Sobel(logs_, slopes_y_, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
-  cv::merge(std::array<cv::Mat, 2>{slopes_x_, slopes_y_}.data(), 2, slopes_);
 }
 
 void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& opening) {
@@ -81,11 +80,13 @@ void RingSearch::learn(const cv::Mat& image, const geometry::Quadrilateral& open
        {cv::Rect(0, 0, pattern_.width, kReach), cv::Rect(end.x, 0, kReach, pattern_.height),
         cv::Rect(0, end.y, pattern_.width, kReach), cv::Rect(0, 0, kReach, pattern_.height)})
     if (const cv::Rect at = beside & seen; at.area() > 0)
-      sides_.push_back({at, slopes_(at).clone(), cv::norm(slopes_(at), cv::NORM_L2SQR)});
+      sides_.push_back({at, slopes_x_(at).clone(), slopes_y_(at).clone(),
+                        cv::norm(slopes_x_(at), cv::NORM_L2SQR) + cv::norm(slopes_y_(at), cv::NORM_L2SQR)});
   if (sides_.size() < kFewestShown) forget();
 }
 
-// Of this size of the image with the pattern, at every place.
+// Of this size of the image with the pattern, at every place. Sides are small: sums are faster than
+// transforms.
 bool RingSearch::correlate(double factor) {
   const cv::Size full = pyramid_.level(0).size();
   const cv::Size size(static_cast<int>(full.width * factor), static_cast<int>(full.height * factor));
@@ -97,10 +98,12 @@ bool RingSearch::correlate(double factor) {
   squares_ = slopes_x_.mul(slopes_x_) + slopes_y_.mul(slopes_y_);
   sum_ = cv::Mat::zeros(places, CV_32F);
   for (const Side& side : sides_) {
-    cv::matchTemplate(slopes_, side.slopes, alike_, cv::TM_CCORR);
+    cv::filter2D(slopes_x_, alike_, CV_32F, side.slopes_x, {0, 0});
+    cv::filter2D(slopes_y_, alike_y_, CV_32F, side.slopes_y, {0, 0});
+    alike_ += alike_y_;
     cv::boxFilter(squares_, norm_, CV_32F, side.at.size(), {0, 0}, false);
     const double noise = kSlopeNoise * kSlopeNoise * 2.0 * side.at.area();
-    norm_ = (norm_(cv::Rect({0, 0}, alike_.size())) + noise) * (side.squares + noise);
+    norm_ = (norm_ + noise) * (side.squares + noise);
     cv::sqrt(norm_, norm_);
     cv::divide(alike_, norm_, alike_);
     cv::dilate(alike_, alike_, cv::Mat());

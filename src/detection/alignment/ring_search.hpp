@@ -30,8 +30,8 @@ class RingSearch {
  private:
   /// What the reference shows along one side.
   struct Side {
-    cv::Rect at;     ///< in the pattern
-    cv::Mat slopes;  ///< along x and y
+    cv::Rect at;  ///< in the pattern
+    cv::Mat slopes_x, slopes_y;
     double squares;  ///< their sum
   };
   void readSlopes(const cv::Mat& grey);
@@ -42,8 +42,8 @@ class RingSearch {
   cv::Size2d opening_;  ///< in the middle of the pattern [px]
   std::vector<Side> sides_;
   ImagePyramid pyramid_;
-  cv::Mat grey_, level_, logs_, slopes_x_, slopes_y_, slopes_, squares_;  ///< of one size of the image
-  cv::Mat alike_, norm_, sum_, peaks_;
+  cv::Mat grey_, level_, logs_, slopes_x_, slopes_y_, squares_;  ///< of one size of the image
+  cv::Mat alike_, alike_y_, norm_, sum_, peaks_;
   std::vector<Place> places_;
 };
 
