@@ -116,7 +116,7 @@ void RingAlignment::readSegments() {
     if (hidden_ && sideOf(s) == *hidden_) segment = {};
     correlation_.add(segment);
     if (segment.weight > 0.0) parts_.push_back({segment.alike, segment.weight});
-    if (segment.hidden > 0.0) parts_.push_back({0.0, segment.hidden});
+    if (segment.covered_weight > 0.0) parts_.push_back({0.0, segment.covered_weight});
   }
 }
 

@@ -26,7 +26,7 @@ RingMatch RingScore::of(RingView& view, double seen) {
   parts_.clear();
   for (const Share& share : shares_) {
     parts_.push_back({share.faithful, share.weight});
-    if (share.hidden > 0.0) parts_.push_back({0.0, share.hidden});
+    if (share.covered_weight > 0.0) parts_.push_back({0.0, share.covered_weight});
   }
   match.faithful_uncovered = meanUncovered(parts_);
   return match;
@@ -40,7 +40,7 @@ void RingScore::shareOut(const RingView& view) {
     const RingSegment segment = view.segment(s);
     correlation_.add(segment);
     if (segment.weight > 0.0)
-      shares_.push_back({segment.alike, segment.weight, segment.hidden, segment.gain,
+      shares_.push_back({segment.alike, segment.weight, segment.covered_weight, segment.gain,
                          kGainSpread * kGainSpread + segment.noise / segment.xx, 0.0});
   }
 }

@@ -27,8 +27,8 @@ class RingScore {
  private:
   /// What a segment adds to the likeness of its weight, and with which contrast, beside the reference's.
   struct Share {
-    double alike, weight, hidden, gain, variance;  ///< variance: of the logarithm of the gain
-    double faithful;                               ///< of `alike`
+    double alike, weight, covered_weight, gain, variance;  ///< variance: of the logarithm of the gain
+    double faithful;                                       ///< of `alike`
   };
   void shareOut(const RingView& view);
   double weighContrasts();

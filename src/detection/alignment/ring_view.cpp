@@ -164,7 +164,7 @@ RingSegment RingView::segment(int s) const {
   const auto seen = std::count_if(weights_.begin() + segment.begin, weights_.begin() + segment.end,
                                   [](float weight) { return weight > 0.0F; });
   const float usual = kUsualWeight * static_cast<float>(seen * channels_);
-  segment.hidden = segment.weight * std::max(0.0F, usual / samples - 1.0F);
+  segment.covered_weight = segment.weight * std::max(0.0F, usual / samples - 1.0F);
   return segment;
 }
 

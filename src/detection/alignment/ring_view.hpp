@@ -32,7 +32,7 @@ struct RingSegment {
   double alike = 0.0;            ///< correlation times `weight`
   double weight = 0.0;  ///< what it can tell: that grows with its samples, and slowly with their contrast, so
                         ///< that one strong edge does not stand for all
-  double hidden = 0.0;  ///< what it could tell more if nothing stood before it
+  double covered_weight = 0.0;  ///< what it could tell more if nothing stood before it
 };
 
 /// Weighted mean of the segments' correlations.
