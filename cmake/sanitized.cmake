@@ -38,7 +38,7 @@ target_include_directories(fuzz_messages PUBLIC ${source_root})
 target_include_directories(fuzz_messages SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}
                            ${catkin_INCLUDE_DIRS})
 add_dependencies(fuzz_messages ${${PROJECT_NAME}_EXPORTED_TARGETS})
-set(bags bag_check bag_topics replay replay_output recorded_transforms)
+set(bags bag_check bag_reading replay replay_output)
 list(TRANSFORM bags PREPEND ${source_root}/adapters/bags/)
 list(TRANSFORM bags APPEND .cpp)
 add_sanitized_library(fuzz_bags FILES ${bags} ${source_root}/adapters/images/reference_source.cpp LIBRARIES fuzz_messages fuzz_evaluation)

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iomanip>
 #include <sstream>
 #include <type_traits>
+
+#include "window_ingress/parameters/unknown_key.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::parameters {
 namespace {
@@ -22,6 +27,37 @@ std::string wordFault(const Field& field, const std::string& word) {
   const auto& allowed = field.allowed;
   const bool is_one = std::find(allowed.begin(), allowed.end(), word) != allowed.end();
   return allowed.empty() || is_one ? "" : field.name + " = " + word + " is none of " + joined(allowed, ", ");
+}
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts;
+  std::istringstream stream(path);
+  for (std::string part; std::getline(stream, part, '/');) parts.push_back(part);
+  return parts;
+}
+
+// The fewest digits that read back as the same number, with a point: without one, ROS takes it for an int,
+// and "1e-05" for a text.
+std::string shortest(double value) {
+  std::string text;
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::ostringstream stream;
+    stream << std::setprecision(digits) << value;
+    text = stream.str();
+    if (std::strtod(text.c_str(), nullptr) == value) break;
+  }
+  if (text.find('.') != std::string::npos) return text;
+  return text.insert(std::min(text.find('e'), text.size()), ".0");
+}
+
+double number(const std::string& name, const std::string& text) {
+  if (text == "true") return 1.0;
+  if (text == "false") return 0.0;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw InputError(name + ": '" + text + "' is no number");
+  return value;
 }
 
 }  // namespace
@@ -76,6 +112,58 @@ std::string joined(const std::vector<std::string>& texts, const char* between) {
   std::string line;
   for (const auto& text : texts) line += (line.empty() ? "" : between) + text;
   return line;
+}
+
+std::string toText(const Field& field) {
+  if (field.isSwitch()) return field.get() != 0.0 ? "true" : "false";
+  return field.isWhole() ? std::to_string(std::lround(field.get())) : shortest(field.get());
+}
+
+void assign(const std::vector<Field>& fields, const std::string& assignment) {
+  const std::size_t sign = assignment.find('=');
+  const std::string name = assignment.substr(0, sign);
+  const Field* field = find(fields, name);
+  if (sign == std::string::npos)
+    throw InputError("'" + assignment + "': needs NAME=VALUE with the name of a number, like " +
+                     (fields.empty() ? "none" : fields.front().name));
+  if (!field) throw InputError(name + ": unknown name" + didYouMean(name, keysOf(fields)));
+  double value = number(name, assignment.substr(sign + 1));
+  const std::string fault = faultOf({name, &value, field->minimum, field->maximum});
+  if (!fault.empty()) throw InputError(fault);
+  field->set(value);
+}
+
+std::vector<Field> changed(const std::vector<Field>& fields, const std::vector<Field>& before) {
+  std::vector<Field> result;
+  for (const Field& field : fields) {
+    const Field* old = find(before, field.name);
+    if (old && old->get() != field.get()) result.push_back(field);
+  }
+  return result;
+}
+
+std::string toYaml(const std::vector<Field>& fields, const std::string& path) {
+  std::ostringstream text;
+  std::vector<std::string> open;
+  const auto descend = [&](const std::vector<std::string>& groups) {
+    std::size_t same = 0;
+    while (same < open.size() && same < groups.size() && open[same] == groups[same]) ++same;
+    open.resize(same);
+    for (; open.size() < groups.size(); open.push_back(groups[open.size()]))
+      text << std::string(2 * open.size(), ' ') << groups[open.size()] << ":\n";
+  };
+  const std::vector<std::string> top = split(path);
+  for (const Field& field : fields) {
+    std::vector<std::string> groups = top, names = split(field.name);
+    groups.insert(groups.end(), names.begin(), names.end() - 1);
+    descend(groups);
+    text << std::string(2 * open.size(), ' ') << names.back() << ": " << toText(field) << "\n";
+  }
+  if (fields.empty() && !top.empty()) {
+    descend({top.begin(), top.end() - 1});
+    text << std::string(2 * open.size(), ' ') << top.back() << ": {}\n";
+  }
+  return text.str();
 }
 
 }  // namespace window_ingress::parameters

@@ -13,7 +13,6 @@
 #include "evaluation/images/detection_table.hpp"
 #include "evaluation/output_file.hpp"
 #include "params_file.hpp"
-#include "progress.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/detection/window_tracker.hpp"

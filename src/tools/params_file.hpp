@@ -7,7 +7,6 @@
 
 #include "command_line.hpp"
 #include "window_ingress/configuration/overlay.hpp"
-#include "window_ingress/parameters/field_list.hpp"
 #include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::tools {

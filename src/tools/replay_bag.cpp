@@ -14,7 +14,6 @@
 #include "adapters/images/reference_source.hpp"
 #include "command_line.hpp"
 #include "params_file.hpp"
-#include "progress.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace fs = std::filesystem;

@@ -13,7 +13,6 @@
 #include "evaluation/images/detection_survey.hpp"
 #include "evaluation/images/survey_folder.hpp"
 #include "evaluation/output_file.hpp"
-#include "progress.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/detection/window_detector.hpp"

@@ -9,7 +9,6 @@
 #include "evaluation/output_file.hpp"
 #include "evaluation/poses/filter_survey.hpp"
 #include "evaluation/statistics.hpp"
-#include "progress.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 
 namespace {

@@ -9,7 +9,6 @@
 #include "command_line.hpp"
 #include "evaluation/openness/openness_survey.hpp"
 #include "evaluation/output_file.hpp"
-#include "progress.hpp"
 #include "simulation/random_stream.hpp"
 #include "window_ingress/configuration/overlay.hpp"
 

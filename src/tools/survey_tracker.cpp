@@ -11,7 +11,6 @@
 #include "evaluation/images/survey_image.hpp"
 #include "evaluation/images/track_survey.hpp"
 #include "evaluation/output_file.hpp"
-#include "progress.hpp"
 #include "simulation/camera/camera_sensor.hpp"
 #include "simulation/camera/reference_image.hpp"
 #include "simulation/random_stream.hpp"

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "adapters/bags/labelled_bag.hpp"
+#include "adapters/bags/bag_reading.hpp"
 #include "adapters/images/reference_source.hpp"
 #include "command_line.hpp"
 #include "evaluation/images/detector_tuning.hpp"
 #include "params_file.hpp"
-#include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "window_ingress/detection/detector_params.hpp"
-#include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "adapters/bags/bag_reading.hpp"
 #include "adapters/bags/flight_bag.hpp"
-#include "adapters/bags/recorded_transforms.hpp"
 #include "adapters/bags/replay.hpp"
 #include "adapters/images/reference_source.hpp"
 #include "evaluation/flights/closed_loop_flight.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "window_ingress/facade/facade_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/geometry/quadrilateral.hpp"

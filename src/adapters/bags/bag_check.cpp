@@ -1,4 +1,4 @@
-#include "adapters/bags/bag_check.hpp"
+#include "adapters/bags/bag_reading.hpp"
 
 #include <cstdint>
 #include <cstring>

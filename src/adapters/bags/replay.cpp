@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "adapters/bags/recorded_transforms.hpp"
+#include "adapters/bags/bag_reading.hpp"
 #include "adapters/bags/replay_output.hpp"
 #include "adapters/bags/waiting_images.hpp"
 #include "adapters/conversions/stamps.hpp"

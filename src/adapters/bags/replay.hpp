@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/bags/bag_topics.hpp"
+#include "adapters/bags/bag_reading.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/images/image_conversion.hpp"
 #include "evaluation/flights/flight_perception.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/text/text.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "adapters/images/image_conversion.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/detection/debug_image.hpp"
 #include "window_ingress/geometry/euler_angles.hpp"

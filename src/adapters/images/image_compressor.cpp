@@ -3,7 +3,7 @@
 #include <ros/master.h>
 
 #include "adapters/images/image_files.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 
 namespace window_ingress::adapters {

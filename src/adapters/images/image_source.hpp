@@ -13,8 +13,7 @@
 
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
-#include "adapters/runtime/topic_health.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

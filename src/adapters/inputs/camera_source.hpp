@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
-#include "adapters/runtime/topic_health.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

@@ -11,6 +11,18 @@
 namespace window_ingress::adapters {
 namespace {
 
+constexpr int kStateRgb[navigation::kStateCount] = {
+    0xaaaaaa,  // IDLE
+    0x9b59b6,  // SEARCH
+    0x1f5fa8,  // ALIGN
+    0x56c1e8,  // APPROACH
+    0xe67e22,  // COMMIT
+    0x2e9e4f,  // PASSED
+    0xd0312d,  // BACK_OFF
+    0xf1c40f,  // HOLD
+    0x000000,  // ABORTED
+};
+
 using visualization_msgs::Marker;
 
 constexpr double kLineWidthM = 0.025, kTextHeightM = 0.14;
@@ -30,6 +42,19 @@ geometry_msgs::Vector3 scaleOf(const Eigen::Vector3d& size_m) {
 }
 
 }  // namespace
+
+std_msgs::ColorRGBA colourOf(int rgb, double alpha) {
+  std_msgs::ColorRGBA colour;
+  colour.r = static_cast<float>((rgb >> 16) & 0xff) / 255.0F;
+  colour.g = static_cast<float>((rgb >> 8) & 0xff) / 255.0F;
+  colour.b = static_cast<float>(rgb & 0xff) / 255.0F;
+  colour.a = static_cast<float>(alpha);
+  return colour;
+}
+
+std_msgs::ColorRGBA colourOf(navigation::State state, double alpha) {
+  return colourOf(kStateRgb[static_cast<std::size_t>(state)], alpha);
+}
 
 MarkerSketch::MarkerSketch(const ros::Time& stamp, const std::string& frame_id)
     : header_(headerOf(stamp, frame_id)) {}

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

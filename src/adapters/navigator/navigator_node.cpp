@@ -4,7 +4,7 @@
 
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/markers/marker_sketch.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "window_ingress/geometry/frames.hpp"
 

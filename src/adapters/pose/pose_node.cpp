@@ -2,7 +2,7 @@
 
 #include "adapters/conversions/stamps.hpp"
 #include "adapters/inputs/attitude_source.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 
 namespace window_ingress::adapters {

@@ -3,7 +3,9 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
+#include <ros/subscriber.h>
 
+#include <exception>
 #include <functional>
 #include <map>
 #include <string>
@@ -85,5 +87,79 @@ class Diagnostics {
   double started_sec_ = 0.0, begun_sec_ = 0.0;  // the same but under simulated time, which begins later
   double clock_sec_ = -1.0, clock_moved_sec_ = 0.0;
 };
+
+/// Whether messages of one topic arrive, and whether they can be used.
+class TopicHealth {
+ public:
+  /// \param silence_sec how long the topic may be silent, on the steady clock
+  TopicHealth(Diagnostics& diagnostics, const std::string& name, double silence_sec);
+
+  /// Name and publishers are asked of the subscriber when they are needed.
+  void watch(std::function<std::string()> topic, std::function<int()> publishers);
+  void watch(const ros::Subscriber& subscriber);
+
+  void arrived();
+  /// \param warning what is odd about the message, or nothing
+  void accepted(const std::string& warning = "");
+  /// Stamp of a message that was accepted, beside the clock: its age is told.
+  void stamped(double stamp_sec);
+  void refused(const std::string& why);  ///< also says so on the console, at most every 5 s
+
+  /// Since the last message that could be used [s], on the steady clock; infinite before the first.
+  double silentSec() const;
+  Health health() const;
+
+ private:
+  Health verdict() const;
+
+  std::string name_;
+  double silence_sec_;
+  std::function<std::string()> topic_;
+  std::function<int()> publishers_;
+  double started_sec_, arrived_sec_ = -1.0, accepted_sec_ = -1.0, said_sec_ = -1.0;
+  double age_sec_ = 0.0, period_sec_ = 0.0;  // the latter smoothed
+  long messages_ = 0, refusals_ = 0;
+  std::string refusal_, warning_;
+};
+
+/// No exception leaves a callback: it would end the process, the vehicle still flying.
+/// Calls `work`; an exception is counted and reported in `diagnostics` under `name`.
+/// \return false if there was one
+template <typename Work>
+bool catchAll(Diagnostics& diagnostics, const std::string& name, Work&& work) {
+  try {
+    std::forward<Work>(work)();
+    diagnostics.succeeded(name);
+    return true;
+  } catch (const std::exception& error) {
+    diagnostics.caught(name, error.what());
+  } catch (...) {
+    diagnostics.caught(name, "something that is no std::exception");
+  }
+  return false;
+}
+
+/// Subscribes with a callback whose exceptions are caught; `callback(const boost::shared_ptr<const
+/// Message>&)`.
+template <typename Message>
+ros::Subscriber subscribeCatching(ros::NodeHandle& nh, const std::string& topic, int queue,
+                                  Diagnostics& diagnostics,
+                                  std::function<void(const boost::shared_ptr<const Message>&)> callback) {
+  using Pointer = boost::shared_ptr<const Message>;
+  const boost::function<void(const Pointer&)> safe = [&diagnostics, topic, callback](const Pointer& message) {
+    catchAll(diagnostics, topic, [&] { callback(message); });
+  };
+  return nh.subscribe<Message>(topic, queue, safe, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
+/// A timer on the steady clock, which ticks even while /clock stands still, with a callback whose exceptions
+/// are caught.
+inline ros::SteadyTimer createCatchingTimer(ros::NodeHandle& nh, double period_sec, const std::string& name,
+                                            Diagnostics& diagnostics, std::function<void()> callback) {
+  return nh.createSteadyTimer(ros::WallDuration(period_sec),
+                              [&diagnostics, name, callback](const ros::SteadyTimerEvent&) {
+                                catchAll(diagnostics, name, callback);
+                              });
+}
 
 }  // namespace window_ingress::adapters

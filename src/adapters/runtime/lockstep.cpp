@@ -1,6 +1,6 @@
 #include "adapters/runtime/lockstep.hpp"
 
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::adapters {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "adapters/conversions/stamps.hpp"
-#include "adapters/runtime/exception_barrier.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/parameter_server.hpp"
 #include "adapters/world/world_messages.hpp"
 #include "window_ingress/text/text.hpp"

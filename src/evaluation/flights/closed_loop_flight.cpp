@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "evaluation/flights/flight_params.hpp"
 #include "evaluation/flights/flight_perception.hpp"
 #include "simulation/world.hpp"
 #include "window_ingress/geometry/frames.hpp"

@@ -1,8 +1,8 @@
-#include "evaluation/flights/flight_params.hpp"
+#include "evaluation/flights/closed_loop_flight.hpp"
 
 #include <cmath>
 
-#include "window_ingress/configuration/pose_node_params.hpp"
+#include "window_ingress/configuration/node_params.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

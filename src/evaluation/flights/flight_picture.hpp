@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "evaluation/flights/flight_observer.hpp"
-#include "evaluation/flights/flight_summary.hpp"
+#include "evaluation/flights/flight_table.hpp"
 
 namespace window_ingress::evaluation {
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulation/camera/camera_motion.hpp"
-#include "simulation/scenario/camera_params.hpp"
+#include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scenario/scenario.hpp"
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/opening.hpp"

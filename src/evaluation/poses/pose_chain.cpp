@@ -1,10 +1,16 @@
 #include "evaluation/poses/pose_chain.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "detection/quads.hpp"
 #include "estimation/planar/relative_yaw.hpp"
 #include "evaluation/images/detection_survey.hpp"
+#include "evaluation/statistics.hpp"
 #include "window_ingress/estimation/window_pose_estimator.hpp"
+#include "window_ingress/geometry/euler_angles.hpp"
 #include "window_ingress/geometry/frames.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::evaluation {
 namespace {
@@ -41,6 +47,69 @@ void compare(const Eigen::Isometry3d& truth, const Eigen::Vector3d& up, PoseChai
   out.true_yaw_from_sight_rad = estimation::yawFromSight(truth, up);
   out.wrong_sign = out.estimate->yaw_rad * out.true_yaw_rad < 0.0 ||
                    out.estimate->yaw_from_sight_rad * out.true_yaw_from_sight_rad < 0.0;
+}
+
+const char* const kSides[] = {"top", "right", "bottom", "left"};
+
+using Group = std::vector<const PoseChainResult*>;
+
+std::map<int, Group> byDistance(const std::vector<PoseChainResult>& results) {
+  std::map<int, Group> groups;
+  for (const PoseChainResult& result : results)
+    groups[static_cast<int>(std::lround(result.distance_m))].push_back(&result);
+  return groups;
+}
+
+double rms(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / std::max<std::size_t>(1, values.size()));
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / std::max<std::size_t>(1, values.size());
+}
+
+double medianMagnitude(std::vector<double> values) {
+  for (double& value : values) value = std::abs(value);
+  return quantile(values, 0.5);
+}
+
+std::string poseRow(int distance_m, const Group& group) {
+  std::vector<double> yaw, lateral, distance, normalised;
+  int detected = 0, trusted = 0, wrong = 0, trusted_wrong = 0;
+  for (const PoseChainResult* r : group) {
+    detected += r->detected;
+    if (!r->estimate) continue;
+    yaw.push_back(r->yaw_error_rad * geometry::kDegreesPerRad);
+    lateral.push_back(100.0 * r->lateral_error_m);
+    distance.push_back(100.0 * r->distance_error_m / r->distance_m);
+    normalised.push_back(r->yaw_error_rad / r->estimate->yaw_sigma_rad);
+    trusted += r->estimate->sign_trusted;
+    wrong += r->wrong_sign;
+    trusted_wrong += r->wrong_sign && r->estimate->sign_trusted;
+  }
+  return formatted("| %d | %zu | %d | %zu | %.4f | %.4f | %.3f | %.3f | %.2f | %d | %d | %d |\n", distance_m,
+                   group.size(), detected, yaw.size(), rms(yaw), medianMagnitude(yaw), rms(lateral),
+                   rms(distance), std::pow(rms(normalised), 2), trusted, wrong, trusted_wrong);
+}
+
+std::string borderRow(int distance_m, int side, const Group& group) {
+  std::vector<double> offset, ends, offset_sigmas, turn_sigmas;
+  for (const PoseChainResult* r : group) {
+    if (!r->borders[side]) continue;
+    offset.push_back(r->borders[side]->offset_px);
+    ends.push_back(r->borders[side]->ends_px);
+    offset_sigmas.push_back(r->borders[side]->offset_sigmas);
+    turn_sigmas.push_back(r->borders[side]->turn_sigmas);
+  }
+  if (offset.empty()) return "";
+  return formatted("| %d | %s | %zu | %.4f | %+.4f | %.4f | %.4f | %.2f | %.2f | %.2f | %.2f |\n", distance_m,
+                   kSides[side], offset.size(), rms(offset), mean(offset), medianMagnitude(offset), rms(ends),
+                   std::pow(rms(offset_sigmas), 2), std::pow(medianMagnitude(offset_sigmas) / 0.6745, 2),
+                   std::pow(rms(turn_sigmas), 2), std::pow(medianMagnitude(turn_sigmas) / 0.6745, 2));
 }
 
 }  // namespace
@@ -92,6 +161,55 @@ PoseChainResult chainResult(const SurveyImage& sample,
   out.reject = result.detail;
   if (out.estimate) compare(*truth, gravity ? gravity->up_camera : Eigen::Vector3d(0.0, -1.0, 0.0), out);
   return out;
+}
+
+std::string poseChainColumns() {
+  std::string text =
+      "scenario,seed,distance_m,true_yaw_rad,true_yaw_from_sight_rad,detected,reject,yaw_error_rad,lateral_"
+      "error_m,distance_error_m,yaw_sigma_rad,sigma_u_rad,log_likelihood_ratio,sign_trusted,wrong_sign,"
+      "reprojection_rms_px,cost,aspect,aspect_sigma";
+  for (const char* side : kSides)
+    for (const char* what : {"_offset_px", "_ends_px", "_offset_sigmas", "_turn_sigmas"})
+      text += std::string(",") + side + what;
+  return text;
+}
+
+std::string poseChainRow(const PoseChainResult& r) {
+  std::string reject = r.reject;
+  std::replace(reject.begin(), reject.end(), ',', ';');
+  std::string text = r.scenario +
+                     formatted(",%u,%.4f,%.6f,%.6f,%d,", r.seed, r.distance_m, r.true_yaw_rad,
+                               r.true_yaw_from_sight_rad, r.detected) +
+                     reject;
+  if (!r.estimate) {
+    text += std::string(12, ',');
+  } else {
+    const auto& e = *r.estimate;
+    text += formatted(",%.7f,%.6f,%.6f,%.7f,%.7f,%.3f,%d,%d,%.4f,%.3f", r.yaw_error_rad, r.lateral_error_m,
+                      r.distance_error_m, e.yaw_sigma_rad, e.sigma_u_rad, e.log_likelihood_ratio,
+                      e.sign_trusted, r.wrong_sign, e.best.reprojection_rms_px, e.best.cost);
+    text += e.aspect ? formatted(",%.5f,%.5f", e.aspect->ratio, e.aspect->sigma) : ",,";
+  }
+  for (const auto& border : r.borders)
+    text += border ? formatted(",%.4f,%.4f,%.3f,%.3f", border->offset_px, border->ends_px,
+                               border->offset_sigmas, border->turn_sigmas)
+                   : ",,,,";
+  return text;
+}
+
+std::string poseChainTable(const std::vector<PoseChainResult>& results) {
+  std::string text =
+      "| m | images | right border | poses | yaw RMSE deg | median deg | lateral RMSE cm | distance RMSE % "
+      "| yaw error^2 / variance | sign trusted | wrong | trusted and wrong |\n|" +
+      std::string("---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const auto groups = byDistance(results);
+  for (const auto& [distance_m, group] : groups) text += poseRow(distance_m, group);
+  text +=
+      "\n| m | side | count | offset RMS px | mean outwards px | median px | ends RMS px | offset chi^2 | by "
+      "median | direction chi^2 | by median |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [distance_m, group] : groups)
+    for (int side = 0; side < 4; ++side) text += borderRow(distance_m, side, group);
+  return text;
 }
 
 }  // namespace window_ingress::evaluation

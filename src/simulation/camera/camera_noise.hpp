@@ -7,7 +7,7 @@
 #include <string>
 
 #include "simulation/random_stream.hpp"
-#include "simulation/scenario/camera_params.hpp"
+#include "simulation/scenario/sensor_params.hpp"
 
 namespace window_ingress::simulation {
 

@@ -8,11 +8,10 @@
 
 #include "simulation/camera/camera_motion.hpp"
 #include "simulation/camera/camera_noise.hpp"
-#include "simulation/camera/exposure_control.hpp"
+#include "simulation/camera/exposure.hpp"
 #include "simulation/camera/lens.hpp"
-#include "simulation/camera/shutter.hpp"
 #include "simulation/random_stream.hpp"
-#include "simulation/scenario/camera_params.hpp"
+#include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace window_ingress::simulation {

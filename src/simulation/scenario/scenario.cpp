@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "simulation/scenario/fault_params.hpp"
 #include "simulation/scene/obstacle_collision.hpp"
 #include "simulation/scene/scene_parts.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -177,6 +178,21 @@ std::vector<std::string> faultsOf(const Scenario& scenario) {
   checkLens(scenario, faults);
   checkFaults(scenario, faults);
   return faults;
+}
+
+std::string whyNoSuchFault(const FaultParams& fault) {
+  const std::string what = fault.unit + " " + fault.kind + ": ";
+  if (fault.unit == "clock" && fault.kind == "garbage")
+    return what + "a time has no bits that are no time; take wrong";
+  if (fault.kind == "slide" && fault.unit != "odom") return what + "only odom slides";
+  if (fault.unit == "camera_info" && fault.kind == "stuck")
+    return what + "the calibration never changes; take off or wrong";
+  return "";
+}
+
+std::string whyNotBesideExternalVehicle(const FaultParams& fault) {
+  if (fault.unit == "image" || fault.unit == "camera_info") return "";
+  return fault.unit + " " + fault.kind + ": with vehicle external, " + fault.unit + " is not the world's";
 }
 
 }  // namespace window_ingress::simulation

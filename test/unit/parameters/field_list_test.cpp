@@ -1,4 +1,4 @@
-#include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

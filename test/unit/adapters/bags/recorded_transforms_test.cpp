@@ -1,8 +1,8 @@
-#include "adapters/bags/recorded_transforms.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "adapters/bags/bag_reading.hpp"
 
 namespace window_ingress::adapters::recorded_transforms_test {
 

@@ -1,11 +1,11 @@
-#include "adapters/markers/marker_colours.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include "adapters/markers/marker_sketch.hpp"
 
 namespace window_ingress::adapters::marker_colours_test {
 

@@ -1,4 +1,4 @@
-#include "evaluation/flights/flight_summary.hpp"
+#include "evaluation/flights/flight_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "evaluation/flights/flight_timing.hpp"
-
 #include <gtest/gtest.h>
+
+#include "evaluation/flights/closed_loop_flight.hpp"
 
 namespace window_ingress::evaluation::flight_timing_test {
 

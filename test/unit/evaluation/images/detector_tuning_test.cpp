@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "drawn_window.hpp"
-#include "window_ingress/parameters/field_list.hpp"
+#include "window_ingress/parameters/fields.hpp"
 
 namespace window_ingress::evaluation::detector_tuning_test {
 

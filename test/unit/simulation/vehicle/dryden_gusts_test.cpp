@@ -1,4 +1,4 @@
-#include "simulation/vehicle/dryden_gusts.hpp"
+#include "simulation/vehicle/wind.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,9 @@
-/// Arguments that roslaunch was given and that cannot be: it takes any name and any value without a word.
+/// What check_overlay asks of the roslaunch that calls it, which takes any argument without a word and ends
+/// nodes that run already.
 #pragma once
 
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +18,9 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "window_ingress/parameters/fields.hpp"
 #include "window_ingress/parameters/unknown_key.hpp"
+#include "window_ingress/text/text.hpp"
 
 namespace window_ingress::tools {
 
@@ -167,5 +171,76 @@ inline void checkLaunchArguments(const std::vector<std::string>& words, const st
   }
   if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
 }
+
+/// The answer of a ROS master or node to one question; invalid if nobody is there.
+inline XmlRpc::XmlRpcValue asked(const std::string& uri, const char* question, const char* of = nullptr) {
+  std::smatch parts;
+  XmlRpc::XmlRpcValue arguments, answer;
+  if (!std::regex_match(uri, parts, std::regex("http://([^:/]+):(\\d+)/?"))) return {};
+  arguments[0] = "/check_overlay";
+  if (of != nullptr) arguments[1] = of;
+  XmlRpc::XmlRpcClient client(parts[1].str().c_str(), std::atoi(parts[2].str().c_str()), "/");
+  const bool answers =
+      client.execute(question, arguments, answer) && answer.size() == 3 && int(answer[0]) == 1;
+  return answers ? XmlRpc::XmlRpcValue(answer[2]) : XmlRpc::XmlRpcValue();
+}
+
+/// The master that roslaunch, called with these words, will use.
+inline std::string masterOf(const std::vector<std::string>& words) {
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if ((*word == "-p" || *word == "--port") && word + 1 != words.end()) return "http://localhost:" + word[1];
+    if (word->rfind("--port=", 0) == 0) return "http://localhost:" + word->substr(7);
+  }
+  const char* uri = std::getenv("ROS_MASTER_URI");
+  return uri != nullptr ? uri : "";
+}
+
+inline bool startsNothing(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--nodes" || word == "--files" || word == "--dump-params";
+  });
+}
+
+/// \param words of roslaunch \throws InputError that names the first of these nodes that runs already
+inline void checkNoneRuns(const std::vector<std::string>& words, const std::vector<const char*>& nodes) {
+  if (startsNothing(words)) return;
+  const char* name_space = std::getenv("ROS_NAMESPACE");
+  if (name_space != nullptr && *name_space != '\0') return;
+  const std::string master = masterOf(words);
+  for (const char* node : nodes) {
+    const auto uri = asked(master, "lookupNode", node);
+    if (!uri.valid() || !asked(std::string(XmlRpc::XmlRpcValue(uri)), "getPid").valid()) continue;
+    throw InputError(
+        std::string(node) + " runs already at " + master +
+        ": this launch would end it. End the other launch first, or take another master: roslaunch -p PORT");
+  }
+}
+
+/// All that is wrong, to be told at once.
+class InputFaults {
+ public:
+  template <typename Step>
+  bool collect(const Step& step) {
+    try {
+      step();
+      return true;
+    } catch (const InputError& fault) {
+      add(fault.what());
+    }
+    return false;
+  }
+  void throwIfAny() const {
+    if (!texts_.empty()) throw InputError(parameters::joined(texts_, "\n"));
+  }
+
+ private:
+  // Unless one that is told already says it, with more words before.
+  void add(const std::string& text) {
+    const auto says_it = [&](const std::string& told) { return told.find(text) != std::string::npos; };
+    if (std::none_of(texts_.begin(), texts_.end(), says_it)) texts_.push_back(text);
+  }
+
+  std::vector<std::string> texts_;
+};
 
 }  // namespace window_ingress::tools
