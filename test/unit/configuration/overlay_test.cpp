@@ -1,12 +1,10 @@
 #include "window_ingress/configuration/overlay.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "refusal.hpp"
 #include "window_ingress/parameters/unknown_key.hpp"
 #include "window_ingress/text/text.hpp"
 
@@ -14,22 +12,12 @@ namespace window_ingress::configuration::overlay_test {
 
 class OverlayFile : public testing::Test {
  protected:
-  const std::string file_ =
-      (std::filesystem::temp_directory_path() / ("overlay_test_" + std::to_string(::getpid()) + ".yaml"))
-          .string();
-  void TearDown() override { std::filesystem::remove(file_); }
+  test::TemporaryFolder folder_;
+  const std::string file_ = folder_.path / "overlay.yaml";
 
-  Overlay read(const std::string& text) {
-    std::ofstream(file_) << text;
-    return readOverlay(file_);
-  }
+  Overlay read(const std::string& text) { return readOverlay(folder_.write("overlay.yaml", text)); }
   std::string error(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& refused) {
-      return refused.what();
-    }
-    return "";
+    return test::refusalOf([&] { read(text); });
   }
 };
 
@@ -67,16 +55,15 @@ TEST_F(OverlayFile, RefusesSlipsOfThePenByName) {
   EXPECT_EQ(error("unheard_of: 1\n"), file_ +
                                           ":1: unheard_of: unknown key; there is vehicle, window_detector, "
                                           "homography_pose, ingress_navigator, setpoint_guard, world");
-  EXPECT_NE(error("vehicle: {propellers: 4}\n").find("there is half_length_m, half_width_m, half_height_m, "),
-            std::string::npos);
+  EXPECT_TRUE(test::says(error("vehicle: {propellers: 4}\n"),
+                         "there is half_length_m, half_width_m, half_height_m, "));
 }
 
 // Lifted out of its group, a name says nothing of which one was meant.
 TEST_F(OverlayFile, NamesAllKeysThatAreCalledSo) {
   const std::string said = error("ingress_navigator: {navigator: {speed_mps: 0.4}}\n");
   for (const char* group : {"limits", "approach", "commit"})
-    EXPECT_NE(said.find(formatted("'ingress_navigator: {navigator: {%s: {speed_mps: ..}}}'", group)),
-              std::string::npos)
+    EXPECT_TRUE(test::says(said, formatted("'ingress_navigator: {navigator: {%s: {speed_mps: ..}}}'", group)))
         << said;
 }
 
@@ -85,8 +72,8 @@ TEST_F(OverlayFile, SaysWhereTheVehicleIsNow) {
             file_ +
                 ":1: ingress_navigator/navigator/vehicle: unknown key; it is now 'vehicle: {..}', beside the "
                 "nodes: said once for all of them");
-  EXPECT_NE(error("homography_pose: {tracker: {fit: {vehicle_width_m: 0.6}}}\n").find("half_width_m"),
-            std::string::npos);
+  EXPECT_TRUE(
+      test::says(error("homography_pose: {tracker: {fit: {vehicle_width_m: 0.6}}}\n"), "half_width_m"));
 }
 
 TEST_F(OverlayFile, SaysWhatBecameOfFormerKeys) {
@@ -100,8 +87,7 @@ TEST_F(OverlayFile, SaysWhatBecameOfFormerKeys) {
       {"window_detector: {interior: {least_slope: 3}}", "least_slope: unknown key; it is a constant now"},
       {"world: {clock_rate_hz: 50}", "clock_rate_hz: unknown key; it is a constant now: leave it out"}};
   for (const auto& [yaml, text] : formers)
-    EXPECT_NE(error(yaml + std::string("\n")).find(text), std::string::npos)
-        << error(yaml + std::string("\n"));
+    EXPECT_TRUE(test::says(error(yaml + std::string("\n")), text)) << error(yaml + std::string("\n"));
   Overlay overlay;
   for (const std::string& key : parameters::keysOf(parameters::fieldsOf(overlay))) {
     const bool has_its_own = key.rfind("vehicle", 0) == 0 || key.rfind("world", 0) == 0;

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "refusal.hpp"
 #include "window_ingress/text/text.hpp"
 
 namespace window_ingress::parameters::calibration_file_test {
@@ -25,15 +26,10 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 void expectRefused(const std::string& file, const std::string& word) {
-  try {
-    readCalibrationFile(file);
-    FAIL() << word;
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(file), std::string::npos) << text;
-    EXPECT_NE(text.find(word), std::string::npos) << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  }
+  const std::string text = test::refusalOf([&] { readCalibrationFile(file); });
+  EXPECT_TRUE(test::says(text, file));
+  EXPECT_TRUE(test::says(text, word));
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
 }
 
 TEST(CalibrationFile, ReadsWhatCameraInfoManagerWrites) {

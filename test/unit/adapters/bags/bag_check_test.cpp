@@ -1,32 +1,22 @@
-#include "adapters/bags/bag_reading.hpp"
-
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
 
+#include "adapters/bags/bag_reading.hpp"
 #include "adapters/bags/replay.hpp"
 #include "adapters/conversions/msg_conversion.hpp"
+#include "refusal.hpp"
 
 namespace window_ingress::adapters::bag_check_test {
-
-namespace fs = std::filesystem;
 
 /// A folder of its own, and small bags in it.
 class BagCheck : public testing::Test {
  protected:
-  void SetUp() override {
-    char name[] = "/tmp/bag_check_test_XXXXXX";
-    folder_ = mkdtemp(name);
-    file_ = (folder_ / "small.bag").string();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write(rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
     rosbag::Bag bag(file_, rosbag::bagmode::Write);
     bag.setCompression(compression);
@@ -53,21 +43,19 @@ class BagCheck : public testing::Test {
   }
   /// Opened and replayed; true if it was read to its end, false if it was refused by name.
   bool replayed() const {
-    try {
+    const std::string refusal = test::refusalOf([&] {
       rosbag::Bag bag;
       openBag(bag, file_);
       ReplayParams params;
       params.topics = chooseTopics(bag, {});
       replay(bag, params, [](const ReplayedFrame&) {});
-      return true;
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).find(file_), 0u) << error.what();
-      return false;
-    }
+    });
+    EXPECT_TRUE(refusal.empty() || refusal.find(file_) == 0) << refusal;
+    return refusal.empty();
   }
 
-  fs::path folder_;
-  std::string file_;
+  const test::TemporaryFolder folder_;
+  const std::string file_ = folder_.path / "small.bag";
 };
 
 TEST_F(BagCheck, HasNothingAgainstWhatRosbagWrites) {

@@ -15,6 +15,7 @@
 #include "adapters/bags/replay_output.hpp"
 #include "adapters/images/image_conversion.hpp"
 #include "adapters/pose/camera_mounting.hpp"
+#include "refusal.hpp"
 
 namespace window_ingress::adapters::replay_test {
 
@@ -26,12 +27,8 @@ constexpr double kPeriodSec = 0.1;
 /// A folder of its own for each test.
 class ReplayTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    char name[] = "/tmp/replay_test_XXXXXX";
-    folder_ = mkdtemp(name);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path;
 };
 
 geometry::PinholeCamera camera() {

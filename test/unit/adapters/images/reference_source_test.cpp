@@ -4,11 +4,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "adapters/runtime/parameter_server.hpp"
 #include "drawn_window.hpp"
+#include "refusal.hpp"
 
 namespace window_ingress::adapters::reference_source_test {
 
@@ -16,18 +16,14 @@ namespace fs = std::filesystem;
 
 class ReferenceSource : public ::testing::Test {
  protected:
-  ReferenceSource() : folder_(fs::path(::testing::TempDir()) / "reference_source") {
-    fs::remove_all(folder_);
-  }
-  ~ReferenceSource() override { fs::remove_all(folder_); }
-
   static test::DrawnWindow window() {
     test::DrawnWindow drawn;
     drawn.width = 320, drawn.height = 240, drawn.frame_px = 6;
     drawn.opening = test::rectangle(100.25, 80.5, 220, 170);
     return drawn;
   }
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path;
 };
 
 TEST_F(ReferenceSource, WhatIsSavedIsLoadedWithTheParametersBesideIt) {
@@ -56,10 +52,8 @@ TEST_F(ReferenceSource, BadReferencesAreRefused) {
   EXPECT_THROW(makeReference(image, {1, 2, 3}, {}), InputError);
   EXPECT_THROW(makeReference(image, {1, 1, 1, 1, 1, 1, 1, 1}, {}), InputError);
   EXPECT_THROW(loadReference({}, {}), InputError);
-  fs::create_directories(folder_);
-  std::ofstream(folder_ / "text.png") << "no image";
   ReferenceParams params;
-  params.picture = (folder_ / "text.png").string();
+  params.picture = temporary_.write("text.png", "no image");
   EXPECT_THROW(loadReference(params, {}), InputError);
 }
 

@@ -2,25 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include "refusal.hpp"
+
 namespace window_ingress::adapters::world_lockstep_test {
 
 std::string refusalOf(const simulation::Scenario& scenario) {
-  try {
-    refuseInLockstep(scenario);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf([&] { refuseInLockstep(scenario); });
 }
 
 TEST(WorldLockstep, RefusesWhatNobodyDoesThere) {
   simulation::Scenario scenario;
   EXPECT_EQ(refusalOf(scenario), "");
   scenario.target_chosen = true;
-  EXPECT_NE(refusalOf(scenario).find("target_chosen"), std::string::npos) << "nobody points at the target";
+  EXPECT_TRUE(test::says(refusalOf(scenario), "target_chosen")) << "nobody points at the target";
   scenario.target_chosen = false;
   scenario.faults.emplace_back().unit = "clock";
-  EXPECT_NE(refusalOf(scenario).find("clock"), std::string::npos);
+  EXPECT_TRUE(test::says(refusalOf(scenario), "clock"));
 }
 
 }  // namespace window_ingress::adapters::world_lockstep_test

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "evaluation/csv.hpp"
+#include "refusal.hpp"
 
 namespace window_ingress::evaluation::flight_table_test {
 
@@ -26,15 +27,8 @@ FlightResult flightWith(std::uint32_t seed) {
 
 class FlightTable : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::temp_directory_path() / (std::string("flight_table_") + test->name());
-    fs::remove_all(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   std::string write(const std::string& name, const std::vector<FlightResult>& flights) const {
-    const fs::path folder = root_ / name;
+    const fs::path folder = root_.path / name;
     fs::create_directories(folder);
     std::ofstream rows(folder / "flights.csv"), tracks(folder / "tracks.csv");
     rows << csvHeader() << "\n";
@@ -46,14 +40,9 @@ class FlightTable : public testing::Test {
     return folder.string();
   }
   static std::string error(const std::vector<std::string>& folders) {
-    try {
-      joinFlights(folders);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+    return test::refusalOf([&] { joinFlights(folders); });
   }
-  fs::path root_;
+  test::TemporaryFolder root_;
 };
 
 TEST(FlightRow, HasTheColumnsOfTheHeader) {
@@ -97,38 +86,29 @@ TEST_F(FlightTable, JoinsShardsInTheOrderOfTheirSeeds) {
 
 TEST_F(FlightTable, NamesFileAndLineOfWhatIsWrong) {
   const std::string good = write("good", {flightWith(1)});
-  EXPECT_NE(error({good, good}).find("seed 1 was flown twice"), std::string::npos);
-  EXPECT_NE(error({"/nowhere"}).find("/nowhere/tracks.csv: cannot be read"), std::string::npos);
+  EXPECT_TRUE(test::says(error({good, good}), "seed 1 was flown twice"));
+  EXPECT_TRUE(test::says(error({"/nowhere"}), "/nowhere/tracks.csv: cannot be read"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED\n";
-  EXPECT_NE(error({good}).find("flights.csv:2: has not 12 fields"), std::string::npos);
+  EXPECT_TRUE(test::says(error({good}), "flights.csv:2: has not 12 fields"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,LANDED,1,,,,0,0,0,,x,0\n";
-  EXPECT_NE(error({good}).find("flights.csv:2: 'LANDED' is no outcome"), std::string::npos);
+  EXPECT_TRUE(test::says(error({good}), "flights.csv:2: 'LANDED' is no outcome"));
   std::ofstream(good + "/flights.csv") << csvHeader() << "\n1,PASSED,soon,,,,0,0,0,,x,0\n";
-  EXPECT_NE(error({good}).find("'soon' is no number"), std::string::npos);
+  EXPECT_TRUE(test::says(error({good}), "'soon' is no number"));
   std::ofstream(good + "/flights.csv") << "seed\n1\n";
-  EXPECT_NE(error({good}).find("flights.csv:1: is not 'seed,outcome"), std::string::npos);
+  EXPECT_TRUE(test::says(error({good}), "flights.csv:1: is not 'seed,outcome"));
 }
 
 TEST_F(FlightTable, DrawsAreReadByKeyAndSeedAndRefusedWithTheirLine) {
-  fs::create_directories(root_);
-  const std::string file = (root_ / "draws.csv").string();
-  const auto errorOf = [&](const std::string& text) -> std::string {
-    std::ofstream(file) << text;
-    try {
-      readDraws(file);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+  const auto errorOf = [&](const std::string& text) {
+    return test::refusalOf([&] { readDraws(root_.write("draws.csv", text)); });
   };
   EXPECT_EQ(errorOf("seed,wind/x_mps\n3,0.25\n9,1\n"), "");
-  const FlightDraws draws = readDraws(file);
+  const FlightDraws draws = readDraws(root_.path / "draws.csv");
   ASSERT_EQ(draws.size(), 2u);
   EXPECT_EQ(draws.at(3).at("wind/x_mps"), 0.25);
-  EXPECT_NE(errorOf("wind/x_mps\n0.5\n").find("must begin with 'seed'"), std::string::npos);
-  EXPECT_NE(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n").find(":3: seed 3 stands there twice"),
-            std::string::npos);
-  EXPECT_NE(errorOf("seed,wind/x_mps\n3\n").find(":2: "), std::string::npos);
+  EXPECT_TRUE(test::says(errorOf("wind/x_mps\n0.5\n"), "must begin with 'seed'"));
+  EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3,0.2\n3,0.3\n"), ":3: seed 3 stands there twice"));
+  EXPECT_TRUE(test::says(errorOf("seed,wind/x_mps\n3\n"), ":2: "));
 }
 
 }  // namespace window_ingress::evaluation::flight_table_test

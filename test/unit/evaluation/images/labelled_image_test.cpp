@@ -1,20 +1,16 @@
 #include "evaluation/images/labelled_image.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "drawn_window.hpp"
 #include "evaluation/csv.hpp"
+#include "refusal.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
 namespace window_ingress::evaluation::labelled_image_test {
-
-namespace fs = std::filesystem;
 
 const geometry::Quadrilateral kOpening{Eigen::Vector2d(220, 150), {420, 150}, {420, 310}, {220, 310}};
 
@@ -39,7 +35,7 @@ TEST(DetectionCounts, RatesOfNothingAreOne) {
 TEST(DetectionCounts, SaysRatesWithTheirIntervals) {
   DetectionCounts counts;
   counts.found = 27, counts.missed = 3, counts.wrong = 1;
-  EXPECT_NE(DetectionCounts().text().find("precision unknown (0 of 0)"), std::string::npos);
+  EXPECT_TRUE(test::says(DetectionCounts().text(), "precision unknown (0 of 0)"));
   EXPECT_EQ(counts.text(),
             "recall 90.0 % (74.4 to 96.5 %, 27 of 30), precision 96.4 % (82.3 to 99.4 %, 27 of 28)");
   EXPECT_NEAR(counts.f1(), 54.0 / 58.0, 1e-12);
@@ -65,28 +61,19 @@ TEST(CountDetections, FoundMissedAndWrong) {
 
 class LabelledFile : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   std::vector<LabelledImage> read(const std::string& text) {
-    const std::string file = (folder_ / "labels.csv").string();
-    std::ofstream(file) << text;
-    return readLabelled(file, folder_.string());
+    return readLabelled(folder_.write("labels.csv", text), folder_.path);
   }
   std::string errorOf(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusalOf([&] { read(text); });
   }
-  fs::path folder_ = fs::temp_directory_path() / ("labelled_image_test_" + std::to_string(::getpid()));
+  test::TemporaryFolder folder_;
   const std::string header_ = "file,label,x1,y1,x2,y2,x3,y3,x4,y4\n";
 };
 
 TEST_F(LabelledFile, ReadsTargetsNegativesAndWhatIsQuoted) {
-  cv::imwrite((folder_ / "a1.png").string(), windowImage().image);
-  cv::imwrite((folder_ / "b.png").string(), wall().image);
+  cv::imwrite(folder_.path / "a1.png", windowImage().image);
+  cv::imwrite(folder_.path / "b.png", wall().image);
   const auto samples = read(header_ +
                             "a1.png,\"gate, red\",220,150,420,150,420,310,220,310\n"
                             "a1.png,gate,420,310,220,310,220,150,420,150\n"
@@ -100,14 +87,13 @@ TEST_F(LabelledFile, ReadsTargetsNegativesAndWhatIsQuoted) {
 }
 
 TEST_F(LabelledFile, WhatIsWrongIsNamedWithItsLine) {
-  EXPECT_NE(errorOf("").find("empty"), std::string::npos);
-  EXPECT_NE(errorOf("file,x1\n").find("no column 'y1'"), std::string::npos);
-  EXPECT_NE(errorOf(header_).find("no image"), std::string::npos);
-  EXPECT_NE(errorOf(header_ + "none.png,,1,1,5,1,5,5,1,5\n").find("none.png: cannot be read"),
-            std::string::npos);
-  EXPECT_NE(errorOf(header_ + "\na.png,,1,1,5,1,5,nan,1,5\n").find("labels.csv:3: 'nan' is no number"),
-            std::string::npos);
-  EXPECT_NE(errorOf(header_ + "a.png,,1,1,5,5,5,1,1,5\n").find("no convex quadrilateral"), std::string::npos);
+  EXPECT_TRUE(test::says(errorOf(""), "empty"));
+  EXPECT_TRUE(test::says(errorOf("file,x1\n"), "no column 'y1'"));
+  EXPECT_TRUE(test::says(errorOf(header_), "no image"));
+  EXPECT_TRUE(test::says(errorOf(header_ + "none.png,,1,1,5,1,5,5,1,5\n"), "none.png: cannot be read"));
+  EXPECT_TRUE(
+      test::says(errorOf(header_ + "\na.png,,1,1,5,1,5,nan,1,5\n"), "labels.csv:3: 'nan' is no number"));
+  EXPECT_TRUE(test::says(errorOf(header_ + "a.png,,1,1,5,5,5,1,1,5\n"), "no convex quadrilateral"));
 }
 
 TEST(Labelled, WholeNoneAndInPart) {

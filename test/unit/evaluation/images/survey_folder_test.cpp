@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "evaluation/csv.hpp"
+#include "refusal.hpp"
 
 namespace window_ingress::evaluation::survey_folder_test {
 
@@ -13,14 +14,6 @@ namespace fs = std::filesystem;
 
 class SurveyFolderTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              (std::string("survey_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static SurveyImage draw(bool with_reference, double k1 = 0.0, const std::string& lens = "plumb_bob") {
     simulation::Scenario scenario;
     scenario.camera.width_px = 160;
@@ -32,7 +25,8 @@ class SurveyFolderTest : public testing::Test {
     return sample;
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path;
 };
 
 void expectSame(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
