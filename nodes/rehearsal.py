@@ -18,8 +18,8 @@ from window_ingress.msg import ImagePose, IngressState, WindowPose
 
 for folder in ("../tools", "."):  # of the sources; installed
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), folder))
-from ingress_tools.hand_odometry import HandOdometry, matrix_of  # noqa: E402
-from ingress_tools.transforms import quaternion_of, transforms_type  # noqa: E402
+from ingress_tools.hand_odometry import HandOdometry  # noqa: E402
+from ingress_tools.transforms import quaternion_of, rotation_of, transforms_type  # noqa: E402
 
 RATE_HZ = 50.0
 PAUSE_S = 3.0      # between an end and the next start
@@ -29,8 +29,7 @@ ENDS = IngressState.PASSED, IngressState.ABORTED
 
 def candidates_of(image):
     poses = [image.pose.pose] + ([image.alternative.pose] if image.has_alternative else [])
-    return [(matrix_of([p.orientation.x, p.orientation.y, p.orientation.z, p.orientation.w]),
-             numpy.array([p.position.x, p.position.y, p.position.z])) for p in poses]
+    return [(rotation_of(p.orientation), numpy.array([p.position.x, p.position.y, p.position.z])) for p in poses]
 
 
 def in_words(setpoint, heading):

@@ -12,6 +12,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import evaluate_detections as rules  # noqa: E402
+from ingress_tools.command_line import fail  # noqa: E402
 
 FIRST = (1, 10, 50)
 
@@ -58,10 +59,6 @@ def among(records, first):
     return rules.macro(records, lambda r: r["place"] is not None and r["place"] <= first)
 
 
-def percent(value):
-    return "" if value != value else f"{100.0 * value:.1f} %"
-
-
 HEADER = ("| images | number | chosen | among first " + " | ".join(map(str, FIRST)) + " | proposed | seen at all | of all annotated | lost to |\n"
           "|" + "---|" * (len(FIRST) + 7))
 
@@ -72,7 +69,7 @@ def table_row(title, records):
     every = rules.rate([1] * sum(r["seen"] for r in records) + [0] * sum(r["targets"] - r["seen"] for r in records))
     cells = [rules.macro(records, lambda r: r["chosen"]), *(among(records, first) for first in FIRST), among(records, 10**9),
              rules.macro(records, lambda r: r["any"]), every]
-    return f"| {title} | {len(records)} | " + " | ".join(map(percent, cells)) + f" | {said} |"
+    return f"| {title} | {len(records)} | " + " | ".join(map(rules.percent, cells)) + f" | {said} |"
 
 
 def print_table(records, title="", per_scene=False):
@@ -87,19 +84,12 @@ def print_table(records, title="", per_scene=False):
 
 def main():
     options = rules.parser_for(__doc__, "candidates", "csv of detect_images --candidates").parse_args()
-    try:
-        candidates, annotations, meta = map(rules.read, (options.candidates, options.annotations, options.meta))
-    except OSError as error:
-        print(f"evaluate_candidates: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 2
-    meta = {row["file"]: row for row in meta}
+    candidates, annotations, meta = rules.read_judged("evaluate_candidates", options.candidates, options)
     records = rules.only(evaluate(candidates, annotations, meta, set(options.leave_out), options.iou), options.half)
     if not records:
-        print(f"evaluate_candidates: {options.candidates}: no image of {options.meta} with a target in it", file=sys.stderr)
-        return 1
+        fail(1, f"evaluate_candidates: {options.candidates}: no image of {options.meta} with a target in it")
     print_table(records, per_scene=options.per_scene)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -16,7 +16,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from ingress_tools.command_line import Parser  # noqa: E402
+from ingress_tools.command_line import Parser, fail  # noqa: E402
 
 
 def cross(o, a, b):
@@ -66,6 +66,15 @@ def read(path):
         return list(csv.DictReader(file))
 
 
+def read_judged(tool, table, options):
+    """(rows of the table, annotations, {file: its row in the list of images}); ends the program if one cannot be read."""
+    try:
+        rows, annotations, meta = map(read, (table, options.annotations, options.meta))
+    except OSError as error:
+        fail(2, f"{tool}: {error.filename}: {error.strerror}")
+    return rows, annotations, {row["file"]: row for row in meta}
+
+
 def is_target(row):
     """False for what is annotated for another purpose."""
     return not row["label"].startswith("pose_only_") and not row["label"].endswith("_small")
@@ -103,6 +112,10 @@ def evaluate(detections, annotations, meta, leave_out, min_iou):
                         "detected": found is not None, "iou": best, "hit": best >= min_iou, "found": found,
                         "score": float(row["score"] or 0), "reason": row["reject_reason"], "ms": float(row["milliseconds"] or 0)})
     return records
+
+
+def percent(value):
+    return "" if value != value else f"{100.0 * value:.1f} %"
 
 
 def rate(hits):
@@ -169,22 +182,15 @@ def main():
     parser = parser_for(__doc__, "detections", "csv of detect_images")
     parser.add_argument("--misses", action="store_true", help="list the images whose target was not found")
     options = parser.parse_args()
-    try:
-        detections, annotations, meta = map(read, (options.detections, options.annotations, options.meta))
-    except OSError as error:
-        print(f"evaluate_detections: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 2
-    meta = {row["file"]: row for row in meta}
+    detections, annotations, meta = read_judged("evaluate_detections", options.detections, options)
     records = evaluate(detections, annotations, meta, set(options.leave_out), options.iou)
     if not records:
-        print(f"evaluate_detections: {options.detections}: no image of {options.meta} in it", file=sys.stderr)
-        return 1
+        fail(1, f"evaluate_detections: {options.detections}: no image of {options.meta} in it")
     records = only(records, options.half)
     report(records, options.half, options.per_scene)
     if options.misses:
         print_misses(records)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -75,10 +75,6 @@ class Photographs:
         return self.run(row["scene"], files, [row["taken_from_file"]], self.folder / row["ref_with_margin"])
 
 
-def percent(value):
-    return "" if value != value else f"{100.0 * value:.1f} %"
-
-
 def precision(records):
     """(rate, count) over detections in images whose every target is annotated."""
     detected = [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
@@ -101,11 +97,11 @@ def print_without_reference(records, per_scene):
     for tier in sorted({r["tier"] for r in targets}):
         some = [r for r in targets if r["tier"] == tier]
         exact, count = precision(some)
-        print(f"| {tier} | {len({r['scene'] for r in some})} | {percent(rules.macro(some, lambda r: r['hit']))} "
-              f"| {sum(r['hit'] for r in some)} of {len(some)} | {percent(exact)}{f' of {count}' if count else ''} "
+        print(f"| {tier} | {len({r['scene'] for r in some})} | {rules.percent(rules.macro(some, lambda r: r['hit']))} "
+              f"| {sum(r['hit'] for r in some)} of {len(some)} | {rules.percent(exact)}{f' of {count}' if count else ''} "
               f"| {milliseconds(some)} |")
     exact, count = precision(records)
-    print(f"\nAll tiers where exhaustive: precision {percent(exact)} of {count} detections.")
+    print(f"\nAll tiers where exhaustive: precision {rules.percent(exact)} of {count} detections.")
     for name, hard in (("without a target", False), ("with other rectangles", True)):
         print(f"Images {name}: false alarms on {alarms([r for r in records if not r['target'] and r['hard'] == hard])}.")
     if per_scene:
@@ -122,9 +118,9 @@ def print_with_reference(runs):
         own = [r for r in records if r["target"]]
         negatives = [r for r in records if not r["target"]]
         detected = [r for r in own if r["detected"]]
-        print(f"| {scene} | {percent(rules.rate(r['hit'] for r in own))} of {len(own)} "
-              f"| {percent(rules.rate(r['hit'] for r in detected))} of {len(detected)} | {alarms(negatives)} "
-              f"({percent(rules.rate(r['detected'] for r in negatives))}) | {alarms([r for r in negatives if r['hard']])} |")
+        print(f"| {scene} | {rules.percent(rules.rate(r['hit'] for r in own))} of {len(own)} "
+              f"| {rules.percent(rules.rate(r['hit'] for r in detected))} of {len(detected)} | {alarms(negatives)} "
+              f"({rules.percent(rules.rate(r['detected'] for r in negatives))}) | {alarms([r for r in negatives if r['hard']])} |")
 
 
 def sheet(photographs, records, path):

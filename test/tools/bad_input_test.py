@@ -1,21 +1,15 @@
 """What the tools answer to bad input: one clear line on stderr and the exit code of interfaces: 2 for wrong usage or
 unreadable input, 1 for a job that failed."""
 import pathlib
-import subprocess
 
 import cv2
 import numpy
 import pytest
 import rosbag
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-RUN = ROOT / "scripts" / "run"
-NOMINAL = ROOT / "config" / "scenarios" / "nominal.yaml"
+from repository import NOMINAL, run
+
 TOOLS = ["detect_images", "draw_stages", "fly", "replay_bag", "survey_detector", "survey_tracker"]
-
-
-def run(*arguments):
-    return subprocess.run([str(RUN), *map(str, arguments)], capture_output=True, text=True, timeout=120)
 
 
 def assert_refused(result, code, *words):
@@ -210,7 +204,7 @@ def test_unknown_tool_is_named():
 
 
 def test_run_works_from_any_folder(tmp_path):
-    result = subprocess.run([str(RUN), "fly", "--help"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    result = run("fly", "--help", cwd=tmp_path)
     assert result.returncode == 0 and "--scenario" in result.stdout
 
 

@@ -1,24 +1,18 @@
 """Bags recorded before the messages were nested: 'rosbag fix' brings every number of theirs into the present messages."""
-import pathlib
-import subprocess
 import sys
 
 import pytest
 
 rosbag = pytest.importorskip("rosbag")
-import genpy  # noqa: E402
-from genpy.dynamic import generate_dynamic  # noqa: E402
-from rosbag.migration import MessageUpdateRule  # noqa: E402
+import genpy
+from genpy.dynamic import generate_dynamic
+from rosbag.migration import MessageUpdateRule
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, run
+
 RULES = ROOT / "msg/migration/nested_messages.bmr"
 OLD = {"window_ingress/WindowPose": "4f0b002e9675a17f975f5e82c2c6ee5f", "window_ingress/WindowDetection": "34bf1e107acff7827cfb7582932d1ff0",
        "window_ingress/ReferencePicture": "5f9da380cb2e8862cb6e0c0349d5023b"}
-
-
-def run(tool, *arguments):
-    command = [ROOT / "scripts/run", tool, *arguments]
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=120, check=False)
 
 
 def old_types():

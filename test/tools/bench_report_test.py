@@ -1,15 +1,11 @@
 """What the report makes of measurements whose ratios are known."""
 import json
-import pathlib
-import subprocess
 import sys
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-REPORT = ROOT / "dev" / "bench_report.py"
-sys.path.insert(0, str(ROOT / "dev"))
-import bench_report as report  # noqa: E402
+import bench_report as report
+from repository import call
 
 
 def runs(name, milliseconds, found=1.0):
@@ -25,9 +21,8 @@ def write_times(folder, track_ms=0.1, found=1.0):
     (folder / "times.json").write_text(json.dumps({"benchmarks": rows}))
 
 
-def run(folder, *more):
-    return subprocess.run([sys.executable, str(REPORT), str(folder), "--json", str(folder / "bench.json"), *more],
-                          capture_output=True, text=True, check=False)
+def report_of(folder, *more):
+    return call(sys.executable, report.__file__, folder, "--json", folder / "bench.json", *more)
 
 
 def test_medians_not_means_and_no_aggregates(tmp_path):
@@ -39,7 +34,7 @@ def test_medians_not_means_and_no_aggregates(tmp_path):
 
 def test_ratios_are_ours_over_the_peer(tmp_path):
     write_times(tmp_path)
-    done = run(tmp_path)
+    done = report_of(tmp_path)
     assert done.returncode == 0, done.stderr
     ratios = json.loads((tmp_path / "bench.json").read_text())["ratios"]["brick_wall"]
     assert ratios["search"]["composition"] == pytest.approx(1 / 8)
@@ -50,14 +45,14 @@ def test_ratios_are_ours_over_the_peer(tmp_path):
 
 def test_a_slow_track_breaks_the_bound(tmp_path):
     write_times(tmp_path, track_ms=2.6)
-    done = run(tmp_path)
+    done = report_of(tmp_path)
     assert done.returncode == 1
     assert "track on brick_wall" in done.stderr
 
 
 def test_a_track_that_was_lost_is_no_track(tmp_path):
     write_times(tmp_path, track_ms=30.0, found=0.0)
-    done = run(tmp_path)
+    done = report_of(tmp_path)
     assert done.returncode == 1
     assert "track on brick_wall follows 0 %" in done.stderr
     assert "track" not in json.loads((tmp_path / "bench.json").read_text())["ratios"]["brick_wall"]
@@ -80,7 +75,7 @@ def test_document_keeps_what_is_outside_of_the_marks(tmp_path):
     doc = tmp_path / "doc.md"
     doc.write_text(f"before\n{report.BEGIN}\nold\n{report.END}\nafter\n")
     for _ in range(2):
-        assert run(tmp_path, "--doc", str(doc)).returncode == 0
+        assert report_of(tmp_path, "--doc", str(doc)).returncode == 0
         text = doc.read_text()
         assert text.startswith("before\n") and text.endswith("\nafter\n") and "old" not in text
         assert text.count(report.BEGIN) == 1 and text.count("| brick_wall |") == 4
@@ -90,7 +85,7 @@ def test_document_without_marks_is_refused_and_kept(tmp_path):
     write_times(tmp_path)
     doc = tmp_path / "doc.md"
     doc.write_text("no marks\n")
-    done = run(tmp_path, "--doc", str(doc))
+    done = report_of(tmp_path, "--doc", str(doc))
     assert done.returncode == 2 and len(done.stderr.strip().splitlines()) == 1
     assert doc.read_text() == "no marks\n"
 
@@ -105,14 +100,14 @@ def test_the_readme_gets_its_sentence_and_keeps_the_rest(tmp_path):
     write_all_times(tmp_path)
     readme = tmp_path / "README.md"
     readme.write_text("Here an image of 640 × 480 takes 1 to 2 ms to search and\n  9 ms; AprilTag 3 at full size takes 3 to 4 ms there. After.\n")
-    assert run(tmp_path, "--readme", str(readme)).returncode == 0
+    assert report_of(tmp_path, "--readme", str(readme)).returncode == 0
     assert readme.read_text() == ("Here an image of 640 × 480 takes 5 to 15 ms to search and\n  0.5 to 2 ms once the window is tracked; "
                                   "AprilTag 3 at full size takes 20 to 20 ms there. After.\n")
     readme.write_text("nothing of it\n")
-    assert run(tmp_path, "--readme", str(readme)).returncode == 2
+    assert report_of(tmp_path, "--readme", str(readme)).returncode == 2
 
 
 def test_nothing_measured_is_said(tmp_path):
-    done = run(tmp_path)
+    done = report_of(tmp_path)
     assert done.returncode == 2
     assert "nothing" in done.stderr

@@ -1,19 +1,15 @@
 """tools/campaign: shards flown by GNU parallel and joined are the same bytes as one process."""
 import json
 import os
-import pathlib
 import re
 import signal
 import subprocess
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, call, run
+
 SCENARIO = "time_limit_sec: 1.0\nstart: {distance_m: [2, 3]}\ncamera: {width_px: 64, height_px: 48}\n"
 FILES = ["flights.csv", "tracks.csv", "tracks.png", "summary.json"]
-
-
-def run(*command):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
 
 
 def scenario_in(folder, name="short"):
@@ -24,10 +20,10 @@ def scenario_in(folder, name="short"):
 
 def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
     scenario = scenario_in(tmp_path)
-    done = run(ROOT / "tools/campaign", "--output", tmp_path / "campaign", "--seeds", "1..5", "--shards", "2", scenario)
+    done = run("campaign", "--output", tmp_path / "campaign", "--seeds", "1..5", "--shards", "2", scenario)
     assert done.returncode == 0, done.stderr
     assert "| short | 5 |" in done.stdout
-    whole = run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--seeds", "1..5", "--jobs", "2", "--output",
+    whole = run("fly", "--scenario", scenario, "--seeds", "1..5", "--jobs", "2", "--output",
                 tmp_path / "whole")
     assert whole.returncode == 0, whole.stderr
     for name in FILES:
@@ -36,7 +32,7 @@ def test_two_shards_joined_are_the_same_bytes_as_one_process(tmp_path):
 
 
 def fly(scenario, folder, *arguments):
-    return run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--no-pictures", "--output", folder, *arguments)
+    return run("fly", "--scenario", scenario, "--no-pictures", "--output", folder, *arguments)
 
 
 def test_the_summary_says_what_was_flown(tmp_path):
@@ -64,10 +60,10 @@ def test_flights_are_overwritten_only_where_asked_for(tmp_path):
 
 def test_a_campaign_is_overwritten_only_where_asked_for(tmp_path):
     command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "1", "--no-pictures", scenario_in(tmp_path)]
-    assert run(*command).returncode == 0
-    again = run(*command)
+    assert call(*command).returncode == 0
+    again = call(*command)
     assert again.returncode == 2 and "--overwrite" in again.stderr and "short" in again.stderr
-    assert run(*command, "--overwrite").returncode == 0
+    assert call(*command, "--overwrite").returncode == 0
 
 
 def test_ctrl_c_says_how_to_go_on_and_what_goes_on_is_the_same_bytes(tmp_path):
@@ -112,16 +108,16 @@ def test_flights_of_something_else_are_not_gone_on_with(tmp_path):
 def test_a_campaign_that_was_broken_off_goes_on(tmp_path):
     scenario = scenario_in(tmp_path)
     command = [ROOT / "tools/campaign", "--output", tmp_path, "--seeds", "1..2", "--shards", "2", scenario]
-    assert run(*command).returncode == 0
+    assert call(*command).returncode == 0
     kept, lost = (tmp_path / "short/shards" / name / "summary.json" for name in ("1_of_2", "2_of_2"))
     before = kept.stat().st_mtime_ns
     lost.unlink()
-    assert run(*command, "--resume").returncode == 0
+    assert call(*command, "--resume").returncode == 0
     assert lost.exists() and kept.stat().st_mtime_ns == before
     command[command.index("1..2")] = "1..4"
-    assert run(*command, "--resume").returncode == 0  # as after Ctrl-C: summed up, and not all of them
+    assert call(*command, "--resume").returncode == 0  # as after Ctrl-C: summed up, and not all of them
     assert json.loads((tmp_path / "short/summary.json").read_text())["seeds"] == "1..4"
-    assert run(*command, "--resume").stderr == "campaign: all flights are there, none is left to fly\n"
+    assert call(*command, "--resume").stderr == "campaign: all flights are there, none is left to fly\n"
 
 
 def test_a_campaign_that_is_broken_off_before_its_first_flight_has_ended_goes_on(tmp_path):
@@ -135,16 +131,16 @@ def test_a_campaign_that_is_broken_off_before_its_first_flight_has_ended_goes_on
         time.sleep(0.05)
     campaign.send_signal(signal.SIGINT)
     assert "campaign: broken off; go on with --resume\n" in campaign.communicate(timeout=60)[1] and campaign.returncode == 1
-    assert not [line for line in run("ps", "-eo", "args").stdout.splitlines() if "bin/fly" in line and str(out) in line], "flies on"
+    assert not [line for line in call("ps", "-eo", "args").stdout.splitlines() if "bin/fly" in line and str(out) in line], "flies on"
     scenario.write_text(SCENARIO)
-    resumed = run(*command, "--resume")
+    resumed = call(*command, "--resume")
     assert resumed.returncode == 0 and "| short | 2 |" in resumed.stdout, resumed.stderr
 
 
 def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
     bad = tmp_path / "bad.yaml"
     bad.write_text("start: {distance_m: 500}\n")
-    done = run(ROOT / "tools/campaign", "--output", tmp_path / "out", "--seeds", "1..2", "--shards", "2", bad)
+    done = run("campaign", "--output", tmp_path / "out", "--seeds", "1..2", "--shards", "2", bad)
     assert done.returncode == 1
     assert "distance_m = 500 is not within" in done.stderr
     assert not (tmp_path / "out/table.md").exists()
@@ -152,9 +148,9 @@ def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
 
 def test_scenarios_flown_elsewhere_are_left_out_with_a_line(tmp_path):
     external = ROOT / "config/scenarios/external.yaml"
-    done = run(ROOT / "tools/campaign", "--output", tmp_path / "out", "--seeds", "1..1", "--shards", "1", external, scenario_in(tmp_path))
+    done = run("campaign", "--output", tmp_path / "out", "--seeds", "1..1", "--shards", "1", external, scenario_in(tmp_path))
     assert done.returncode == 0 and "external.yaml left out" in done.stderr and "| short | 1 |" in done.stdout, done.stderr
-    assert run(ROOT / "tools/campaign", "--output", tmp_path / "none", external).returncode == 2
+    assert run("campaign", "--output", tmp_path / "none", external).returncode == 2
 
 
 def test_wrong_usage_says_what_to_do(tmp_path):
@@ -162,18 +158,18 @@ def test_wrong_usage_says_what_to_do(tmp_path):
     for arguments, text in [([tmp_path / "none.yaml"], "no such file"), ([scenario, "--shards", "0"], "--shards"),
                             ([scenario, scenario], "same name"),
                             ([scenario, "--sshloginfile", scenario], "must lie below")]:
-        done = run(ROOT / "tools/campaign", "--output", tmp_path / "out", *arguments)
+        done = run("campaign", "--output", tmp_path / "out", *arguments)
         assert done.returncode == 2 and text in done.stderr, arguments
 
 
 def test_failures_are_kept_with_bag_and_picture(tmp_path):
     scenario = scenario_in(tmp_path)
-    done = run(ROOT / "scripts/run", "fly", "--scenario", scenario, "--seeds", "3", "--output", tmp_path / "out",
+    done = run("fly", "--scenario", scenario, "--seeds", "3", "--output", tmp_path / "out",
                "--keep-failures")
     assert done.returncode == 0, done.stderr
     bag = tmp_path / "out/failures/flight_3.bag"
     assert os.path.getsize(tmp_path / "out/failures/flight_3.png") > 1000
-    info = run(ROOT / "scripts/run", "rosbag", "info", bag)
+    info = run("rosbag", "info", bag)
     for topic in ("/camera/camera_info", "/camera/image_raw/compressed", "/cmd_vel", "/ground_truth/odom", "/imu", "/odom", "/state",
                   "/tf_static"):  # as sim.launch names them, and replay.launch expects them
         assert topic in info.stdout, info.stdout + info.stderr

@@ -1,25 +1,18 @@
 """check_frames flies in the simulated world behind the real guard, and finds it as REP 103 wants; its verdicts can be bad, too."""
-import importlib.machinery
-import importlib.util
 import math
-import pathlib
-import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, load, run
 
 
 @pytest.fixture(scope="module")
 def tool():
-    loader = importlib.machinery.SourceFileLoader("check_frames", str(ROOT / "tools/check_frames"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_frames", loader))
-    loader.exec_module(module)
-    return module
+    return load("tools/check_frames")
 
 
 def test_the_simulated_vehicle_goes_where_rep_103_wants(tmp_path):
-    done = subprocess.run([str(ROOT / "scripts/run"), "check_frames"], capture_output=True, text=True, timeout=180, check=False, cwd=tmp_path)
+    done = run("check_frames", cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count("OK     0.2 m/s along") == 6
     assert "0.2 m/s along +y of base_link: odometry moved" in done.stdout
@@ -48,7 +41,6 @@ def test_a_turn_the_wrong_way_is_named(tool, capsys):
 
 
 def test_without_a_master_there_is_nothing_to_watch():
-    done = subprocess.run(["env", "ROS_MASTER_URI=http://localhost:1", str(ROOT / "scripts/run"), "check_frames", "--by-hand"],
-                          capture_output=True, text=True, timeout=60, check=False)
+    done = run("env", "ROS_MASTER_URI=http://localhost:1", ROOT / "scripts/run", "check_frames", "--by-hand")
     assert done.returncode == 2
     assert "no master at ROS_MASTER_URI=http://localhost:1" in done.stderr

@@ -2,8 +2,12 @@
 import os
 import shutil
 import subprocess
+import sys
 
 import pytest
+from repository import ROOT
+
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "dev")]
 
 
 @pytest.fixture(name="screen")

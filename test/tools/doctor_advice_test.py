@@ -1,29 +1,21 @@
 """What doctor advises, on made-up findings; how it fares on live systems: test/ros/doctor*.test."""
-import importlib.machinery
-import importlib.util
 import os
 import pathlib
 import re
 import socket
-import subprocess
-import sys
 import types
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-from ingress_tools import findings, input_checks, observed_system, remedies  # noqa: E402
+from ingress_tools import findings, input_checks, observed_system, remedies
+from repository import ROOT, load, run
 
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
 
 
 @pytest.fixture(name="doctor", scope="module")
 def fixture_doctor():
-    loader = importlib.machinery.SourceFileLoader("doctor", str(ROOT / "tools/doctor"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("doctor", loader))
-    loader.exec_module(module)
-    return module
+    return load("tools/doctor")
 
 
 def seen(topics=(), said=()):
@@ -263,6 +255,5 @@ def test_only_a_master_elsewhere_asks_for_this_machines_address(doctor, monkeypa
 
 @pytest.mark.parametrize("words", [["--seconds", "abc"], ["--seconds", "-1"], ["--seconds", "nan"], ["--nope"]])
 def test_wrong_usage(words):
-    done = subprocess.run([str(ROOT / "scripts/run"), "doctor", *words], capture_output=True, text=True, timeout=60, check=False,
-                          env={**os.environ, "ROS_MASTER_URI": "http://localhost:1"})
+    done = run("doctor", *words, env={**os.environ, "ROS_MASTER_URI": "http://localhost:1"})
     assert done.returncode == 2 and "Traceback" not in done.stderr and words[0] in done.stderr, done.stderr

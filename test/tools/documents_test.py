@@ -1,7 +1,5 @@
 """Documents: every link leads somewhere, every command can be pasted and those of the README run, Doxygen has nothing to say."""
 import functools
-import importlib.machinery
-import importlib.util
 import os
 import pathlib
 import re
@@ -10,22 +8,16 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import time
 import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "dev"))
-import bench_report  # noqa: E402
+import bench_report
+from repository import ROOT, call, load, run
 
 DOCUMENTS = sorted([ROOT / "README.md", *ROOT.glob("doc/**/*.md")])
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
-
-
-def run(*command, cwd=ROOT, seconds=600):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=seconds, check=False, cwd=cwd)
 
 
 def outside_code(text):
@@ -140,7 +132,7 @@ def test_doxygen_has_nothing_to_say(tmp_path):
         pytest.skip("doxygen is not installed")
     settings = (ROOT / "doc/Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {tmp_path}\n"
     (tmp_path / "Doxyfile").write_text(settings)
-    done = run("doxygen", tmp_path / "Doxyfile")
+    done = call("doxygen", tmp_path / "Doxyfile", cwd=ROOT, timeout=600)
     assert done.returncode == 0 and not done.stderr, done.stderr
     assert (tmp_path / "html/index.html").is_file()
 
@@ -156,14 +148,7 @@ def readme_commands():
     return printed_commands(ROOT / "README.md")
 
 
-def load_ingress():
-    loader = importlib.machinery.SourceFileLoader("ingress", str(ROOT / "scripts/ingress"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("ingress", loader))
-    loader.exec_module(module)
-    return module
-
-
-INGRESS = load_ingress()
+INGRESS = load("scripts/ingress")
 ROOMS = "scripts", "dev", "tools", "nodes"
 ELSEWHERE = r"(roslaunch mavros|apt-get|rosrun gscam|rosrun plotjuggler) "  # of other packages
 ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
@@ -173,7 +158,7 @@ ROS = ("rosrun", "rostopic", "rosnode", "rosservice", "rosbag", "roslaunch")
 def explained(tool):
     """All that is known of the tool's options: its own help, or the text of a script."""
     script = next((ROOT / folder / tool for folder in ROOMS if (ROOT / folder / tool).is_file()), None)
-    return script.read_text(encoding="utf-8") if script else run("scripts/run", tool, "--help").stdout
+    return script.read_text(encoding="utf-8") if script else run(tool, "--help").stdout
 
 
 def arguments_of(launch_file):
@@ -213,14 +198,14 @@ OVERLAYS = [(file.name, block) for file in DOCUMENTS
 def test_printed_parameter_files_can_be_given(document, text, tmp_path):
     text = text.replace("/home/me/window.png", str(ROOT / "doc/detection.png"))  # any picture that is there
     (tmp_path / document).with_suffix(".yaml").write_text(text)
-    done = run("scripts/run", "check_overlay", (tmp_path / document).with_suffix(".yaml"))
+    done = run("check_overlay", (tmp_path / document).with_suffix(".yaml"))
     assert done.returncode == 0, done.stderr
 
 
 def checked_elsewhere(command, _):
     """What builds, tests or measures everything: here only that it can be read. scripts/test is, runs demo and
     check_install; bench, build_deb and check_deb take long and are run by hand."""
-    done = run("bash", "-n", command.split()[0])
+    done = call("bash", "-n", command.split()[0], cwd=ROOT)
     assert done.returncode == 0, done.stderr
 
 
@@ -228,7 +213,7 @@ def runs_a_tool(command, folder):
     """The very command, with the user's own files stood in for, fewer flights, and its output elsewhere."""
     words = command.replace("1..20", "1..1").replace("out/demo/detection.png", "doc/detection.png").split()
     words = [str(folder / word) if word.startswith("out/") else word for word in words]
-    done = run(*words)
+    done = call(*words, cwd=ROOT, timeout=600)
     assert done.returncode == 0, f"{words}\n{done.stderr}"
 
 
@@ -237,7 +222,7 @@ def launches(command, folder):
                                           "vehicle: {half_length_m: 0.3, half_width_m: 0.3, half_height_m: 0.1}\n")
     shutil.copy(ROOT / "doc/detection.png", folder / "window.jpg")
     words = command.replace("/home/me", str(folder)).split()
-    done = run(*words[:2], "--nodes", *words[2:])
+    done = call(*words[:2], "--nodes", *words[2:], cwd=ROOT)
     assert done.returncode == 0 and "/setpoint_guard" in done.stdout, done.stderr
 
 
@@ -254,8 +239,7 @@ def calls_a_service(command, folder):
     try:
         end = time.monotonic() + 60.0
         while True:
-            done = subprocess.run(command.split(), cwd=ROOT, env=environment, capture_output=True, text=True,
-                                  timeout=60, check=False)
+            done = call(*command.split(), cwd=ROOT, env=environment)
             if done.returncode == 0 or time.monotonic() > end:
                 break
             time.sleep(0.5)  # until the nodes are up

@@ -1,20 +1,17 @@
 """What the scripts make of detections whose worth is known."""
 import csv
 import math
-import pathlib
-import subprocess
 import sys
 
 import cv2
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import evaluate_candidates as candidates  # noqa: E402
-import evaluate_detections as rules  # noqa: E402
-import evaluate_photos as photos  # noqa: E402
-import evaluate_sequence as sequence  # noqa: E402
+import evaluate_candidates as candidates
+import evaluate_detections as rules
+import evaluate_photos as photos
+import evaluate_sequence as sequence
+from repository import ROOT, call
 
 SQUARE = [(10.0, 10.0), (50.0, 10.0), (50.0, 50.0), (10.0, 50.0)]
 META = {name: {"file": name, "scene": scene, "tier": tier, "exhaustive": exhaustive}
@@ -82,7 +79,7 @@ def test_precision_counts_only_what_is_annotated_exhaustively(records):
 
 def test_rate_of_nothing_is_no_number():
     assert math.isnan(rules.rate([]))
-    assert photos.percent(rules.rate([])) == ""
+    assert rules.percent(rules.rate([])) == ""
 
 
 def test_halves_are_fixed_and_keep_neighbours_of_a_video_together():
@@ -138,8 +135,7 @@ def test_a_window_that_moves_is_followed(tmp_path):
             writer.writerow({"file": f"{i}.png", **corners})
     tool = next(path for path in (ROOT / "build/ros/devel/lib/window_ingress/detect_images",
                                   ROOT / "build/core/detect_images") if path.exists())
-    done = subprocess.run([sys.executable, ROOT / "tools/evaluate_sequence.py", tmp_path, "--output", tmp_path / "out",
-                           "--tool", tool], capture_output=True, text=True, timeout=60, check=False)
+    done = call(sys.executable, ROOT / "tools/evaluate_sequence.py", tmp_path, "--output", tmp_path / "out", "--tool", tool)
     assert done.returncode == 0, done.stderr
     assert "6 frames, tracked in 6, lost in 0" in done.stdout
     assert "target numbers: 1\n" in done.stdout

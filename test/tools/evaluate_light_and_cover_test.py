@@ -1,15 +1,11 @@
 """What is drawn over views: the same again, in the promised measure, and nothing where it has no business."""
 import csv
-import pathlib
-import sys
 
+import cv2
+import numpy as np
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-np = pytest.importorskip("numpy")
-cv2 = pytest.importorskip("cv2")
-import evaluate_light_and_cover as drawing  # noqa: E402
+import evaluate_light_and_cover as drawing
 
 QUAD = np.array([[120, 80], [210, 85], [208, 165], [118, 160]], float)
 COVERS = ("person", "plants", "rope", "leaf")

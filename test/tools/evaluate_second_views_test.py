@@ -1,17 +1,14 @@
 """Second views that are drawn: the same again, with the windows where the table says, and an honest verdict."""
 import csv
-import pathlib
-import subprocess
 import sys
 
+import cv2
+import numpy as np
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-np = pytest.importorskip("numpy")
-cv2 = pytest.importorskip("cv2")
-import evaluate_second_views as views  # noqa: E402
-from ingress_tools import package_paths  # noqa: E402
+import evaluate_second_views as views
+from ingress_tools import package_paths
+from repository import call
 
 WINDOWS = np.array([[[200, 200], [360, 205], [358, 330], [202, 326]], [[600, 210], [760, 210], [760, 330], [600, 330]]], float)
 
@@ -64,14 +61,12 @@ def test_windows_among_stones_are_found_and_no_other(photos, tmp_path):
     tool = package_paths.program("detect_images")
     if not tool:
         pytest.skip("detect_images is not built")
-    run = subprocess.run([sys.executable, ROOT / "tools" / "evaluate_second_views.py", "--photos", photos, "--output",
-                          tmp_path / "out", "--tool", tool, "--seed", "5"], text=True, capture_output=True, check=True)
+    run = call(sys.executable, views.__file__, "--photos", photos, "--output", tmp_path / "out", "--tool", tool, "--seed", "5")
     count = [cell.strip() for cell in run.stdout.splitlines()[-1].split("|")[1:-1]]
     assert int(count[0]) >= 3 and count[1] == count[0], run.stdout
     assert count[-1].startswith("0 of "), run.stdout
 
 
 def test_a_folder_without_annotations_is_refused(tmp_path):
-    run = subprocess.run([sys.executable, ROOT / "tools" / "evaluate_second_views.py", "--photos", tmp_path, "--output",
-                          tmp_path / "out"], text=True, capture_output=True, check=False)
+    run = call(sys.executable, views.__file__, "--photos", tmp_path, "--output", tmp_path / "out")
     assert run.returncode != 0 and "annotations.csv" in run.stderr

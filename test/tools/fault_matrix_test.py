@@ -1,17 +1,13 @@
 """The matrix of faults: all rows are there, and its table tells the truth."""
-import importlib.machinery
-import importlib.util
-import pathlib
 import re
 import textwrap
 import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-loader = importlib.machinery.SourceFileLoader("fault_matrix", str(ROOT / "dev" / "fault_matrix"))
-matrix = importlib.util.module_from_spec(importlib.util.spec_from_loader("fault_matrix", loader))
-loader.exec_module(matrix)
+from repository import ROOT, load
+
+matrix = load("dev/fault_matrix")
 
 
 def test_every_row_is_there_once_and_is_readable():

@@ -3,24 +3,16 @@ import csv
 import math
 import pathlib
 import re
-import subprocess
-import sys
 
 import cv2
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-from ingress_tools import campaign_data, flight_data  # noqa: E402
+from ingress_tools import campaign_data, flight_data
+from repository import rows_of, run
 
 COLUMNS = ("time_s", "state", *flight_data.LOG_COLUMNS[1:], "reason")
 BAG_WRITER = pathlib.Path(__file__).with_name("write_flight_bag.py")
-
-
-def run(tool, *arguments):
-    command = [ROOT / "scripts/run", tool, *arguments]
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=120, check=False)
 
 
 def state_at(t):
@@ -82,8 +74,7 @@ def test_a_log_as_fly_writes_it_is_drawn_with_its_states(tmp_path):
     assert flown.returncode == 0, flown.stderr
     done = run("plot_flight", tmp_path / "log/flight_1.csv")
     assert done.returncode == 0, done.stderr
-    with open(tmp_path / "fly/flights.csv", newline="", encoding="utf-8") as file:
-        row = next(csv.DictReader(file))
+    row = rows_of(tmp_path / "fly/flights.csv")[0]
     flight = flight_data.read_flight(str(tmp_path / "log/flight_1.csv"))
     assert flight.predicted_miss == pytest.approx(float(row["predicted_miss_m"]), abs=1e-4)
     assert flight.crossing()[:3] == pytest.approx([float(row[n]) for n in ("time_s", "offset_y_m", "offset_z_m")], abs=2e-3)
@@ -264,8 +255,7 @@ def test_tables_that_cannot_be_used_are_named(tool, arguments, code, words, tmp_
     flights(tmp_path / "ABORTED", [(1, "ABORTED", "", "", "", "")])
     flights(tmp_path / "TORN", [(1, "PASSED", "0.0x", "0", "0.1", "")])
     write(tmp_path / "OTHER", [{"seed": 1}], ["seed"])
-    done = subprocess.run([str(ROOT / "scripts/run"), tool, *arguments, "--output", "out.png"], cwd=tmp_path,
-                          capture_output=True, text=True, timeout=60, check=False)
+    done = run(tool, *arguments, "--output", "out.png", cwd=tmp_path)
     assert done.returncode == code and done.stderr.count("\n") == 1, done.stderr
     assert all(word in done.stderr for word in words), done.stderr
     assert not (tmp_path / "out.png").exists()

@@ -1,9 +1,9 @@
 """The layout for Foxglove: every panel is placed once, and names topics and fields that exist."""
 import json
-import pathlib
 import re
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT
+
 LAYOUT = json.loads((ROOT / "config/foxglove.json").read_text())
 TOPICS = {"/markers", "/window_polygon", "/odom", "/debug_image", "/diagnostics", "/clicked_point"}
 

@@ -1,14 +1,9 @@
 """Odometry of a camera carried before a window: it goes the way that it is carried, and stands when it sees nothing."""
-import pathlib
-import sys
-
 import numpy
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
-from ingress_tools.hand_odometry import HEIGHT_M, R_BODY_CAMERA, HandOdometry  # noqa: E402
-from ingress_tools.transforms import quaternion_of  # noqa: E402
-from ingress_tools.hand_odometry import matrix_of  # noqa: E402
+from ingress_tools.hand_odometry import HEIGHT_M, R_BODY_CAMERA, HandOdometry
+from ingress_tools.transforms import matrix_of, quaternion_of
 
 RATE_HZ = 30.0
 

@@ -1,28 +1,20 @@
 """The command ingress: every sub-command leads to a tool that is there, in a clone, in a workspace and installed."""
-import importlib.machinery
-import importlib.util
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, call, load
+
 SCRIPTS = ROOT / "scripts"
 INGRESS = SCRIPTS / "ingress"
-LOADER = importlib.machinery.SourceFileLoader("ingress", str(INGRESS))
-ingress = importlib.util.module_from_spec(importlib.util.spec_from_loader("ingress", LOADER))
-LOADER.exec_module(ingress)
-
-
-def run(*command, **options):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=120, check=False, **options)
+ingress = load("scripts/ingress")
 
 
 def complete(*words):
-    return run(INGRESS, "--complete", *words).stdout.split()
+    return call(INGRESS, "--complete", *words).stdout.split()
 
 
 @pytest.mark.parametrize("words", ingress.COMMANDS)
@@ -36,18 +28,18 @@ def test_the_target_is_part_of_the_package_and_installed(words):
 
 def test_a_reader_that_stops_early_sees_no_traceback():
     for _ in range(3):
-        done = run("bash", "-c", f"{INGRESS} --help | true")
+        done = call("bash", "-c", f"{INGRESS} --help | true")
         assert done.stderr == ""
 
 
 def test_what_report_cannot_read_is_said_with_what_can(tmp_path):
-    done = run(INGRESS, "report", tmp_path, "--output", tmp_path / "out")
+    done = call(INGRESS, "report", tmp_path, "--output", tmp_path / "out")
     assert done.returncode == 2 and "is a folder; give a bag" in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("words", ingress.COMMANDS)
 def test_wrong_usage_is_said_in_one_line(words):
-    done = run(INGRESS, *words.split(), "--no-such-option")
+    done = call(INGRESS, *words.split(), "--no-such-option")
     assert done.returncode == 2 and not done.stdout and len(done.stderr.splitlines()) == 1, done.stderr
 
 
@@ -55,7 +47,7 @@ def test_wrong_usage_is_said_in_one_line(words):
 def test_help_has_one_shape(words):
     """What it does, usage, options, one example whose options there are, exit codes."""
     _, does, example = ingress.COMMANDS[words]
-    done = run(INGRESS, *words.split(), "--help", cwd=ROOT)
+    done = call(INGRESS, *words.split(), "--help", cwd=ROOT)
     assert done.returncode == 0 and not done.stderr
     lines = done.stdout.splitlines()
     assert lines[0] == f"ingress {words}: {does}" and any(line.lower().startswith(f"usage: ingress {words} ") for line in lines), done.stdout
@@ -65,7 +57,7 @@ def test_help_has_one_shape(words):
 
 
 def test_the_example_names_files_of_the_package_as_they_are_found_from_anywhere(tmp_path):
-    example = next(line for line in run(INGRESS, "fly", "--help", cwd=tmp_path).stdout.splitlines() if line.startswith("Example: "))
+    example = next(line for line in call(INGRESS, "fly", "--help", cwd=tmp_path).stdout.splitlines() if line.startswith("Example: "))
     assert os.path.isfile(example.split("--scenario ")[1].split()[0]), example
 
 
@@ -76,20 +68,20 @@ def test_every_tool_has_a_command():
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"], ["help"]])
 def test_alone_it_lists_all_commands_a_line_each(arguments):
-    done = run(INGRESS, *arguments)
+    done = call(INGRESS, *arguments)
     assert done.returncode == 0
     for words, (_, text, _) in ingress.COMMANDS.items():
         if " " in words:
             group, member = words.split()
             assert re.search(rf"^  {group} .*\b{member}\b", done.stdout, flags=re.M), words
-            assert re.search(rf"^  {member} +{re.escape(text)}$", run(INGRESS, group, "--help").stdout, flags=re.M), words
+            assert re.search(rf"^  {member} +{re.escape(text)}$", call(INGRESS, group, "--help").stdout, flags=re.M), words
         else:
             assert re.search(rf"^  {words} +{re.escape(text)}$", done.stdout, flags=re.M), words
 
 
 @pytest.mark.parametrize("words, nearest", [("flyy", "fly"), ("campain", "campaign"), ("plot fligt", "plot flight"), ("evaluate foto", "evaluate photos")])
 def test_an_unknown_command_is_refused_with_the_nearest(words, nearest):
-    done = run(INGRESS, *words.split())
+    done = call(INGRESS, *words.split())
     assert done.returncode == 2 and not done.stdout
     assert f"no command '{words}'; the nearest is '{nearest}'" in done.stderr and done.stderr.count("\n") == 1
 
@@ -100,12 +92,12 @@ def test_a_tools_own_name_is_answered_with_its_command(words):
     if tool in ingress.names_after(None):
         return  # the command has the tool's name
     for name in (tool, tool.removesuffix(".py")):
-        done = run(INGRESS, name)
+        done = call(INGRESS, name)
         assert done.returncode == 2 and f"no command '{name}'; that tool is 'ingress {words}'" in done.stderr, done.stderr
 
 
 def test_a_group_alone_says_what_it_has():
-    done = run(INGRESS, "plot")
+    done = call(INGRESS, "plot")
     assert done.returncode == 2 and "filter, flight, gusts" in done.stderr
 
 
@@ -122,7 +114,7 @@ def test_completion_in_bash():
     script = (f"source {SCRIPTS}/ingress_completion.bash; complete -p ingress >&2; COMP_WORDS=({INGRESS} plot mi); COMP_CWORD=2; "
               '_window_ingress_complete; echo "${COMPREPLY[@]}"; COMP_WORDS=(ingress_that_is_not_there x); COMP_CWORD=1; '
               '_window_ingress_complete; echo "${#COMPREPLY[@]}"')
-    assert run("bash", "-c", script).stdout.split("\n")[:2] == ["miss", "0"]
+    assert call("bash", "-c", script).stdout.split("\n")[:2] == ["miss", "0"]
 
 
 def copy_of_the_modules(folder):
@@ -139,7 +131,7 @@ FLY = '#!/bin/sh\necho "$0 flies $*"\nexit 7\n'
 
 
 def flies(program, fly, **environment):
-    done = run(program, "fly", "--seeds", "1..2", env={"PATH": os.environ["PATH"], **environment})
+    done = call(program, "fly", "--seeds", "1..2", env={"PATH": os.environ["PATH"], **environment})
     assert (done.returncode, done.stdout) == (7, f"{fly} flies --seeds 1..2\n"), done.stderr
 
 
@@ -168,14 +160,14 @@ def test_in_a_workspace_it_runs_the_tools_of_the_workspace(tmp_path):
         shutil.copy(SCRIPTS / name, source)
     copy_of_the_modules(source.parent / "tools")
     flies(source / "ingress", library / "fly", CMAKE_PREFIX_PATH=f"{tmp_path}/other:{tmp_path}/devel")
-    done = run(source / "run", "fly", "--seeds", "3", env={"PATH": os.environ["PATH"], "CMAKE_PREFIX_PATH": f"{tmp_path}/devel"})
+    done = call(source / "run", "fly", "--seeds", "3", env={"PATH": os.environ["PATH"], "CMAKE_PREFIX_PATH": f"{tmp_path}/devel"})
     assert (done.returncode, done.stdout) == (7, f"{library}/fly flies --seeds 3\n")
 
 
 def test_what_is_not_built_is_named(tmp_path):
     shutil.copy(INGRESS, tmp_path)
     copy_of_the_modules(tmp_path)
-    done = run(tmp_path / "ingress", "fly", env={"PATH": os.environ["PATH"]})
+    done = call(tmp_path / "ingress", "fly", env={"PATH": os.environ["PATH"]})
     assert done.returncode == 2 and "'fly' is not installed" in done.stderr
 
 
@@ -196,7 +188,7 @@ def test_run_keeps_a_workspace_that_is_sourced(tmp_path):
     messages.mkdir(parents=True)
     (tmp_path / "devel/.catkin").write_text(f"{tmp_path}/src")
     sourced = {**os.environ, "CMAKE_PREFIX_PATH": f"{tmp_path}/devel", "PYTHONPATH": str(messages), "ROS_PACKAGE_PATH": f"{tmp_path}/src"}
-    done = run(SCRIPTS / "run", "env", env=sourced)
+    done = call(SCRIPTS / "run", "env", env=sourced)
     for name in ("CMAKE_PREFIX_PATH", "PYTHONPATH", "ROS_PACKAGE_PATH"):
         paths = next(line for line in done.stdout.splitlines() if line.startswith(name + "=")).split("=", 1)[1].split(":")
         assert sourced[name] in paths and len(paths) > 1, name

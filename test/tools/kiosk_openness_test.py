@@ -1,15 +1,13 @@
 """The recorded flight before the kiosk: an open window, a poster, a pane of glass. Each is followed in turn, the others painted over
 where the truth says that they are."""
-import csv
-import pathlib
-import subprocess
-
 import cv2
 import numpy as np
 import pytest
 import rosbag
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from ingress_tools.transforms import rotation_of
+from repository import ROOT, rows_of, run
+
 DATA = ROOT / "../shared/data"
 WALL_BGR = (145, 163, 172)
 SHOWS_ALL = 104  # number of an image in which all three are whole
@@ -26,12 +24,6 @@ def corners_on_wall(name, grown_m=0.0):
     return np.array([(0, left, top), (0, right, top), (0, right, bottom), (0, left, bottom)], float)
 
 
-def rotation(q):
-    return np.array([[1 - 2 * (q.y ** 2 + q.z ** 2), 2 * (q.x * q.y - q.z * q.w), 2 * (q.x * q.z + q.y * q.w)],
-                     [2 * (q.x * q.y + q.z * q.w), 1 - 2 * (q.x ** 2 + q.z ** 2), 2 * (q.y * q.z - q.x * q.w)],
-                     [2 * (q.x * q.z - q.y * q.w), 2 * (q.y * q.z + q.x * q.w), 1 - 2 * (q.x ** 2 + q.y ** 2)]])
-
-
 class Kiosk:
     """The recording, with all but one of the three painted over."""
 
@@ -45,7 +37,7 @@ class Kiosk:
         """Nothing where one of them is behind the camera."""
         pose = self.poses[stamp]
         place = np.array([pose.position.x, pose.position.y, pose.position.z])
-        in_camera = points @ rotation(pose.orientation).T + place
+        in_camera = points @ rotation_of(pose.orientation).T + place
         if in_camera[:, 2].min() < 0.1:
             return None
         projected = in_camera @ self.K.T
@@ -74,13 +66,11 @@ class Kiosk:
 def verdicts(name, folder):
     bag, reference, corners = Kiosk().only(name, folder)
     left, right, top, bottom = BORDERS_M[name]
-    done = subprocess.run([str(ROOT / "scripts/run"), "replay_bag", "--bag", str(bag), "--output", str(folder / "out"), "--reference", str(reference),
-                           "--reference-corners", ",".join(f"{c:.2f}" for c in corners.ravel()),
-                           "--window-size", f"{left - right:.3f},{top - bottom:.3f}"],
-                          capture_output=True, text=True, timeout=300, check=False)
+    done = run("replay_bag", "--bag", bag, "--output", folder / "out", "--reference", reference,
+               "--reference-corners", ",".join(f"{c:.2f}" for c in corners.ravel()),
+               "--window-size", f"{left - right:.3f},{top - bottom:.3f}")
     assert done.returncode == 0, done.stderr
-    with open(folder / "out/frames.csv", newline="", encoding="utf-8") as stream:
-        frames = list(csv.DictReader(stream))
+    frames = rows_of(folder / "out/frames.csv")
     assert sum(row["detected"] == "1" for row in frames) > 80
     return [row["openness"] for row in frames]
 

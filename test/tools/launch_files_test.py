@@ -2,25 +2,20 @@
 import json
 import pathlib
 import re
-import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import cv2
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, call, run
+
 LAUNCH_FILES = sorted((ROOT / "launch").glob("*.launch"))
 NEEDED = {"replay": ["bag:=/tmp/none.bag"], "record": ["name:=/tmp/none"], "mavros": ["modes:=[OFFBOARD]"]}  # arguments without a default
 VEHICLE = ROOT / "test/ros/vehicle.yaml"
 SIZE = ["window_size:=1.2,1.0", f"config:={VEHICLE}"]
 GIVEN = {**NEEDED, "px4": SIZE, "ardupilot": SIZE, "mavros": [*NEEDED["mavros"], *SIZE]}  # and without which nothing is flown
 CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"}
-
-
-def run(*command):
-    return subprocess.run([str(ROOT / "scripts/run"), *map(str, command)], capture_output=True, text=True, timeout=60,
-                          check=False)
 
 
 def dump(name, *arguments):
@@ -253,9 +248,8 @@ def test_a_vehicle_that_does_not_fit_through_the_opening_ends_the_launch(tmp_pat
 
 def test_a_file_beside_the_user_is_found_and_one_that_is_not_there_is_named_whole(tmp_path):
     (tmp_path / "drone.yaml").write_text("vehicle: {half_width_m: 0.3}\n")
-    command = [str(ROOT / "scripts/run"), "roslaunch", "--nodes", str(ROOT / "launch/ingress.launch")]
     for name, code in (("drone.yaml", 0), ("dron.yaml", 1)):
-        done = subprocess.run([*command, f"config:={name}"], capture_output=True, text=True, timeout=60, check=False, cwd=tmp_path)
+        done = run("roslaunch", "--nodes", ROOT / "launch/ingress.launch", f"config:={name}", cwd=tmp_path)
         assert done.returncode == code, done.stderr
     assert f"config {tmp_path}/dron.yaml: no such file" in done.stderr
 
@@ -330,9 +324,9 @@ def test_a_scenario_that_cannot_be_ends_the_launch_before_anything_starts(tmp_pa
 
 
 def test_the_demo_says_why_it_did_not_fly():
-    nowhere = subprocess.run([ROOT / "scripts/demo", "--scenario", "/nowhere.yaml"], capture_output=True, text=True, timeout=60, check=False)
+    nowhere = call(ROOT / "scripts/demo", "--scenario", "/nowhere.yaml")
     assert nowhere.returncode == 2 and "/nowhere.yaml" in nowhere.stderr and "building" not in nowhere.stdout
-    mistyped = subprocess.run([ROOT / "scripts/demo", "--sead", "3"], capture_output=True, text=True, timeout=60, check=False)
+    mistyped = call(ROOT / "scripts/demo", "--sead", "3")
     assert mistyped.returncode == 2 and "unknown option '--sead'" in mistyped.stderr
 
 

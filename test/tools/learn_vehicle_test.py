@@ -1,16 +1,12 @@
 """learn_vehicle: from a recorded flight to the parameter file of the next one."""
-import pathlib
-import subprocess
-import sys
-
 import pytest
 import yaml
+
+from repository import run
 
 rosbag = pytest.importorskip("rosbag")
 IngressState = pytest.importorskip("window_ingress.msg").IngressState
 rospy = pytest.importorskip("rospy")
-
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "tools/learn_vehicle"
 
 
 def bag_of(folder, states, topics=("/state",)):
@@ -23,8 +19,7 @@ def bag_of(folder, states, topics=("/state",)):
 
 
 def learn(bag, output, *options):
-    return subprocess.run([sys.executable, SCRIPT, bag, "--output", output, *options], capture_output=True, text=True,
-                          check=False)
+    return run("learn_vehicle", bag, "--output", output, *options)
 
 
 def test_the_last_measurement_is_written(tmp_path):

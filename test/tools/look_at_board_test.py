@@ -1,31 +1,22 @@
 """look_at_board.py: whatever it looks from, the whole board is in the image, and the views differ as a calibrator wants."""
-import importlib.util
-import pathlib
-
 import numpy
 import pytest
 
+from ingress_tools.transforms import matrix_of
+from repository import load
+
 pytest.importorskip("rospy")
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SPEC = importlib.util.spec_from_file_location("look_at_board", ROOT / "nodes/look_at_board.py")
-look_at_board = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(look_at_board)
+look_at_board = load("nodes/look_at_board.py")
 
 FOCAL, CENTRE = 467.74, (319.5, 239.5)  # of the default camera, 640 x 480
 VIEWS = look_at_board.FAR + look_at_board.TILTED + look_at_board.NEAR
 CORNERS = [(5.0, 0.1 * (3.5 - column), 1.5 + 0.1 * (2.5 - row)) for row in range(6) for column in range(8)]
 
 
-def rotation(x, y, z, w):
-    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
 def seen(view):
     """Pixels of the inner corners; the camera is the vehicle's centre, x forward, y left, z up."""
     place, angles = look_at_board.pose(*view)
-    forward, left, up = rotation(*look_at_board.quaternion(*angles)).T @ (numpy.array(CORNERS) - place).T
+    forward, left, up = matrix_of(look_at_board.quaternion(*angles)).T @ (numpy.array(CORNERS) - place).T
     assert (forward > 0.3).all()
     return numpy.stack([CENTRE[0] - FOCAL * left / forward, CENTRE[1] - FOCAL * up / forward])
 

@@ -6,8 +6,9 @@ import sys
 import pytest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "faults", "ros"))
-import oracles  # noqa: E402
-from oracles import BadNumber, Death, Engaged, Frame, Limits, Process, Recording, Said, Setpoint, StampBack, State  # noqa: E402
+
+import oracles
+from oracles import BadNumber, Death, Engaged, Frame, Limits, Process, Recording, Said, Setpoint, StampBack, State
 
 NAVIGATOR, GUARD = "/ingress_navigator", "/setpoint_guard"
 LIMITS = Limits()

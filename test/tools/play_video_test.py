@@ -1,6 +1,5 @@
 """A rehearsal from a video file: a mission begins by what is seen in it; what cannot be played is said."""
 import os
-import pathlib
 import signal
 import socket
 import subprocess
@@ -11,8 +10,9 @@ import cv2
 import numpy
 import pytest
 
+from repository import ROOT
+
 pytest.importorskip("rospy")
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "test/ros"))
 from rehearse_test import PX_PER_M, wall  # noqa: E402
 

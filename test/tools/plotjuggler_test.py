@@ -1,9 +1,9 @@
 """The layout for PlotJuggler names topics and fields that exist."""
-import pathlib
 import re
 import xml.etree.ElementTree as ElementTree
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT
+
 KINDS = {"/state": "IngressState", "/window_pose": "WindowPose"}
 NUMBERS = {"bool", "uint8", "uint32", "float64"}
 TWISTS = {"/cmd_vel", "/ingress_navigator/cmd_vel"}

@@ -1,26 +1,16 @@
 """print_window: the printed frame is true to scale, whole, and is the one that its reference and parameter file describe."""
-import importlib.machinery
-import importlib.util
-import pathlib
 import re
-import subprocess
 
 import cv2
 import numpy
 import pytest
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-TOOL = ROOT / "tools/print_window"
-LOADER = importlib.machinery.SourceFileLoader("print_window", str(TOOL))
-printer = importlib.util.module_from_spec(importlib.util.spec_from_loader("print_window", LOADER))
-LOADER.exec_module(printer)
+from repository import load, run
+
+printer = load("tools/print_window")
 
 ORANGE, DPI = "#e15f14", 50.8  # two pixels a millimetre
-
-
-def run(*arguments):
-    return subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False)
 
 
 def printed(figure):
@@ -63,7 +53,7 @@ def test_sheets_without_a_bit_of_the_frame_are_left_out():
 
 
 def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
-    done = run("--output", tmp_path / "new/window.pdf", "--size", "0.5,0.4")
+    done = run("print_window", "--output", tmp_path / "new/window.pdf", "--size", "0.5,0.4")
     assert done.returncode == 0 and "at 100 %" in done.stdout, done.stderr
     pdf = (tmp_path / "new/window.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox \[ ?0 0 ([\d.]+) ([\d.]+) ?\]", pdf)
@@ -80,7 +70,7 @@ def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
     middle = image[round(top) + 40]
     edge = round(left)
     assert middle[edge - 3][2] > 200 and middle[edge - 3][0] < 40 and max(middle[edge + 3]) < 100  # frame, opening
-    checked = subprocess.run([ROOT / "scripts/run", "check_overlay", tmp_path / "new/window.yaml"], capture_output=True, text=True, check=False)
+    checked = run("check_overlay", tmp_path / "new/window.yaml")
     assert checked.returncode == 0, checked.stderr
 
 
@@ -89,11 +79,11 @@ def test_writes_pdf_reference_and_a_file_that_launch_files_take(tmp_path):
     (["--output", "w.pdf", "--size", "0.01,1"], "0.1 to 3 m"), (["--output", "w.pdf", "--frame", "wide"], "'wide' is no number"),
     (["--output", "w.pdf", "--frame", "1"], "0.01 to 0.3 m"), (["--output", "w.pdf", "--colour", "mud"], "'mud' is no colour"), ([], "--output")])
 def test_wrong_usage_is_one_line(arguments, said):
-    done = run(*arguments)
+    done = run("print_window", *arguments)
     assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
 def test_a_place_that_cannot_be_written_is_said(tmp_path):
     (tmp_path / "file").write_text("no folder", encoding="utf-8")
-    done = run("--output", str(tmp_path / "file/window.pdf"))
+    done = run("print_window", "--output", str(tmp_path / "file/window.pdf"))
     assert done.returncode == 1 and str(tmp_path / "file") in done.stderr and done.stderr.count("\n") == 1

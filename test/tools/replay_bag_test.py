@@ -1,22 +1,16 @@
 """replay_bag as people use it: the tables, the page made of them, and what it says about bags that lack something."""
-import csv
 import html.parser
 import json
-import pathlib
 import re
-import subprocess
 
 import cv2
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, rows_of, run
+
 WRITER = ROOT / "test/ros/write_camera_bag.py"
 SIZE = ("--window-size", "1.25,1.0")
-
-
-def run(*command, timeout=120):
-    return subprocess.run([str(ROOT / "scripts/run"), *map(str, command)], capture_output=True, text=True, timeout=timeout, check=False)
 
 
 def bag_of(folder, *words):
@@ -44,11 +38,6 @@ def test_an_earlier_replay_is_replaced_only_when_asked(tmp_path):
     assert (tmp_path / "frames.csv").read_text() == "kept"
     replay(bag, tmp_path)
     assert (tmp_path / "frames.csv").read_bytes() == before
-
-
-def rows(file):
-    with open(file, newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
 
 
 class Page(html.parser.HTMLParser):
@@ -97,16 +86,16 @@ def test_the_same_bag_gives_the_same_bytes(tmp_path):
         replay(bag, tmp_path / name, *SIZE)
     for table in ("frames.csv", "details.csv", "strip.csv"):
         assert (tmp_path / "one" / table).read_bytes() == (tmp_path / "two" / table).read_bytes(), table
-    assert len(rows(tmp_path / "one/latency.csv")) == len(rows(tmp_path / "one/frames.csv")) == 20
+    assert len(rows_of(tmp_path / "one/latency.csv")) == len(rows_of(tmp_path / "one/frames.csv")) == 20
 
 
 def test_raw_and_compressed_and_any_names_of_topics(tmp_path):
     found = {}
     for words in (["raw"], ["compressed"], ["raw", "image=/uav1/eye/image_raw"]):
         replay(bag_of(tmp_path, *words, "seconds=1"), tmp_path / "out", *SIZE)
-        found["".join(words)] = [row["detected"] for row in rows(tmp_path / "out/frames.csv")]
+        found["".join(words)] = [row["detected"] for row in rows_of(tmp_path / "out/frames.csv")]
     replay(bag_of(tmp_path, "seconds=1"), tmp_path / "out", *SIZE, "--image", "camera/image_raw", "--odom", "/odom")
-    found["as relative names"] = [row["detected"] for row in rows(tmp_path / "out/frames.csv")]
+    found["as relative names"] = [row["detected"] for row in rows_of(tmp_path / "out/frames.csv")]
     assert set(map(tuple, found.values())) == {("1",) * 20}
 
 
@@ -120,7 +109,7 @@ def test_the_reference_is_that_of_the_bag_unless_another_is_given(tmp_path):
     given = "--reference", tmp_path / "orange.png", "--reference-corners", "220,150,420,150,420,310,220,310"
     for options, found, said in (((), "0", True), (given, "1", False), (given[:2], None, False)):
         done = replay(bag, tmp_path / "out", *SIZE, *options)
-        assert found in {None, *(row["detected"] for row in rows(tmp_path / "out/frames.csv"))}
+        assert found in {None, *(row["detected"] for row in rows_of(tmp_path / "out/frames.csv"))}
         assert json.loads((tmp_path / "out/replay.json").read_text(encoding="utf-8"))["has_reference"]
         assert ("the reference image is the bag's own" in done.stderr) == said, done.stderr
         assert ("the opening in the reference image is guessed" in done.stderr) == (len(options) == 2), done.stderr
@@ -137,7 +126,7 @@ def test_a_recorded_loop_is_noticed_and_starts_anew(tmp_path):
     done = replay(bag_of(tmp_path, "seconds=2", "twice"), tmp_path / "out", *SIZE)
     assert "time jumps back by 2.0 s" in done.stderr or "time jumps back by 1.9 s" in done.stderr, done.stderr
     assert json.loads((tmp_path / "out/replay.json").read_text(encoding="utf-8"))["counts"]["jumps_back_in_time"] == 1
-    details = rows(tmp_path / "out/details.csv")
+    details = rows_of(tmp_path / "out/details.csv")
     tables = [{name: row[name] for name in row if name != "stamp"} for row in details]
     assert tables[:40] == tables[40:], "the second time is as the first"
 
@@ -162,5 +151,5 @@ def test_the_recorded_flight_before_the_kiosk(tmp_path):
            "--reference", data / "kiosk_reference.jpg", "--reference-corners", corners)
     page = Page(tmp_path / "out/report.html")
     assert "window found 206 of 240" in page.text and "without odometry 0" in page.text  # one of them cut by the edge
-    errors = sorted(float(row["error_corner_px"]) for row in rows(tmp_path / "out/frames.csv") if row["error_corner_px"])
+    errors = sorted(float(row["error_corner_px"]) for row in rows_of(tmp_path / "out/frames.csv") if row["error_corner_px"])
     assert errors[len(errors) // 2] < 0.5 and errors[-1] < 3.0

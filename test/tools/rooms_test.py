@@ -1,11 +1,10 @@
 """Every program lies in the room that is its own, and whatever names one names it where it lies."""
-import pathlib
 import re
-import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, call
+
 ROOMS = "scripts", "dev", "tools", "nodes"
 PLACE = re.compile(rf"(?<![\w/.}}\])-])(?<!#include \")(?:\./)?((?:{'|'.join(ROOMS)})/\w[\w./]*\w)")
 READ = "scripts", "dev", "tools", "nodes", "doc", "cmake", "launch", "config", "src", "test", ".ci"
@@ -37,4 +36,4 @@ def test_a_program_can_be_run_and_read(file):
     first = file.read_text(encoding="utf-8").split("\n")[0]
     assert (file.stat().st_mode & 0o100 != 0) == first.startswith("#!"), f"{file}: {first}"
     if first.endswith("bash"):
-        assert subprocess.run(["bash", "-n", file], check=False).returncode == 0
+        assert call("bash", "-n", file).returncode == 0

@@ -1,11 +1,10 @@
 """What doc/ros_api.md says of ROS 2: names that ROS 2 takes, and the core in a program without ROS."""
-import pathlib
 import re
-import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, call, run
+
 INTERFACES = sorted(file for kind in ("msg", "srv", "action") for file in (ROOT / kind).glob(f"*.{kind}"))
 EXAMPLE = ROOT / "test/install/without_ros"
 
@@ -21,11 +20,11 @@ def test_names_are_valid_in_ros_2(file):
 
 
 def test_the_example_without_ros_flies():
-    done = subprocess.run([ROOT / "scripts/run", "flies_without_ros"], capture_output=True, text=True, timeout=60, check=False)
+    done = run("flies_without_ros")
     assert done.returncode == 0, done.stdout + done.stderr
     assert re.match(r"[A-Z]+, \d\.\d\d m before the window, -?\d\.\d\d m to the left of its axis$", done.stdout), done.stdout
 
 
 def test_the_example_configures_with_the_core_as_part_of_it(tmp_path):
-    done = subprocess.run(["cmake", "-S", EXAMPLE, "-B", tmp_path], capture_output=True, text=True, timeout=120, check=False)
+    done = call("cmake", "-S", EXAMPLE, "-B", tmp_path)
     assert done.returncode == 0 and "catkin" not in done.stdout, done.stdout + done.stderr

@@ -1,7 +1,6 @@
 """view.launch in rviz itself, without a screen: it loads all of the configuration and asks for the right topics. Needs rviz and
 Xvfb (package xvfb); skipped where they are not installed."""
 import os
-import pathlib
 import shutil
 import signal
 import socket
@@ -11,7 +10,8 @@ import xmlrpc.client
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT
+
 UP_WITHIN_S = 90.0
 COMPLAINTS = ("failed to load", "could not be loaded", "does not exist", "unable to open", "error when loading", "exception",
               "segmentation")

@@ -1,13 +1,11 @@
 """tools/search_envelope: it repeats, goes on, finds what is there to be found, shrinks it and keeps it."""
-import csv
-import pathlib
 import re
-import subprocess
 
 import pytest
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, call, rows_of, run
+
 CALM = "glass: excluded\nunverified_opening: allow\nstart: {distance_m: [3.0, 3.5], off_axis_rad: [-0.1, 0.1]}\n"
 # Behind the brake nothing helps: the vehicle obeys random velocities.
 DEADLY = CALM + "time_limit_sec: 30\nfaults: [{unit: cmd_vel, kind: garbage, at_sec: [2.0, 4.0], duration_sec: 20.0}]\n"
@@ -15,19 +13,13 @@ DEADLY = CALM + "time_limit_sec: 30\nfaults: [{unit: cmd_vel, kind: garbage, at_
 
 def search(folder, *arguments):
     """As `ingress evaluate envelope` runs it: in a workspace through catkin's relay, which has no module's name."""
-    command = [ROOT / "scripts/ingress", "evaluate", "envelope", "--output", folder, "--jobs", "2", *arguments]
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=300, check=False)
+    return call(ROOT / "scripts/ingress", "evaluate", "envelope", "--output", folder, "--jobs", "2", *arguments)
 
 
 def envelope_in(folder, text):
     file = folder / "envelope.yaml"
     file.write_text(text)
     return file
-
-
-def rows_of(folder):
-    with (folder / "search.csv").open(newline="") as file:
-        return list(csv.DictReader(file))
 
 
 def test_a_search_repeats_and_one_that_is_broken_off_goes_on(tmp_path):
@@ -39,7 +31,7 @@ def test_a_search_repeats_and_one_that_is_broken_off_goes_on(tmp_path):
     assert refused.returncode == 2 and "--resume" in refused.stderr
     done = search(tmp_path / "again", "--envelope", envelope, "--flights", "15", "--resume")
     assert done.returncode == 0, done.stderr
-    rows = rows_of(tmp_path / "again")
+    rows = rows_of(tmp_path / "again/search.csv")
     assert [int(row["seed"]) for row in rows] == list(range(10000001, 10000016))
     assert {row["outcome"] for row in rows} == {"PASSED"}
     assert all(0.0 <= float(row["start/distance_m"]) <= 1.0 for row in rows)
@@ -53,8 +45,7 @@ def test_a_contact_is_found_shrunk_and_kept_as_a_scenario_that_repeats(tmp_path)
         scenario = yaml.safe_load(find.read_text())
         assert isinstance(scenario["start"]["distance_m"], float)
         outcome = find.read_text().split(":", 1)[0].removeprefix("# ")
-        again = subprocess.run([str(ROOT / "scripts/run"), "fly", "--scenario", str(find), "--seeds", find.stem, "--no-pictures",
-                                "--output", str(tmp_path / "fly"), "--overwrite"], capture_output=True, text=True, timeout=120, check=False)
+        again = run("fly", "--scenario", find, "--seeds", find.stem, "--no-pictures", "--output", tmp_path / "fly", "--overwrite")
         assert again.returncode == 0, again.stderr
         assert (tmp_path / "fly/flights.csv").read_text().splitlines()[1].split(",")[1] == outcome
 
@@ -62,8 +53,7 @@ def test_a_contact_is_found_shrunk_and_kept_as_a_scenario_that_repeats(tmp_path)
 @pytest.mark.parametrize("find", sorted((ROOT / "test/envelope").glob("*.yaml")), ids=lambda find: find.stem)
 def test_what_was_found_once_touches_nothing_any_more(tmp_path, find):
     for seed in re.findall(r"--seeds (\d+)", find.read_text()):
-        subprocess.run([str(ROOT / "scripts/run"), "fly", "--scenario", str(find), "--seeds", seed, "--no-pictures",
-                        "--output", str(tmp_path / seed)], capture_output=True, timeout=120, check=True)
+        assert run("fly", "--scenario", find, "--seeds", seed, "--no-pictures", "--output", tmp_path / seed).returncode == 0
         assert (tmp_path / seed / "flights.csv").read_text().splitlines()[1].split(",")[1] in ("PASSED", "ABORTED"), seed
 
 

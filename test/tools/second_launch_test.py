@@ -1,14 +1,12 @@
 """A launch beside one that runs: ROS would end the nodes of the first, the guard of a flying vehicle among them."""
 import contextlib
 import os
-import pathlib
-import subprocess
 import threading
 import xmlrpc.server
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import run
 
 
 @contextlib.contextmanager
@@ -28,8 +26,7 @@ def master(running=(), died=()):
 def launched(port, *arguments, by_option=False):
     """What roslaunch says before it starts anything; the file that is not there ends it in any case."""
     option, uri = (["-p", port], "http://localhost:1") if by_option else ([], f"http://localhost:{port}")
-    done = subprocess.run([str(word) for word in (ROOT / "scripts/run", "roslaunch", *option, *arguments, "config:=/nowhere.yaml")],
-                          capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "ROS_MASTER_URI": uri})
+    done = run("roslaunch", *option, *arguments, "config:=/nowhere.yaml", env={**os.environ, "ROS_MASTER_URI": uri})
     assert done.returncode == 1, done.stdout
     return done.stderr
 

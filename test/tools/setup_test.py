@@ -2,9 +2,10 @@
 import os
 import pathlib
 import re
-import subprocess
 
 import pytest
+
+from repository import call
 
 SETUP = pathlib.Path(__file__).resolve().parents[2] / "scripts/setup"
 LISTS = dict(re.findall(r'^(\w+)="\n([^"]*)"', SETUP.read_text(encoding="utf-8"), flags=re.M))
@@ -19,7 +20,7 @@ def system(name, number):
 def fixture_setup(tmp_path):
     """Calls it on a system where nothing is installed, or all but what is `missing`, and packages named in `absent` do not exist:
     (done, what it installed)."""
-    def call(os_release, *more, absent=(), missing=None):
+    def install(os_release, *more, absent=(), missing=None):
         query = "exit 1" if missing is None else f'case " {" ".join(missing)} " in *" ${{!#}} "*) exit 1 ;; *) echo -n installed ;; esac'
         tools = {"dpkg-query": query, "id": "echo 0", "apt-get": f'echo "$@" >>{tmp_path}/apt',
                  "apt-cache": f'case " {" ".join(absent)} " in *" ${{!#}} "*) exit 100 ;; esac'}
@@ -27,12 +28,11 @@ def fixture_setup(tmp_path):
             (tmp_path / name).write_text(f"#!/bin/bash\n{text}\n")
             (tmp_path / name).chmod(0o755)
         (tmp_path / "os-release").write_text(os_release)
-        done = subprocess.run([SETUP, *more], capture_output=True, text=True, check=False,
-                              env={**os.environ, "PATH": f"{tmp_path}:/usr/bin:/bin", "OS_RELEASE": str(tmp_path / "os-release")})
+        done = call(SETUP, *more, env={**os.environ, "PATH": f"{tmp_path}:/usr/bin:/bin", "OS_RELEASE": str(tmp_path / "os-release")})
         asked = (tmp_path / "apt").read_text().splitlines() if (tmp_path / "apt").exists() else []
         installed = [word for line in asked if line.startswith("install ") for word in line.split()[1:] if word[0] != "-"]
         return done, installed
-    return call
+    return install
 
 
 @pytest.mark.parametrize("os_release, packages", [
@@ -82,20 +82,20 @@ def test_an_option_is_none_of_apt(setup):
 
 @pytest.mark.parametrize("script, arguments", [("test", ["--help"]), ("test", ["pose"]), ("run", ["--help"]), ("run", [])])
 def test_a_script_that_takes_no_such_argument_says_so_and_does_nothing(script, arguments):
-    done = subprocess.run([SETUP.parent / script, *arguments], capture_output=True, text=True, check=False, timeout=10)
+    done = call(SETUP.parent / script, *arguments)
     assert done.returncode == 2 and not done.stdout and f"scripts/{script}" in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [["--seed"], ["--seed", "two"], ["--scenario"], ["--scenario", "nominal"]])
 def test_the_demo_refuses_a_wrong_value_in_one_line_before_it_installs(arguments):
-    done = subprocess.run([SETUP.parent / "demo", *arguments], capture_output=True, text=True, check=False, timeout=10)
+    done = call(SETUP.parent / "demo", *arguments)
     assert done.returncode == 2 and not done.stdout and done.stderr.startswith(f"demo: {arguments[0]} needs a "), done.stderr
     assert len(done.stderr.splitlines()) == 1
 
 
 @pytest.mark.parametrize("arguments", [[], ["trixie"], ["trixie", "amd64", "--steps", "core,flight"], ["trixie", "amd64", "--florp"]])
 def test_check_platform_refuses_what_it_cannot_do(arguments):
-    done = subprocess.run([SETUP.parents[1] / "dev/check_platform", *arguments], capture_output=True, text=True, check=False)
+    done = call(SETUP.parents[1] / "dev/check_platform", *arguments)
     assert done.returncode == 2 and not done.stdout and "setup, core, unit, ros, demo" in done.stderr
 
 
@@ -106,6 +106,6 @@ def test_an_installation_that_fails_leaves_nothing_in_the_repository(tmp_path):
     (tmp_path / "build/ros/CMakeCache.txt").write_text("")
     (tmp_path / "dev/check_install").write_bytes((SETUP.parents[1] / "dev/check_install").read_bytes())
     (tmp_path / "scripts/env.sh").write_text(f'root={tmp_path} build_ros={tmp_path}/build/ros\ncmake() {{ mkdir "$2/install"; return 1; }}\n')
-    done = subprocess.run(["bash", tmp_path / "dev/check_install"], capture_output=True, text=True, check=False)
+    done = call("bash", tmp_path / "dev/check_install")
     assert done.returncode == 1 and not done.stderr
     assert [file.name for file in (tmp_path / "build/ros").iterdir()] == ["CMakeCache.txt"]

@@ -1,11 +1,11 @@
 """The tree of C++ sources: small folders, an interface that stands alone, tests that mirror what they test."""
 import collections
-import pathlib
 import re
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT
+
 PUBLIC = ROOT / "include/window_ingress"
 MAX_FILES_OF_A_KIND = 16
 MAX_PUBLIC_HEADERS = 90

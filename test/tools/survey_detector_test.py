@@ -1,17 +1,9 @@
 """The survey of the detector: repeatable, the same from files, honest about what is not there."""
-import csv
-import pathlib
-import subprocess
-
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import rows_of, run, timeless
+
 SCENARIO = "camera: {width_px: 320, height_px: 240}\nhouse: {texture_seed: [1, 50]}\n"
-
-
-def survey(*arguments):
-    return subprocess.run([str(ROOT / "scripts/run"), "survey_detector", *map(str, arguments)], capture_output=True,
-                          text=True, timeout=120, check=False)
 
 
 @pytest.fixture
@@ -21,35 +13,30 @@ def scenario(tmp_path):
     return file
 
 
-def rows(folder):
-    with open(folder / "frames.csv", newline="") as file:
-        return [{k: v for k, v in row.items() if k != "milliseconds"} for row in csv.DictReader(file)]
-
-
 def test_same_arguments_same_rows_and_the_same_from_files(scenario, tmp_path):
-    drawn = survey("--scenario", scenario, "--frames", 3, "--save", tmp_path / "saved", "--output", tmp_path / "a")
+    drawn = run("survey_detector", "--scenario", scenario, "--frames", 3, "--save", tmp_path / "saved", "--output", tmp_path / "a")
     assert drawn.returncode == 0, drawn.stderr
     assert "| small | 3 |" in drawn.stdout
-    assert survey("--scenario", scenario, "--frames", 3, "--output", tmp_path / "b").returncode == 0
-    assert rows(tmp_path / "a") == rows(tmp_path / "b")
-    loaded = survey("--load", tmp_path / "saved", "--output", tmp_path / "c")
+    assert run("survey_detector", "--scenario", scenario, "--frames", 3, "--output", tmp_path / "b").returncode == 0
+    assert timeless(tmp_path / "a/frames.csv") == timeless(tmp_path / "b/frames.csv")
+    loaded = run("survey_detector", "--load", tmp_path / "saved", "--output", tmp_path / "c")
     assert loaded.returncode == 0, loaded.stderr
-    assert rows(tmp_path / "c") == rows(tmp_path / "a")
-    assert [row["seed"] for row in rows(tmp_path / "a")] == ["1", "2", "3"]
+    assert timeless(tmp_path / "c/frames.csv") == timeless(tmp_path / "a/frames.csv")
+    assert [row["seed"] for row in timeless(tmp_path / "a/frames.csv")] == ["1", "2", "3"]
 
 
 def test_exact_distances_in_turn(scenario, tmp_path):
-    done = survey("--scenario", scenario, "--frames", 3, "--at", "2,4,8", "--no-reference", "--static-camera",
+    done = run("survey_detector", "--scenario", scenario, "--frames", 3, "--at", "2,4,8", "--no-reference", "--static-camera",
                   "--antialiasing", "multisampling", "--output", tmp_path)
     assert done.returncode == 0, done.stderr
-    assert [float(row["distance_m"]) for row in rows(tmp_path)] == [2.0, 4.0, 8.0]
+    assert [float(row["distance_m"]) for row in rows_of(tmp_path / "frames.csv")] == [2.0, 4.0, 8.0]
     assert "hits at 8 m" in done.stdout
 
 
 def test_without_target_nothing_can_be_hit(scenario, tmp_path):
-    done = survey("--scenario", scenario, "--frames", 2, "--without-target", "--output", tmp_path)
+    done = run("survey_detector", "--scenario", scenario, "--frames", 2, "--without-target", "--output", tmp_path)
     assert done.returncode == 0, done.stderr
-    assert {row["verdict"] for row in rows(tmp_path)} <= {"nothing", "false_alarm"}
+    assert {row["verdict"] for row in rows_of(tmp_path / "frames.csv")} <= {"nothing", "false_alarm"}
 
 
 @pytest.mark.parametrize("arguments, word", [
@@ -65,7 +52,7 @@ def test_without_target_nothing_can_be_hit(scenario, tmp_path):
 ])
 def test_bad_usage_is_refused_in_one_line(arguments, word, scenario, tmp_path):
     places = {"FILE": scenario, "OUT": tmp_path / "out"}
-    done = survey(*[places.get(a, a) for a in arguments])
+    done = run("survey_detector", *[places.get(a, a) for a in arguments])
     assert done.returncode == 2, done.stderr
     assert len(done.stderr.strip().splitlines()) == 1
     assert word in done.stderr

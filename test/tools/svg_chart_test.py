@@ -1,14 +1,11 @@
 """Charts of the report: round ticks, gaps where nothing is known, nothing outside the frame."""
 import math
-import pathlib
 import re
-import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
-from ingress_tools import svg_chart  # noqa: E402
+from ingress_tools import svg_chart
 
 NAN = math.nan
 

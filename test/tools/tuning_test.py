@@ -1,7 +1,6 @@
 """Tuning tools and the operator's reference: without a display, on images that the test makes; with one where there is Xvfb."""
 import csv
 import os
-import pathlib
 import re
 import shutil
 import subprocess
@@ -12,15 +11,15 @@ import numpy
 import pytest
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from repository import ROOT, run
+
 WIDTH, HEIGHT, FOCAL = 320, 240, 250.0
 OPENING = (1.2, 1.0)  # m
 BLIND = "window_detector: {detector: {gates: {min_area: 0.5}}}\n"  # no window is that large
 
 
-def run(*command, **environment):
-    done = subprocess.run([str(ROOT / "scripts/run"), *map(str, command)], capture_output=True, text=True, timeout=240, check=False,
-                          env={**os.environ, **environment})
+def answer(*command, **environment):
+    done = run(*command, env={**os.environ, **environment})
     return done.returncode, done.stdout, done.stderr
 
 
@@ -87,7 +86,7 @@ with rosbag.Bag({str(file)!r}, "w") as bag:
             item.header.stamp, item.header.frame_id = stamp, "camera"
             bag.write(topic, item, stamp)
 """
-    code, _, errors = run("python3", "-c", script)
+    code, _, errors = answer("python3", "-c", script)
     assert code == 0, errors
     return file
 
@@ -102,7 +101,7 @@ def blind(tmp_path):
 # --- tune_detector
 def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
     saved, sheet = tmp_path / "my.yaml", tmp_path / "stages.jpg"
-    code, said, errors = run("tune_detector", labelled, "--headless", "--set", "edges/floor=4.5", "--set", "preprocess/equalise=true",
+    code, said, errors = answer("tune_detector", labelled, "--headless", "--set", "edges/floor=4.5", "--set", "preprocess/equalise=true",
                              "--set", "max_candidates=30", "--output", saved, "--sheet", sheet)
     assert code == 0, errors
     assert re.search(r"windows in 12 of 14 images, median \d+\.\d ms\n", said), said
@@ -111,14 +110,14 @@ def test_settings_are_tried_and_saved_for_nodes_and_tools(labelled, tmp_path):
     assert yaml.safe_load(saved.read_text()) == {"window_detector": {"detector": {
         "edges": {"floor": 4.5}, "preprocess": {"equalise": True}, "max_candidates": 30}}}
     assert cv2.imread(str(sheet)).shape[1] > 1000
-    code, said, errors = run("tune_detector", labelled / "a.png", "--headless", "--params", saved, "--set", "gates/min_area=0.5")
+    code, said, errors = answer("tune_detector", labelled / "a.png", "--headless", "--params", saved, "--set", "gates/min_area=0.5")
     assert code == 0 and "windows in 0 of 1 images" in said, errors
-    code, _, errors = run("detect_images", "--output", tmp_path / "found.csv", "--params", saved, labelled)
+    code, _, errors = answer("detect_images", "--output", tmp_path / "found.csv", "--params", saved, labelled)
     assert code == 0, errors
 
 
 def test_a_bag_is_a_source_too(bag):
-    code, said, errors = run("tune_detector", bag, "--headless", "--every", "3")
+    code, said, errors = answer("tune_detector", bag, "--headless", "--every", "3")
     assert code == 0, errors
     assert "windows in 4 of 4 images" in said and "image 9 of /camera/image_raw" in said
 
@@ -129,14 +128,14 @@ def test_a_bag_is_a_source_too(bag):
     (["LABELLED", "--headless", "--params", "/nowhere.yaml"], "/nowhere.yaml"), (["LABELLED"], "--output is missing"),
     (["LABELLED", "--output", "x.yaml"], "no display"), (["LABELLED", "--headless", "--output", "/proc/x.yaml"], "cannot be written")])
 def test_tune_detector_says_what_is_wrong(labelled, arguments, words):
-    code, _, errors = run("tune_detector", *[str(labelled) if a == "LABELLED" else a for a in arguments],
+    code, _, errors = answer("tune_detector", *[str(labelled) if a == "LABELLED" else a for a in arguments],
                           ROS_MASTER_URI="http://localhost:1", DISPLAY="", WAYLAND_DISPLAY="")
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
 
 
 def test_a_display_that_is_gone_is_said(labelled, tmp_path):
     for tool, source in (("tune_detector", labelled), ("make_reference", next(labelled.glob("*.png")))):
-        code, _, errors = run(tool, source, "--output", tmp_path / "x.yaml", DISPLAY=":4711", WAYLAND_DISPLAY="")
+        code, _, errors = answer(tool, source, "--output", tmp_path / "x.yaml", DISPLAY=":4711", WAYLAND_DISPLAY="")
         assert code == 2 and "there is no display" in errors and len(errors.strip().splitlines()) == 1, errors
 
 
@@ -187,7 +186,7 @@ def test_trackbars_open_and_what_they_show_is_saved(labelled, tmp_path, display)
 
 # --- tune_from_bag
 def tune(*arguments):
-    return run("tune_from_bag", "--trials", 40, "--names", "gates/min_area,min_score", *arguments)
+    return answer("tune_from_bag", "--trials", 40, "--names", "gates/min_area,min_score", *arguments)
 
 
 def test_bad_thresholds_are_mended_and_the_changed_keys_written(labelled, blind, tmp_path):
@@ -200,7 +199,7 @@ def test_bad_thresholds_are_mended_and_the_changed_keys_written(labelled, blind,
     assert "40 of 40 settings tried; best F1 1.000" in errors
     tuned = yaml.safe_load(saved.read_text())["window_detector"]["detector"]
     assert set(tuned) <= {"gates", "min_score"} and tuned["gates"]["min_area"] < 0.2
-    code, said, errors = run("tune_detector", labelled, "--headless", "--params", saved)
+    code, said, errors = answer("tune_detector", labelled, "--headless", "--params", saved)
     assert code == 0 and "windows in 12 of 14 images" in said, errors
 
 
@@ -212,7 +211,7 @@ def test_bags_with_truth_are_labelled_images(bag, blind, tmp_path):
 
 def test_nothing_is_written_where_nothing_is_better(labelled, tmp_path):
     saved = tmp_path / "none.yaml"
-    code, said, errors = run("tune_from_bag", "--trials", 15, "--labels", labelled / "labels.csv", "--images", labelled, "--output", saved)
+    code, said, errors = answer("tune_from_bag", "--trials", 15, "--labels", labelled / "labels.csv", "--images", labelled, "--output", saved)
     assert code == 1 and "nothing written" in said, said + errors
     assert not saved.exists()
 
@@ -226,7 +225,7 @@ def test_nothing_is_written_where_nothing_is_better(labelled, tmp_path):
     (["--output", "x", "--labels", "LABELS", "--images", "FOLDER", "--held-out", "2"], "--held-out")])
 def test_tune_from_bag_says_what_is_wrong(labelled, arguments, words):
     known = {"LABELS": labelled / "labels.csv", "FOLDER": labelled}
-    code, _, errors = run("tune_from_bag", *[known.get(a, a) for a in arguments])
+    code, _, errors = answer("tune_from_bag", *[known.get(a, a) for a in arguments])
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors
 
 
@@ -237,7 +236,7 @@ def flat(corners):
 
 def test_a_reference_is_made_from_four_corners(labelled, tmp_path):
     written = tmp_path / "below" / "target.png"
-    code, said, errors = run("make_reference", labelled / "a.png", "--output", written, "--corners", flat(corners_at(*VIEWS[0])))
+    code, said, errors = answer("make_reference", labelled / "a.png", "--output", written, "--corners", flat(corners_at(*VIEWS[0])))
     assert code == 0 and not errors, errors
     assert f"config:={written.with_suffix('.yaml')}" in said
     kept = yaml.safe_load(written.with_suffix(".yaml").read_text())["window_detector"]["reference"]
@@ -246,21 +245,21 @@ def test_a_reference_is_made_from_four_corners(labelled, tmp_path):
     understood = cv2.imread(str(written.with_name("target_understood.png")))
     x, y = (round(value) for value in corners_at(*VIEWS[0])[0])
     assert understood[y, x + 20, 1] > 150, "the inner border is drawn in green"
-    code, said, errors = run("tune_detector", labelled, "--headless", "--reference", written, "--reference-corners", flat(corners_at(*VIEWS[0])))
+    code, said, errors = answer("tune_detector", labelled, "--headless", "--reference", written, "--reference-corners", flat(corners_at(*VIEWS[0])))
     assert code == 0 and "windows in 12 of 14 images" in said and ", distance 0.0" in said, said + errors
 
 
 def test_corners_are_fitted_to_the_edges_near_them(labelled, tmp_path):
     true = corners_at(*VIEWS[0])
     rough = [(x + dx, y + dy) for (x, y), (dx, dy) in zip(true, ((2, 1), (-2, 2), (1, -2), (2, 2)))]
-    code, _, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(rough))
+    code, _, errors = answer("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(rough))
     assert code == 0, errors
     kept = yaml.safe_load((tmp_path / "a.yaml").read_text())["window_detector"]["reference"]["corners"]
     assert numpy.abs(numpy.array(kept) - numpy.round(numpy.array(true)).ravel()).max() < 1.0
 
 
 def test_a_fit_says_how_far_each_side_moved(labelled, tmp_path):
-    code, said, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
+    code, said, errors = answer("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
     assert code == 0, errors
     assert re.search(r"moved by the fit: top \d\.\d px, right \d\.\d px, bottom \d\.\d px, left \d\.\d px", said), said
 
@@ -272,7 +271,7 @@ def test_a_side_far_from_where_it_was_clicked_is_refused_by_name(tmp_path):
     image[69:172, 89:216] = (60, 50, 45)
     image[69:172, 211:221] = (58, 49, 44)
     cv2.imwrite(str(tmp_path / "frame.png"), image)
-    code, _, errors = run("make_reference", tmp_path / "frame.png", "--output", tmp_path / "a.png", "--fit", "--corners",
+    code, _, errors = answer("make_reference", tmp_path / "frame.png", "--output", tmp_path / "a.png", "--fit", "--corners",
                           "88.5,68.5,215.5,68.5,215.5,171.5,88.5,171.5")
     assert code == 1 and "the right side would move by 5" in errors and "more than 3.0" in errors, errors
     assert not (tmp_path / "a.png").exists()
@@ -286,7 +285,7 @@ def test_the_corners_of_the_page_are_fitted_in_a_deep_frame(tmp_path):
     for grow, colour in ((16, (60, 160, 215)), (0, (50, 135, 190)), (-4, (60, 60, 45))):
         image[top - grow:bottom + grow + 1, left - grow:right + grow + 1] = colour
     cv2.imwrite(str(tmp_path / "photo.png"), image)
-    code, said, errors = run("make_reference", tmp_path / "photo.png", "--output", tmp_path / "a.png", "--fit", "--corners", said_there)
+    code, said, errors = answer("make_reference", tmp_path / "photo.png", "--output", tmp_path / "a.png", "--fit", "--corners", said_there)
     assert code == 0, errors
     moved = re.search(r"moved by the fit: top (\S+) px, right (\S+) px, bottom (\S+) px, left (\S+) px", said)
     assert max(map(float, moved.groups())) < 1.0, said
@@ -295,7 +294,7 @@ def test_the_corners_of_the_page_are_fitted_in_a_deep_frame(tmp_path):
 @pytest.mark.parametrize("off, said", [((6, 0), "poor corners: "), ((25, 9), "poor corners: "), ((1, 0), "")])
 def test_corners_that_are_saved_beside_the_edges_are_said_to_be(labelled, tmp_path, off, said):
     corners = [(x + off[0], y + off[1]) for x, y in corners_at(*VIEWS[0])]
-    code, done, errors = run("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--corners", flat(corners))
+    code, done, errors = answer("make_reference", labelled / "a.png", "--output", tmp_path / "a.png", "--corners", flat(corners))
     assert code == 0 and (tmp_path / "a.png").exists()
     assert (f"warning: {said}" in errors) if said else not errors, errors
     sides = re.search(r"beside the edges near them: top (\S+) px, right (\S+) px, bottom (\S+) px, left (\S+) px", done)
@@ -307,7 +306,7 @@ def test_a_side_without_a_straight_edge_is_refused(labelled, tmp_path):
     (left, top), _, (right, bottom), _ = [(round(x), round(y)) for x, y in corners_at(*VIEWS[0])]
     image[top + 20:bottom - 20, left - 12:left + 12] = (60, 50, 45)  # somebody stands before it
     cv2.imwrite(str(tmp_path / "hidden.png"), image)
-    code, _, errors = run("make_reference", tmp_path / "hidden.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
+    code, _, errors = answer("make_reference", tmp_path / "hidden.png", "--output", tmp_path / "a.png", "--fit", "--corners", flat(corners_at(*VIEWS[0])))
     assert code == 1 and "% of one side lie on a straight edge" in errors and "mend the corners" in errors, errors
 
 
@@ -336,5 +335,5 @@ def test_corners_are_clicked(labelled, tmp_path, display, off, times):
     (["IMAGE", "--corners", "1,2,3"], "--corners"), (["IMAGE", "--corners", "1,1,5,5,5,1,1,5"], "no convex quadrilateral"),
     (["IMAGE", "--corners", "10,10,900,10,900,90,10,90"], "corners")])
 def test_make_reference_says_what_is_wrong(labelled, arguments, words):
-    code, _, errors = run("make_reference", *[labelled / "a.png" if a == "IMAGE" else a for a in arguments], DISPLAY="", WAYLAND_DISPLAY="")
+    code, _, errors = answer("make_reference", *[labelled / "a.png" if a == "IMAGE" else a for a in arguments], DISPLAY="", WAYLAND_DISPLAY="")
     assert code == 2 and words in errors and len(errors.strip().splitlines()) == 1, errors

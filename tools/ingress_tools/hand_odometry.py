@@ -1,6 +1,8 @@
 """Odometry of a camera that is carried by hand before a window: from the window itself, which stands still. Without ROS."""
 import numpy
 
+from .transforms import matrix_of
+
 HEIGHT_M = 1.5              # where it begins, above the ground of its frame
 TURN_TIME_S = 0.4           # over which the turn against the window is averaged: from one image it is the least certain
 PLACE_TIME_S = 0.1          # likewise the window's place in the image and its distance
@@ -10,14 +12,6 @@ FORGOTTEN_AFTER_S = 1.0
 MOST_EVIDENCE, ENOUGH_EVIDENCE = 2.0, 10.0  # [nats] of one image; to take the mirrored solution in place of the one followed
 # Axes of the camera (x right, y down, z ahead) in those of the body (x ahead, y left, z up).
 R_BODY_CAMERA = numpy.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
-
-
-def matrix_of(quaternion):
-    """Rotation of (x, y, z, w)."""
-    x, y, z, w = numpy.asarray(quaternion, float) / numpy.linalg.norm(quaternion)
-    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
 def nearest_rotation(matrix):

@@ -1,5 +1,4 @@
 """What doctor asks a running ROS system: master, nodes, topics and what passes on them. Nothing here waits for ROS time."""
-import math
 import os
 import socket
 import struct
@@ -10,8 +9,8 @@ import xmlrpc.client
 import numpy
 import rosgraph
 import rospy
-from genpy.dynamic import generate_dynamic
-from geometry_msgs.msg import TransformStamped
+
+from .transforms import rotation_of, transforms_type
 
 CALLER = "/doctor"
 PATIENCE_S = 3.0  # for an answer of the master or of a node
@@ -128,23 +127,13 @@ class Collector:
         self._subscriber.unregister()
 
 
-def rotation_matrix(q):
-    norm = math.sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)
-    x, y, z, w = (value / norm for value in (q.x, q.y, q.z, q.w))
-    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
 class Transforms:
-    """/tf and /tf_static as they come; their Python package need not be installed."""
+    """/tf and /tf_static as they come."""
 
     def __init__(self):
         self._lock = threading.Lock()
         self._parent = {}  # child -> (parent, 4x4)
-        text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
-                + TransformStamped._full_text)
-        kind = generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
+        kind = transforms_type()
         self._subscribers = [rospy.Subscriber(topic, kind, self._receive, queue_size=100) for topic in ("/tf", "/tf_static")]
 
     def _receive(self, message):
@@ -153,7 +142,7 @@ class Transforms:
             move = item.transform.translation
             T[:3, 3] = move.x, move.y, move.z
             if any((item.transform.rotation.x, item.transform.rotation.y, item.transform.rotation.z, item.transform.rotation.w)):
-                T[:3, :3] = rotation_matrix(item.transform.rotation)
+                T[:3, :3] = rotation_of(item.transform.rotation)
             with self._lock:
                 self._parent[item.child_frame_id.lstrip("/")] = (item.header.frame_id.lstrip("/"), T)
 

@@ -1,4 +1,4 @@
-"""Transforms as messages, without the Python package of tf2_msgs, which need not be installed."""
+"""Rotations, and transforms as messages without the Python package of tf2_msgs, which need not be installed."""
 import numpy
 
 
@@ -9,6 +9,19 @@ def transforms_type():
     text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
             + TransformStamped._full_text)
     return generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
+
+
+def matrix_of(quaternion):
+    """Rotation of (x, y, z, w)."""
+    x, y, z, w = numpy.asarray(quaternion, float) / numpy.linalg.norm(quaternion)
+    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def rotation_of(message):
+    """Of a geometry_msgs/Quaternion."""
+    return matrix_of([message.x, message.y, message.z, message.w])
 
 
 def quaternion_of(matrix):

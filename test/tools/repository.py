@@ -1,0 +1,36 @@
+"""What several tests of tools share: where things lie, how they are called and what they write is read."""
+import csv
+import importlib.machinery
+import importlib.util
+import pathlib
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NOMINAL = ROOT / "config/scenarios/nominal.yaml"
+
+
+def call(*command, timeout=300, **options):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, timeout=timeout, check=False, **options)
+
+
+def run(tool, *arguments, **options):
+    """As a user does."""
+    return call(ROOT / "scripts/run", tool, *arguments, **options)
+
+
+def load(program):
+    """A program as a module; its name may have no ending."""
+    loader = importlib.machinery.SourceFileLoader(program.rpartition("/")[2].partition(".")[0], str(ROOT / program))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+def rows_of(file):
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def timeless(file):
+    """The rows of a survey but for what no two runs have in common."""
+    return [{name: value for name, value in row.items() if name != "milliseconds"} for row in rows_of(file)]
