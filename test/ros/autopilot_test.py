@@ -12,24 +12,12 @@ from geometry_msgs.msg import TwistStamped
 from mavros_msgs.msg import CompanionProcessStatus  # of stand_ins
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
-from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState, WindowPose
 
 import support
 
 LATE_S, STOP_S = 0.2, 2.0  # of the guard; the second is set in autopilot.test
 MARGIN_S = 0.3             # a loaded machine
-
-
-def in_map(stamp):
-    message = support.odometry(stamp)
-    message.header.frame_id = "map"
-    return message
-
-
-def is_zero(setpoint):
-    linear, angular = setpoint.twist.linear, setpoint.twist.angular
-    return not any((linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
 
 
 class AutopilotTest(unittest.TestCase):
@@ -39,7 +27,7 @@ class AutopilotTest(unittest.TestCase):
         cls.states = support.Listener("/state", IngressState)
         cls.companion = support.Listener("/mavros/companion_process/status", CompanionProcessStatus)
         cls.armed, cls.mode, cls.system_status = False, "POSCTL", 4
-        cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, in_map, 50.0),
+        cls.streams = [support.Stream("/mavros/local_position/odom", Odometry, support.changed(support.odometry, header__frame_id="map"), 50.0),
                        support.Stream("/mavros/imu/data", Imu, support.imu, 50.0),
                        support.Stream("/window_pose", WindowPose, support.no_window, 30.0)]
         cls.states_of_autopilot = support.Stream("/mavros/state", support.AutopilotState, cls.state, 5.0)
@@ -57,14 +45,12 @@ class AutopilotTest(unittest.TestCase):
 
     @staticmethod
     def call(service):
-        name = f"/ingress_navigator/{service}"
-        rospy.wait_for_service(name, support.DEADLINE_S)
-        return rospy.ServiceProxy(name, Trigger)()
+        return support.call(f"/ingress_navigator/{service}")
 
     def fly(self):
         type(self).armed, type(self).mode = True, "OFFBOARD"
         support.wait_for(lambda: self.call("start").success, "a mission that starts")
-        return self.setpoints.wait(lambda s: not is_zero(s), "motion")
+        return self.setpoints.wait(lambda s: not support.is_zero(s), "motion")
 
     def companion_is(self, state):
         self.companion.wait(lambda s: s.state == state and s.component == CompanionProcessStatus.MAV_COMP_ID_USER1, f"companion status {state}")
@@ -72,7 +58,7 @@ class AutopilotTest(unittest.TestCase):
     def zeros_from(self, begin, seconds):
         support.wait_for(lambda: time.monotonic() > begin + seconds, "the time of the measurement")
         setpoints = self.setpoints.since(begin)
-        self.assertTrue(setpoints and all(is_zero(s) for s in setpoints))
+        self.assertTrue(setpoints and all(support.is_zero(s) for s in setpoints))
         self.assertGreater(len(setpoints) / (time.monotonic() - begin), 20.0)
         self.assertEqual({s.header.frame_id for s in setpoints}, {"map"})
 

@@ -106,11 +106,6 @@ class Disk:
         self.folder.rmdir()
 
 
-def is_zero(message):
-    twist = message.twist
-    return not any((twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z))
-
-
 class BlockedOutputTest(unittest.TestCase):
     def setUp(self):
         self.setpoints = support.Listener("/cmd_vel", TwistStamped)
@@ -143,7 +138,7 @@ class BlockedOutputTest(unittest.TestCase):
         asking.start()
         asking.join(5.0)
         self.assertFalse(asking.is_alive(), "the navigator waits for its output")
-        self.setpoints.wait(lambda m: not is_zero(m), "a vehicle on its way", 5.0)
+        self.setpoints.wait(lambda m: not support.is_zero(m), "a vehicle on its way", 5.0)
 
     def assert_streams(self):
         begin = time.monotonic()
@@ -153,8 +148,8 @@ class BlockedOutputTest(unittest.TestCase):
         self.assertGreaterEqual(rate_hz, SETPOINTS_HZ)
 
     def first_zero_after(self, begin):
-        self.setpoints.wait(is_zero, "zero", 5.0, begin)
-        at = next(at for at, m in zip(self.setpoints.times_since(begin), self.setpoints.since(begin)) if is_zero(m))
+        self.setpoints.wait(support.is_zero, "zero", 5.0, begin)
+        at = next(at for at, m in zip(self.setpoints.times_since(begin), self.setpoints.since(begin)) if support.is_zero(m))
         return at - begin
 
     def assert_abort_acts(self):

@@ -14,7 +14,6 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict, IngressState
 
 import support
@@ -135,9 +134,7 @@ class ExternalFlightTest(unittest.TestCase):
         self.assertEqual({"/clock", "/odom", "/imu"} & of_the_world, set())
 
     def test_2_the_flight_is_judged_by_where_it_went(self):
-        rospy.wait_for_service("/ingress_navigator/start", READY_WITHIN_S)
-        start = rospy.ServiceProxy("/ingress_navigator/start", Trigger)
-        support.wait_for(lambda: start().success, "a mission that starts", READY_WITHIN_S)
+        support.start_mission(READY_WITHIN_S)
         verdict = self.verdicts.wait(lambda v: v.outcome != FlightVerdict.RUNNING, "a verdict", FLIGHT_WITHIN_S)
         last = self.states.since(0.0)[-1]
         self.assertEqual(verdict.outcome_name, "PASSED", f"{verdict.reason}; {last.state_name}: {last.reason}")
@@ -145,8 +142,8 @@ class ExternalFlightTest(unittest.TestCase):
 
     def test_3_a_reset_puts_the_house_before_the_vehicle_again(self):
         self.states.wait(lambda s: s.state_name in ("PASSED", "ABORTED"), "the end of the mission", begin=0.0)
-        rospy.ServiceProxy("/ingress_navigator/reset", Trigger)()
-        reply = rospy.ServiceProxy("/world/reset", Trigger)()
+        support.call("/ingress_navigator/reset")
+        reply = support.call("/world/reset")
         self.assertTrue(reply.success)
         self.assertIn("/homography_pose/reset: the track and the memory of all windows are forgotten", reply.message)
         self.assertIn("/window_detector/reset: the track is forgotten", reply.message)

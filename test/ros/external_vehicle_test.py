@@ -15,7 +15,6 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Image
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict
 
 import support
@@ -186,7 +185,7 @@ class ExternalVehicleTest(unittest.TestCase):
         flight = Flight()
         verdicts.wait(lambda v: v.header.stamp >= flight.began + rospy.Duration(2.0), "two seconds of flight", 60.0)
         begin = time.monotonic()
-        self.assertTrue(rospy.ServiceProxy("/world/reset", Trigger)().success)
+        self.assertTrue(support.call("/world/reset").success)
         try:
             later = verdicts.wait(lambda v: v.header.stamp > flight.began + rospy.Duration(3.0), "the flight after the reset", 60.0)
         finally:

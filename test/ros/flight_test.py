@@ -5,7 +5,6 @@ import unittest
 
 import rospy
 import rostest
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict, IngressState
 
 import support
@@ -18,9 +17,7 @@ class FlightTest(unittest.TestCase):
     def test_flight_passes(self):
         verdicts = support.Listener("referee", FlightVerdict)
         states = support.Listener("state", IngressState)
-        rospy.wait_for_service("ingress_navigator/start", READY_WITHIN_S)
-        start = rospy.ServiceProxy("ingress_navigator/start", Trigger)
-        support.wait_for(lambda: start().success, "a mission that starts", READY_WITHIN_S)
+        support.start_mission(READY_WITHIN_S)
         verdict = verdicts.wait(lambda v: v.outcome != FlightVerdict.RUNNING, "a verdict", FLIGHT_WITHIN_S)
         visited = [state.state_name for state in states.since(0.0)]
         self.assertEqual(verdict.outcome_name, "PASSED", f"{verdict.reason}; {visited[-1]}: {states.since(0.0)[-1].reason}")

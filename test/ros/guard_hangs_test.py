@@ -9,7 +9,6 @@ import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict, IngressState
 
 import support
@@ -36,9 +35,7 @@ class GuardHangsTest(unittest.TestCase):
         states = support.Listener("/state", IngressState)
         truth = support.Listener("/ground_truth/odom", Odometry)
         verdicts = support.Listener("/referee", FlightVerdict)
-        rospy.wait_for_service("/ingress_navigator/start", READY_WITHIN_S)
-        start = rospy.ServiceProxy("/ingress_navigator/start", Trigger)
-        support.wait_for(lambda: start().success, "a mission that starts", READY_WITHIN_S)
+        support.start_mission(READY_WITHIN_S)
         states.wait(lambda s: s.target_valid and s.distance < HANG_AT_M and speed(s.velocity) > FAST_MPS,
                     "full speed towards the window", FLIGHT_WITHIN_S)
         self.assertEqual({source(s) for s in setpoints.since(0.0)}, {GUARD}, "the autopilot hears the guard alone")

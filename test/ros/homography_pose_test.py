@@ -10,7 +10,6 @@ import rostest
 from geometry_msgs.msg import PolygonStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Imu
-from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 from window_ingress.msg import (DetectedWindow, Facade, FilteredPose, ImagePose, WindowCorner, WindowDetection, WindowEdge,
                                 WindowPose)
@@ -108,7 +107,7 @@ class HomographyPoseTest(unittest.TestCase):
         windows.make = support.changed(detection, detected=False, reason="gone")
         self.poses.wait(lambda p: "gone" in p.image.reason, "the view without it")
         begin = time.monotonic()
-        reply = rospy.ServiceProxy("homography_pose/reset", Trigger)()
+        reply = support.call("homography_pose/reset")
         self.assertTrue(reply.success)
         self.assertIn("forgotten", reply.message)
         gone = markers.wait(lambda m: any(marker.action == Marker.DELETEALL for marker in m.markers), "markers taken away", begin=begin)
@@ -179,12 +178,8 @@ class HomographyPoseTest(unittest.TestCase):
                         "the missing mounting")
 
     def test_calibration_of_another_size_is_named(self):
-        def other(stamp):
-            info = support.camera_info(stamp)
-            info.width, info.height = 320, 240
-            return info
         self.start_vehicle()
-        self.stream("camera_info", CameraInfo, other)
+        self.stream("camera_info", CameraInfo, support.changed(support.camera_info, width=320, height=240))
         self.stream("window", WindowDetection, detection)
         self.poses.wait(lambda p: "sizes differ" in p.image.reason, "a refusal that names both sizes")
 

@@ -9,7 +9,6 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
-from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState, WindowPose
 
 import support
@@ -40,9 +39,7 @@ class IngressNavigatorTest(unittest.TestCase):
 
     @staticmethod
     def call(service):
-        name = f"ingress_navigator/{service}"
-        rospy.wait_for_service(name, support.DEADLINE_S)
-        return rospy.ServiceProxy(name, Trigger)()
+        return support.call(f"ingress_navigator/{service}")
 
     def wait_for_state(self, *names):
         begin = time.monotonic() - 0.5
@@ -152,22 +149,14 @@ class IngressNavigatorTest(unittest.TestCase):
         self.start()
         self.setpoints.wait(lambda s: speed(s) > 0.0, "motion")
 
-        def poisoned(stamp):
-            message = support.odometry(stamp)
-            message.twist.twist.linear.y = float("nan")
-            return message
-        self.streams["odom"].make = poisoned
+        self.streams["odom"].make = support.changed(support.odometry, twist__twist__linear__y=float("nan"))
         self.wait_for_state("HOLD", "ABORTED")
         support.Diagnostics().wait("ingress_navigator: odom", "not finite")
 
     def test_odometry_of_another_frame_is_refused_by_name(self):
         self.feed()
 
-        def mapped(stamp):
-            message = support.odometry(stamp)
-            message.header.frame_id = "map"
-            return message
-        self.streams["odom"].make = mapped
+        self.streams["odom"].make = support.changed(support.odometry, header__frame_id="map")
         support.Diagnostics().wait("ingress_navigator: odom", "'map'", "'odom'")
         self.assertFalse(self.call("start").success)
 

@@ -17,7 +17,7 @@ import rostest
 from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import TwistStamped
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import SetBool
 from window_ingress.msg import IngressAction, IngressActionResult, IngressGoal, IngressResult, IngressState
 
 import plant
@@ -37,9 +37,7 @@ STALE_WITHIN_S = 0.6  # limit of the age, plus a loaded machine
 
 
 def call(service):
-    name = f"ingress_navigator/{service}"
-    rospy.wait_for_service(name, support.DEADLINE_S)
-    return rospy.ServiceProxy(name, Trigger)()
+    return support.call(f"ingress_navigator/{service}")
 
 
 def enable(data):
@@ -105,8 +103,8 @@ class MissionActionTest(unittest.TestCase):
         said = self.results.wait(what="the result", begin=begin).header.stamp
         self.setpoints.wait(lambda s: s.header.stamp > said, "setpoints after the result", begin=begin)
         before = [s for s in self.setpoints.since(begin - 1.0) if s.header.stamp <= said]
-        self.assertTrue(plant.is_zero(before[-1]), before[-1])
-        self.assertTrue(all(plant.is_zero(s) for s in self.setpoints.since(begin) if s.header.stamp > said))
+        self.assertTrue(support.is_zero(before[-1]), before[-1])
+        self.assertTrue(all(support.is_zero(s) for s in self.setpoints.since(begin) if s.header.stamp > said))
         self.states.wait(lambda s: s.state_name == "ABORTED" and s.reason == "the goal was cancelled", "the end, with its cause", begin=begin)
 
     def fly_to(self, state, **goal):
@@ -128,7 +126,7 @@ class MissionActionTest(unittest.TestCase):
 
     def test_cancelled_in_search(self):
         self.send()
-        self.setpoints.wait(lambda s: not plant.is_zero(s), "motion")
+        self.setpoints.wait(lambda s: not support.is_zero(s), "motion")
         self.cancel()
 
     def test_cancelled_in_align(self):
@@ -242,12 +240,12 @@ class MissionActionTest(unittest.TestCase):
 
     def test_disabled_it_sends_nothing_and_starts_nothing(self):
         self.send()
-        self.setpoints.wait(lambda s: not plant.is_zero(s), "motion")
+        self.setpoints.wait(lambda s: not support.is_zero(s), "motion")
         self.assertEqual(enable(False).message, "aborted, disabled: sends nothing, starts nothing")
         begin = time.monotonic() + 0.1
         self.assertEqual(self.result().outcome, IngressResult.ABORTED)
-        self.setpoints.wait(plant.is_zero, "zero after the abort")
-        self.assertTrue(all(plant.is_zero(s) for s in self.setpoints.since(begin)))
+        self.setpoints.wait(support.is_zero, "zero after the abort")
+        self.assertTrue(all(support.is_zero(s) for s in self.setpoints.since(begin)))
         call("reset")
         self.states.wait(lambda s: s.state_name == "IDLE" and s.reason == "disabled (~enable)" and not s.enabled, "IDLE, disabled")
         begin = time.monotonic() + 0.1
@@ -256,7 +254,7 @@ class MissionActionTest(unittest.TestCase):
         self.assertIn("disabled (~enable)", self.refusal())
         self.assertIn("disabled (~enable)", call("start").message)
         self.assertTrue(enable(True).success)
-        self.setpoints.wait(plant.is_zero, "zeros in IDLE")
+        self.setpoints.wait(support.is_zero, "zeros in IDLE")
 
     def documented_client(self, before=""):
         page = pathlib.Path(rospkg.RosPack().get_path("window_ingress")) / "doc/ros_api.md"
@@ -296,12 +294,12 @@ class MissionActionTest(unittest.TestCase):
         client.communicate(timeout=20.0)
         begin = time.monotonic() + 0.5
         self.states.wait(lambda s: s.state_name == "SEARCH" and s.enabled, "the search to go on", begin=begin)
-        self.setpoints.wait(lambda s: not plant.is_zero(s), "motion")
+        self.setpoints.wait(lambda s: not support.is_zero(s), "motion")
         self.plant.pause_odometry()
         begin = time.monotonic() + STALE_WITHIN_S
         self.wait_for_state("HOLD", "ABORTED")
         support.wait_for(lambda: len(self.setpoints.since(begin)) > 10, "the stream after the loss")
-        self.assertTrue(all(plant.is_zero(s) for s in self.setpoints.since(begin)))
+        self.assertTrue(all(support.is_zero(s) for s in self.setpoints.since(begin)))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ import numpy
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict, IngressState
 
 import support
@@ -37,9 +36,7 @@ class NavigatorKilledTest(unittest.TestCase):
         truth = support.Listener("/ground_truth/odom", Odometry)
         states = support.Listener("/state", IngressState)
         verdicts = support.Listener("/referee", FlightVerdict)
-        rospy.wait_for_service("/ingress_navigator/start", READY_WITHIN_S)
-        start = rospy.ServiceProxy("/ingress_navigator/start", Trigger)
-        support.wait_for(lambda: start().success, "a mission that starts", READY_WITHIN_S)
+        support.start_mission(READY_WITHIN_S)
         states.wait(lambda s: s.target_valid and s.distance < KILL_AT_M and s.velocity.x ** 2 + s.velocity.y ** 2 > FAST_MPS ** 2,
                     "full speed towards the window", FLIGHT_WITHIN_S)
         os.kill(support.pid_of("/ingress_navigator"), signal.SIGKILL)

@@ -1,5 +1,4 @@
 """A vehicle and its window without a renderer: velocity follows cmd_vel, the window is seen while the test lets it be seen."""
-import math
 import threading
 
 import rospy
@@ -93,8 +92,3 @@ class Plant:
         filtered.pose.covariance = covariance
         message.checks.fit, message.target.window_id = SystemChecks.FIT_GO, self._target
         message.openness = Openness(verdict=Openness.OPEN, open_share=1.0, log_odds=20.0)
-
-
-def is_zero(setpoint):
-    linear, angular = setpoint.twist.linear, setpoint.twist.angular
-    return not any(math.fabs(value) for value in (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))

@@ -14,7 +14,6 @@ import rosbag
 import roslib.packages
 import rospy
 import rostest
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict
 
 import support
@@ -37,9 +36,7 @@ class RecordTest(unittest.TestCase):
         recorder = subprocess.Popen(["roslaunch", "window_ingress", "record.launch", f"name:={cls.folder}/flight"])
         support.wait_for(lambda: glob.glob(cls.folder + "/*.bag.active"), "a bag", READY_WITHIN_S)
         verdicts = support.Listener("referee", FlightVerdict)
-        rospy.wait_for_service("ingress_navigator/start", READY_WITHIN_S)
-        start = rospy.ServiceProxy("ingress_navigator/start", Trigger)
-        support.wait_for(lambda: start().success, "a mission that starts", READY_WITHIN_S)
+        support.start_mission(READY_WITHIN_S)
         cls.verdict = verdicts.wait(lambda v: v.outcome != FlightVerdict.RUNNING, "a verdict", FLIGHT_WITHIN_S)
         recorder.send_signal(signal.SIGINT)
         recorder.wait(60)

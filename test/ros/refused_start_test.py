@@ -24,14 +24,19 @@ def launch(node):
 
 
 class RefusedStartTest(unittest.TestCase):
-    def assert_refused(self, node, name, value, *words):
-        rospy.set_param(f"/{node}/{name}", value)
+    def errors_of(self, node, name, value):
+        """What it says as it ends with 2."""
+        rospy.set_param(name, value)
         try:
             process = launch(node)
             _, errors = process.communicate(timeout=support.DEADLINE_S)
         finally:
-            rospy.delete_param(f"/{node}/{name}")
+            rospy.delete_param(name)
         self.assertEqual(process.returncode, 2, errors)
+        return errors
+
+    def assert_refused(self, node, name, value, *words):
+        errors = self.errors_of(node, f"/{node}/{name}", value)
         lines = [line for line in errors.splitlines() if line.strip()]
         self.assertEqual(len(lines), 1, errors)
         for word in ("[FATAL]", f"{node}: ", f"/{node}/{name}", *words):
@@ -64,56 +69,27 @@ class RefusedStartTest(unittest.TestCase):
 
     def test_lockstep_is_refused_without_simulated_time(self):
         for node in ("window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"):
-            rospy.set_param(f"/{node}/lockstep", True)
-            process = launch(node)
-            _, errors = process.communicate(timeout=support.DEADLINE_S)
-            rospy.delete_param(f"/{node}/lockstep")
-            self.assertEqual(process.returncode, 2, errors)
-            self.assertIn("use_sim_time", errors)
+            self.assertIn("use_sim_time", self.errors_of(node, f"/{node}/lockstep", True))
 
     def test_start_at_once_is_refused_outside_lockstep(self):
-        rospy.set_param("/ingress_navigator/start_at_once", True)
-        process = launch("ingress_navigator")
-        _, errors = process.communicate(timeout=support.DEADLINE_S)
-        rospy.delete_param("/ingress_navigator/start_at_once")
-        self.assertEqual(process.returncode, 2, errors)
-        self.assertIn("start_at_once", errors)
+        self.assertIn("start_at_once", self.errors_of("ingress_navigator", "/ingress_navigator/start_at_once", True))
 
     def test_unknown_transport_lists_the_known_ones(self):
-        rospy.set_param("/window_detector/image_transport", "theora_or_so")
-        process = launch("window_detector")
-        _, errors = process.communicate(timeout=support.DEADLINE_S)
-        rospy.delete_param("/window_detector/image_transport")
-        self.assertEqual(process.returncode, 2, errors)
+        errors = self.errors_of("window_detector", "/window_detector/image_transport", "theora_or_so")
         self.assertIn("raw", errors)
         self.assertIn("compressed", errors)
 
     def test_missing_reference_image_is_named(self):
-        rospy.set_param("/window_detector/reference/picture", "/nowhere/window.jpg")
-        process = launch("window_detector")
-        _, errors = process.communicate(timeout=support.DEADLINE_S)
-        rospy.delete_param("/window_detector/reference/picture")
-        self.assertEqual(process.returncode, 2, errors)
-        self.assertIn("/nowhere/window.jpg", errors)
+        self.assertIn("/nowhere/window.jpg", self.errors_of("window_detector", "/window_detector/reference/picture", "/nowhere/window.jpg"))
 
     def test_a_mounting_that_has_not_six_numbers_is_refused(self):
         for pose in ([], [0.1, 0.0, 0.02], [float("nan")] * 6, [0.1, 0.0, 0.0, 15.0, 0.0, 0.0], [100.0, 0.0, 0.0, 0.0, 0.0, 0.0]):
-            rospy.set_param("/camera_mounting/pose", pose)
-            process = launch("camera_mounting")
-            _, errors = process.communicate(timeout=support.DEADLINE_S)
-            rospy.delete_param("/camera_mounting/pose")
-            self.assertEqual(process.returncode, 2, errors)
-            self.assertIn("pose", errors)
+            self.assertIn("pose", self.errors_of("camera_mounting", "/camera_mounting/pose", pose))
 
     def test_a_number_where_the_parameters_stand_is_refused(self):
         for name, node in (("window_detector", "window_detector"), ("ingress_navigator", "ingress_navigator"), ("setpoint_guard", "setpoint_guard"),
                            ("vehicle", "homography_pose"), ("vehicle", "ingress_navigator")):
-            rospy.set_param(f"/{name}", 5)
-            process = launch(node)
-            _, errors = process.communicate(timeout=support.DEADLINE_S)
-            rospy.delete_param(f"/{name}")
-            self.assertEqual(process.returncode, 2, errors)
-            self.assertIn(f"{node}: /{name} is a whole number, must be a mapping", errors)
+            self.assertIn(f"{node}: /{name} is a whole number, must be a mapping", self.errors_of(node, f"/{name}", 5))
 
     def test_what_has_moved_is_named_with_its_new_place(self):
         self.assert_refused("ingress_navigator", "navigator/vehicle", {"half_width_m": 0.45}, "it is now 'vehicle: {..}'")
@@ -133,7 +109,7 @@ class RefusedStartTest(unittest.TestCase):
         self.assertEqual(process.returncode, 0)
         last = setpoints.since(sent)[-1]
         self.assertEqual(last.header.frame_id, frame)
-        self.assertEqual((last.twist.linear.x, last.twist.linear.y, last.twist.linear.z, last.twist.angular.z), (0, 0, 0, 0))
+        self.assertTrue(support.is_zero(last), last)
         setpoints.stop()
 
     def test_mavros_frame_names_are_accepted_and_said_in_the_setpoints(self):

@@ -12,10 +12,8 @@ import rostest
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Image
-from std_srvs.srv import Trigger
 from window_ingress.msg import IngressState
 
-import plant
 import support
 
 UP_WITHIN_S = 60.0
@@ -89,7 +87,7 @@ class RehearseTest(unittest.TestCase):
         self.states.wait(lambda s: s.state_name == "ALIGN", "ALIGN", UP_WITHIN_S, begin=0.0)
         state = self.states.wait(lambda s: s.target_valid, "the window's place", UP_WITHIN_S)
         self.assertAlmostEqual(state.distance, self.hand.distance, delta=0.25)
-        self.setpoints.wait(lambda s: not plant.is_zero(s), "a wish to move", UP_WITHIN_S)
+        self.setpoints.wait(lambda s: not support.is_zero(s), "a wish to move", UP_WITHIN_S)
 
     def test_2_odometry_and_distance_follow_the_hand(self):
         before = self.place()
@@ -129,7 +127,7 @@ class RehearseTest(unittest.TestCase):
         self.hand.covers_the_lens = False
         self.hand.distance = 2.0
         begin = time.monotonic()
-        self.assertTrue(rospy.ServiceProxy("/ingress_navigator/abort", Trigger)().success)
+        self.assertTrue(support.call("/ingress_navigator/abort").success)
         self.states.wait(lambda s: s.state_name == "ABORTED", "the end", begin=begin)
         self.states.wait(lambda s: s.state_name == "SEARCH", "the next mission", UP_WITHIN_S, begin=begin)
 

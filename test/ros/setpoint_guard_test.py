@@ -24,10 +24,6 @@ def command(stamp, x=0.5, yaw_rate=0.1, frame_id="odom"):
     return message
 
 
-def is_zero(message):
-    return message.twist.linear.x == 0.0 and message.twist.angular.z == 0.0
-
-
 class SetpointGuardTest(unittest.TestCase):
     def setUp(self):
         self.output = support.Listener("cmd_vel", TwistStamped)
@@ -44,7 +40,7 @@ class SetpointGuardTest(unittest.TestCase):
 
     def expect_zeros_from(self, begin, count=20):
         support.wait_for(lambda: len(self.output.since(begin)) >= count, "the stream goes on")
-        self.assertTrue(all(is_zero(m) for m in self.output.since(begin)))
+        self.assertTrue(all(support.is_zero(m) for m in self.output.since(begin)))
 
     def test_zeros_without_input_at_20_hz_and_more(self):
         begin = time.monotonic() + LATE_S + MARGIN_S  # what the test before has sent must be late
@@ -67,14 +63,14 @@ class SetpointGuardTest(unittest.TestCase):
 
     def test_sane_input_passes_with_its_frame(self):
         self.send(lambda stamp: command(stamp, frame_id="base_link"))
-        message = self.output.wait(lambda m: not is_zero(m), "the input at the output")
+        message = self.output.wait(lambda m: not support.is_zero(m), "the input at the output")
         self.assertEqual((message.twist.linear.x, message.twist.angular.z), (0.5, 0.1))
         self.assertEqual(message.header.frame_id, "base_link")
         self.assertGreater(message.header.stamp.to_sec(), 0.0)
 
     def test_late_input_is_zero(self):
         self.send(command)
-        self.output.wait(lambda m: not is_zero(m), "the input at the output")
+        self.output.wait(lambda m: not support.is_zero(m), "the input at the output")
         self.input.stop()
         self.input = None
         self.expect_zeros_from(time.monotonic() + LATE_S + MARGIN_S)
@@ -84,7 +80,7 @@ class SetpointGuardTest(unittest.TestCase):
         stream = self.send(command)
         for x, yaw_rate in ((float("nan"), 0.0), (0.0, float("inf")), (50.0, 0.0), (0.0, -20.0)):
             stream.make = command
-            self.output.wait(lambda m: not is_zero(m), "sane input passes again")
+            self.output.wait(lambda m: not support.is_zero(m), "sane input passes again")
             stream.make = lambda stamp, x=x, yaw_rate=yaw_rate: command(stamp, x, yaw_rate)
             self.expect_zeros_from(time.monotonic() + MARGIN_S)
         support.Diagnostics().wait("setpoint_guard: cmd_vel_in", "sending zero")

@@ -62,19 +62,6 @@ def ago(seconds):
     return lambda message: message.header.stamp - rospy.Duration(seconds)
 
 
-class Camera:
-    """An image that is never the same twice, unless it is stuck."""
-
-    def __init__(self):
-        self.pixels = support.window_image()
-        self.stuck = False
-
-    def __call__(self, stamp):
-        if not self.stuck:
-            self.pixels[0, 0, 0] = (int(self.pixels[0, 0, 0]) + 1) % 256
-        return support.image_message(self.pixels, stamp)
-
-
 def setpoint(stamp):
     message = TwistStamped()
     message.header.stamp = stamp
@@ -102,7 +89,7 @@ class SpokenCausesTest(unittest.TestCase):
     def setUpClass(cls):
         cls.journal = Journal()
         cls.mounting = support.publish_mounting()
-        cls.camera = Camera()
+        cls.camera = support.Camera()
         cls.streams = {topic: support.Stream(topic, kind, make, rate) for topic, kind, make, rate in (
             ("image_raw", Image, cls.camera, 12.0), ("camera_info", CameraInfo, support.camera_info, 12.0),
             ("imu", Imu, support.imu, 50.0), ("odom", Odometry, support.odometry, 50.0),

@@ -1,4 +1,6 @@
 """What the ROS tests share. Everything waits for a condition with a deadline in wall time; nothing sleeps for luck."""
+import pathlib
+import sys
 import threading
 import time
 import xmlrpc.client
@@ -12,7 +14,11 @@ from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from std_msgs.msg import Header
+from std_srvs.srv import Trigger
 from window_ingress.msg import FilteredPose, ImagePose, WindowPose
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+from ingress_tools.transforms import transforms_type  # noqa: E402
 
 DEADLINE_S = 20.0
 POLL_S = 0.02
@@ -35,6 +41,22 @@ def pid_of(node):
     code, message, pid = xmlrpc.client.ServerProxy(uri).getPid("/test")
     assert code == 1, message
     return pid
+
+
+def call(service, deadline_s=DEADLINE_S):
+    rospy.wait_for_service(service, deadline_s)
+    return rospy.ServiceProxy(service, Trigger)()
+
+
+def start_mission(within_s=DEADLINE_S):
+    """Waits for the navigator and all that it needs."""
+    rospy.wait_for_service("ingress_navigator/start", within_s)
+    wait_for(lambda: call("ingress_navigator/start").success, "a mission that starts", within_s)
+
+
+def is_zero(setpoint):
+    linear, angular = setpoint.twist.linear, setpoint.twist.angular
+    return not any((linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
 
 
 class Listener:
@@ -156,6 +178,19 @@ def image_message(pixels, stamp, frame_id="camera_optical_frame"):
     return message
 
 
+class Camera:
+    """Images that are never the same twice, unless they are stuck."""
+
+    def __init__(self, pixels=None):
+        self.pixels = window_image() if pixels is None else pixels
+        self.stuck = False
+
+    def __call__(self, stamp):
+        if not self.stuck:
+            self.pixels[0, 0, 0] = (int(self.pixels[0, 0, 0]) + 1) % 256
+        return image_message(self.pixels, stamp)
+
+
 def camera_info(stamp, frame_id="camera_optical_frame", focal=FOCAL):
     message = CameraInfo(width=WIDTH, height=HEIGHT, distortion_model="plumb_bob", D=[0.0] * 5)
     message.header.stamp = stamp
@@ -224,13 +259,6 @@ def changed(make, **what):
             setattr(owner, name, value(message) if callable(value) else value)
         return message
     return altered
-
-
-def transforms_type():
-    """tf2_msgs/TFMessage, whose Python package need not be installed."""
-    text = ("geometry_msgs/TransformStamped[] transforms\n" + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\n"
-            + TransformStamped._full_text)
-    return generate_dynamic("tf2_msgs/TFMessage", text)["tf2_msgs/TFMessage"]
 
 
 def mounting():

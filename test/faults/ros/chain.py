@@ -6,7 +6,6 @@ import rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CameraInfo, Image, Imu
 from std_msgs.msg import Bool
-from std_srvs.srv import Trigger
 
 import oracles
 import support
@@ -26,17 +25,6 @@ def window_image(shift_px=0):
     return numpy.clip(image + noise, 0, 255).astype(numpy.uint8)
 
 
-class Camera:
-    """Images that are never the same twice."""
-
-    def __init__(self, pixels=None):
-        self.pixels = window_image() if pixels is None else pixels
-
-    def __call__(self, stamp):
-        self.pixels[0, 0, 0] = (int(self.pixels[0, 0, 0]) + 1) % 256
-        return support.image_message(self.pixels, stamp)
-
-
 def later(seconds):
     """For `changed(..., header__stamp=later(-5.0))`."""
     return lambda message: message.header.stamp + rospy.Duration(seconds)
@@ -46,7 +34,7 @@ class Chain:
     """Everything that the nodes want, streamed; `streams[topic].make` can be replaced."""
 
     def __init__(self):
-        self.camera = Camera()
+        self.camera = support.Camera(window_image())
         self.mounting = support.publish_mounting()
         self.engaged = True
         self.streams = {topic: support.Stream(topic, kind, make, rate) for topic, kind, make, rate in (
@@ -62,9 +50,7 @@ class Chain:
 
     @staticmethod
     def call(service):
-        name = f"ingress_navigator/{service}"
-        rospy.wait_for_service(name, support.DEADLINE_S)
-        return rospy.ServiceProxy(name, Trigger)()
+        return support.call(f"ingress_navigator/{service}")
 
     def fly(self, monitor):
         """Until the vehicle is told to go on, from whatever state."""

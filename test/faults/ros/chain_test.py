@@ -85,7 +85,7 @@ IMAGE, ODOM, INFO, MOUNTING = ("window_detector: image", "ingress_navigator: odo
 
 
 def rows():
-    image, odom = chain.Camera(), support.odometry
+    image, odom = support.Camera(chain.window_image()), support.odometry
     far, past = rospy.Time(4294967295, 0), rospy.Time(1, 0)
     return [
         Row("M15", "another size", "image_raw", sized(320, 240), [(INFO, "sizes differ", "320x240")], STOPS),
@@ -195,7 +195,7 @@ class ChainTest(unittest.TestCase):
         note("M21", "truncated, damaged, empty, foreign and oversized: each refused by name, the next good image seen")
 
     def test_M34_rectified_images_whose_distortion_would_be_undone_again(self):
-        images = support.Stream("image_rect", Image, chain.Camera(), 10.0)
+        images = support.Stream("image_rect", Image, support.Camera(chain.window_image()), 10.0)
         infos = support.Stream("rect_info", CameraInfo, changed(support.camera_info, D=[-0.2, 0.05, 0.0, 0.0, 0.0]), 10.0)
         begin = time.monotonic()
         try:
@@ -388,7 +388,7 @@ def compressed(data, stamp):
 PNG_OF_4E9_PIXELS = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR" + struct.pack(">II", 65000, 65000) + b"\x08\x02\x00\x00\x00" + bytes(64)
 
 
-class Wall(chain.Camera):
+class Wall(support.Camera):
     """Nothing but wall, never the same."""
 
     def __init__(self):

@@ -33,7 +33,7 @@ NOW = rospy.Time(1)
 def inputs():
     """topic -> a sound message"""
     transforms = support.transforms_type()
-    return {"image_raw": chain.Camera()(NOW), "camera_info": support.camera_info(NOW), "imu": support.imu(NOW), "odom": support.odometry(NOW),
+    return {"image_raw": support.Camera(chain.window_image())(NOW), "camera_info": support.camera_info(NOW), "imu": support.imu(NOW), "odom": support.odometry(NOW),
             "window": detection(NOW), "window_pose": support.no_window(NOW), "engaged": Bool(True), "reference": ReferenceImage(),
             "ingress_navigator/cmd_vel": TwistStamped(), "/tf": transforms([transform()])}
 

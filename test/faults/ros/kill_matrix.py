@@ -13,7 +13,6 @@ import fault_paths  # noqa: F401
 import rospy
 from fault_notes import note
 from nav_msgs.msg import Odometry
-from std_srvs.srv import Trigger
 from window_ingress.msg import FlightVerdict, IngressState
 from window_ingress.srv import Inject
 
@@ -33,8 +32,7 @@ FAST_MPS = {"APPROACH": 0.5, "ALIGN": 0.2, "BACK_OFF": 0.2}
 
 
 def call(name):
-    rospy.wait_for_service(name, 3 * support.DEADLINE_S)
-    return rospy.ServiceProxy(name, Trigger)()
+    return support.call(name, 3 * support.DEADLINE_S)
 
 
 def speed_of(truth):

@@ -18,7 +18,6 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "ros")]
 import rospy  # noqa: E402
-from std_srvs.srv import Trigger  # noqa: E402
 from window_ingress.msg import FlightVerdict, IngressState  # noqa: E402
 from window_ingress.srv import Inject  # noqa: E402
 
@@ -54,36 +53,29 @@ def say(text):
     print(f"{time.strftime('%H:%M:%S')} {text}", flush=True)
 
 
-def service(name, kind=Trigger):
-    rospy.wait_for_service(name, support.DEADLINE_S)
-    return rospy.ServiceProxy(name, kind)
-
-
 class Soak:
     def __init__(self, options):
         self.options, self.random = options, random.Random(options.seed)
         self.monitor = monitors.Monitor((*monitors.NODES, "world"), TOPICS)
         self.verdicts = support.Listener("referee", FlightVerdict)
         self.states = support.Listener("state", IngressState)
-        self.inject = service("world/inject", Inject)
+        rospy.wait_for_service("world/inject", support.DEADLINE_S)
+        self.inject = rospy.ServiceProxy("world/inject", Inject)
         self.outcomes, self.faults = collections.Counter(), collections.Counter()
         self.violations, self.memory, self.touched_disobeying = [], [], 0
         self.flights = self.images = 0
         self.least_hz, self.worst_frame_ms, self.blind_s = float("inf"), 0.0, 0.0
         self.began = time.monotonic()
 
-    def call(self, name):
-        return service(name)()
-
     def prepare(self):
         """Everything as before the first flight; what was injected ends with the world's reset."""
-        self.call("ingress_navigator/abort")
-        self.call("world/reset")
-        support.wait_for(lambda: self.call("ingress_navigator/reset").success, "the navigator can be reset")
+        support.call("ingress_navigator/abort")
+        support.call("world/reset")
+        support.wait_for(lambda: support.call("ingress_navigator/reset").success, "the navigator can be reset")
         support.wait_for(self.starts, "a mission that starts", START_S)
 
     def starts(self):
-        reply = self.call("ingress_navigator/start")
+        reply = support.call("ingress_navigator/start")
         if not reply.success:
             time.sleep(0.3)
         return reply.success
