@@ -82,7 +82,7 @@ class Showing:
         forth = [image_message(cv2.imread(os.path.join(folder, name))) for name in entry["images"]]
         self._images = forth + forth[-2:0:-1]
         self._camera = camera_message(entry["camera"])
-        self._images = rospy.Publisher("image_raw", Image, queue_size=1)
+        self._publisher = rospy.Publisher("image_raw", Image, queue_size=1)
         self._cameras = rospy.Publisher("camera_info", CameraInfo, queue_size=1)
         self._answered = threading.Event()
         self._last = None
@@ -90,7 +90,7 @@ class Showing:
         rospy.Subscriber("window", WindowDetection, self._receive, queue_size=1)
 
     def connected(self):
-        return self._images.get_num_connections() > 0 and self._cameras.get_num_connections() > 0
+        return self._publisher.get_num_connections() > 0 and self._cameras.get_num_connections() > 0
 
     def _receive(self, message):
         if message.header.stamp == self._last:
@@ -102,7 +102,7 @@ class Showing:
         self._last = image.header.stamp = self._camera.header.stamp = rospy.Time.now()
         self._answered.clear()
         self._cameras.publish(self._camera)
-        self._images.publish(image)
+        self._publisher.publish(image)
         self._answered.wait(1.0)
 
 
