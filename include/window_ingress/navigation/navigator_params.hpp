@@ -36,7 +36,7 @@ struct LimitParams {
 
 /// When an input is believed. Ages count from the stamp of the measurement, for the window from the exposure.
 struct InputParams {
-  double max_vehicle_age_sec = 0.25;  ///< older odometry stops the vehicle [s]
+  double max_vehicle_age_sec = 0.35;  ///< older odometry stops the vehicle, as does none for 0.2 s [s]
   double max_target_age_sec = 0.3;    ///< an older estimate of the window stops the vehicle [s]
   double max_image_age_sec = 1.0;  ///< without an image processed for longer than this the search stops [s]
   double max_turned_rad = 0.7;     ///< a vehicle that flies this far beside the direction it is told ends the

@@ -33,8 +33,9 @@ Decision Hold::step(const Situation& situation, MissionState& memory) {
 // wind could carry the vehicle into it meanwhile.
 bool Hold::mayRetreat(const Situation& situation, const MissionState& memory) const {
   if (from_ == State::kSearch || !situation.vehicle || !memory.trusted) return false;
-  const bool is_near = from_ != State::kCommit && relate(*situation.vehicle, *memory.trusted).distance() <
-                                                      params_->limits.wall_distance_m;
+  const double distance_m = relate(*situation.vehicle, *memory.trusted).distance();
+  if (distance_m < -params_->vehicle.half_length_m) return false;  // no way leads back through the opening
+  const bool is_near = from_ != State::kCommit && distance_m < params_->limits.wall_distance_m;
   return is_near || held_sec_ > params_->hold.patience_sec;
 }
 

@@ -29,6 +29,7 @@ double yawBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 constexpr double kFarAwayM = 1e5;
 constexpr double kFasterThanAnyMps = 20.0;
 constexpr double kMoving = 0.1;       // [m/s], [rad/s]
+constexpr double kRepeatsSec = 0.25;  // of one that says to move
 constexpr double kDeadTimeSec = 0.5;  // after which no vehicle that is told to move stands as before
 constexpr double kTrustedYawJumpRad = 0.35;
 constexpr double kJumpPersistSec = 0.5;  // a window that stays at its new place this long is believed
@@ -138,6 +139,12 @@ void InputMonitor::judgeVehicle(const NavigatorInput& input, Situation& situatio
   situation.vehicle_fault = ageFault("odometry", sample.stamp_sec, situation.now_sec,
                                      params_.max_vehicle_age_sec, params_.max_future_sec);
   if (!situation.vehicle_fault.empty()) return;
+  if (is_newer) arrived_sec_ = situation.now_sec;
+  const double missing_sec = situation.now_sec - arrived_sec_;
+  if (missing_sec > kMissingSec) {
+    situation.vehicle_fault = formatted("odometry: none for %.2f s", missing_sec);
+    return;
+  }
   if (is_newer && isStuck(sample)) {
     vehicle_ = sample;
     const double for_sec = sample.stamp_sec - unchanged_since_sec_;
@@ -174,7 +181,7 @@ bool InputMonitor::isStuck(const VehicleState& vehicle) {
   const double for_sec = vehicle.stamp_sec - unchanged_since_sec_;
   const bool says_to_move = vehicle.velocity_odom_mps.norm() > kMoving;
   const bool ought_to_move = told_to_move_sec_ && vehicle.stamp_sec - *told_to_move_sec_ > kDeadTimeSec;
-  is_stuck_ = repeats && (is_stuck_ || (says_to_move && for_sec > params_.max_vehicle_age_sec) ||
+  is_stuck_ = repeats && (is_stuck_ || (says_to_move && for_sec > kRepeatsSec) ||
                           (ought_to_move && for_sec > kDeadTimeSec));
   return is_stuck_;
 }

@@ -32,6 +32,10 @@ struct Situation {
 /// step.
 class InputMonitor {
  public:
+  /// Without new odometry for longer than this the vehicle stops. One that comes late, but comes, is flown by
+  /// until it is older than `InputParams::max_vehicle_age_sec`: its velocity tells the way since.
+  static constexpr double kMissingSec = 0.2;
+
   explicit InputMonitor(const InputParams& params) : params_(params) {}
 
   Situation judge(const NavigatorInput& input, double now_sec);
@@ -55,6 +59,7 @@ class InputMonitor {
   InputParams params_;
   std::optional<double> last_now_sec_;
   std::optional<VehicleState> vehicle_;  ///< as it came
+  double arrived_sec_ = 0.0;             ///< when that came
   std::optional<VehicleState> smooth_;   ///< the same in the frame without jumps
   ContinuousOdometry odometry_;
   std::optional<TargetEstimate> target_;

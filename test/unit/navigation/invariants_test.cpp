@@ -85,15 +85,16 @@ class HostileWorld {
   bool is_trusted_ = true, is_seen_ = true, is_unverified_ = false;
 };
 
-/// Odometry given so far: usable if the newest sample is fresh and the one of this step is not broken.
+/// Odometry given so far: usable if the newest sample is fresh and came a moment ago, and the one of this
+/// step is not broken.
 struct FreshVehicle {
-  double newest_sec = -1e9;
+  double newest_sec = -1e9, arrived_sec = -1e9;
   bool see(const NavigatorInput& input, double now, const InputParams& params) {
     if (!input.vehicle || !faultOf(*input.vehicle).empty() || !std::isfinite(now)) return false;
-    const bool is_fresh = isFresh(input.vehicle->stamp_sec, now, params);
-    if (is_fresh)
-      newest_sec = std::max(input.vehicle->stamp_sec, isFresh(newest_sec, now, params) ? newest_sec : -1e9);
-    return is_fresh || isFresh(newest_sec, now, params);
+    const double stamp_sec = input.vehicle->stamp_sec;
+    if (!isFresh(newest_sec, now, params)) newest_sec = -1e9;
+    if (isFresh(stamp_sec, now, params) && stamp_sec > newest_sec) newest_sec = stamp_sec, arrived_sec = now;
+    return isFresh(newest_sec, now, params) && now - arrived_sec <= InputMonitor::kMissingSec;
   }
   static bool isFresh(double stamp_sec, double now, const InputParams& params) {
     return now - stamp_sec <= params.max_vehicle_age_sec && now - stamp_sec >= -params.max_future_sec;
@@ -195,7 +196,7 @@ TEST(NavigatorInvariants, HoldForHostileInputWhereNoPlaceIsKept) { expectInvaria
 TEST(NavigatorInvariants, StaleOrBrokenOdometryStopsInTheSameStepInEveryState) {
   const NavigatorParams params = test::withoutGlass();
   for (int moment = 1; moment < 110; moment += 3) {
-    for (int kind = 0; kind < 4; ++kind) {
+    for (int kind = 0; kind < 5; ++kind) {
       Navigator navigator(params);
       Eigen::Vector3d position(-3.0, 0.6, 1.5);
       double now = 10.0;
@@ -209,7 +210,14 @@ TEST(NavigatorInvariants, StaleOrBrokenOdometryStopsInTheSameStepInEveryState) {
       if (kind == 0) input.vehicle.reset();
       if (kind == 1) input.vehicle->velocity_odom_mps.x() = kNan;
       if (kind == 2) input.vehicle->T_odom_base.translation().z() = kInf;
-      if (kind == 3) input.vehicle->stamp_sec = now += 0.3, input.vehicle->stamp_sec -= 0.31;
+      if (kind == 3) {
+        now += params.input.max_vehicle_age_sec;
+        input.vehicle->stamp_sec = now - params.input.max_vehicle_age_sec - 0.01;
+      }
+      if (kind == 4) {  // the last one again
+        input.vehicle->stamp_sec = now - 0.033;
+        now += InputMonitor::kMissingSec;
+      }
       const auto output = navigator.step(input, now);
       EXPECT_EQ(output.setpoint.velocity_odom_mps.norm(), 0.0);
       EXPECT_EQ(output.setpoint.yaw_rate_radps, 0.0);

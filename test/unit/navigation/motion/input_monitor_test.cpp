@@ -38,11 +38,11 @@ TEST(InputMonitor, SaysWhatIsMissing) {
 }
 
 TEST(InputMonitor, AgeCountsInBothDirections) {
-  for (const double now : {10.26, 9.79, kNan, kInf}) {
+  for (const double now : {10.36, 9.79, kNan, kInf}) {
     auto judge = monitor();
     EXPECT_FALSE(judge.judge(inputAt(kThere, 10.0), now).vehicle) << now;
   }
-  for (const double now : {10.24, 9.81}) {
+  for (const double now : {10.34, 9.81}) {
     auto judge = monitor();
     EXPECT_TRUE(judge.judge(inputAt(kThere, 10.0), now).vehicle) << now;
   }
@@ -52,6 +52,22 @@ TEST(InputMonitor, AgeCountsInBothDirections) {
   EXPECT_EQ(judge.judge(input, 10.41).target_fault, "window 0.41 s old");
   input.image_stamp_sec = 8.0;
   EXPECT_EQ(judge.judge(input, 10.41).image_fault, "last image 2.41 s old");
+}
+
+// By what it says of the way since, it is flown; nobody knows what one that stays away would say.
+TEST(InputMonitor, OdometryThatComesLateIsFlownByOneThatStaysAwayIsNot) {
+  constexpr double kStep = 0.03;
+  auto judge = monitor();
+  double now = 10.0;
+  for (; now < 12.0; now += kStep) {
+    const double late_sec = std::min(0.03 + 0.5 * (now - 10.0), 0.3);
+    EXPECT_TRUE(judge.judge(inputAt(kThere, now - late_sec), now).vehicle) << now;
+  }
+  const auto last = inputAt(kThere, now - 0.03);
+  EXPECT_TRUE(judge.judge(last, now).vehicle);
+  EXPECT_TRUE(judge.judge(last, now + 0.19).vehicle);
+  EXPECT_EQ(judge.judge(last, now + 0.21).vehicle_fault, "odometry: none for 0.21 s");
+  EXPECT_TRUE(judge.judge(inputAt(kThere, now + 0.2), now + 0.24).vehicle) << "it is back";
 }
 
 TEST(InputMonitor, ABadVehicleIsNeverUsedAndNamed) {
