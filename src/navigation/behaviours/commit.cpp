@@ -25,12 +25,14 @@ bool isBroken(const CommitCriterion& criterion, const NavigatorParams& params) {
              criterion.clearance_vertical_m + given_m;
 }
 
-/// The nose can still be stopped before it is in the opening, from the speed that it has or was told to take
-/// up, in the part of the way before it that `reserve` leaves.
+/// The nose can still be stopped before it is in the opening, from the speed that it has, and takes up of
+/// what it was told until it answers, in the part of the way before it that `reserve` leaves.
 bool canStop(const RelativeState& relative, const TargetEstimate& target, const MissionState& memory,
              const NavigatorParams& params, double reserve = 1.0) {
   const double told_mps = uprightRotation(target).col(0).dot(memory.told_odom_mps);
-  const double speed_mps = std::max({0.0, relative.velocity_window_mps.x(), told_mps});
+  const double now_mps = std::max(0.0, relative.velocity_window_mps.x());
+  const double gained_mps = params.vehicle.braking_mps2 * params.vehicle.response_sec;
+  const double speed_mps = std::max(now_mps, std::min(told_mps, now_mps + gained_mps));
   const double stop_m = stoppingDistance(speed_mps, params.vehicle);
   return relative.distance() - params.vehicle.half_length_m > reserve * stop_m;
 }
@@ -61,7 +63,8 @@ Decision Commit::step(const Situation& situation, MissionState& memory) {
 
   Decision decision;
   decision.wish.velocity_odom_mps =
-      velocityAlongAxis(relative, target, forwardSpeed(relative), memory.wind_odom_mps, *params_);
+      velocityAlongAxis(relative, target, againstTailwind(forwardSpeed(relative), target, memory),
+                        memory.wind_odom_mps, *params_);
   decision.wish.yaw_rate_radps = yawRateFor(relative.heading_error_rad, memory, *params_);
   decision.reason = formatted("through the opening, window seen %.2f s ago", blind_sec);
   if (is_through_) {

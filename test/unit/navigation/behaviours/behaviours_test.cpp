@@ -372,7 +372,7 @@ TEST(CommitBehaviour, StaysBehindTheWindowAgainstTheWind) {
 }
 
 // A vehicle that was told to go on does so until it answers: it stands too late.
-TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
+TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItTakesUpOfWhatItWasTold) {
   static constexpr double kBesideM = 0.8;  // no criterion holds there
   const auto eventAt = [](double distance_m, double told_mps) {
     MissionState memory;
@@ -382,7 +382,8 @@ TEST(CommitBehaviour, TurnsBackOnlyWhereItCanStopFromWhatItWasTold) {
     return commit.step(situationAt({-distance_m, kBesideM, 1.5}, 0.0, false), memory).event;
   };
   const auto& vehicle = kDefaults.vehicle;
-  const double needed_m = vehicle.half_length_m + stoppingDistance(0.95, vehicle);
+  const double gained_mps = vehicle.response_sec * vehicle.braking_mps2;  // it stands so far
+  const double needed_m = vehicle.half_length_m + stoppingDistance(gained_mps, vehicle);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.0), Event::kContractUnmet);
   EXPECT_EQ(eventAt(needed_m - 0.02, 0.95), std::nullopt);
   EXPECT_EQ(eventAt(needed_m + 0.02, 0.95), Event::kContractUnmet);
@@ -393,11 +394,11 @@ TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
   for (const double distance_m : {0.8, 2.5}) {
     MissionState memory;
     memory.committed = test::targetAtOrigin(0.0);
-    memory.told_odom_mps = {0.95, 0.0, 0.0};
     Commit commit{kDefaults};
     Decision decision;
     for (int i = 0; i < 6; ++i) {
       auto situation = situationAt({-distance_m, 0.0, 1.5}, 0.05 * i, i > 0);
+      situation.vehicle->velocity_odom_mps.x() = 0.95;
       if (i > 0) situation.target->T_odom_window.translation().y() += 0.3;
       EXPECT_EQ(decision.event, std::nullopt);
       decision = commit.step(situation, memory);
@@ -408,6 +409,20 @@ TEST(CommitBehaviour, FollowsAWindowThatIsSeenElsewhereOnlyWhereItCannotStop) {
     }
     EXPECT_EQ(decision.wish.velocity_odom_mps.y() > 0.1, distance_m < 2.0);
   }
+}
+
+TEST(CommitBehaviour, IsNoFasterThanToldWithTheWindBehindIt) {
+  const auto forwardWith = [](double wind_mps) {
+    MissionState memory;
+    memory.committed = test::targetAtOrigin(0.0);
+    memory.wind_odom_mps.x() = wind_mps;
+    Commit commit{kDefaults};
+    auto situation = situationAt({-0.5, 0.0, 1.5}, 0.0, false);
+    situation.vehicle->velocity_odom_mps.x() = 0.95;
+    return commit.step(situation, memory).wish.velocity_odom_mps.x();
+  };
+  EXPECT_NEAR(forwardWith(0.3), forwardWith(0.0) - 0.3, 1e-9);
+  EXPECT_DOUBLE_EQ(forwardWith(-0.3), forwardWith(0.0)) << "a gust against it may end";
 }
 
 TEST(CommitBehaviour, HasPassedOnlyWhereItStopsNotWhereItIsBlownBackTo) {
@@ -427,6 +442,22 @@ TEST(HoldBehaviour, LeavesTheWallAtOnceWhereWindCouldCarryItThere) {
     Hold hold{kDefaults, State::kApproach};
     const auto decision = hold.step(situationAt({-distance_m, 0.1, 1.5}, 0.0, false), memory);
     EXPECT_EQ(decision.event == Event::kWindowLost, distance_m < kDefaults.limits.wall_distance_m);
+  }
+}
+
+TEST(HoldBehaviour, NeverRetreatsThroughTheOpening) {
+  for (const double behind_m : {-0.5, 0.5}) {
+    MissionState memory;
+    memory.trusted = memory.committed = test::targetAtOrigin(0.0);
+    Hold hold{kDefaults, State::kCommit};
+    std::optional<Event> event;
+    for (double now = 0.0; now < 2.0 && !event; now += 0.03) {
+      auto situation = situationAt({behind_m, 0, 1.5}, now, false);
+      const bool is_gone = std::fmod(now, 0.15) > 0.1;  // every now and then: nothing can be gone on with
+      if (is_gone) situation.vehicle.reset();
+      event = hold.step(situation, memory).event;
+    }
+    EXPECT_EQ(event == Event::kWindowLost, behind_m < 0.0);
   }
 }
 
