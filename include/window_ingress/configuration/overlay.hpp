@@ -5,7 +5,11 @@
 #include <set>
 #include <string>
 
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
+#include "window_ingress/configuration/guard_params.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
+#include "window_ingress/configuration/pose_node_params.hpp"
+#include "window_ingress/configuration/world_node_params.hpp"
 #include "window_ingress/navigation/vehicle_params.hpp"
 
 namespace window_ingress::configuration {

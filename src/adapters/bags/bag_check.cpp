@@ -1,5 +1,3 @@
-#include "adapters/bags/bag_reading.hpp"
-
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -7,6 +5,8 @@
 #include <optional>
 #include <set>
 #include <vector>
+
+#include "adapters/bags/bag_reading.hpp"
 
 namespace window_ingress::adapters {
 namespace {

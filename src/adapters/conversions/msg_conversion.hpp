@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/common_params.hpp"
 #include "window_ingress/detection/detection_trace.hpp"
 #include "window_ingress/detection/seen_windows.hpp"
 #include "window_ingress/detection/window_observation.hpp"

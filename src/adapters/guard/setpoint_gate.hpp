@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/guard_params.hpp"
 
 namespace window_ingress::adapters {
 

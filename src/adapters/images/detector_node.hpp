@@ -21,7 +21,7 @@
 #include "adapters/runtime/lockstep.hpp"
 #include "adapters/runtime/reconfigure.hpp"
 #include "adapters/runtime/run_node.hpp"
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/window_detector.hpp"
 #include "window_ingress/perception/window_perception.hpp"
 

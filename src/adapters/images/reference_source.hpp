@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "adapters/images/image_conversion.hpp"
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/detection/detector_params.hpp"
 #include "window_ingress/detection/reference_appearance.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/common_params.hpp"
 
 namespace window_ingress::adapters {
 

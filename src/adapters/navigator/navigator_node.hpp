@@ -15,14 +15,14 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/guard/setpoint_gate.hpp"
-#include "adapters/navigator/other_nodes.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/markers/flight_markers.hpp"
 #include "adapters/navigator/mission_action.hpp"
+#include "adapters/navigator/other_nodes.hpp"
+#include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/lockstep.hpp"
 #include "adapters/runtime/run_node.hpp"
-#include "adapters/runtime/diagnostics.hpp"
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
 #include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/navigation/navigator.hpp"
 

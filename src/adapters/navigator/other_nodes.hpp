@@ -14,7 +14,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/runtime/diagnostics.hpp"
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/navigator_node_params.hpp"
 
 namespace window_ingress::adapters {
 

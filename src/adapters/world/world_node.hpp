@@ -13,14 +13,14 @@
 #include <string>
 
 #include "adapters/conversions/msg_conversion.hpp"
-#include "adapters/runtime/run_node.hpp"
 #include "adapters/runtime/diagnostics.hpp"
+#include "adapters/runtime/run_node.hpp"
 #include "adapters/world/world_lockstep.hpp"
 #include "adapters/world/world_publishers.hpp"
 #include "adapters/world/world_referee.hpp"
 #include "simulation/schedule.hpp"
 #include "simulation/world.hpp"
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/world_node_params.hpp"
 
 namespace window_ingress::adapters {
 

@@ -1,8 +1,7 @@
-#include "evaluation/flights/closed_loop_flight.hpp"
-
 #include <cmath>
 
-#include "window_ingress/configuration/node_params.hpp"
+#include "evaluation/flights/closed_loop_flight.hpp"
+#include "window_ingress/configuration/pose_node_params.hpp"
 
 namespace window_ingress::evaluation {
 namespace {

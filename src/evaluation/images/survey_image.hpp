@@ -6,8 +6,8 @@
 #include <string>
 
 #include "simulation/camera/camera_motion.hpp"
-#include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scenario/scenario.hpp"
+#include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scene/scene.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"

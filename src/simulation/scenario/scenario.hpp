@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "simulation/scenario/sensor_params.hpp"
 #include "simulation/scenario/fault_params.hpp"
 #include "simulation/scenario/house_params.hpp"
 #include "simulation/scenario/quadrotor_params.hpp"
+#include "simulation/scenario/sensor_params.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/geometry/pinhole_camera.hpp"
 #include "window_ingress/text/text.hpp"

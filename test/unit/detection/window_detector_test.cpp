@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "drawn_window.hpp"
-#include "window_ingress/configuration/node_params.hpp"
+#include "window_ingress/configuration/detector_node_params.hpp"
 #include "window_ingress/geometry/frames.hpp"
 #include "window_ingress/geometry/opening.hpp"
 #include "window_ingress/parameters/yaml.hpp"

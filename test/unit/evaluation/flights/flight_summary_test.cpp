@@ -1,9 +1,9 @@
-#include "evaluation/flights/flight_table.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "evaluation/flights/flight_table.hpp"
 
 namespace window_ingress::evaluation::flight_summary_test {
 

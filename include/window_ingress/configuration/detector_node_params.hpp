@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "window_ingress/configuration/common_params.hpp"
+#include "window_ingress/detection/detector_params.hpp"
+#include "window_ingress/openness/interior_klt_params.hpp"
+
+namespace window_ingress::configuration {
+
+/// The reference image.
+struct ReferenceParams {
+  std::string picture;          ///< JPEG or PNG file of the target; empty: no reference
+  std::vector<double> corners;  ///< corners of the opening's inner border in the reference image, x1 y1 .. x4
+                                ///< y4 from top left, clockwise [px]; empty: the whole image is the target
+                                ///< with its frame
+  std::string capture_file;  ///< JPEG or PNG file that ~capture_reference writes; beside it .yaml, these
+                             ///< parameters for it, and _understood.png, what is made of it; empty: nothing is
+                             ///< written
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("picture", self.picture);
+    field("corners", self.corners);
+    field("capture_file", self.capture_file);
+  }
+};
+
+struct DetectorNodeParams {
+  std::string image_transport = "raw";  ///< raw, compressed, or a plugin of image_transport
+  bool use_imu = true;     ///< predict tracks by the vehicle's attitude from `imu`, where messages come
+  double budget_ms = 0.0;  ///< diagnostics warn if an image takes longer; 0: the time between two images [ms]
+  bool lockstep = false;   ///< run step by step with the simulated world; only with use_sim_time
+  ImageLimits image;
+  ReferenceParams reference;
+  detection::DetectorParams detector;
+  openness::InteriorKltParams interior;
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field("image_transport", self.image_transport);
+    field("use_imu", self.use_imu);
+    field("budget_ms", self.budget_ms, 0.0, 10000.0);
+    field("lockstep", self.lockstep);
+    field.group("image", self.image);
+    field.group("reference", self.reference);
+    field.group("detector", self.detector);
+    field.group("interior", self.interior);
+  }
+};
+
+}  // namespace window_ingress::configuration
