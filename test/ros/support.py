@@ -123,9 +123,13 @@ class Stream:
         self._paused = False
 
     def _run(self):
-        while not self._stop.wait(self._period_s):
-            if not rospy.is_shutdown() and not self._paused:
+        while not self._stop.wait(self._period_s) and not rospy.is_shutdown():
+            if self._paused:
+                continue
+            try:
                 self._publisher.publish(self.make(rospy.Time.now()))
+            except rospy.ROSException:  # the topic is closed: the node went down in between
+                return
 
     def stop(self):
         self._stop.set()
