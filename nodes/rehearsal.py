@@ -49,7 +49,7 @@ class Rehearsal:
     def __init__(self):
         self._lock, self._hand = threading.Lock(), HandOdometry()
         self._state, self._setpoint, self._ended_s, self._said_s = None, TwistStamped(), None, -1.0
-        self._last_s = rospy.get_time()
+        self._last_s, self._frame = rospy.get_time(), rospy.get_param("vehicle/odom_frame", "odom")
         kind = transforms_type()
         self._odom = rospy.Publisher("odom", Odometry, queue_size=1) if rospy.get_param("~odometry", True) else None
         self._tf = rospy.Publisher("/tf", kind, queue_size=10)
@@ -93,7 +93,7 @@ class Rehearsal:
     def _tell(self, now, place, velocity, rotation):
         message, transform = Odometry(child_frame_id="base_link"), TransformStamped(child_frame_id="base_link")
         for each in (message, transform):
-            each.header.stamp, each.header.frame_id = now, "odom"
+            each.header.stamp, each.header.frame_id = now, self._frame
         position, orientation, linear = message.pose.pose.position, message.pose.pose.orientation, message.twist.twist.linear
         position.x, position.y = place[:2]
         position.z = place[2] + 1e-9 * (now.nsecs % 1000)  # no odometry repeats itself to the bit

@@ -60,9 +60,12 @@ inline cv::Mat readImage(const std::filesystem::path& file) {
   return image;
 }
 
-/// An image, in the format that the name says. \throws std::runtime_error that names it
+/// An image, in the format that the name says. \throws std::runtime_error that names it; InputError if it
+/// says none
 inline void writeImage(const std::filesystem::path& file, const cv::Mat& image,
                        const std::vector<int>& how = {}) {
+  if (!cv::haveImageWriter(file.string()))
+    throw InputError(file.string() + ": give a name that ends as an image's, e.g. in .png");
   makeFolderOf(file);
   if (image.empty() || !cv::imwrite(file.string(), image, how)) cannotBeWritten(file);
 }

@@ -11,6 +11,8 @@
 namespace window_ingress::parameters {
 namespace {
 
+constexpr char kSecondTime[] = ": stands here for the second time";
+
 /// Walks over a file, and knows which of its keys there may be.
 class YamlReader {
  public:
@@ -22,8 +24,8 @@ class YamlReader {
       const std::string here = path + entry.name;
       if (const Field* field = find(fields_, here))
         faults.collect([&] {
+          if (!said.insert(here).second) throw faultAt(file_, entry.key, here + kSecondTime);
           readValue(file_, entry.value, *field);
-          said.insert(here);
         });
       else if (std::find(keys_.begin(), keys_.end(), here) != keys_.end())
         read(entry.value, here + "/");
@@ -41,8 +43,8 @@ class YamlReader {
   std::vector<std::string> keys_;
 };
 
-// Whether ROS, too, reads what is no text here as none: in quotes, as "1e-3" and as "y" it is a text there,
-// and "010" is eight.
+// Whether ROS, too, reads what is no text here as none: in quotes, as "1e-3", "-.5" and "y" it is a text
+// there, and "010" is eight.
 bool isPlainForRos(const YAML::Node& node) {
   if (node.IsSequence()) return std::all_of(node.begin(), node.end(), isPlainForRos);
   const std::string& text = node.Scalar();
@@ -53,7 +55,7 @@ bool isPlainForRos(const YAML::Node& node) {
   const bool is_octal = text[first] == '0' && first + 1 < text.size() && std::isdigit(text[first + 1]) != 0;
   const bool is_text = exponent != std::string::npos &&
                        (text.find('.') > exponent || text.find_first_of("+-", exponent) != exponent + 1);
-  return !is_octal && !is_text;
+  return !is_octal && !is_text && (first == 0 || text[first] != '.');
 }
 
 // What stands there, for people.
@@ -66,7 +68,11 @@ std::string found(const YAML::Node& node) {
 
 YAML::Node loadYaml(const std::string& file) {
   try {
-    return YAML::LoadFile(file);
+    const std::vector<YAML::Node> documents = YAML::LoadAllFromFile(file);
+    if (documents.size() > 1)
+      throw InputError(file + ": holds " + std::to_string(documents.size()) +
+                       " documents, parted by '---'; only one is read");
+    return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::BadFile&) {
     throw InputError(file + ": cannot be read; does it exist?");
   } catch (const std::ios_base::failure&) {
@@ -100,8 +106,7 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
     if (!entry.first.IsScalar())
       faults.add(faultAt(file, entry.first, place + "a key must be a word"));
     else if (!names.insert(entry.first.Scalar()).second)
-      faults.add(
-          faultAt(file, entry.first, path + entry.first.Scalar() + ": stands here for the second time"));
+      faults.add(faultAt(file, entry.first, path + entry.first.Scalar() + kSecondTime));
     else if (entry.second.IsNull())  // its own mark is that of what follows
       faults.add(faultAt(file, entry.first,
                          path + entry.first.Scalar() + ": is empty; give it a value, or leave it out"));
@@ -122,7 +127,7 @@ void readValue(const std::string& file, const YAML::Node& node, const Field& fie
     std::string fault = faultOf(field);
     if (!std::is_same_v<std::decay_t<decltype(*value)>, std::string> && !isPlainForRos(node))
       fault = field.name + ": must be " + kindOf(field) +
-              "; ROS reads this otherwise: no quotes, no zero in front, 1.0e-3 for 1e-3";
+              "; ROS reads this otherwise: no quotes, no zero in front, 1.0e-3 for 1e-3, -0.5 for -.5";
     if (fault.empty()) return;
     *value = before;
     throw faultAt(file, node, fault);

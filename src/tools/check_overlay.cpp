@@ -27,7 +27,7 @@ using namespace window_ingress;
 
 struct Options {
   std::string file, defaults, reference, corners, window_size, camera_pose, needs_window_size, fly,
-      image_transport, needs_package, needs_display, scenario, launch_folder;
+      image_transport, odom_frame, needs_package, needs_display, scenario, launch_folder;
 };
 
 tools::OptionList describe(Options& o) {
@@ -47,7 +47,8 @@ tools::OptionList describe(Options& o) {
   add("needs-window-size", o.needs_window_size,
       "true: refused if nobody says it; warned of a vehicle whose size is not said, or a missing "
       "reference");
-  add("image-transport", o.image_transport, "by which images come; FILE.yaml counts more");
+  add("image-transport", o.image_transport, "by which images come");
+  add("odom-frame", o.odom_frame, "frame_id of the odometry");
   add("scenario", o.scenario, "yaml file of the simulated world");
   add("needs-package", o.needs_package, "that the calling roslaunch starts a node of");
   add("needs-display", o.needs_display, "true: the calling roslaunch starts rviz");
@@ -100,11 +101,21 @@ double checkReference(const Options& o, const std::string& file,
   }
 }
 
-void checkTransport(const Options& o, const configuration::Overlay& overlay) {
-  const bool said = overlay.said.count("window_detector/image_transport") != 0;
-  const std::string& transport = said ? overlay.window_detector.image_transport : o.image_transport;
+// What goes by the argument beside the nodes that read the file: the guard, rviz, a player of bags.
+void checkAgrees(const std::string& argument, const std::string& given, const std::string& file,
+                 const std::string& key, const std::string& in_file, const configuration::Overlay& overlay) {
+  if (given.empty() || given == in_file || overlay.said.count(key) == 0) return;
+  throw InputError(file + ": " + key + " is '" + in_file + "', " + argument + " of the launch file '" +
+                   given + "': give " + argument + ":=" + in_file + ", or take it out of the file");
+}
+
+void checkTransport(const Options& o, const std::string& file, const configuration::Overlay& overlay) {
+  const char* key = "window_detector/image_transport";
+  const std::string& in_file = overlay.window_detector.image_transport;
+  const std::string& transport = overlay.said.count(key) != 0 ? in_file : o.image_transport;
   const std::string why = transport.empty() ? "" : adapters::whyNoTransport(transport);
   if (!why.empty()) throw InputError(why);
+  checkAgrees("image_transport", o.image_transport, file, key, in_file, overlay);
 }
 
 void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
@@ -244,7 +255,10 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
                   tools::InputFaults& faults) {
   double aspect = 0.0;
   faults.collect([&] { aspect = checkReference(o, file, overlay.window_detector); });
-  faults.collect([&] { checkTransport(o, overlay); });
+  faults.collect([&] { checkTransport(o, file, overlay); });
+  faults.collect([&] {
+    checkAgrees("odom_frame", o.odom_frame, file, "vehicle/odom_frame", overlay.vehicle.frames.odom, overlay);
+  });
   faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
   if (aspect > 0.0 && (saysOpening(overlay) || !given(o.window_size).empty()))
     checkAspect(aspect, overlay.homography_pose.pose);

@@ -134,6 +134,21 @@ class OptionList : public boost::program_options::options_description {
   boost::program_options::positional_options_description unnamed;  ///< which need no name
 };
 
+/// \throws InputError if --output is one of the files that are read: it would be lost
+inline void checkReplacesNoInput(const boost::program_options::variables_map& given) {
+  if (given.count("output") == 0) return;
+  const auto& output = given["output"].as<std::string>();
+  if (!std::filesystem::is_regular_file(output)) return;
+  for (const auto& [name, option] : given) {
+    std::vector<std::string> files;
+    if (const auto* file = boost::any_cast<std::string>(&option.value())) files = {*file};
+    if (const auto* several = boost::any_cast<std::vector<std::string>>(&option.value())) files = *several;
+    for (const std::string& file : files)
+      if (std::error_code none; name != "output" && std::filesystem::equivalent(file, output, none))
+        throw InputError("--output " + output + " is read, too: give another name");
+  }
+}
+
 /// The same, with the arguments taken apart first: whole names only, --seed is not taken for --seeds.
 /// \param describe binds an `Options` to what --help prints
 template <typename Options, typename Body>
@@ -159,6 +174,7 @@ int runTool(const char* name, int argc, char** argv, OptionList (*describe)(Opti
       return 0;
     }
     po::notify(given);
+    checkReplacesNoInput(given);
     return body(options);
   });
 }

@@ -107,13 +107,6 @@ tools::OptionList describe(Options& o) {
   return add;
 }
 
-void check(const Options& o) {
-  if (o.inputs.empty()) throw InputError("no image given; see --help");
-  if (!o.size.empty() && o.camera.empty())
-    throw InputError("--window-size needs --camera: no pose without it");
-  if (!o.corners.empty() && o.reference.empty()) throw InputError("--reference-corners needs --reference");
-}
-
 bool looksLikeImage(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -121,6 +114,15 @@ bool looksLikeImage(const fs::path& path) {
   for (const char* known : {".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".ppm", ".pgm"})
     if (extension == known) return true;
   return false;
+}
+
+void check(const Options& o) {
+  if (looksLikeImage(o.output))
+    throw InputError("--output " + o.output + ": a csv file is written, no image");
+  if (o.inputs.empty()) throw InputError("no image given; see --help");
+  if (!o.size.empty() && o.camera.empty())
+    throw InputError("--window-size needs --camera: no pose without it");
+  if (!o.corners.empty() && o.reference.empty()) throw InputError("--reference-corners needs --reference");
 }
 
 std::vector<std::string> listImages(const std::vector<std::string>& inputs) {

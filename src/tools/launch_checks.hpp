@@ -138,14 +138,20 @@ inline std::vector<std::string> missingOf(const std::string& files) {
 }
 
 /// \throws InputError that names each file of arguments whose text wants an "existing" one, and that is not
-/// there
+/// there, and each folder that is not there of those whose text says what comes "into" it
 inline void checkFilesAreThere(const std::vector<std::string>& words, const std::filesystem::path& launch) {
   std::vector<std::string> faults;
   for (const auto& argument : argumentsOf(launch))
-    for (const auto& [name, value] : assignmentsIn(words))
-      if (name == argument.name && argument.doc.rfind("existing ", 0) == 0)
-        for (const auto& file : missingOf(value))
-          faults.push_back(launch.filename().string() + ": " + name + ":=" + file + ": no such file");
+    for (const auto& [name, value] : assignmentsIn(words)) {
+      if (name != argument.name) continue;
+      const std::string said = launch.filename().string() + ": " + name + ":=";
+      const std::string folder = std::filesystem::path(value).parent_path();
+      if (argument.doc.rfind("existing ", 0) == 0)
+        for (const auto& file : missingOf(value)) faults.push_back(said + file + ": no such file");
+      if (argument.doc.find("into,") != std::string::npos && !folder.empty() &&
+          !std::filesystem::is_directory(folder))
+        faults.push_back(said + value + ": no such folder: mkdir -p " + folder);
+    }
   if (!faults.empty()) throw InputError(parameters::joined(faults, "\n"));
 }
 

@@ -186,8 +186,6 @@ tools::OptionList describe(Job& job) {
 
 int run(const Job& job) {
   if (job.image.empty()) throw InputError("no image given; see --help");
-  if (std::error_code none; fs::equivalent(job.image, job.output, none))
-    throw InputError("--output " + job.output + " is the photograph itself; give another name");
   const auto params = configuration::readOverlay(job.params).window_detector.detector;
   const cv::Mat image = evaluation::readImage(job.image);
   std::vector<double> corners;

@@ -1,6 +1,7 @@
 """What the tools answer to bad input: one clear line on stderr and the exit code of interfaces: 2 for wrong usage or
 unreadable input, 1 for a job that failed."""
 import pathlib
+import re
 
 import cv2
 import numpy
@@ -90,6 +91,29 @@ def test_output_that_cannot_be_written_to_is_a_failed_job(image):
     if not pathlib.Path("/dev/full").exists():
         pytest.skip("no /dev/full here")
     assert_refused(run("detect_images", "--output", "/dev/full", image), 1, "/dev/full")
+
+
+@pytest.mark.parametrize("words", [
+    ("detect_images", "FILE", "--output", "FILE"), ("draw_stages", "FILE", "--output", "FILE"), ("make_reference", "FILE", "--output", "FILE"),
+    ("tune_detector", "FILE", "--headless", "--output", "FILE"), ("learn_vehicle", "FILE", "--output", "FILE"),
+    ("detect_images", "--output", "FILE", "nowhere.jpg")])  # the csv's name forgotten
+def test_what_is_read_is_not_overwritten(words, image):
+    before = image.read_bytes()
+    assert_refused(run(*(str(image) if word == "FILE" else word for word in words)), 2, f"--output {image}")
+    assert image.read_bytes() == before
+
+
+@pytest.mark.parametrize("tool, words, code", [
+    ("search_envelope", ["--flights", "10", "--output", "FILE"], 1), ("gust_table", ["--output", "FILE"], 1),
+    ("plot_filter", ["--runs", "2", "--output", "FILE/x.png"], 1), ("plot_filter", ["--runs", "0", "--output", "x.png"], 2),
+    ("plot_openness", ["nowhere.csv", "x.png"], 1), ("plot_openness", ["FILE", "x.png"], 2),
+    ("draw_stages", ["FILE", "--output", "sheet.xyz"], 2)])
+def test_what_cannot_be_read_or_written_is_a_line_no_traceback(tool, words, code, image):
+    text = image.with_suffix(".csv")
+    text.write_text("a,b\n1,2\n")
+    done = run(tool, *(word.replace("FILE", str(image if tool == "draw_stages" else text)) for word in words))
+    assert done.returncode == code and "Traceback" not in done.stderr and "OpenCV(" not in done.stderr, done.stderr
+    assert re.match(rf"({tool}|survey_filter): \S", done.stderr.splitlines()[-1]), done.stderr
 
 
 def test_folder_of_the_output_is_made(tmp_path, image):

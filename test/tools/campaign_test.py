@@ -156,10 +156,19 @@ def test_scenarios_flown_elsewhere_are_left_out_with_a_line(tmp_path):
 def test_wrong_usage_says_what_to_do(tmp_path):
     scenario = scenario_in(tmp_path)
     for arguments, text in [([tmp_path / "none.yaml"], "no such file"), ([scenario, "--shards", "0"], "--shards"),
-                            ([scenario, scenario], "same name"),
+                            ([scenario, scenario], "same name"), ([scenario, "--seeds", "5..1"], "--seeds: 5..1"),
+                            ([scenario, "--output", __file__], "no campaign's"),
                             ([scenario, "--sshloginfile", scenario], "must lie below")]:
         done = run("campaign", "--output", tmp_path / "out", *arguments)
         assert done.returncode == 2 and text in done.stderr, arguments
+
+
+def test_a_folder_of_something_else_is_not_replaced(tmp_path):
+    kept = tmp_path / "short" / "photo.jpg"
+    kept.parent.mkdir()
+    kept.write_text("")
+    done = run("campaign", "--output", tmp_path, "--overwrite", scenario_in(tmp_path))
+    assert done.returncode == 2 and f"{kept.parent} is there and no campaign's" in done.stderr and kept.exists()
 
 
 def test_failures_are_kept_with_bag_and_picture(tmp_path):

@@ -1,4 +1,5 @@
 """What doctor advises, on made-up findings; how it fares on live systems: test/ros/doctor*.test."""
+import math
 import os
 import pathlib
 import re
@@ -6,8 +7,9 @@ import socket
 import types
 
 import pytest
+from geometry_msgs.msg import TransformStamped
 
-from ingress_tools import findings, input_checks, observed_system, remedies
+from ingress_tools import findings, input_checks, live_system, observed_system, remedies
 from repository import ROOT, load, run
 
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
@@ -29,14 +31,15 @@ def seen(topics=(), said=()):
 
 
 @pytest.mark.parametrize("wanted, kind, there, arguments", [
-    ("/eye/image_raw", RAW, {"/camera/image_raw": RAW}, " image:=/camera/image_raw"),
+    ("/eye/image_raw", RAW, {"/camera/image_raw": RAW}, " image_transport:=raw image:=/camera/image_raw"),
     ("/eye/image_raw", RAW, {"/camera/image_raw/compressed": COMPRESSED}, " image_transport:=compressed image:=/camera/image_raw"),
     ("/eye/image_raw/compressed", COMPRESSED, {"/camera/image_raw/compressed": COMPRESSED},
      " image_transport:=compressed image:=/camera/image_raw"),
-    ("/camera/image_raw/compressed", COMPRESSED, {"/camera/image_raw": RAW}, " image:=/camera/image_raw"),
-    ("/odom", "nav_msgs/Odometry", {"/mavros/local_position/odom": "nav_msgs/Odometry"}, " odom:=/mavros/local_position/odom")])
+    ("/camera/image_raw/compressed", COMPRESSED, {"/camera/image_raw": RAW}, " image_transport:=raw image:=/camera/image_raw"),
+    ("/odom", "nav_msgs/Odometry", {"/mavros/local_position/odom": "nav_msgs/Odometry", "/ground_truth/odom": "nav_msgs/Odometry"},
+     " odom:=/mavros/local_position/odom")])
 def test_another_topic_is_given_as_launch_files_want_it(wanted, kind, there, arguments):
-    assert remedies.another_topic(seen(there), wanted, kind) == remedies.LAUNCH + arguments
+    assert remedies.another_topic(seen(there), wanted, kind) == remedies.AGAIN + arguments
 
 
 def test_without_another_topic_the_argument_is_named():
@@ -104,6 +107,34 @@ def test_each_remedy_is_reached():
         assert remedies.remedy(f"so {words} it is") == mend, number
 
 
+def test_the_frame_that_came_is_the_one_to_be_given():
+    assert remedies.remedy("/odom (1 publisher) refused, 9 so far: header.frame_id is 'map', expected 'odom'") == f"{remedies.AGAIN} odom_frame:=map"
+
+
+def test_what_two_nodes_refuse_alike_is_mended_once(doctor, capsys):
+    text = "/odom (1 publisher) refused, 9 so far: header.frame_id is 'map', expected 'odom'"
+    said_by(doctor, homography_pose__odom=(2, text), ingress_navigator__odom=(2, text.replace("9", "11")))
+    assert "1 finding(s) to mend, 1 follow from them" in capsys.readouterr().out
+    report = findings.Report()
+    report.error("/odom: 50.0 Hz from /driver, stamps 3.00 s old", "synchronise the clocks", ["/odom"])
+    doctor.check_what_nodes_say(types.SimpleNamespace(alive={name: name for name in doctor.WANTED}, said={
+        "homography_pose: odom": types.SimpleNamespace(level=2, message="/odom (1 publisher) refused, 9 so far: stamp is 3.01 s old")}), report)
+    assert report.say() == 1
+
+
+@pytest.mark.parametrize("sender, yaw_rad, frames", [("/mounting", 0.0, {}), ("/mounting", 0.5, {"camera": ["/driver", "/mounting"]}),
+                                                     ("/driver", 0.5, {})])
+def test_a_transform_that_two_nodes_say_differently_is_named(monkeypatch, sender, yaw_rad, frames):
+    monkeypatch.setattr(live_system.rospy, "Subscriber", lambda *_, **__: None)
+    transforms = live_system.Transforms()
+    for node, angle in (("/driver", 0.0), (sender, yaw_rad)):
+        item = TransformStamped(child_frame_id="camera")
+        item.header.frame_id = "base_link"
+        item.transform.rotation.z, item.transform.rotation.w = math.sin(angle / 2.0), math.cos(angle / 2.0)
+        transforms._receive(types.SimpleNamespace(transforms=[item], _connection_header={"callerid": node}))
+    assert transforms.contradictions() == frames
+
+
 def test_the_programs_that_are_advised_are_installed():
     advised = {match for _, mend in remedies.REMEDIES for match in re.findall(r"rosrun (\w+) (\w+)", mend)}
     assert ("tf2_ros", "static_transform_publisher") in advised
@@ -116,7 +147,7 @@ def test_the_programs_that_are_advised_are_installed():
                                            ("rehearse.launch", {"mavros", "cmd_vel"})])
 def test_the_launch_files_have_the_arguments_that_are_advised(file, without):
     sources = [ROOT / "tools/doctor", *(ROOT / "tools/ingress_tools").glob("*.py")]
-    lines = [line for source in sources for line in source.read_text(encoding="utf-8").splitlines() if "{LAUNCH} " in line]
+    lines = [line for source in sources for line in source.read_text(encoding="utf-8").splitlines() if "{AGAIN} " in line]
     advised = {*observed_system.ARGUMENTS.values(), "image_transport", *re.findall(r"(\w+):=", "".join(lines))} - {"image_transport:=compressed image"}
     assert "cmd_vel" in advised and "camera_frame" in advised
     there = set(re.findall(r'<arg name="(\w+)" default', (ROOT / "launch" / file).read_text(encoding="utf-8")))
@@ -235,11 +266,11 @@ def test_an_opening_of_another_shape_than_said_is_the_cause_of_a_window_not_foun
 
 
 @pytest.mark.parametrize("called, launch, wanted", [
-    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch image:=/eye; ./scripts/ingress reference IMAGE"),
-    ("", "px4.launch", "roslaunch window_ingress px4.launch image:=/eye; ingress reference IMAGE")])
+    ("./scripts/run", None, "./scripts/run roslaunch window_ingress ingress.launch; ./scripts/ingress reference IMAGE"),
+    ("", "px4.launch", "roslaunch window_ingress px4.launch; ingress reference IMAGE")])
 def test_mends_are_commands_as_the_user_runs_them(monkeypatch, called, launch, wanted):
     monkeypatch.setenv("WINDOW_INGRESS_RUN", called)
-    assert findings.as_run(f"{remedies.LAUNCH} image:=/eye; scripts/ingress reference IMAGE", launch) == wanted
+    assert findings.as_run(f"{remedies.LAUNCH}; scripts/ingress reference IMAGE", launch) == wanted
 
 
 @pytest.mark.parametrize("host, warned", [("localhost", False), (socket.gethostname(), False), ("drone", True)])

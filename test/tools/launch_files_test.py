@@ -291,6 +291,19 @@ def test_images_by_a_transport_that_is_not_there_end_the_launch(tmp_path):
     assert run("roslaunch", "--nodes", launch, *SIZE, "image_transport:=compressed").returncode == 0
 
 
+@pytest.mark.parametrize("name, key, argument, standard", [
+    ("px4", "vehicle: {odom_frame: there}", "odom_frame", "map"), ("sim", "vehicle: {odom_frame: there}", "odom_frame", "odom"),
+    ("replay", "window_detector: {image_transport: raw}", "image_transport", "compressed")])
+def test_what_others_go_by_too_is_not_said_differently_by_the_file(tmp_path, name, key, argument, standard):
+    config = tmp_path / "drone.yaml"
+    config.write_text(key)
+    wanted = key.rpartition(" ")[2].strip("}")
+    said = refusal(ROOT / f"launch/{name}.launch", *NEEDED.get(name, []), f"config:={config}")
+    assert f"/{argument} is '{wanted}', {argument} of the launch file '{standard}': give {argument}:={wanted}, or take it out" in said
+    config.write_text(key.replace(wanted, standard))
+    assert dump(name, *(["window_size:=1.2,1.0"] if name == "px4" else []), f"config:={config}")
+
+
 @pytest.mark.skipif(run("rospack", "find", "usb_cam").returncode == 0, reason="usb_cam is here")
 @pytest.mark.parametrize("name", ["usb_cam", "rehearse"])
 def test_a_driver_that_is_not_installed_ends_the_launch_before_anything_starts(name):
@@ -313,6 +326,13 @@ def test_a_recording_that_is_not_there_is_named_before_anything_starts(tmp_path,
     assert done.returncode == 1 and "started with pid" not in done.stdout
     assert f"{name}.launch: {argument.split(':=')[0]}:={tmp_path}/none.bag: no such file\n" in done.stderr, done.stderr
     assert "there.bag" not in done.stderr
+
+
+@pytest.mark.parametrize("name, argument", [("sim", "record"), ("external", "verdict_file"), ("demo", "bag"), ("record", "name")])
+def test_a_folder_to_write_into_that_is_not_there_is_named_before_anything_starts(tmp_path, name, argument):
+    done = run("roslaunch", "window_ingress", f"{name}.launch", f"{argument}:={tmp_path}/none/flight")
+    assert done.returncode == 1 and "started with pid" not in done.stdout
+    assert f"{name}.launch: {argument}:={tmp_path}/none/flight: no such folder: mkdir -p {tmp_path}/none" in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("name", ["sim", "demo", "external", "board", "check_frames"])

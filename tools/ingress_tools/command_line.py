@@ -11,6 +11,28 @@ class Parser(argparse.ArgumentParser):
     def error(self, message):
         fail(2, f"{self.prog}: {message}; see --help")
 
+    def parse_args(self, *words):
+        """Refuses an --output that is one of the files that are read: it would be lost."""
+        arguments = super().parse_args(*words)
+        output = getattr(arguments, "output", None)
+        for name, value in vars(arguments).items():
+            for file in value if isinstance(value, list) else [value]:
+                if (name != "output" and isinstance(file, (str, os.PathLike)) and output and os.path.isfile(output)
+                        and os.path.isfile(file) and os.path.samefile(file, output)):
+                    self.error(f"--output {output} is read, too: give another name")
+        return arguments
+
+
+def say_in_a_line(kind, error, trace):
+    """A file that cannot be read or written is the user's affair, not a fault of the tool."""
+    if issubclass(kind, OSError):
+        print(f"{os.path.basename(sys.argv[0])}: {error.filename or ''}: {error.strerror or error}", file=sys.stderr)
+    elif not issubclass(kind, KeyboardInterrupt):
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = say_in_a_line
+
 
 def fail(code, text):
     print(text, file=sys.stderr)

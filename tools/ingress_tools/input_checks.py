@@ -1,6 +1,6 @@
 """Whether what nodes read comes: from one publisher, of the right type, often enough, with stamps of now."""
 from ingress_tools.observed_system import ARGUMENTS
-from ingress_tools.remedies import LAUNCH, REMEDIES, another_topic
+from ingress_tools.remedies import AGAIN, REMEDIES, another_topic
 
 SLOWEST_HZ = {"sensor_msgs/Image": 8.0, "sensor_msgs/CompressedImage": 8.0, "nav_msgs/Odometry": 15.0, "sensor_msgs/Imu": 15.0}
 DAY_S = 86400.0
@@ -53,7 +53,7 @@ def check_mavros(system, report, topics):
     listed = ", ".join(topics)
     if missing == topics:
         report.error(f"MAVROS is not running: 0 publishers of {listed}",
-                     f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {LAUNCH} mavros:=ITS_NAMESPACE", [*topics, engaged])
+                     f"start MAVROS (roslaunch mavros px4.launch, or apm.launch), or {AGAIN} mavros:=ITS_NAMESPACE", [*topics, engaged])
     else:
         report.error(f"MAVROS sends nothing on {listed}: has it an autopilot?",
                      f"scripts/run rostopic echo -n1 {namespace}/state says whether it is connected; if not, mend fcu_url:= of MAVROS", [*topics, engaged])

@@ -133,10 +133,12 @@ class Transforms:
     def __init__(self):
         self._lock = threading.Lock()
         self._parent = {}  # child -> (parent, 4x4)
+        self._said = {}  # child -> {node that sent it: (parent, 4x4)}
         kind = transforms_type()
         self._subscribers = [rospy.Subscriber(topic, kind, self._receive, queue_size=100) for topic in ("/tf", "/tf_static")]
 
     def _receive(self, message):
+        sender = message._connection_header.get("callerid")
         for item in message.transforms:
             T = numpy.eye(4)
             move = item.transform.translation
@@ -144,7 +146,9 @@ class Transforms:
             if any((item.transform.rotation.x, item.transform.rotation.y, item.transform.rotation.z, item.transform.rotation.w)):
                 T[:3, :3] = rotation_of(item.transform.rotation)
             with self._lock:
-                self._parent[item.child_frame_id.lstrip("/")] = (item.header.frame_id.lstrip("/"), T)
+                child, said = item.child_frame_id.lstrip("/"), (item.header.frame_id.lstrip("/"), T)
+                self._parent[child] = said
+                self._said.setdefault(child, {})[sender] = said
 
     def _to_root(self, frame):
         chain, T = {frame: numpy.eye(4)}, numpy.eye(4)
@@ -155,6 +159,13 @@ class Transforms:
                 break
             chain[frame] = T
         return chain  # ancestor -> T_ancestor_frame
+
+    def contradictions(self):
+        """{frame: its senders} of frames that are said to be at two places, or to hang on two others."""
+        with self._lock:
+            return {child: sorted(said) for child, said in self._said.items()
+                    if len(said) > 1 and any(parent != first or not numpy.allclose(T, T_first, atol=1e-3)
+                                             for parent, T in said.values() for first, T_first in list(said.values())[:1])}
 
     def frames(self):
         with self._lock:

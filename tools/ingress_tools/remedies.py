@@ -1,10 +1,13 @@
 """What mends what nodes say, and what they miss: the advice of the doctor."""
+import re
+
 from ingress_tools.observed_system import ARGUMENTS, NODES
 
 LAUNCH = "scripts/run roslaunch window_ingress ingress.launch"
-WRONG_SIZE = (f"measure the opening's inner width and height, {LAUNCH} window_size:=W,H, or homography_pose/pose/opening_*_m in your config; "
+AGAIN = "end ingress.launch and start it as before, but with"  # a second one beside it is refused
+WRONG_SIZE = (f"measure the opening's inner width and height, {AGAIN} window_size:=W,H, or homography_pose/pose/opening_*_m in your config; "
               "if it is another window that is seen: doc/window.md, 'Make a reference image'")
-IMAGES = {"sensor_msgs/Image": ("", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
+IMAGES = {"sensor_msgs/Image": ("image_transport:=raw ", ""), "sensor_msgs/CompressedImage": ("image_transport:=compressed ", "/compressed")}
 # What a node says -> what to do about it; the first that fits.
 REMEDIES = (
     ("use_sim_time is set but nothing", "scripts/run rosparam set use_sim_time false, and start the nodes again (a bag: rosbag play --clock)"),
@@ -14,8 +17,8 @@ REMEDIES = (
     ("sizes differ", "set the camera to the size it was calibrated for, or calibrate again: doc/window.md"),
     ("frames differ", "give image and camera_info of one camera, under one frame_id"),
     ("stamps of image and", "give image and camera_info of one camera; let one clock stamp both"),
-    ("header.frame_id is", f"{LAUNCH} odom_frame:=ITS_FRAME, the one that is said to have come"),
-    ("not in tf", f"{LAUNCH} camera_pose:=[x,y,z,yaw,pitch,roll] camera_frame:=FRAME_OF_THE_IMAGES, "
+    ("header.frame_id is", f"{AGAIN} odom_frame:=ITS_FRAME"),
+    ("not in tf", f"{AGAIN} camera_pose:=[x,y,z,yaw,pitch,roll] camera_frame:=FRAME_OF_THE_IMAGES, "
                   "or scripts/run rosrun tf2_ros static_transform_publisher"),
     ("the budget is", "let the camera send smaller images, or fewer a second: doc/detection.md, 'What it costs'"),
     ("ABORTED: ", "scripts/run rosservice call /ingress_navigator/reset, then start"),
@@ -32,14 +35,16 @@ REMEDIES = (
 
 
 def remedy(text):
-    return next((mend for words, mend in REMEDIES if words in text), "doc/troubleshooting.md")
+    mend = next((mend for words, mend in REMEDIES if words in text), "doc/troubleshooting.md")
+    came = re.search("header.frame_id is '(.+?)'", text)
+    return mend.replace("ITS_FRAME", came[1]) if came else mend
 
 
 def another_topic(system, topic, kind):
     """How to give a node another topic, one that is not our own."""
     def topics_of_type(wanted):
         return [name for name in system.graph.topics_of_type(wanted)
-                if any(node.split("/")[-1] not in NODES for node in system.graph.publishers[name])]
+                if any(node.split("/")[-1] not in NODES for node in system.graph.publishers[name]) and not name.startswith("/ground_truth/")]
 
     if kind in IMAGES:
         others = [f"{transport}image:={other[:len(other) - len(end)]}" for wanted, (transport, end) in IMAGES.items()
@@ -47,4 +52,4 @@ def another_topic(system, topic, kind):
     else:
         others = [f"{ARGUMENTS[kind]}:={other}" for other in topics_of_type(kind) if other != topic]
     who = f"MAVROS (roslaunch mavros px4.launch, or apm.launch), which publishes {topic}" if "/mavros/" in topic else f"what publishes {topic}"
-    return f"{LAUNCH} {' or '.join(others)}" if others else f"start {who}, or give {ARGUMENTS[kind]}:=ITS_TOPIC"
+    return f"{AGAIN} {' or '.join(others)}" if others else f"start {who}, or give {ARGUMENTS[kind]}:=ITS_TOPIC"

@@ -84,11 +84,28 @@ void drawNoHypothesis(MarkerSketch& sketch, const std::string& name) {
     sketch.gone(name + part);
 }
 
+bool isFoundOut(const window_ingress::KnownWindow& window) {
+  return window.openness != window_ingress::Openness::UNKNOWN || window.failures > 0;
+}
+
 // Somebody would fly at it, or somebody did and something was found out.
 bool isDrawn(const window_ingress::KnownWindow& window) {
   const bool is_candidate = window.may_be_target && window.score >= kFlyableScore &&
                             std::min(window.width, window.height) >= kFlyableM;
-  return is_candidate || window.openness != window_ingress::Openness::UNKNOWN || window.failures > 0;
+  return is_candidate || isFoundOut(window);
+}
+
+// One thing under two numbers, or a part of it: the target's, or that of the better score, is drawn.
+bool isPartOfAnother(const window_ingress::KnownWindow& window, const window_ingress::Facade& facade) {
+  const auto hides = [&](const window_ingress::KnownWindow& other) {
+    const auto& a = window.pose.position;
+    const auto& b = other.pose.position;
+    const double radius_m = 0.5 * std::max({window.width, window.height, other.width, other.height});
+    const bool counts_more = other.id == facade.target_id || (isDrawn(other) && other.score > window.score);
+    return other.id != window.id && counts_more &&
+           Eigen::Vector3d(a.x - b.x, a.y - b.y, a.z - b.z).norm() < radius_m;
+  };
+  return !isFoundOut(window) && std::any_of(facade.windows.begin(), facade.windows.end(), hides);
 }
 
 std::string chances(const estimation::FilteredWindow& window) {
@@ -158,7 +175,7 @@ visualization_msgs::MarkerArray facadeMarkers(const window_ingress::Facade& faca
   for (const window_ingress::KnownWindow& window : facade.windows) {
     const auto T = fromMsg(window.pose);
     const bool is_target = window.id == facade.target_id;
-    if (!T || !(is_target || isDrawn(window))) continue;
+    if (!T || !(is_target || (isDrawn(window) && !isPartOfAnother(window, facade)))) continue;
     const std::string name = "window " + std::to_string(window.id);
     const int verdict = std::min<int>(window.openness, 2);
     const auto border = closed(cornersOf(*T.value, {window.width, window.height}));

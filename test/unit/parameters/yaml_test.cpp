@@ -79,13 +79,16 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   EXPECT_EQ(error("inner:\nfast: true\n"), file_ + ":1: inner: is empty; give it a value, or leave it out");
   EXPECT_TRUE(test::says(error("speed_mps: .nan\n"), "not within"));
   EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: stands here for the second time");
+  EXPECT_EQ(error("inner: {count: 1}\ninner/count: 2\n"),
+            file_ + ":2: inner/count: stands here for the second time");
   EXPECT_TRUE(test::says(error("a: [1, 2\n"), "not valid yaml"));
+  EXPECT_TRUE(test::says(error("fast: true\n---\nfast: false\n"), "holds 2 documents"));
   EXPECT_TRUE(test::says(error("- 1\n"), "must be a mapping"));
 }
 
 // Nodes read the same file through ROS, and refuse these as texts, or read "010" as eight.
 TEST_F(YamlFile, RefusesWhatRosReadsOtherwise) {
-  for (const char* value : {"\"0.5\"", "'1'", "1e-1", "1.0e1", "010"})
+  for (const char* value : {"\"0.5\"", "'1'", "1e-1", "1.0e1", "010", "+.5"})
     EXPECT_TRUE(test::says(error(std::string("speed_mps: ") + value + "\n"),
                            ":1: speed_mps: must be a number; ROS reads"))
         << value;

@@ -57,6 +57,7 @@ TEST(FacadeConversion, WhatIsTooSmallOrBadOrOfAnotherLookIsNotDrawn) {
                                                           {5u, 1.2, false, 0.0, 2}}) {
     window_ingress::KnownWindow& window = message.windows.emplace_back();
     window.id = id;
+    window.pose.position.y = 2.0 * id;
     window.pose.orientation.w = 1.0;
     window.width = window.height = width;
     window.may_be_target = alike;
@@ -70,6 +71,30 @@ TEST(FacadeConversion, WhatIsTooSmallOrBadOrOfAnotherLookIsNotDrawn) {
   EXPECT_GT(markers[3].pose.position.z, 0.6) << "above its border";
   message.target_id = 3;
   EXPECT_EQ(facadeMarkers(message).markers.size(), 5u) << "the target is named, whatever it looks like";
+}
+
+TEST(FacadeConversion, OneThingUnderTwoNumbersIsDrawnOnce) {
+  window_ingress::Facade message;
+  for (const auto& [id, y, width, score] :
+       {std::tuple{1u, 0.0, 1.0, 0.6}, {2u, 0.4, 0.5, 0.7}, {3u, 2.0, 1.0, 0.8}}) {
+    window_ingress::KnownWindow& window = message.windows.emplace_back();
+    window.id = id;
+    window.pose.position.y = y;
+    window.pose.orientation.w = 1.0;
+    window.width = window.height = width;
+    window.may_be_target = true;
+    window.score = score;
+  }
+  const auto numbers = [&] {
+    std::string texts;
+    for (const auto& marker : facadeMarkers(message).markers) texts += marker.text.substr(0, 1);
+    return texts;
+  };
+  EXPECT_EQ(numbers(), "23") << "the better score; the other stands beside them";
+  message.target_id = 1;
+  EXPECT_EQ(numbers(), "13") << "the target before all others";
+  message.windows[1].openness = window_ingress::Openness::CLOSED;
+  EXPECT_EQ(numbers(), "123") << "what was found out is not left out";
 }
 
 TEST(FacadeConversion, WindowsOfAnImageGoThereAndBackAndBadOnesAreLeftOut) {
