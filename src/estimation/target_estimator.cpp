@@ -82,7 +82,8 @@ void TargetEstimator::reset() {
 }
 
 void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
-                                  const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
+                                  const std::optional<Eigen::Vector3d>& velocity_odom_mps,
+                                  const Eigen::Vector3d& turn_odom_radps) {
   if (!geometry::isValidPose(T_odom_base) || !std::isfinite(stamp_sec)) return;
   if (odometry_stamp_sec_) {
     const double dt_sec = stamp_sec - *odometry_stamp_sec_;
@@ -94,6 +95,9 @@ void TargetEstimator::addOdometry(double stamp_sec, const Eigen::Isometry3d& T_o
   if (velocity_odom_mps) checks_->frames.twist().add(stamp_sec, T_odom_base, *velocity_odom_mps);
   odometry_stamp_sec_ = stamp_sec;
   last_T_odom_base_ = T_odom_base;
+  // Tilts change within the lateness: their rates tell nothing of it.
+  motion_ = {velocity_odom_mps.value_or(Eigen::Vector3d::Zero()), {0.0, 0.0, turn_odom_radps.z()}};
+  if (!motion_.velocity_mps.allFinite() || !motion_.turn_radps.allFinite()) motion_ = {};
   if (pending_ && pending_->stamp_sec <= stamp_sec) flush();
   verifyMounting(stamp_sec);
 }
@@ -242,8 +246,8 @@ std::string TargetEstimator::updateFilter(const ObservedImage& image) {
   if (!T_odom_camera) return "no odometry near the exposure";
   checkSize(image, *T_odom_camera);
   const bool used = last_.pose.estimate
-                        ? filter_.update(*last_.pose.estimate, window, image.camera, *T_odom_camera)
-                        : filter_.update(window, image.camera, *T_odom_camera);
+                        ? filter_.update(*last_.pose.estimate, window, image.camera, *T_odom_camera, motion_)
+                        : filter_.update(window, image.camera, *T_odom_camera, motion_);
   if (used) return "";
   const auto [width_m, height_m] = lookedFor();
   return formatted("gated out: does not fit what was seen before, or an opening of %.2f x %.2f m", width_m,

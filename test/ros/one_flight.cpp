@@ -184,8 +184,7 @@ class Loop {
  private:
   void takeOdometry(const nav_msgs::Odometry& message, double arrival_sec) {
     const auto vehicle = adapters::fromMsg(message, facts_.frames).value.value();
-    odometry_sec_ =
-        eyes_.addOdometry(vehicle.stamp_sec, arrival_sec, vehicle.T_odom_base, vehicle.velocity_odom_mps);
+    odometry_sec_ = eyes_.addOdometry(vehicle, arrival_sec);
     tellIfLocated();
   }
 

@@ -70,8 +70,10 @@ class TargetEstimator {
   TargetEstimator& operator=(TargetEstimator&&) noexcept;
 
   /// \param velocity_odom_mps if reported: turned to odom axes with the pose's attitude
+  /// \param turn_odom_radps likewise; without both, lateness of the stamps stays unknown
   void addOdometry(double stamp_sec, const Eigen::Isometry3d& T_odom_base,
-                   const std::optional<Eigen::Vector3d>& velocity_odom_mps = std::nullopt);
+                   const std::optional<Eigen::Vector3d>& velocity_odom_mps = std::nullopt,
+                   const Eigen::Vector3d& turn_odom_radps = Eigen::Vector3d::Zero());
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
   /// \param T_base_camera mounting of the camera; without it there is a pose, but nothing for the filter
   void see(const detection::WindowObservation& window, const geometry::PinholeCamera& camera,
@@ -149,6 +151,7 @@ class TargetEstimator {
   PoseBuffer odometry_, attitude_;
   std::optional<double> odometry_stamp_sec_;
   Eigen::Isometry3d last_T_odom_base_ = Eigen::Isometry3d::Identity();
+  CameraMotion motion_;  ///< as odometry says it: differences of poses would share the noise of the poses
   std::optional<ObservedImage> pending_;
   std::deque<ObservedImage> unverified_;  ///< images that the check of the mounting has yet to look at
   TargetUpdate last_;

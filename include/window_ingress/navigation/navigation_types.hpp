@@ -12,6 +12,7 @@ struct VehicleState {
   double stamp_sec = 0.0;
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
   Eigen::Vector3d velocity_odom_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn_odom_radps = Eigen::Vector3d::Zero();  ///< zero if it is not reported
 };
 
 using estimation::TargetEstimate;

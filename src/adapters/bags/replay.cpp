@@ -120,8 +120,7 @@ void Replay::takeOdometry(const nav_msgs::Odometry& message, double arrival_sec)
   if (!vehicle) return refuse(params_.topics.odom, vehicle.reason);
   noticeJump(message.header.stamp);
   const auto& T_odom_base = vehicle.value->T_odom_base;
-  const double stamp_sec =
-      eyes_.addOdometry(vehicle.value->stamp_sec, arrival_sec, T_odom_base, vehicle.value->velocity_odom_mps);
+  const double stamp_sec = eyes_.addOdometry(*vehicle.value, arrival_sec);
   odometry_.add(stamp_sec, T_odom_base);
   waiting_.noteOdometry(stamp_sec);
   processComplete();

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kNoStamp = "header.stamp is zero or not normalised";
 constexpr double kUnitTolerance = 0.01;
 constexpr double kFarthestM = 1e5;  // beyond it a position is a fault, not a place
-constexpr double kFastestMps = 100.0;
+constexpr double kFastestMps = 100.0, kFastestRadps = 100.0;
 
 template <typename Value>
 Converted<Value> refused(const std::string& reason) {
@@ -111,6 +111,8 @@ Converted<navigation::VehicleState> fromMsg(const nav_msgs::Odometry& message, c
   state.stamp_sec = *stamp_sec;
   state.T_odom_base = *pose.value;
   state.velocity_odom_mps = pose.value->linear() * velocity_base;
+  const Eigen::Vector3d turn_base = toEigen(message.twist.twist.angular);
+  if (turn_base.norm() < kFastestRadps) state.turn_odom_radps = pose.value->linear() * turn_base;
   return {state, ""};
 }
 

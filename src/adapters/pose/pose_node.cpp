@@ -119,8 +119,8 @@ void PoseNode::takeOdometry(const nav_msgs::OdometryConstPtr& message) {
   odom_health_.stamped(vehicle.value->stamp_sec);
   if (!lockstep_)
     vehicle.value->stamp_sec = odom_clock_.atReceiver(vehicle.value->stamp_sec, ros::Time::now().toSec());
-  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base,
-                       vehicle.value->velocity_odom_mps);
+  tracker_.addOdometry(vehicle.value->stamp_sec, vehicle.value->T_odom_base, vehicle.value->velocity_odom_mps,
+                       vehicle.value->turn_odom_radps);
   odometry_stamp_sec_ = vehicle.value->stamp_sec;
 }
 

@@ -17,7 +17,6 @@ constexpr double kPriorSigmaRad = 0.35;                    // of the camera's at
 constexpr double kMaxTurnRad = 0.07, kMaxSizeError = 0.1;  // more is a fault; the latter relative
 constexpr double kMaxTurnWithHeadingRad = 0.09;            // more than any heading that is off for long
 constexpr double kHeadingSigmaRad = 0.03;                  // of odometry beside its positions: a compass
-constexpr double kLateSigmaSec = 0.08;                     // of odometry's stamps beside the images'
 constexpr double kFaultSigmas = 2.0;                       // that it is turned
 constexpr double kCertainSigmas = 2.5;                     // that it is not, and that the size is another one
 constexpr double kImageSpacingM = 0.05;                    // nearer images are not looked at
@@ -35,7 +34,6 @@ FilterParams openParams(FilterParams filter) {
   filter.attitude_bias_sigma_rad = filter.mounting_yaw_sigma_rad = kPriorSigmaRad;
   filter.attitude_bias_time_sec = kLastingSec;
   filter.heading_bias_sigma_rad = kHeadingSigmaRad;
-  filter.late_sigma_sec = kLateSigmaSec;
   filter.yaw_bias_lasts = false;
   filter.trusted_yaw_sigma_rad = 0.5;
   filter.outliers_until_restart = 1000;

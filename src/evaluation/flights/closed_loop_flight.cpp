@@ -104,9 +104,10 @@ class Flight {
 void Flight::sense() {
   while (const auto odometry = world_.takeOdometry()) {
     for (auto* observer : observers_) observer->onOdometry(*odometry);
-    const double stamp_sec = perception_.addOdometry(odometry->stamp_sec, world_.timeSec(),
-                                                     odometry->T_odom_base, odometry->velocity_odom_mps);
-    input_.vehicle = navigation::VehicleState{stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps};
+    navigation::VehicleState vehicle{odometry->stamp_sec, odometry->T_odom_base, odometry->velocity_odom_mps,
+                                     odometry->T_odom_base.linear() * odometry->angular_velocity_base_radps};
+    vehicle.stamp_sec = perception_.addOdometry(vehicle, world_.timeSec());
+    input_.vehicle = vehicle;
   }
   while (const auto imu = world_.takeImu()) {
     for (auto* observer : observers_) observer->onImu(*imu);

@@ -12,11 +12,9 @@ void FlightPerception::calibrate(const std::optional<geometry::PinholeCamera>& c
   camera_ = camera && camera->validate().empty() ? camera : std::nullopt;
 }
 
-double FlightPerception::addOdometry(double stamp_sec, double arrival_sec,
-                                     const Eigen::Isometry3d& T_odom_base,
-                                     const std::optional<Eigen::Vector3d>& velocity_odom_mps) {
-  stamp_sec = odometry_clock_.atReceiver(stamp_sec, arrival_sec);
-  tracker_.addOdometry(stamp_sec, T_odom_base, velocity_odom_mps);
+double FlightPerception::addOdometry(const navigation::VehicleState& vehicle, double arrival_sec) {
+  const double stamp_sec = odometry_clock_.atReceiver(vehicle.stamp_sec, arrival_sec);
+  tracker_.addOdometry(stamp_sec, vehicle.T_odom_base, vehicle.velocity_odom_mps, vehicle.turn_odom_radps);
   return stamp_sec;
 }
 

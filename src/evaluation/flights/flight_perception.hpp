@@ -8,6 +8,7 @@
 #include "window_ingress/estimation/clock_check.hpp"
 #include "window_ingress/estimation/pose_buffer.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
+#include "window_ingress/navigation/navigation_types.hpp"
 #include "window_ingress/perception/window_perception.hpp"
 
 namespace window_ingress::evaluation {
@@ -23,8 +24,7 @@ class FlightPerception {
   /// None, or one that cannot be used, withdraws the one before.
   void calibrate(const std::optional<geometry::PinholeCamera>& camera);
   /// \return its stamp by the clock of the receiver
-  double addOdometry(double stamp_sec, double arrival_sec, const Eigen::Isometry3d& T_odom_base,
-                     const std::optional<Eigen::Vector3d>& velocity_odom_mps);
+  double addOdometry(const navigation::VehicleState& vehicle, double arrival_sec);
   void addAttitude(double stamp_sec, const Eigen::Quaterniond& R_odom_base);
   bool knowsAttitude(double stamp_sec) const {
     return attitude_.at(stamp_sec, kMaxAttitudeGapSec).has_value();

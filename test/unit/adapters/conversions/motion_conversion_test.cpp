@@ -20,6 +20,9 @@ nav_msgs::Odometry makeOdometry(double yaw_rad) {
   message.child_frame_id = "base_link";
   message.pose.pose = toPoseMsg(geometry::makePose(geometry::yawRotation(yaw_rad), {1.0, 2.0, 3.0}));
   message.twist.twist.linear.x = 0.5;
+  message.twist.twist.angular.x = 0.1;
+  message.twist.twist.angular.y = 0.2;
+  message.twist.twist.angular.z = 0.3;
   return message;
 }
 
@@ -37,8 +40,19 @@ TEST(Odometry, TwistIsRotatedFromBaseToOdom) {
   ASSERT_TRUE(vehicle) << vehicle.reason;
   EXPECT_TRUE(vehicle.value->velocity_odom_mps.isApprox(Eigen::Vector3d(0.0, 0.5, 0.0), 1e-12))
       << "forward at a heading of north is +y of odom";
+  EXPECT_TRUE(vehicle.value->turn_odom_radps.isApprox(Eigen::Vector3d(-0.2, 0.1, 0.3), 1e-12));
   EXPECT_EQ(vehicle.value->stamp_sec, 12.5);
   EXPECT_EQ(vehicle.value->T_odom_base.translation(), Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
+TEST(Odometry, ATurnThatCannotBeIsAsIfItWereNotReported) {
+  for (const double bad : {kNan, kInf, 1e6}) {
+    nav_msgs::Odometry message = makeOdometry(0.3);
+    message.twist.twist.angular.z = bad;
+    const auto vehicle = fromMsg(message, kFrames);
+    ASSERT_TRUE(vehicle) << vehicle.reason;
+    EXPECT_EQ(vehicle.value->turn_odom_radps, Eigen::Vector3d(0, 0, 0)) << bad;
+  }
 }
 
 TEST(Odometry, RefusesOtherFramesByName) {

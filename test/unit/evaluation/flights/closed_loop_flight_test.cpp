@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -84,6 +85,20 @@ TEST(ClosedLoopFlight, OdometryStampedLateIsNoTurnedCamera) {
   for (const std::uint32_t seed : {3u, 4u, 7u, 8u, 12u}) {
     const auto flight = flyOnce(ofArduCopter("arducopter_4_0", -0.1, 2.0), seed, params);
     EXPECT_EQ(flight.outcome, Outcome::kPassed) << seed << ": " << flight.reason;
+  }
+}
+
+TEST(ClosedLoopFlight, LatenessOfOdometryDoesNotPassForAnErrorOfTheHeading) {
+  FlightParams params;
+  params.without_images = true;
+  for (const std::uint32_t seed : {3u, 4u, 8u, 12u}) {
+    FlightLog log;
+    flyOnce(ofArduCopter("arducopter_4_0", -0.4, -1.0), seed, params, {&log});
+    const auto committed =
+        std::find_if(log.records.begin(), log.records.end(),
+                     [](const FlightRecord& record) { return record.state == State::kCommit; });
+    ASSERT_NE(committed, log.records.end()) << seed;
+    EXPECT_LT(std::abs(committed->target_yaw_error_rad), 2.0 * committed->target_yaw_sigma_rad) << seed;
   }
 }
 
