@@ -17,10 +17,7 @@ constexpr double kAlignedStrayPx = 2.0;   ///< of fitted borders from where the 
 constexpr double kCutAway = 0.01;         ///< of a corner beyond the image [longer image sides]
 constexpr int kFewestSeen = 3;            ///< borders that show where the surroundings were aligned
 constexpr double kWholeRing = 0.9;        ///< correlation from which nothing of the ring is hidden
-constexpr int kAllSeen = 4;               ///< and where only the frame tells that there is an opening
-
-// Neither its geometry nor its surroundings have told that it is a window.
-bool isByFrameAlone(const ScoredCandidate& rival) { return rival.doubtful && !rival.correlation; }
+constexpr int kAllSeen = 4;               ///< borders that show: each
 
 // Correlation of the next best place.
 double runnerUp(const ScoredCandidate& target, const std::vector<ScoredCandidate>& rivals) {
@@ -38,11 +35,11 @@ double TargetChoice::leastScore(const ScoredCandidate& rival) const {
   return rival.appearance ? params_.min_score_reference : params_.min_score;
 }
 
-// What was aligned, or is no window by its geometry, must show its borders: the wall may have been closed.
+// What was aligned must show its borders: the wall may have been closed.
 // Where all that lies round it is the reference's, it is enough that something else is seen within.
 bool TargetChoice::showsOpening(const ScoredCandidate& rival, const RefinedBorders& found,
                                 const View& view) const {
-  if (!rival.correlation) return !isByFrameAlone(rival) || found.seen == kAllSeen;
+  if (!rival.correlation) return true;
   if (found.seen < reference_.bordersNeeded(rival.match)) return false;
   return (found.seen >= kFewestSeen && !reference_.frameless()) ||
          reference_.showsOpening(view.image, found.corners, view.camera);
@@ -103,9 +100,7 @@ std::optional<Rejection> TargetChoice::judgeSurroundingsOf(const ScoredCandidate
   const auto anew = fitWhere(*ring, view);
   if (!anew) return std::nullopt;
   const auto agreeing = std::count(anew->fitted.begin(), anew->fitted.end(), true);
-  if (agreeing >= kFewestSeen ||
-      !reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival)))
-    fitted = *anew;
+  if (agreeing >= kFewestSeen || !reference_.objectionTo(fitted, view.image, view.camera)) fitted = *anew;
   return std::nullopt;
 }
 
@@ -118,13 +113,12 @@ std::optional<Rejection> TargetChoice::fit(const ScoredCandidate& rival, const V
     return Rejection{RejectReason::kRefinement, inliers, BorderRefinement::kMinInliers};
   fitted = *found;
   if (rival.correlation && found->seen == kAllSeen)
-    if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera, false)) return fault;
+    if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
   if (const auto fault = judgeSurroundingsOf(rival, view, fitted)) return fault;
   const double least = -kCutAway * std::max(view.image.cols, view.image.rows);
   if (const double inside = distanceToBorder(fitted.corners, view.image.size()); inside < least)
     return Rejection{RejectReason::kBorder, inside, least};
-  if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera, isByFrameAlone(rival)))
-    return fault;
+  if (const auto fault = reference_.objectionTo(fitted, view.image, view.camera)) return fault;
   if (ring_there_ < kWholeRing && reference_.frameGoesOn(view.image, fitted.corners, view.camera))
     return Rejection{RejectReason::kUnlike, ring_there_, kWholeRing};
   uncover(view, fitted);

@@ -54,7 +54,7 @@ struct WindowDetector::Impl {
   ReferenceJudge reference;
   DetectionTrace trace;
   TargetChoice choice;
-  std::vector<ScoredCandidate> rivals;
+  std::vector<ScoredCandidate> found_first, rivals;
   std::optional<std::vector<ScoredCandidate>> everywhere;  ///< in this image, once it was asked for
   StageTimer* watch = nullptr;
 };
@@ -75,11 +75,11 @@ void WindowDetector::Impl::gatherAll() {
   rivals.insert(rivals.end(), open.begin(), open.end());
 }
 
-// Where neither geometry nor surroundings tell: what lies behind a gate is not what the reference shows
-// there, and breaks its edges.
+// What lies behind a gate is not what the reference shows there.
 std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(
     const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
-  gatherAll();
+  rivals = found_first;
+  rivals.insert(rivals.end(), search.kept().begin(), search.kept().end());
   if (!reference.judgeFrames(image, camera, rivals)) return std::nullopt;
   for (ScoredCandidate& rival : rivals)
     if (!rival.located || !rival.appearance) rival.verdict.reject = RejectReason::kDuplicate;
@@ -94,21 +94,21 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
   return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
 }
 
-// By the frame, where there is one: its borders are located best. Where the ring is not sure of what it
-// finds, the ring is asked, and its answer stands if it is another window.
+// By the frame first, where there is one: its borders are located best. What lies round it must agree; where
+// it does not surely, it is asked itself, and its answer stands if it is another window.
 std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& image, double stamp_sec,
                                                              const geometry::PinholeCamera* camera) {
   std::optional<WindowObservation> window;
   if (!reference.frameless() || !reference.compares(image)) window = judgeFrames(image, stamp_sec, camera);
-  bool confirmed = window && choice.ringThere() > 0.0;
+  if (!reference.knowsSurroundings(image)) return window;
+  const double agreement = window ? choice.ringThere() : 0.0;
+  if (agreement == 0.0) window.reset();
   const auto ask_surroundings = [&] {
     const auto other = judgeSurroundings(image, stamp_sec, camera);
-    if (other && !(confirmed && Sameness(window->corners).samePlace(other->corners))) window = other;
-    confirmed = confirmed || (other && choice.ringThere() > 0.0);
+    if (other && !(window && Sameness(window->corners).samePlace(other->corners))) window = other;
   };
-  if (!confirmed || choice.ringThere() < kSureRing) gatherAll(), ask_surroundings();
-  const bool is_sure = window && (confirmed || !reference.knowsSurroundings(image));
-  if (!is_sure && !everywhere)
+  if (agreement < kSureRing) gatherAll(), ask_surroundings();
+  if (!window && !everywhere)
     rivals = everywhere.emplace(reference.placesEverywhere(image)), ask_surroundings();
   done(watch, Stage::kBorders);
   return window;
@@ -188,6 +188,7 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
     window = impl_->judge(image, stamp_sec, camera);
   }
   if (!window) {
+    impl_->found_first = impl_->search.kept();
     impl_->searchOnColours();
     window = impl_->judge(image, stamp_sec, camera);
   }

@@ -47,7 +47,6 @@ std::vector<ScoredCandidate> RingMatcher::placesEverywhere(const cv::Mat& image)
     rival.quad = place.quad;
     rival.candidate.source = CandidateSource::kReference;
     rival.score = place.correlation;
-    rival.doubtful = true;
     rivals.push_back(rival);
   }
   return rivals;

@@ -47,7 +47,6 @@ struct ScoredCandidate {
   double proposal = 0.0;         ///< its rank in the search; 0 where its borders were located afterwards
   NestedVerdict verdict;
   std::optional<AppearanceMatch> appearance;  ///< beside the reference, where it can be compared
-  bool doubtful = false;                      ///< no window by its geometry, see CandidateSearch::open
   bool located = false;                       ///< its borders are where the reference's are
   std::optional<double> correlation;          ///< with the reference's surroundings, where they were aligned
   RingMatch match;                            ///< of that place, finely compared

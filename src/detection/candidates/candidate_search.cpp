@@ -143,7 +143,6 @@ const std::vector<ScoredCandidate>& CandidateSearch::open() {
     if (gates_.shape(rival.candidate, level_size_)) continue;
     rival.quad = inFullImage(rival.candidate.seen, factor_);
     rival.score = kOpenScore;
-    rival.doubtful = true;
     open_.push_back(rival);
   }
   return open_;

@@ -275,12 +275,11 @@ bool ReferenceJudge::showsOpening(const cv::Mat& image, const geometry::Quadrila
 }
 
 std::optional<Rejection> ReferenceJudge::objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
-                                                     const geometry::PinholeCamera* camera,
-                                                     bool by_frame_alone) {
+                                                     const geometry::PinholeCamera* camera) {
   if (const auto off = shape_.inAspect(fitted.corners, fitted.corner_covariance, image.size(), camera))
     return Rejection{RejectReason::kOtherAspect, off->value, off->limit};
-  if (by_frame_alone || hasOwnFrame() || !knowsSurroundings(image))
-    if (const auto off = shape_.inFrame(image, fitted.corners, camera, by_frame_alone))
+  if (hasOwnFrame() || !knowsSurroundings(image))
+    if (const auto off = shape_.inFrame(image, fitted.corners, camera))
       return Rejection{RejectReason::kOtherFrame, off->value, off->limit};
   return std::nullopt;
 }

@@ -102,10 +102,9 @@ class ReferenceJudge {
   bool frameGoesOn(const cv::Mat& image, const geometry::Quadrilateral& corners,
                    const geometry::PinholeCamera* camera);
 
-  /// Why fitted borders cannot be the reference's, if they cannot. \param by_frame_alone its width must be
-  /// seen
+  /// Why fitted borders cannot be the reference's, if they cannot.
   std::optional<Rejection> objectionTo(const RefinedBorders& fitted, const cv::Mat& image,
-                                       const geometry::PinholeCamera* camera, bool by_frame_alone);
+                                       const geometry::PinholeCamera* camera);
 
  private:
   int openBorders(const cv::Mat& image, const geometry::Quadrilateral& corners,

@@ -184,14 +184,9 @@ std::optional<Measured> ReferenceShape::frameRatio(const cv::Mat& image, const Q
 
 std::optional<ReferenceShape::Difference> ReferenceShape::inFrame(const cv::Mat& image,
                                                                   const Quadrilateral& corners,
-                                                                  const PinholeCamera* camera,
-                                                                  bool must_show) {
+                                                                  const PinholeCamera* camera) {
   const auto seen = frameRatio(image, corners, camera);
-  if (!seen) {
-    const auto shown = std::count_if(frame_.begin(), frame_.end(), [](double width) { return width > 0.0; });
-    return must_show && shown >= kFewestSides ? std::optional(Difference{0.0, 1.0 - kFrameSlack})
-                                              : std::nullopt;
-  }
+  if (!seen) return std::nullopt;
   const double spread = kFrameSlack + kMaxSigmas * seen->sigma;
   if (std::abs(seen->value - 1.0) <= spread) return std::nullopt;
   return Difference{seen->value, seen->value > 1.0 ? 1.0 + spread : 1.0 - spread};

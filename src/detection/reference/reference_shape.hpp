@@ -58,9 +58,8 @@ class ReferenceShape {
                                      const geometry::PinholeCamera* camera) const;
 
   /// Middle of the four sides' widths, each over the reference's: one side may be hidden, or have a sill.
-  /// \param must_show a frame whose width cannot be seen is another, too, if the reference shows it
   std::optional<Difference> inFrame(const cv::Mat& image, const geometry::Quadrilateral& corners,
-                                    const geometry::PinholeCamera* camera, bool must_show = false);
+                                    const geometry::PinholeCamera* camera);
 
   /// The ratio itself.
   std::optional<Measured> frameRatio(const cv::Mat& image, const geometry::Quadrilateral& corners,

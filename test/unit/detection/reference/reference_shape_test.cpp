@@ -129,13 +129,12 @@ TEST(ReferenceShape, AWiderFrameAndAThinnerOneAreOthers) {
   }
 }
 
-TEST(ReferenceShape, AFrameThatDoesNotShowIsAnotherOnlyWhereItMust) {
+TEST(ReferenceShape, AFrameThatDoesNotShowIsNoOther) {
   ReferenceShape shape = learned();
   View view;
-  EXPECT_FALSE(shape.inFrame(view.draw(), view.opening(), nullptr, true));
+  EXPECT_FALSE(shape.inFrame(view.draw(), view.opening(), nullptr));
   view.frame_m = 0.0;
   EXPECT_FALSE(shape.inFrame(view.draw(), view.opening(), nullptr));
-  EXPECT_TRUE(shape.inFrame(view.draw(), view.opening(), nullptr, true));
 }
 
 TEST(ReferenceShape, AnotherAspectIsAnotherWindow) {
