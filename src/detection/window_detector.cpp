@@ -46,6 +46,7 @@ struct WindowDetector::Impl {
                                                    const geometry::PinholeCamera* camera);
   std::optional<WindowObservation> judgeCovered(const cv::Mat& image, double stamp_sec,
                                                 const geometry::PinholeCamera* camera);
+  std::optional<WindowObservation> choose(const TargetChoice::View& view);
   void searchOnColours();
   void gatherAll();
   std::optional<WindowObservation> judgeSurroundings(const cv::Mat& image, double stamp_sec,
@@ -59,13 +60,19 @@ struct WindowDetector::Impl {
   StageTimer* watch = nullptr;
 };
 
+std::optional<WindowObservation> WindowDetector::Impl::choose(const TargetChoice::View& view) {
+  const auto window = choice.choose(rivals, search.factor(), view);
+  done(watch, Stage::kBorders);
+  return window;
+}
+
 std::optional<WindowObservation> WindowDetector::Impl::judgeFrames(const cv::Mat& image, double stamp_sec,
                                                                    const geometry::PinholeCamera* camera) {
   rivals = search.kept();
   const bool compared = reference.judgeFrames(image, camera, rivals);
   if (!compared || !reference.knowsBorders()) judgeNestedQuads(image, search.factor(), rivals);
   done(watch, Stage::kReference);
-  return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
+  return choose({image, stamp_sec, camera});
 }
 
 // What is a window by its geometry, and what may be one.
@@ -84,14 +91,14 @@ std::optional<WindowObservation> WindowDetector::Impl::judgeFrameAlone(
   for (ScoredCandidate& rival : rivals)
     if (!rival.located || !rival.appearance) rival.verdict.reject = RejectReason::kDuplicate;
   done(watch, Stage::kReference);
-  return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
+  return choose({image, stamp_sec, camera});
 }
 
 std::optional<WindowObservation> WindowDetector::Impl::judgeSurroundings(
     const cv::Mat& image, double stamp_sec, const geometry::PinholeCamera* camera) {
   if (!reference.judgeSurroundings(image, camera, rivals)) return std::nullopt;
   done(watch, Stage::kReference);
-  return choice.choose(rivals, search.factor(), {image, stamp_sec, camera});
+  return choose({image, stamp_sec, camera});
 }
 
 // By the frame first, where there is one: its borders are located best. What lies round it must agree; where
@@ -110,7 +117,6 @@ std::optional<WindowObservation> WindowDetector::Impl::judge(const cv::Mat& imag
   if (agreement < kSureRing) gatherAll(), ask_surroundings();
   if (!window && !everywhere)
     rivals = everywhere.emplace(reference.placesEverywhere(image)), ask_surroundings();
-  done(watch, Stage::kBorders);
   return window;
 }
 
