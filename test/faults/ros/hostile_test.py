@@ -115,6 +115,7 @@ class HostileTest(unittest.TestCase):
         other = support.Stream("ingress_navigator/cmd_vel", TwistStamped, rush, 60.0)
         try:
             self.assertEqual(self.monitor.names(begin, "setpoint_guard: cmd_vel_in", "in"), [])
+            time.sleep(0.5)  # for setpoints of the guard, 30 a second
         finally:
             other.stop()
         fastest = max(oracles.norm(s.velocity) for s in self.monitor.part(begin).setpoints if s.source == "/setpoint_guard")
