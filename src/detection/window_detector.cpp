@@ -61,7 +61,7 @@ struct WindowDetector::Impl {
 };
 
 std::optional<WindowObservation> WindowDetector::Impl::choose(const TargetChoice::View& view) {
-  const auto window = choice.choose(rivals, search.factor(), view);
+  auto window = choice.choose(rivals, search.factor(), view);
   done(watch, Stage::kBorders);
   return window;
 }

@@ -101,21 +101,14 @@ double checkReference(const Options& o, const std::string& file,
   }
 }
 
-// What goes by the argument beside the nodes that read the file: the guard, rviz, a player of bags.
-void checkAgrees(const std::string& argument, const std::string& given, const std::string& file,
-                 const std::string& key, const std::string& in_file, const configuration::Overlay& overlay) {
-  if (given.empty() || given == in_file || overlay.said.count(key) == 0) return;
-  throw InputError(file + ": " + key + " is '" + in_file + "', " + argument + " of the launch file '" +
-                   given + "': give " + argument + ":=" + in_file + ", or take it out of the file");
-}
-
 void checkTransport(const Options& o, const std::string& file, const configuration::Overlay& overlay) {
   const char* key = "window_detector/image_transport";
   const std::string& in_file = overlay.window_detector.image_transport;
   const std::string& transport = overlay.said.count(key) != 0 ? in_file : o.image_transport;
   const std::string why = transport.empty() ? "" : adapters::whyNoTransport(transport);
   if (!why.empty()) throw InputError(why);
-  checkAgrees("image_transport", o.image_transport, file, key, in_file, overlay);
+  if (overlay.said.count(key) != 0)
+    tools::checkAgrees("image_transport", o.image_transport, file, key, in_file);
 }
 
 void takeWindowSize(const std::string& text, const std::string& file, configuration::Overlay& overlay) {
@@ -256,9 +249,9 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   double aspect = 0.0;
   faults.collect([&] { aspect = checkReference(o, file, overlay.window_detector); });
   faults.collect([&] { checkTransport(o, file, overlay); });
-  faults.collect([&] {
-    checkAgrees("odom_frame", o.odom_frame, file, "vehicle/odom_frame", overlay.vehicle.frames.odom, overlay);
-  });
+  if (const char* key = "vehicle/odom_frame"; overlay.said.count(key) != 0)
+    faults.collect(
+        [&] { tools::checkAgrees("odom_frame", o.odom_frame, file, key, overlay.vehicle.frames.odom); });
   faults.collect([&] { takeWindowSize(given(o.window_size), file, overlay); });
   if (aspect > 0.0 && (saysOpening(overlay) || !given(o.window_size).empty()))
     checkAspect(aspect, overlay.homography_pose.pose);

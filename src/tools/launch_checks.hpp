@@ -137,6 +137,15 @@ inline std::vector<std::string> missingOf(const std::string& files) {
   return missing;
 }
 
+/// What goes by the argument beside the nodes that read the file: the guard, rviz, a player of bags.
+/// \param given the argument, empty if none is \throws InputError if the file says another value
+inline void checkAgrees(const std::string& argument, const std::string& given, const std::string& file,
+                        const std::string& key, const std::string& in_file) {
+  if (given.empty() || given == in_file) return;
+  throw InputError(file + ": " + key + " is '" + in_file + "', " + argument + " of the launch file '" +
+                   given + "': give " + argument + ":=" + in_file + ", or take it out of the file");
+}
+
 /// \throws InputError that names each file of arguments whose text wants an "existing" one, and that is not
 /// there, and each folder that is not there of those whose text says what comes "into" it
 inline void checkFilesAreThere(const std::vector<std::string>& words, const std::filesystem::path& launch) {

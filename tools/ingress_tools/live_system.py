@@ -162,10 +162,12 @@ class Transforms:
 
     def contradictions(self):
         """{frame: its senders} of frames that are said to be at two places, or to hang on two others."""
+        def differ(said):
+            (parent, T), *others = said.values()
+            return any(other != parent or not numpy.allclose(T, T_other, atol=1e-3) for other, T_other in others)
+
         with self._lock:
-            return {child: sorted(said) for child, said in self._said.items()
-                    if len(said) > 1 and any(parent != first or not numpy.allclose(T, T_first, atol=1e-3)
-                                             for parent, T in said.values() for first, T_first in list(said.values())[:1])}
+            return {child: sorted(said) for child, said in self._said.items() if differ(said)}
 
     def frames(self):
         with self._lock:
