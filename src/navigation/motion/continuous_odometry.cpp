@@ -12,9 +12,9 @@ namespace {
 // because a vehicle in the opening has only centimetres.
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kFramesSec = 3.0;
-constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
-constexpr double kMostBesideBiasMps = 0.3, kSlideSec = 0.25;  // for so long more is no error of a velocity
-constexpr double kMostUntoldMps = 0.12;                       // as long as only the bias speaks against it
+constexpr double kTellingM = 0.1;   // between the two ways flown, to tell whether the axes have turned
+constexpr double kSlideSec = 0.25;  // for so long no velocity errs by more than it may
+constexpr double kLeastErrorMps = 0.12, kErrorSigmas = 4.0;  // beside its bias: by so much it may in any case
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
@@ -147,8 +147,8 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
         return sample.stamp_sec >= smooth.stamp_sec - kSlideSec;
       });
       unexplained_m = unexplainedSince(*first);
-      const double beside_mps = has_window_told_ ? kMostBesideBiasMps : kMostUntoldMps;
-      most_m = (isBiasKnown() ? beside_mps : kMostOfVelocityMps) * kSlideSec;
+      const double beside_bias_mps = std::max(kLeastErrorMps, kErrorSigmas * velocity_error_mps_);
+      most_m = (isBiasKnown() ? beside_bias_mps : kMostOfVelocityMps) * kSlideSec;
     }
   }
   if (unexplained_m.norm() < most_m) return;

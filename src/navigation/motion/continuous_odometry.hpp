@@ -18,9 +18,10 @@ namespace window_ingress::navigation {
 /// the body in the long run, and stays as it was in the world for the first seconds after a turn: what has
 /// been more even of late counts. Where a window is seen, it tells which of the two errs: what the position
 /// slides by, the window is seen to slide by in odom. If it stays, the velocity errs, the position is
-/// believed, and of the velocity what it was off by of late is taken off. A heading that turns faster than
-/// any vehicle is corrected by the turn; whether the axes of the positions have turned along (the estimator
-/// was reset) or not (its attitude alone is wrong) the next motion shows.
+/// believed, and of the velocity what it was off by of late is taken off. By how much it was seen to err says
+/// what is a slide still. A heading that turns faster than any vehicle is corrected by the turn; whether the
+/// axes of the positions have turned along (the estimator was reset) or not (its attitude alone is wrong) the
+/// next motion shows.
 class ContinuousOdometry {
  public:
   static constexpr double kUnexplainedM = 0.05;  ///< within a second
@@ -74,6 +75,7 @@ class ContinuousOdometry {
     Eigen::Vector3d base_mps = Eigen::Vector3d::Zero(), smooth_mps = Eigen::Vector3d::Zero();
     double told_m2 = 0.0;         ///< its square, over the ground, where a window was seen meanwhile
     double with_window_m2 = 0.0;  ///< its product with how that window moved
+    bool is_beside_bias = false;  ///< what is told is beside a known bias
   };
   struct Sighting {
     double stamp_sec;
@@ -122,7 +124,8 @@ class ContinuousOdometry {
   std::optional<Turn> turn_;
   double heading_error_rad_ = 0.0;
   bool is_erring_ = false;  ///< the two frames differ
-  bool is_velocity_worse_ = false, has_window_told_ = false, is_bias_known_ = false;
+  bool is_velocity_worse_ = false, is_bias_known_ = false;
+  double velocity_error_mps_ = 0.0;  ///< beside its bias, RMS of the pieces at which a window said it errs
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();    ///< of the frame, so far
   std::optional<Sample> piece_;                          ///< where the present piece of the way began

@@ -66,20 +66,25 @@ void ContinuousOdometry::compareWithWindow(Difference& difference, const Eigen::
   const Eigen::Vector2d moved_m = (sighting_->window_m - before->window_m).head<2>();
   if (std::max(differs_m.norm(), moved_m.norm()) > kMostOfVelocityMps * kPieceSec)
     return;  // a jump, or another window
+  difference.is_beside_bias = isBiasKnown();
   difference.told_m2 = differs_m.squaredNorm();
   difference.with_window_m2 = differs_m.dot(moved_m);
 }
 
 // While no window is seen, what was found holds.
 void ContinuousOdometry::judgeVelocity() {
-  double told_m2 = 0.0, with_window_m2 = 0.0;
+  if (!(pieces_.back().told_m2 > 0.0)) return;
+  double told_m2 = 0.0, with_window_m2 = 0.0, velocity_m2 = 0.0;
+  int velocity_pieces = 0;
   for (const Difference& piece : pieces_) {
     told_m2 += piece.told_m2;
     with_window_m2 += piece.with_window_m2;
+    if (!piece.is_beside_bias || !(piece.with_window_m2 < kWindowMovesAlong * piece.told_m2)) continue;
+    velocity_m2 += piece.told_m2;
+    ++velocity_pieces;
   }
-  if (told_m2 <= kToldM2) return;
-  has_window_told_ = true;
-  is_velocity_worse_ = with_window_m2 < kWindowMovesAlong * told_m2;
+  if (velocity_pieces > 0) velocity_error_mps_ = std::sqrt(velocity_m2 / velocity_pieces) / kPieceSec;
+  if (told_m2 > kToldM2) is_velocity_worse_ = with_window_m2 < kWindowMovesAlong * told_m2;
 }
 
 void ContinuousOdometry::judgePieces() {
