@@ -147,7 +147,8 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
         return sample.stamp_sec >= smooth.stamp_sec - kSlideSec;
       });
       unexplained_m = unexplainedSince(*first);
-      const double beside_bias_mps = std::max(kLeastErrorMps, kErrorSigmas * velocity_error_mps_);
+      const double beside_bias_mps =
+          std::clamp(kErrorSigmas * velocity_error_mps_, kLeastErrorMps, kMostOfVelocityMps);
       most_m = (isBiasKnown() ? beside_bias_mps : kMostOfVelocityMps) * kSlideSec;
     }
   }

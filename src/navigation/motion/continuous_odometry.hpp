@@ -68,7 +68,7 @@ class ContinuousOdometry {
  private:
   static constexpr double kSecond = 1.0;
   static constexpr double kMostOfVelocityMps =
-      0.5;  ///< no velocity is off by more for long, before its bias is known
+      0.5;                                    ///< no velocity is off by more for long, nor beside its bias
   static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
   /// What position and velocity differ by, as of one piece of the way or as usual.
   struct Difference {
