@@ -12,9 +12,10 @@ namespace {
 // because a vehicle in the opening has only centimetres.
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kFramesSec = 3.0;
-constexpr double kTellingM = 0.1;   // between the two ways flown, to tell whether the axes have turned
-constexpr double kSlideSec = 0.25;  // for so long no velocity errs by more than it may
-constexpr double kLeastErrorMps = 0.12, kErrorSigmas = 4.0;  // beside its bias: by so much it may in any case
+constexpr double kTellingM = 0.1;        // between the two ways flown, to tell whether the axes have turned
+constexpr double kSlideSec = 0.25;       // for so long no velocity errs by more than it may
+constexpr double kLeastErrorMps = 0.12;  // beside its bias a velocity may err by so much in any case
+constexpr double kErrorSigmas = 4.0;     // and by so many times what it was seen to err by
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
