@@ -12,10 +12,7 @@ namespace {
 // because a vehicle in the opening has only centimetres.
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kFramesSec = 3.0;
-constexpr double kTellingM = 0.1;        // between the two ways flown, to tell whether the axes have turned
-constexpr double kSlideSec = 0.25;       // for so long no velocity errs by more than it may
-constexpr double kLeastErrorMps = 0.12;  // beside its bias a velocity may err by so much in any case
-constexpr double kErrorSigmas = 4.0;     // and by so many times what it was seen to err by
+constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
@@ -134,33 +131,21 @@ void ContinuousOdometry::shiftIfUnexplained(VehicleState& smooth) {
   second_.push_back(
       {smooth.stamp_sec, position_m, way_m_});  // the only one after a gap: what was flown is not known
   while (second_.front().stamp_sec < smooth.stamp_sec - kSecond) second_.pop_front();
-  const Eigen::Vector3d usual_mps = usualMps(uprightOf(smooth));
-  const auto unexplainedSince = [&](const Sample& first) -> Eigen::Vector3d {
-    return (position_m - first.position_m) - (way_m_ - first.way_m) -
-           usual_mps * (smooth.stamp_sec - first.stamp_sec);
-  };
-  Eigen::Vector3d unexplained_m = unexplainedSince(second_.front());
-  double most_m = kUnexplainedM;
-  if (is_velocity_worse_) {  // the position is believed but for a jump, and for what no velocity is off by
-    unexplained_m = unexplainedSince(second_[std::max<std::size_t>(second_.size(), 2) - 2]);
-    if (unexplained_m.norm() < kUnexplainedM) {
-      const auto first = std::find_if(second_.begin(), second_.end(), [&](const Sample& sample) {
-        return sample.stamp_sec >= smooth.stamp_sec - kSlideSec;
-      });
-      unexplained_m = unexplainedSince(*first);
-      const double beside_bias_mps =
-          std::clamp(kErrorSigmas * velocity_error_mps_, kLeastErrorMps, kMostOfVelocityMps);
-      most_m = (isBiasKnown() ? beside_bias_mps : kMostOfVelocityMps) * kSlideSec;
-    }
+  const Sample& before = second_[std::max<std::size_t>(second_.size(), 2) - 2];
+  for (const Sample& first : {second_.front(), before}) {
+    const double passed_sec = smooth.stamp_sec - first.stamp_sec;
+    const Eigen::Vector3d unexplained_m =
+        (position_m - first.position_m) - (way_m_ - first.way_m) - passed_sec * usualMps(uprightOf(smooth));
+    if (unexplained_m.norm() < std::max(kUnexplainedM, byChanceM(passed_sec))) continue;
+    is_erring_ = true;
+    T_smooth_axes_.translation() -= unexplained_m;
+    smooth.T_odom_base.translation() -= unexplained_m;
+    shift_m_ -= unexplained_m;
+    differences_.clear();
+    second_.clear();
+    second_.push_back({smooth.stamp_sec, smooth.T_odom_base.translation(), way_m_});
+    return;
   }
-  if (unexplained_m.norm() < most_m) return;
-  is_erring_ = true;
-  T_smooth_axes_.translation() -= unexplained_m;
-  smooth.T_odom_base.translation() -= unexplained_m;
-  shift_m_ -= unexplained_m;
-  if (is_velocity_worse_) differences_.clear();
-  second_.clear();
-  second_.push_back({smooth.stamp_sec, smooth.T_odom_base.translation(), way_m_});
 }
 
 }  // namespace window_ingress::navigation

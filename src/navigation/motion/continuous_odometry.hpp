@@ -9,19 +9,17 @@ namespace window_ingress::navigation {
 
 /// Odometry without its jumps, slides and turns: the vehicle in a frame `smooth`, in which it moves as its
 /// own velocity says. Over a second, position and integrated velocity of an odometry that works agree to a
-/// few centimetres; what goes beyond `kUnexplainedM` is taken for an error of the position and taken off.
-/// Places that were known before (the window, above all) stay where they are beside the vehicle. Without such
-/// errors both frames are the same to the bit.
+/// few centimetres, or to what they were seen to differ by; what goes beyond both `kUnexplainedM` and chance
+/// is taken for an error of the position and taken off. Places that were known before (the window, above all)
+/// stay where they are beside the vehicle. Without such errors both frames are the same to the bit.
 ///
 /// A steady difference of the velocity (an estimator's bias) is no slide: what has lasted for longer than one
 /// is taken off, the middle value of the last seconds, and beside it the position is believed. It is fixed in
 /// the body in the long run, and stays as it was in the world for the first seconds after a turn: what has
-/// been more even of late counts. Where a window is seen, it tells which of the two errs: what the position
-/// slides by, the window is seen to slide by in odom. If it stays, the velocity errs, the position is
-/// believed, and of the velocity what it was off by of late is taken off. By how much it was seen to err says
-/// what is a slide still. A heading that turns faster than any vehicle is corrected by the turn; whether the
-/// axes of the positions have turned along (the estimator was reset) or not (its attitude alone is wrong) the
-/// next motion shows.
+/// been more even of late counts. Of the velocity, what it was off by in the last second is taken off then: a
+/// velocity that errs errs otherwise within seconds, and a position that errs does not run away. A heading
+/// that turns faster than any vehicle is corrected by the turn; whether the axes of the positions have turned
+/// along (the estimator was reset) or not (its attitude alone is wrong) the next motion shows.
 class ContinuousOdometry {
  public:
   static constexpr double kUnexplainedM = 0.05;  ///< within a second
@@ -32,8 +30,6 @@ class ContinuousOdometry {
   /// sample.
   std::optional<VehicleState> add(const VehicleState& odometry);
   void reset() { *this = ContinuousOdometry(); }
-  /// A window that stands, at its place in odom as of that time; of the same one, if it moves by little.
-  void see(double stamp_sec, const Eigen::Vector3d& window_odom_m);
 
   /// From odom as it was at that time into `smooth`, for what is known from beside the vehicle: the vehicle's
   /// reported pose becomes its pose there. The places in a message belong to its stamp.
@@ -52,8 +48,8 @@ class ContinuousOdometry {
   double disagreementMps() const { return latePiecesMps().norm(); }
   /// By how much positions were set right so far, level [m]: the vehicle may stand as far from its place.
   double shiftM() const { return shift_m_.head<2>().norm(); }
-  /// What of it the known bias does not explain [m/s]; before one is known, what the velocity may be off by
-  /// after all the time so far, if that is more.
+  /// What of it neither the known bias nor chance explains [m/s]; before one is known, what the velocity may
+  /// be off by after all the time so far, if that is more.
   double unexplainedMps() const;
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return isBiasKnown() ? drift_m_per_sqrt_sec_ : 0.0; }
@@ -61,26 +57,13 @@ class ContinuousOdometry {
   /// The way by which a vehicle that kept its place was carried off, back [m], level, axes of `smooth`: while
   /// a bias might have been a slide, the velocity was believed. Zero until it is known, the same ever after.
   const Eigen::Vector3d& carriedM() const { return carried_m_; }
-  /// Whether it is the velocity that errs where the two differ. Who told last is believed: a window, with
-  /// each piece of the way that it was seen beside, or a bias, once, when it has lasted.
-  bool isVelocityWorse() const { return is_velocity_worse_; }
 
  private:
   static constexpr double kSecond = 1.0;
-  static constexpr double kMostOfVelocityMps =
-      0.5;                                    ///< no velocity is off by more for long, nor beside its bias
   static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
   /// What position and velocity differ by, as of one piece of the way or as usual.
   struct Difference {
     Eigen::Vector3d base_mps = Eigen::Vector3d::Zero(), smooth_mps = Eigen::Vector3d::Zero();
-    double told_m2 = 0.0;         ///< its square, over the ground, where a window was seen meanwhile
-    double with_window_m2 = 0.0;  ///< its product with how that window moved
-    bool is_beside_bias = false;  ///< what is told is beside a known bias
-  };
-  struct Sighting {
-    double stamp_sec;
-    Eigen::Vector3d window_m;   ///< in the axes of smooth, from where odometry has its origin
-    Eigen::Vector3d differs_m;  ///< position less integrated velocity as of then
   };
   struct Sample {
     double stamp_sec;
@@ -104,8 +87,6 @@ class ContinuousOdometry {
   bool headingComesBack(double turned_rad) const;
   void judgeTurn(const VehicleState& odometry);
   void learnBias(const VehicleState& smooth);
-  void compareWithWindow(Difference& difference, const Eigen::Vector3d& usual_mps);
-  void judgeVelocity();
   using Axes = Eigen::Vector3d Difference::*;
   Eigen::Vector3d middleMps(Axes axes) const;
   Eigen::Vector3d latePiecesMps() const;
@@ -113,6 +94,8 @@ class ContinuousOdometry {
   void judgeBias();
   Eigen::Vector3d usualMps(const Eigen::Matrix3d& R_smooth_base) const;
   Eigen::Vector3d steadyMps(const Eigen::Matrix3d& R_smooth_base) const;
+  /// Neither position nor velocity differs from the other by more, as they were seen to.
+  double byChanceM(double passed_sec) const;
   void shiftIfUnexplained(VehicleState& smooth);
   void noteFrame();
 
@@ -124,13 +107,11 @@ class ContinuousOdometry {
   std::optional<Turn> turn_;
   double heading_error_rad_ = 0.0;
   bool is_erring_ = false;  ///< the two frames differ
-  bool is_velocity_worse_ = false, is_bias_known_ = false;
-  double velocity_error_mps_ = 0.0;  ///< beside its bias, RMS of the pieces at which a window said it errs
+  bool is_bias_known_ = false;
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();    ///< of the frame, so far
   std::optional<Sample> piece_;                          ///< where the present piece of the way began
   std::deque<Sample> differences_;                       ///< of the last second, positions without shifts
-  std::optional<Sighting> sighting_, piece_sighting_;    ///< the latest; that of when the piece began
   std::deque<Difference> pieces_;                        ///< the latest
   Difference usual_;                                     ///< middle value of them
   Eigen::Vector3d carried_m_ = Eigen::Vector3d::Zero();  ///< against what the velocity said

@@ -1,8 +1,7 @@
-// What the velocity of an odometry is off by, and which of velocity and position errs.
+// What the velocity of an odometry is off by.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "navigation/motion/continuous_odometry.hpp"
 #include "window_ingress/geometry/frames.hpp"
@@ -15,12 +14,10 @@ constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
 constexpr std::size_t kSteadyPieces = 8;              // longer than a slide lasts
 constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more do pieces of it differ
-constexpr double kToldM2 = 0.02;  // of differences that a window was seen beside, squared: enough to judge by
-constexpr double kWindowMovesAlong = 0.3;  // of the difference, if it is the position that errs
-constexpr double kSightingSec = 0.2;       // that two sightings are off the length of a piece
-constexpr double kMoreEven = 0.8;          // of the spread in the other axes, squared
-constexpr double kSigmas = 2.0;            // of how a position walks, before a bias is known
-constexpr double kSigmaOfMedian = 1.4826;  // of absolute deviations, normally distributed
+constexpr double kMoreEven = 0.8;                     // of the spread in the other axes, squared
+constexpr double kSigmas = 2.0;                       // of how a position walks, before a bias is known
+constexpr double kMostSigmas = 10.0;                  // of it: what is more is no chance
+constexpr double kSigmaOfMedian = 0.849;  // each axis, of lengths in the plane, normally distributed
 
 }  // namespace
 
@@ -40,70 +37,32 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d differs_mps = unexplained_m / piece_sec;
   pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
   if (pieces_.size() > kPieces) pieces_.pop_front();
-  compareWithWindow(pieces_.back(), usualMps(uprightOf(smooth)));
-  judgeVelocity();
   piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
   if (pieces_.size() >= kFirstPieces) judgePieces();
   if (!is_bias_known_) judgeBias();
 }
 
-void ContinuousOdometry::see(double stamp_sec, const Eigen::Vector3d& window_odom_m) {
-  for (auto sample = differences_.rbegin(); sample != differences_.rend(); ++sample)
-    if (sample->stamp_sec <= stamp_sec) {
-      sighting_ =
-          Sighting{stamp_sec, T_smooth_axes_.linear() * window_odom_m, sample->position_m - sample->way_m};
-      return;
-    }
-}
-
-void ContinuousOdometry::compareWithWindow(Difference& difference, const Eigen::Vector3d& usual_mps) {
-  const std::optional<Sighting> before = std::exchange(piece_sighting_, sighting_);
-  if (!before) return;
-  const double passed_sec = sighting_->stamp_sec - before->stamp_sec;
-  if (std::abs(passed_sec - kPieceSec) > kSightingSec) return;
-  const Eigen::Vector2d differs_m =
-      (sighting_->differs_m - before->differs_m - passed_sec * usual_mps).head<2>();
-  const Eigen::Vector2d moved_m = (sighting_->window_m - before->window_m).head<2>();
-  if (std::max(differs_m.norm(), moved_m.norm()) > kMostOfVelocityMps * kPieceSec)
-    return;  // a jump, or another window
-  difference.is_beside_bias = isBiasKnown();
-  difference.told_m2 = differs_m.squaredNorm();
-  difference.with_window_m2 = differs_m.dot(moved_m);
-}
-
-// While no window is seen, what was found holds.
-void ContinuousOdometry::judgeVelocity() {
-  if (!(pieces_.back().told_m2 > 0.0)) return;
-  double told_m2 = 0.0, with_window_m2 = 0.0, velocity_m2 = 0.0;
-  int velocity_pieces = 0;
-  for (const Difference& piece : pieces_) {
-    told_m2 += piece.told_m2;
-    with_window_m2 += piece.with_window_m2;
-    if (!piece.is_beside_bias || !(piece.with_window_m2 < kWindowMovesAlong * piece.told_m2)) continue;
-    velocity_m2 += piece.told_m2;
-    ++velocity_pieces;
-  }
-  if (velocity_pieces > 0) velocity_error_mps_ = std::sqrt(velocity_m2 / velocity_pieces) / kPieceSec;
-  if (told_m2 > kToldM2) is_velocity_worse_ = with_window_m2 < kWindowMovesAlong * told_m2;
-}
-
 void ContinuousOdometry::judgePieces() {
-  const auto spread = [&](auto axes) {
-    double sum = 0.0;
-    for (const Difference& piece : pieces_) sum += (piece.*axes - usual_.*axes).squaredNorm();
-    return sum;
-  };
   for (const auto axes : {&Difference::base_mps, &Difference::smooth_mps}) {
     Eigen::Vector3d usual_mps = middleMps(axes);
     if (usual_mps.norm() > kMaxBiasMps) usual_mps *= kMaxBiasMps / usual_mps.norm();
     usual_.*axes = usual_mps;
   }
-  const bool is_fixed_in_world = spread(&Difference::smooth_mps) < kMoreEven * spread(&Difference::base_mps);
+  const auto besides = [&](Axes axes) {
+    std::vector<double> lengths_mps;
+    for (const Difference& piece : pieces_)
+      lengths_mps.push_back((piece.*axes - usual_.*axes).head<2>().norm());
+    return lengths_mps;
+  };
+  const auto squared = [](const std::vector<double>& v) {
+    return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+  };
+  std::vector<double> in_body_mps = besides(&Difference::base_mps),
+                      in_world_mps = besides(&Difference::smooth_mps);
+  const bool is_fixed_in_world = squared(in_world_mps) < kMoreEven * squared(in_body_mps);
   axes_ = is_fixed_in_world ? &Difference::smooth_mps : &Difference::base_mps;
-  std::vector<double> errors_mps;
-  for (const Difference& piece : pieces_)
-    for (const int axis : {0, 1}) errors_mps.push_back(std::abs((piece.*axes_ - usual_.*axes_)[axis]));
-  drift_m_per_sqrt_sec_ = kSigmaOfMedian * geometry::median(errors_mps) * std::sqrt(kPieceSec);
+  const double middle_mps = std::min(geometry::median(in_body_mps), geometry::median(in_world_mps));
+  drift_m_per_sqrt_sec_ = kSigmaOfMedian * middle_mps * std::sqrt(kPieceSec);
 }
 
 // A bias, in the end, is what half of the pieces are like, or so many that no slide lasts as long.
@@ -119,7 +78,6 @@ void ContinuousOdometry::judgeBias() {
   }
   is_bias_known_ = pieces_.size() == kPieces || alike >= kSteadyPieces;
   if (is_bias_known_ && is_erring_) carried_m_ = carried_m;
-  if (is_bias_known_ && usual_mps.head<2>().norm() > kNoticeableMps) is_velocity_worse_ = true;
 }
 
 // Axes of `smooth`; nothing as long as it may be a slide.
@@ -131,7 +89,7 @@ Eigen::Vector3d ContinuousOdometry::usualMps(const Eigen::Matrix3d& R_smooth_bas
 
 // A velocity that errs errs otherwise within seconds.
 Eigen::Vector3d ContinuousOdometry::steadyMps(const Eigen::Matrix3d& R_smooth_base) const {
-  if (is_velocity_worse_ && !differences_.empty()) {
+  if (isBiasKnown() && !differences_.empty()) {
     const Sample &first = differences_.front(), &last = differences_.back();
     const double passed_sec = last.stamp_sec - first.stamp_sec;
     if (passed_sec > kPieceSec)
@@ -162,9 +120,16 @@ Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
   return sum_mps / kLatePieces;
 }
 
+double ContinuousOdometry::byChanceM(double passed_sec) const {
+  return kMostSigmas * drift_m_per_sqrt_sec_ * std::sqrt(passed_sec);
+}
+
 double ContinuousOdometry::unexplainedMps() const {
-  if (is_velocity_worse_ && isBiasKnown()) return 0.0;
-  if (isBiasKnown()) return (latePiecesMps() - usual_.*axes_).norm();
+  if (isBiasKnown()) {
+    constexpr double kLateSec = kLatePieces * kPieceSec;
+    const double beside_bias_mps = (latePiecesMps() - usual_.*axes_).norm();
+    return kLateSec * beside_bias_mps < byChanceM(kLateSec) ? 0.0 : beside_bias_mps;
+  }
   if (pieces_.empty()) return 0.0;
   const double walk_mps = drift_m_per_sqrt_sec_ / std::sqrt(kPieceSec * static_cast<double>(pieces_.size()));
   return std::max(latePiecesMps().norm(), std::hypot((usual_.*axes_).norm(), kSigmas * walk_mps));

@@ -198,8 +198,6 @@ void InputMonitor::judgeTarget(const NavigatorInput& input, Situation& situation
     if (fault.empty() && target.stamp_sec <= not_before_sec_)
       fault = "window: from before the odometry jumped";
     if (fault.empty()) situation.target_is_new = acceptTarget(inSmooth(target), situation.now_sec);
-    if (situation.target_is_new && target.motion.model.stands())
-      odometry_.see(target.stamp_sec, target.T_odom_window.translation());
     if (!fault.empty()) situation.target_fault = fault;
   }
   if (!target_) return;

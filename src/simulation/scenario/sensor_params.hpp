@@ -109,8 +109,11 @@ struct OdometryParams {
   double velocity_bias_mps =
       0.0;  ///< steady horizontal error of the velocity, fixed in the body; where to: drawn
   double velocity_bias_spread_mps =
-      0.0;                     ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
-  double own_bias_part = 0.0;  ///< part of that error on which the vehicle's own velocity loop acts, too
+      0.0;  ///< its size is drawn evenly within so much of velocity_bias_mps [m/s]
+  double velocity_wander_mps =
+      0.0;  ///< error of the velocity that comes and goes, each horizontal axis [m/s]
+  double velocity_wander_correlation_sec = 3.5;  ///< how long such an error lasts [s]
+  double own_bias_part = 0.0;  ///< part of these errors on which the vehicle's own velocity loop acts, too
   double attitude_noise_rad = 0.004;  ///< white noise, each axis [rad]
   double heading_error_rad = 0.0;  ///< steady error of the heading, which the positions do not share: drawn
                                    ///< up to this, either way [rad]
@@ -138,6 +141,8 @@ struct OdometryParams {
     field("velocity_noise_mps", self.velocity_noise_mps, 0.0, 1.0);
     field("velocity_bias_mps", self.velocity_bias_mps, 0.0, 1.0);
     field("velocity_bias_spread_mps", self.velocity_bias_spread_mps, 0.0, 1.0);
+    field("velocity_wander_mps", self.velocity_wander_mps, 0.0, 1.0);
+    field("velocity_wander_correlation_sec", self.velocity_wander_correlation_sec, 0.1, 300.0);
     field("own_bias_part", self.own_bias_part, 0.0, 1.0);
     field("attitude_noise_rad", self.attitude_noise_rad, 0.0, 0.3);
     field("heading_error_rad", self.heading_error_rad, 0.0, 0.5);

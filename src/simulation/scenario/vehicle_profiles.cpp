@@ -70,9 +70,10 @@ void setPx4Gps(QuadrotorParams& vehicle, OdometryParams& odometry) {
   setBoundedOdometry(0.15, odometry);
   odometry.rate_hz = 30.0;
   odometry.wander_correlation_sec = 10.0;
-  odometry.velocity_bias_mps = 0.22;
-  odometry.velocity_bias_spread_mps = 0.07;
-  odometry.own_bias_part = 0.45;
+  odometry.velocity_bias_mps = 0.05;
+  odometry.velocity_bias_spread_mps = 0.03;
+  odometry.velocity_wander_mps = 0.12;
+  odometry.own_bias_part = 1.0;
   odometry.stamp_offset_sec = 0.17;
   odometry.latency_sec = 0.01;
   odometry.jitter_sec = 0.07;

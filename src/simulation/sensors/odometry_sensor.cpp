@@ -21,6 +21,7 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
       walk_random_(seed, "odometry drift"),
       noise_random_(seed, "odometry noise"),
       wander_random_(seed, "odometry wander"),
+      velocity_wander_random_(seed, "odometry velocity wander"),
       delivery_random_(seed, "odometry delivery"),
       periodic_(params.rate_hz),
       delivery_(params.latency_sec),
@@ -29,6 +30,8 @@ OdometrySensor::OdometrySensor(const OdometryParams& params, std::uint32_t seed)
                          RandomStream(seed, "odometry heading error").uniform(-1.0, 1.0)),
       velocity_bias_base_mps_(drawBias(seed)) {
   for (int axis = 0; axis < 2; ++axis) wander_m_[axis] = wander_random_.normal(params.wander_m);
+  for (int axis = 0; axis < 2; ++axis)
+    velocity_wander_mps_[axis] = velocity_wander_random_.normal(params.velocity_wander_mps);
 }
 
 Eigen::Vector3d OdometrySensor::drawBias(std::uint32_t seed) const {
@@ -47,7 +50,9 @@ void OdometrySensor::update(double now_sec, const VehicleTruth& truth) {
   flow_factor_ =
       (1.0 + params_.height_factor_per_m * height_m) / std::max(params_.texture_quality, kMinTexture);
   walk(truth.T_odom_base.translation());
-  wander();
+  wander(params_.wander_m, params_.wander_correlation_sec, wander_random_, wander_m_);
+  wander(params_.velocity_wander_mps, params_.velocity_wander_correlation_sec, velocity_wander_random_,
+         velocity_wander_mps_);
   deliver(now_sec, measure(now_sec, truth));
 }
 
@@ -73,11 +78,12 @@ void OdometrySensor::walk(const Eigen::Vector3d& position) {
   drift_ = geometry::makePose(turned, before + horizontalTimes(flow_factor_, step) - turned * position);
 }
 
-void OdometrySensor::wander() {
-  const double kept = std::exp(-1.0 / (params_.rate_hz * params_.wander_correlation_sec));
-  const double fresh_m = params_.wander_m * std::sqrt(1.0 - kept * kept);
-  for (int axis = 0; axis < 2; ++axis)
-    wander_m_[axis] = kept * wander_m_[axis] + wander_random_.normal(fresh_m);
+// A first-order Gauss-Markov process: its spread stays what it is.
+void OdometrySensor::wander(double spread, double correlation_sec, RandomStream& random,
+                            Eigen::Vector3d& error) const {
+  const double kept = std::exp(-1.0 / (params_.rate_hz * correlation_sec));
+  const double fresh = spread * std::sqrt(1.0 - kept * kept);
+  for (int axis = 0; axis < 2; ++axis) error[axis] = kept * error[axis] + random.normal(fresh);
 }
 
 void OdometrySensor::deliver(double now_sec, const OdometrySample& sample) {
@@ -98,11 +104,12 @@ OdometrySample OdometrySensor::measure(double now_sec, const VehicleTruth& truth
   const Eigen::Vector3d tilt = noise_random_.normals(params_.attitude_noise_rad);
   if (tilt.norm() > 0.0) sample.T_odom_base.rotate(Eigen::AngleAxisd(tilt.norm(), tilt.normalized()));
   velocity_noise_mps_ = horizontalTimes(flow_factor_, noise_random_.normals(params_.velocity_noise_mps));
-  const Eigen::Vector3d bias_mps =
-      geometry::yawRotation(geometry::yawOf(sample.T_odom_base.linear())) * velocity_bias_base_mps_;
-  own_bias_mps_ = params_.own_bias_part * bias_mps;
+  const Eigen::Vector3d error_mps =
+      geometry::yawRotation(geometry::yawOf(sample.T_odom_base.linear())) * velocity_bias_base_mps_ +
+      velocity_wander_mps_;
+  own_bias_mps_ = params_.own_bias_part * error_mps;
   sample.velocity_odom_mps =
-      drift_.linear() * scaled(truth.velocity_odom_mps) + velocity_noise_mps_ + bias_mps;
+      drift_.linear() * scaled(truth.velocity_odom_mps) + velocity_noise_mps_ + error_mps;
   sample.angular_velocity_base_radps = truth.angular_velocity_base_radps;
   return sample;
 }

@@ -21,9 +21,9 @@ struct OdometrySample {
 /// White noise on everything, over an error that comes and goes and a slow random walk of position and
 /// heading. Heading walks about the vehicle, so that it does not throw the position about. Horizontal
 /// movement may be reported too long or too short (`scale_error`), velocity be off by a constant that turns
-/// with the vehicle (`velocity_bias_mps`), heading by another one (`heading_error_rad`), neither of which its
-/// positions show; horizontal errors grow with
-/// height and lack of texture, as those of optical flow do.
+/// with the vehicle (`velocity_bias_mps`) and by one that comes and goes (`velocity_wander_mps`), heading by
+/// another one (`heading_error_rad`), neither of which its positions show; horizontal errors grow with height
+/// and lack of texture, as those of optical flow do.
 class OdometrySensor {
  public:
   OdometrySensor(const OdometryParams& params, std::uint32_t seed);
@@ -41,14 +41,14 @@ class OdometrySensor {
 
  private:
   void walk(const Eigen::Vector3d& position);
-  void wander();
+  void wander(double spread, double correlation_sec, RandomStream& random, Eigen::Vector3d& error) const;
   void deliver(double now_sec, const OdometrySample& sample);
   OdometrySample measure(double now_sec, const VehicleTruth& truth);
   Eigen::Vector3d scaled(const Eigen::Vector3d& velocity_mps) const;
   Eigen::Vector3d drawBias(std::uint32_t seed) const;
 
   OdometryParams params_;
-  RandomStream walk_random_, noise_random_, wander_random_, delivery_random_;
+  RandomStream walk_random_, noise_random_, wander_random_, velocity_wander_random_, delivery_random_;
   Periodic periodic_;
   DelayLine<OdometrySample> delivery_;
   DelayLine<Eigen::Vector3d> own_velocity_;  // true velocities on their way to the vehicle's own estimate
@@ -57,7 +57,8 @@ class OdometrySensor {
   double flow_factor_ = 1.0;  // of horizontal errors
   double heading_error_rad_;
   Eigen::Vector3d velocity_bias_base_mps_, own_bias_mps_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d wander_m_ = Eigen::Vector3d::Zero(), velocity_noise_mps_ = Eigen::Vector3d::Zero(),
+  Eigen::Vector3d wander_m_ = Eigen::Vector3d::Zero(), velocity_wander_mps_ = Eigen::Vector3d::Zero(),
+                  velocity_noise_mps_ = Eigen::Vector3d::Zero(),
                   delayed_velocity_mps_ = Eigen::Vector3d::Zero();
 };
 

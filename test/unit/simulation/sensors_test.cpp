@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "simulation/random_stream.hpp"
@@ -270,20 +271,26 @@ TEST(Odometry, StampsMayBeInTheFutureAndTheLoopsOwnEstimateIsOfItsOwnAge) {
   }
 }
 
-TEST(Odometry, WanderComesAndGoesAndStaysBounded) {
+TEST(Odometry, WanderOfPositionAndVelocityComesAndGoesAndStaysBounded) {
   OdometryParams params = exact();
   params.wander_m = 0.05;
-  params.wander_correlation_sec = 2.0;
+  params.velocity_wander_mps = 0.12;
+  params.wander_correlation_sec = params.velocity_wander_correlation_sec = 2.0;
   OdometrySensor sensor(params, 3);
-  std::vector<double> errors;
+  std::vector<double> of_position, of_velocity;
   for (double t = 0.0; t < 2000.0; t += 0.02) {
     sensor.update(t, standing());
-    while (const auto sample = sensor.take(t)) errors.push_back(sample->T_odom_base.translation().x() - 3.0);
+    while (const auto sample = sensor.take(t)) {
+      of_position.push_back(sample->T_odom_base.translation().x() - 3.0);
+      of_velocity.push_back(sample->velocity_odom_mps.y());
+    }
   }
-  EXPECT_NEAR(deviation(errors), 0.05, 0.006);
-  double next = 0.0;
-  for (std::size_t i = 0; i + 100 < errors.size(); ++i) next += errors[i] * errors[i + 100];
-  EXPECT_NEAR(next / static_cast<double>(errors.size() - 100) / (0.05 * 0.05), std::exp(-1.0), 0.12);
+  for (const auto& [errors, spread] : {std::pair{of_position, 0.05}, std::pair{of_velocity, 0.12}}) {
+    EXPECT_NEAR(deviation(errors), spread, 0.12 * spread);
+    double next = 0.0;
+    for (std::size_t i = 0; i + 100 < errors.size(); ++i) next += errors[i] * errors[i + 100];
+    EXPECT_NEAR(next / static_cast<double>(errors.size() - 100) / (spread * spread), std::exp(-1.0), 0.12);
+  }
 }
 
 TEST(Imu, BiasesStayTheSameAllFlightAndLatencyAndStampsAreTheirOwn) {

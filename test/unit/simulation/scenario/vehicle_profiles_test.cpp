@@ -277,24 +277,34 @@ Eigen::Vector3d velocityBias(Flyer& flyer) {
   return to_body * (sum_mps / count - (flyer.position() - start_m) / 2.0);
 }
 
-TEST(VehicleProfiles, VelocitiesAreOffAsMeasuredAndTheErrorTurnsWithTheVehicle) {
-  struct Range {
-    const char* profile;
-    double least_mps, most_mps;
-  };
-  for (const Range& measured : {Range{"arducopter_4_0_default", 0.04, 0.19}, {"px4_1_13_gps", 0.15, 0.29}}) {
-    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
-      SCOPED_TRACE(measured.profile + (" seed " + std::to_string(seed)));
-      Flyer flyer(measured.profile, seed);
-      while (flyer.now() < 4.0) flyer.step(0.3);
-      const Eigen::Vector3d bias_mps = velocityBias(flyer);
-      EXPECT_GT(bias_mps.norm(), measured.least_mps - 0.02);
-      EXPECT_LT(bias_mps.norm(), measured.most_mps + 0.02);
-      while (flyer.now() < 10.0) flyer.step(0.0, 0.5);
-      while (flyer.now() < 14.0) flyer.step(0.3);
-      EXPECT_LT((velocityBias(flyer) - bias_mps).norm(), 0.04);
-    }
+TEST(VehicleProfiles, AGyroThatDriftsPutsTheVelocityOffAsMeasuredAndTheErrorTurnsWithTheVehicle) {
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Flyer flyer("arducopter_4_0_default", seed);
+    while (flyer.now() < 4.0) flyer.step(0.3);
+    const Eigen::Vector3d bias_mps = velocityBias(flyer);
+    EXPECT_GT(bias_mps.norm(), 0.02);  // measured: 0.04 to 0.19
+    EXPECT_LT(bias_mps.norm(), 0.21);
+    while (flyer.now() < 10.0) flyer.step(0.0, 0.5);
+    while (flyer.now() < 14.0) flyer.step(0.3);
+    EXPECT_LT((velocityBias(flyer) - bias_mps).norm(), 0.04);
   }
+}
+
+// Measured over two seconds: 0.15 to 0.29 m/s; of 60 flights 0.12 m/s on each axis, alike for 3.5 s.
+TEST(VehicleProfiles, Px4sVelocityIsOffAsMeasuredAndOtherwiseWithinSeconds) {
+  double off_m2ps2 = 0.0, changed_m2ps2 = 0.0;
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    Flyer flyer("px4_1_13_gps", seed);
+    while (flyer.now() < 4.0) flyer.step(0.3);
+    const Eigen::Vector3d off_mps = velocityBias(flyer);
+    while (flyer.now() < 14.0) flyer.step(0.3);
+    off_m2ps2 += off_mps.squaredNorm() / 30.0;
+    changed_m2ps2 += (velocityBias(flyer) - off_mps).squaredNorm() / 30.0;
+  }
+  EXPECT_GT(std::sqrt(off_m2ps2), 0.15);
+  EXPECT_LT(std::sqrt(off_m2ps2), 0.29);
+  EXPECT_GT(std::sqrt(changed_m2ps2), 0.15);
 }
 
 // Measured: 1.0 m in 10 s, 1.7 m in 16 s.
