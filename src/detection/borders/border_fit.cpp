@@ -12,7 +12,6 @@ namespace {
 constexpr float kFaintest = 0.5f;        // slope that may be an edge [grey levels a pixel]
 constexpr float kFaintestChange = 3.0f;  // of the mean colour over two pixels, likewise [grey levels]
 constexpr int kMinProfiles = 4;
-constexpr double kSigmas = 2.0;  // of a difference between the halves of a side
 constexpr int kNoPeak = 1 << 20;
 constexpr double kCorrelationPx = 1.5;     // profiles nearer to each other than this share their noise
 constexpr double kUniformSpread = 3.4641;  // length of a uniform distribution over its standard deviation
@@ -137,36 +136,15 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
 }
 
-// Where what was fitted is a reveal's two edges in one, the front one: by halves of the side, for the edges
-// part along it; as a whole where a half alone does not tell.
-void BorderFit::toFront(double nearest_px, double farthest_px, FittedBorder& border) const {
-  const int count = profiles_->count(), middle = count / 2;
-  const TwoStepEdgeLimits limits{nearest_px, farthest_px, nullptr};
-  const TwoStepEdge edge = frontOf(limits, border.line, 0, count);
-  border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
-  border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
-  if (!(edge.apart > 0.0)) return;
-  TwoStepEdgeLimits halves = limits;
-  halves.before = &edge;
-  const TwoStepEdge first = frontOf(halves, border.line, 0, middle),
-                    last = frontOf(halves, border.line, middle, count);
-  const double apart = std::abs(last.front - first.front);
-  if (first.apart > 0.0 && last.apart > 0.0 && apart > kSigmas * std::hypot(first.sigma_px, last.sigma_px)) {
-    const double at = profiles_->position(middle / 2), to = profiles_->position((middle + count) / 2);
-    const double slope = (last.front - first.front) / std::max(1.0, to - at);
-    border.line.slope += slope;
-    border.line.offset += first.front - slope * at;
-  } else {
-    border.line.offset += edge.front;
-  }
-}
-
-TwoStepEdge BorderFit::frontOf(const TwoStepEdgeLimits& limits, const OffsetLine& line, int first,
-                               int last) const {
+// Where what was fitted is a reveal's two edges in one, the front one.
+void BorderFit::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const {
   constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
   std::array<float, 3 * kSize> mean;
-  if (profiles_->meanAlong(line, kHalf, first, last, mean.data()) < kMinProfiles) return {};
-  return fitTwoStepEdge(mean.data(), profiles_->channels(), kHalf, limits);
+  if (profiles_->meanAlong(border.line, kHalf, mean.data()) < kMinProfiles) return;
+  const TwoStepEdge edge = fitTwoStepEdge(mean.data(), profiles_->channels(), kHalf, limits);
+  border.line.offset += edge.front;
+  border.sigma_px = std::hypot(border.sigma_px, edge.sigma_px);
+  border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
 }
 
 bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {

@@ -51,11 +51,10 @@ class BorderFit {
 
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
   /// (`TwoStepEdge`), and enlarges its spread by what is not known of it.
-  /// \param nearest_px, farthest_px of the front edge from what was fitted, outwards positive [px]
-  void toFront(double nearest_px, double farthest_px, FittedBorder& border) const;
+  /// \param limits from what was fitted
+  void toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const;
 
  private:
-  TwoStepEdge frontOf(const TwoStepEdgeLimits& limits, const OffsetLine& line, int first, int last) const;
   std::optional<int> steepest(int i, double centre, const BorderFitLimits& limits) const;
   const float* slopesOf(int i) const {  // its middle: from -reach to reach
     return slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();

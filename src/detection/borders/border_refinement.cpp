@@ -140,7 +140,8 @@ class Side {
   void toFront() {
     const double from = border_.line.at(border_.middle());
     const double near = kFrontWithinPx, wide = kLocatedWithinPx;
-    memory_.fit.toFront(located() ? -wide - from : -near, located() ? wide - from : near, border_);
+    memory_.fit.toFront(
+        located() ? TwoStepEdgeLimits{-wide - from, wide - from} : TwoStepEdgeLimits{-near, near}, border_);
   }
 
   // How far an end of the fitted line is from the start.

@@ -127,11 +127,11 @@ int EdgeProfiles::mean(int first, int last, float* out) const {
   return count;
 }
 
-int EdgeProfiles::meanAlong(const OffsetLine& line, int half, int first, int last, float* out) const {
+int EdgeProfiles::meanAlong(const OffsetLine& line, int half, float* out) const {
   const int size = 2 * half + 1;
   std::fill(out, out + channels_ * size, 0.0f);
   int count = 0;
-  for (int i = first; i < last; ++i) {
+  for (int i = 0; i < count_; ++i) {
     const double offset = line.at(position_[i]);
     const int whole = static_cast<int>(std::floor(offset));
     if (!inside(i) || reach_ + whole - half < 0 || whole + half + 1 > reach_) continue;

@@ -56,11 +56,7 @@ class EdgeProfiles {
   int mean(int first, int last, float* out) const;
   /// Mean of all profiles along a line across them, from `half` inside to `half` outside of it, channel by
   /// channel, 2 half + 1 each. \return how many reach that far and lie in the image
-  int meanAlong(const OffsetLine& line, int half, float* out) const {
-    return meanAlong(line, half, 0, count_, out);
-  }
-  /// The same of the profiles first <= i < last.
-  int meanAlong(const OffsetLine& line, int half, int first, int last, float* out) const;
+  int meanAlong(const OffsetLine& line, int half, float* out) const;
 
  private:
   template <int kChannels, bool kRough>

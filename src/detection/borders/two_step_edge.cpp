@@ -173,28 +173,12 @@ bool isOvershoot(const Fit& two) {
          over.norm() < kMaxOvershoot * change.norm();
 }
 
-bool isGood(const Fit& two, const TwoStepEdgeLimits& limits, bool near) {
-  if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px || isOvershoot(two))
-    return false;
-  if (near && two.params[0] > kBesidePx) return false;
-  return two.rest < kFits && two.sigma < kWellKnownPx;
-}
-
-TwoStepEdge answer(const Fit& two, double moved) {
-  return {two.params[0], two.params[1], std::min(two.sigma, moved), two.params[2]};
-}
-
 }  // namespace
 
 TwoStepEdge fitTwoStepEdge(const float* mean, int channels, int half, const TwoStepEdgeLimits& limits) {
   const auto bad = [](float v) { return !std::isfinite(v); };
   if (std::any_of(mean, mean + channels * (2 * half + 1), bad)) return {};
   const Model near(mean, channels, half, -4, 2, true), far(mean, channels, half, -3, 4, true);
-  if (limits.before && limits.before->apart > 0.0 && limits.before->blur > 0.0) {
-    const TwoStepEdge& last = *limits.before;
-    const Fit two = fit(last.front > kBesidePx ? far : near, {last.front, last.apart, last.blur});
-    if (isGood(two, limits, last.front <= kBesidePx)) return answer(two, 1.0);
-  }
   const Fit one = fit(Model(mean, channels, half, -3, 2, false), {0.0, 1.0, kUsualBlur});
   if (one.rest < kGoodEnough || one.params[2] > kSoftest) return {};
   Fit best;
@@ -212,8 +196,8 @@ TwoStepEdge fitTwoStepEdge(const float* mean, int channels, int half, const TwoS
   }
   if (best.rest > kBetter * one.rest) return {};
   const double moved = std::abs(best.params[0] - one.params[0]);
-  if (best.rest > kStillGood || best.sigma > kWellKnownPx) return {0.0, 0.0, 0.5 * std::min(2.0, moved), 0.0};
-  return answer(best, moved);
+  if (best.rest > kStillGood || best.sigma > kWellKnownPx) return {0.0, 0.0, 0.5 * std::min(2.0, moved)};
+  return {best.params[0], best.params[1], std::min(best.sigma, moved)};
 }
 
 }  // namespace window_ingress::detection

@@ -9,14 +9,11 @@ struct TwoStepEdge {
   double front = 0.0;     ///< offset of the outermost change [px]
   double apart = 0.0;     ///< of the change behind it, inwards [px]; 0: there is one change alone
   double sigma_px = 0.0;  ///< what is not known of `front` for the sake of the second change [px]
-  double blur = 0.0;      ///< of both changes, standard deviation [px]
 };
 
 /// What may be taken for the front edge.
 struct TwoStepEdgeLimits {
   double nearest_px = -1.2, farthest_px = 1.2;  ///< offsets, outwards positive [px]
-  /// What was found in nearly the same colours before: tried first.
-  const TwoStepEdge* before = nullptr;
 };
 
 /// A reveal seen at a narrow angle is a strip of a few pixels or a part of one: its front edge (frame or wall

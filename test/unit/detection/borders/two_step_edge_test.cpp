@@ -59,7 +59,7 @@ TEST(TwoStepEdge, TheFrontOfAStripIsFoundToATenthOfAPixel) {
   for (unsigned seed = 1; seed <= 100; ++seed) {
     Strip strip;
     strip.apart = apart(engine), strip.front = strip.apart + back(engine);
-    const TwoStepEdge edge = fitted(strip, {-3.0, 3.0, nullptr}, 0.2F, seed);
+    const TwoStepEdge edge = fitted(strip, {-3.0, 3.0}, 0.2F, seed);
     if (edge.apart == 0.0) {
       ++unnoticed;
       continue;
@@ -83,7 +83,7 @@ TEST(TwoStepEdge, AThinBrightStripDoesNotMoveTheBorder) {
 TEST(TwoStepEdge, AFrontBeyondTheLimitsIsNotTaken) {
   Strip reveal;
   reveal.front = 2.2, reveal.apart = 2.2;
-  EXPECT_NEAR(fitted(reveal, {-3.0, 3.0, nullptr}, 0.2F).front, 2.2, 0.15);
+  EXPECT_NEAR(fitted(reveal, {-3.0, 3.0}, 0.2F).front, 2.2, 0.15);
   EXPECT_LT(std::abs(fitted(reveal, {}, 0.2F).front), 1.2);
 }
 
