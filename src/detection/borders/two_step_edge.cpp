@@ -23,7 +23,6 @@ constexpr double kStillGood = 10.0;   // of two steps that are believed
 constexpr double kBetter = 0.25;      // of the rest of one step
 constexpr double kWellKnownPx = 0.3;  // standard deviation of a front that is believed
 constexpr double kBesidePx = 1.2;     // a front further out is seen with more of what lies outside
-constexpr float kCollinear = 0.97f, kMaxOvershoot = 0.3f;
 constexpr int kFitIterations = 8;
 constexpr double kSettled = 0.02;  // part of the rest that one more iteration must take off
 constexpr int kMaxEdgeSamples = 2 * kMaxHalfOfEdge + 1, kMaxRests = 3 * kMaxEdgeSamples + 4;
@@ -71,7 +70,7 @@ class Model {
     grey_ = channels == 1;
   }
 
-  Eigen::Matrix3d rests(const Params& p, Rests& out) const {
+  void rests(const Params& p, Rests& out) const {
     Samples basis(count_, 3);
     for (int k = 0; k < count_; ++k) {
       const double o = first_ + k, front = step((o - p[0]) / p[2]);
@@ -91,7 +90,6 @@ class Model {
       out[size + 1 + c] =
           two_ ? (std::max(0.0, reveal - kWhitest) + std::min(0.0, reveal - kBlackest)) / kColourSpread : 0.0;
     }
-    return levels;
   }
   double freedom() const { return freedom_; }
   bool two() const { return two_; }
@@ -107,7 +105,6 @@ struct Fit {
   Params params = Params::Zero();
   double rest = 0.0;   // mean square, in noises
   double sigma = 0.0;  // of the front
-  Eigen::Vector3f outside = Eigen::Vector3f::Zero(), reveal = outside, within = outside;
 };
 
 void keepSane(Params& p) {
@@ -156,21 +153,10 @@ Fit fit(const Model& model, const Params& start) {
     best.params = next, cost = then, rests = tried, damping *= 0.3;
     if (gain < kSettled * cost + kSettled) break;
   }
-  const Eigen::Matrix3d levels = model.rests(best.params, tried);
-  best.outside = (levels.row(0) + levels.row(1)).transpose().cast<float>();
-  best.reveal = (levels.row(0) + levels.row(2)).transpose().cast<float>();
-  best.within = levels.row(0).transpose().cast<float>();
   best.rest = cost / model.freedom();
   normal.diagonal().array() += 1e-6;
   best.sigma = std::sqrt(std::max(0.0, normal.inverse()(0, 0)) * std::max(1.0, best.rest));
   return best;
-}
-
-// An image that was sharpened overshoots beside its edges: no strip of its own.
-bool isOvershoot(const Fit& two) {
-  const Eigen::Vector3f over = two.reveal - two.outside, change = two.outside - two.within;
-  return over.dot(change) > kCollinear * over.norm() * change.norm() &&
-         over.norm() < kMaxOvershoot * change.norm();
 }
 
 }  // namespace
@@ -188,7 +174,7 @@ TwoStepEdge fitTwoStepEdge(const float* mean, int channels, int half, const TwoS
     if (model == &far && front > limits.farthest_px + 1.0) continue;
     const Fit two = fit(*model, {front, apart, kUsualBlur});
     if (two.params[0] < limits.nearest_px || two.params[0] > limits.farthest_px) continue;
-    if ((model == &near && two.params[0] > kBesidePx) || isOvershoot(two)) continue;
+    if (model == &near && two.params[0] > kBesidePx) continue;
     if (two.sigma < kWellKnownPx ? best.sigma > kWellKnownPx || two.rest < best.rest
                                  : best.sigma > kWellKnownPx && two.rest < best.rest)
       best = two;
