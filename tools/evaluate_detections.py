@@ -9,14 +9,13 @@ The images fall into two halves, by a hash of scene and file name: what is tuned
 reported is measured on the half `report`. Names that differ in their last digit only, neighbours in a video, go together.
 """
 import collections
-import csv
 import hashlib
 import os
 import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from ingress_tools.command_line import Parser, fail  # noqa: E402
+from ingress_tools.command_line import Parser, fail, rows_of  # noqa: E402
 
 
 def cross(o, a, b):
@@ -61,15 +60,10 @@ def corners(row):
     return [(float(row[f"x{i}"]), float(row[f"y{i}"])) for i in range(1, 5)]
 
 
-def read(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def read_judged(tool, table, options):
     """(rows of the table, annotations, {file: its row in the list of images}); ends the program if one cannot be read."""
     try:
-        rows, annotations, meta = map(read, (table, options.annotations, options.meta))
+        rows, annotations, meta = map(rows_of, (table, options.annotations, options.meta))
     except OSError as error:
         fail(2, f"{tool}: {error.filename}: {error.strerror}")
     return rows, annotations, {row["file"]: row for row in meta}
@@ -130,6 +124,11 @@ def macro(records, key):
     return rate(rate(v) for v in scenes.values())
 
 
+def exhaustive_detections(records):
+    """Those in images whose every target is annotated."""
+    return [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
+
+
 def report(records, title, per_scene):
     print(f"== {title}: {len(records)} images")
     targets = [r for r in records if r["target"]]
@@ -146,7 +145,7 @@ def report(records, title, per_scene):
                         [r for r in records if not r["target"] and r["hard"]])):
         if some:
             print(f"{name}: false alarms on {sum(r['detected'] for r in some)} of {len(some)} images")
-    detected = [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
+    detected = exhaustive_detections(records)
     if detected:
         print(f"exhaustively annotated: precision {rate(r['hit'] for r in detected):.1%} of {len(detected)} detections")
     if records:

@@ -12,7 +12,6 @@ exposure  0.5 to 1.7 of the exposure with clipping, another tone curve
 person, plants, rope, leaf
           something stands, grows, hangs or is hinged before the window and hides 10 to 33 % of the ring round the opening
 """
-import csv
 import os
 import pathlib
 import shutil
@@ -25,7 +24,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from ingress_tools import package_paths  # noqa: E402
-from ingress_tools.command_line import Parser  # noqa: E402
+from ingress_tools.command_line import Parser, rows_of  # noqa: E402
 
 RING = 0.22  # width of the ring of which a part is hidden [sides of the opening]
 LEAST_HIDDEN, MOST_HIDDEN = 0.10, 0.33
@@ -170,9 +169,7 @@ KINDS = {"shadow": shadow, "overcast": overcast, "dusk": dusk, "wet": wet, "expo
 def redraw(views, folder, kind):
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copy(views / "truth.csv", folder)
-    with open(views / "truth.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    for row in rows:
+    for row in rows_of(views / "truth.csv"):
         name = f"{row['scenario']}_{row['seed']}"
         for ending in (".reference.png", ".camera.yaml"):
             if (views / (name + ending)).exists():
@@ -187,8 +184,7 @@ def redraw(views, folder, kind):
 
 def counts(file):
     """Of one frames.csv: verdicts and worst corners of the hits."""
-    with open(file, newline="") as lines:
-        rows = list(csv.DictReader(lines))
+    rows = rows_of(file)
     verdicts = [row["verdict"] for row in rows]
     corners = sorted(float(row["worst_corner_px"]) for row in rows if row["verdict"] == "hit")
     return len(rows), {v: verdicts.count(v) for v in set(verdicts)}, corners

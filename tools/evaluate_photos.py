@@ -41,9 +41,9 @@ class Photographs:
     def __init__(self, options):
         self.options = options
         self.folder = options.photos
-        self.meta = {row["file"]: row for row in rules.read(self.folder / "meta.csv")}
-        self.annotations = rules.read(self.folder / "annotations.csv")
-        self.references = rules.read(self.folder / "refs.csv") if (self.folder / "refs.csv").exists() else []
+        self.meta = {row["file"]: row for row in rules.rows_of(self.folder / "meta.csv")}
+        self.annotations = rules.rows_of(self.folder / "annotations.csv")
+        self.references = rules.rows_of(self.folder / "refs.csv") if (self.folder / "refs.csv").exists() else []
         self.candidates = []  # (title, records) of each run, with --candidates
 
     def run(self, name, files, leave_out=(), reference=None):
@@ -62,10 +62,10 @@ class Photographs:
             command += ["--candidates", self.options.output / f"{name}_candidates.csv"]
         subprocess.run([*map(str, command), *(str(self.folder / "images" / file) for file in files)], check=True)
         if self.options.candidates:
-            every = rules.read(self.options.output / f"{name}_candidates.csv")
+            every = rules.rows_of(self.options.output / f"{name}_candidates.csv")
             self.candidates.append((name, evaluate_candidates.evaluate(every, self.annotations, self.meta, set(leave_out),
                                                                        self.options.iou)))
-        return rules.evaluate(rules.read(table), self.annotations, self.meta, set(leave_out), self.options.iou)
+        return rules.evaluate(rules.rows_of(table), self.annotations, self.meta, set(leave_out), self.options.iou)
 
     def without_reference(self):
         return self.run("without_reference", sorted(self.meta))
@@ -77,7 +77,7 @@ class Photographs:
 
 def precision(records):
     """(rate, count) over detections in images whose every target is annotated."""
-    detected = [r for r in records if r["detected"] and r["target"] and r["exhaustive"]]
+    detected = rules.exhaustive_detections(records)
     return rules.rate(r["hit"] for r in detected), len(detected)
 
 

@@ -73,7 +73,7 @@ def draw_all(photos, folder, seed):
     """Names of the views drawn, and for each the corners in its reference and those of all windows in the view."""
     rng, drawn = np.random.default_rng(seed), {}
     annotated = collections.defaultdict(list)
-    for row in rules.read(photos / "annotations.csv"):
+    for row in rules.rows_of(photos / "annotations.csv"):
         if rules.corners(row):
             annotated[row["file"]].append((row["label"], np.array(rules.corners(row))))
     for file, windows in sorted(annotated.items()):
@@ -99,7 +99,7 @@ def found_by(tool, folder, name, at, views, arguments):
     command = [tool, "--output", table, "--reference", folder / f"{name}.reference.png", "--reference-corners",
                ",".join(f"{v:.2f}" for v in at.ravel()), *arguments, *(folder / f"{view}.png" for view in views)]
     subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
-    return [rules.corners(row) if row["detected"] == "1" else None for row in rules.read(table)]
+    return [rules.corners(row) if row["detected"] == "1" else None for row in rules.rows_of(table)]
 
 
 def verdict(quad, target, others):

@@ -62,7 +62,7 @@ def run(options, truth):
     if options.overlay:
         command += ["--overlay", options.output / "overlay"]
     subprocess.run([*map(str, command), *(str(options.folder / row["file"]) for row in truth)], check=True)
-    return rules.read(table)
+    return rules.rows_of(table)
 
 
 def report(frames, detections):
@@ -92,7 +92,7 @@ def main():
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
     try:
-        truth = rules.read(options.folder / "gt.csv")
+        truth = rules.rows_of(options.folder / "gt.csv")
         detections = run(options, truth)
     except OSError as error:
         print(f"evaluate_sequence: {error.filename}: {error.strerror}", file=sys.stderr)

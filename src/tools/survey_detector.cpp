@@ -185,11 +185,8 @@ void drawAndLook(const Options& o, Survey& survey) {
 int run(const Options& o) {
   check(o);
   Survey survey(o);
-  for (const std::string& name : o.folders) {
-    evaluation::SurveyFolder folder(name);
-    folder.readTable();
-    for (int i = 0; i < folder.size(); ++i) survey.look(folder.load(i));
-  }
+  for (const std::string& folder : o.folders)
+    evaluation::SurveyFolder(folder).forEach([&](const auto& sample) { survey.look(sample); });
   if (o.folders.empty()) drawAndLook(o, survey);
   survey.finish();
   return 0;

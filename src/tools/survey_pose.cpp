@@ -143,11 +143,8 @@ int surveyImages(const Options& o) {
   if (o.window_size.empty()) throw InputError("--load needs --window-size");
   tools::makeFolder(o.output);
   Chain chain(o);
-  for (const std::string& name : o.folders) {
-    evaluation::SurveyFolder folder(name);
-    folder.readTable();
-    for (int i = 0; i < folder.size(); ++i) chain.look(folder.load(i));
-  }
+  for (const std::string& folder : o.folders)
+    evaluation::SurveyFolder(folder).forEach([&](const auto& sample) { chain.look(sample); });
   evaluation::OutputFile table(fs::path(o.output) / "pictures.csv");
   table << evaluation::poseChainColumns() << "\n";
   for (const auto& result : chain.results) table << evaluation::poseChainRow(result) << "\n";

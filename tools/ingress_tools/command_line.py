@@ -1,5 +1,6 @@
 """What the tools in Python share: wrong usage is one line on stderr, and exit code 2."""
 import argparse
+import csv
 import os
 import sys
 
@@ -37,6 +38,12 @@ sys.excepthook = say_in_a_line
 def fail(code, text):
     print(text, file=sys.stderr)
     sys.exit(code)
+
+
+def rows_of(file):
+    """Rows of a csv table, each by the names of its columns; all text."""
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
 
 
 def save(tool, figure, file):

@@ -1,11 +1,8 @@
 #include "evaluation/images/survey_folder.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 
-#include "evaluation/csv.hpp"
 #include "evaluation/output_file.hpp"
 #include "window_ingress/parameters/calibration_file.hpp"
 #include "window_ingress/text/text.hpp"
@@ -15,7 +12,7 @@ namespace {
 
 using geometry::Quadrilateral;
 
-constexpr int kNumbersBeforeCorners = 4;
+constexpr std::size_t kFirstCorner = 7;  // column
 const std::vector<int> kFast{cv::IMWRITE_PNG_COMPRESSION, 1};
 
 std::string columns() {
@@ -26,15 +23,16 @@ std::string columns() {
 
 std::string numbers(const Quadrilateral& quad) { return csvCorners(quad, "%.9f"); }
 
-Quadrilateral quadrilateral(const double* numbers) {
+Quadrilateral quadrilateral(const CsvReader& row, std::size_t column) {
   Quadrilateral quad;
-  for (int i = 0; i < 4; ++i) quad[i] = {numbers[2 * i], numbers[2 * i + 1]};
+  for (int i = 0; i < 4; ++i) quad[i] = {row.number(column + 2 * i), row.number(column + 2 * i + 1)};
   return quad;
 }
 
 std::string rowOf(const SurveyImage& sample) {
   const SurveyTruth& truth = sample.truth;
-  const Quadrilateral none = quadrilateral(std::array<double, 8>{}.data());
+  Quadrilateral none;
+  none.fill(Eigen::Vector2d::Zero());
   return sample.scenario +
          formatted(",%u,%.6f,%.6f,%d,%d,%d", sample.seed, sample.distance_m, sample.off_axis_rad,
                    truth.present, truth.outer.has_value(), !sample.reference.empty()) +
@@ -57,12 +55,6 @@ std::string calibrationOf(const geometry::PinholeCamera& camera) {
          "}\ndistortion_model: " + (fisheye ? "equidistant" : "plumb_bob") +
          "\ndistortion_coefficients: {rows: 1, cols: " + std::to_string(distortion.size()) +
          ", data: " + list(distortion) + "}\n";
-}
-
-std::vector<double> numbersOf(std::istringstream& row) {
-  std::vector<double> values;
-  for (std::string part; std::getline(row, part, ',');) values.push_back(std::strtod(part.c_str(), nullptr));
-  return values;
 }
 
 }  // namespace
@@ -88,27 +80,24 @@ void SurveyFolder::writeTable() const {
   table.finish();
 }
 
-void SurveyFolder::readTable() {
+void SurveyFolder::forEach(const std::function<void(const SurveyImage&)>& use) const {
   CsvReader rows((std::filesystem::path(folder_) / "truth.csv").string(), columns());
-  while (rows.nextWhole()) rows_.push_back(rows.line());
+  while (rows.nextWhole()) use(load(rows));
 }
 
-SurveyImage SurveyFolder::load(int i) const {
-  std::istringstream row(rows_.at(i));
+SurveyImage SurveyFolder::load(const CsvReader& row) const {
   SurveyImage sample;
-  std::getline(row, sample.scenario, ',');
-  const std::vector<double> values = numbersOf(row);
-  const double* quads = values.data() + kNumbersBeforeCorners + 2;
-  sample.seed = static_cast<std::uint32_t>(values[0]);
-  sample.distance_m = values[1];
-  sample.off_axis_rad = values[2];
-  sample.truth.present = values[3] != 0.0;
-  sample.truth.inner = quadrilateral(quads);
-  if (values[4] != 0.0) sample.truth.outer = quadrilateral(quads + 8);
-  sample.truth.far = quadrilateral(quads + 16);
-  sample.reference_corners = quadrilateral(quads + 24);
+  sample.scenario = row.text(0);
+  sample.seed = static_cast<std::uint32_t>(row.number(1));
+  sample.distance_m = row.number(2);
+  sample.off_axis_rad = row.number(3);
+  sample.truth.present = row.number(4) != 0.0;
+  sample.truth.inner = quadrilateral(row, kFirstCorner);
+  if (row.number(5) != 0.0) sample.truth.outer = quadrilateral(row, kFirstCorner + 8);
+  sample.truth.far = quadrilateral(row, kFirstCorner + 16);
+  sample.reference_corners = quadrilateral(row, kFirstCorner + 24);
   sample.image = readImage(fileOf(sample, ".png"));
-  if (values[5] != 0.0) sample.reference = readImage(fileOf(sample, ".reference.png"));
+  if (row.number(6) != 0.0) sample.reference = readImage(fileOf(sample, ".reference.png"));
   sample.camera = parameters::readCalibrationFile(fileOf(sample, ".camera.yaml"));
   return sample;
 }

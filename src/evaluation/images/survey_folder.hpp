@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "evaluation/csv.hpp"
 #include "evaluation/images/survey_image.hpp"
 
 namespace window_ingress::evaluation {
@@ -17,11 +19,11 @@ class SurveyFolder {
   void add(const SurveyImage& sample);  ///< \throws std::runtime_error if a file cannot be written
   void writeTable() const;              ///< truth.csv; \throws std::runtime_error
 
-  void readTable();  ///< \throws InputError
-  int size() const { return static_cast<int>(rows_.size()); }
-  SurveyImage load(int i) const;  ///< \throws InputError
+  /// The images that the folder holds, one after the other. \throws InputError
+  void forEach(const std::function<void(const SurveyImage&)>& use) const;
 
  private:
+  SurveyImage load(const CsvReader& row) const;
   std::string fileOf(const SurveyImage& sample, const std::string& ending) const;
 
   std::string folder_;

@@ -29,6 +29,12 @@ class SurveyFolderTest : public testing::Test {
   const fs::path folder_ = temporary_.path;
 };
 
+std::vector<SurveyImage> imagesIn(const fs::path& folder) {
+  std::vector<SurveyImage> images;
+  SurveyFolder(folder.string()).forEach([&](const SurveyImage& image) { images.push_back(image); });
+  return images;
+}
+
 void expectSame(const geometry::Quadrilateral& a, const geometry::Quadrilateral& b) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR((a[i] - b[i]).norm(), 0.0, 1e-8);
 }
@@ -38,10 +44,9 @@ TEST_F(SurveyFolderTest, LoadsWhatWasSaved) {
   SurveyFolder saved(folder_.string());
   saved.add(first);
   saved.writeTable();
-  SurveyFolder folder(folder_.string());
-  folder.readTable();
-  ASSERT_EQ(folder.size(), 1);
-  const SurveyImage loaded = folder.load(0);
+  const auto images = imagesIn(folder_);
+  ASSERT_EQ(images.size(), 1u);
+  const SurveyImage& loaded = images[0];
   EXPECT_EQ(loaded.scenario, "calm");
   EXPECT_EQ(loaded.seed, 3u);
   EXPECT_NEAR(loaded.distance_m, first.distance_m, 1e-6);
@@ -56,11 +61,10 @@ TEST_F(SurveyFolderTest, LoadsWhatWasSaved) {
 
   saved.add(bent);
   saved.writeTable();
-  SurveyFolder both(folder_.string());
-  both.readTable();
-  ASSERT_EQ(both.size(), 2);
-  EXPECT_TRUE(both.load(1).reference.empty());
-  EXPECT_EQ(both.load(1).camera.distortion, bent.camera.distortion);
+  const auto both = imagesIn(folder_);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_TRUE(both[1].reference.empty());
+  EXPECT_EQ(both[1].camera.distortion, bent.camera.distortion);
 }
 
 TEST_F(SurveyFolderTest, ALensStaysWhatItIs) {
@@ -69,24 +73,22 @@ TEST_F(SurveyFolderTest, ALensStaysWhatItIs) {
   SurveyFolder saved(folder_.string());
   saved.add(fisheye);
   saved.writeTable();
-  SurveyFolder folder(folder_.string());
-  folder.readTable();
-  const geometry::PinholeCamera loaded = folder.load(0).camera;
+  const auto images = imagesIn(folder_);
+  ASSERT_EQ(images.size(), 1u);
+  const geometry::PinholeCamera& loaded = images[0].camera;
   EXPECT_EQ(loaded.model, fisheye.camera.model);
   EXPECT_EQ(loaded.distortion, fisheye.camera.distortion);
 }
 
 TEST_F(SurveyFolderTest, FoldersThatAreNoneAreErrorsWithTheirName) {
-  SurveyFolder folder(folder_.string());
-  EXPECT_THROW(folder.readTable(), InputError) << "empty";
+  EXPECT_THROW(imagesIn(folder_), InputError) << "empty";
   std::ofstream(folder_ / "truth.csv") << "file,x\n1,2\n";
-  EXPECT_THROW(folder.readTable(), InputError) << "of something else";
+  EXPECT_THROW(imagesIn(folder_), InputError) << "of something else";
   SurveyFolder whole(folder_.string());
   whole.add(draw(false));
   whole.writeTable();
   fs::remove(folder_ / "calm_3.png");
-  whole.readTable();
-  EXPECT_THROW(whole.load(0), InputError) << "an image is missing";
+  EXPECT_THROW(imagesIn(folder_), InputError) << "an image is missing";
   const fs::path below_a_file = folder_ / "truth.csv/folder";
   EXPECT_THROW(SurveyFolder(below_a_file.string()).writeTable(), std::runtime_error);
 }
@@ -97,7 +99,7 @@ TEST_F(SurveyFolderTest, CutRowsAreErrors) {
   saved.writeTable();
   const auto size = fs::file_size(folder_ / "truth.csv");
   fs::resize_file(folder_ / "truth.csv", size - 60);
-  EXPECT_THROW(SurveyFolder(folder_.string()).readTable(), InputError);
+  EXPECT_THROW(imagesIn(folder_), InputError);
 }
 
 TEST(SurveyImage, AutomaticGainsHaveSettled) {
