@@ -302,8 +302,8 @@ TEST(VehicleProfiles, Px4sVelocityIsOffAsMeasuredAndOtherwiseWithinSeconds) {
     off_m2ps2 += off_mps.squaredNorm() / 30.0;
     changed_m2ps2 += (velocityBias(flyer) - off_mps).squaredNorm() / 30.0;
   }
-  EXPECT_GT(std::sqrt(off_m2ps2), 0.15);
-  EXPECT_LT(std::sqrt(off_m2ps2), 0.29);
+  EXPECT_GT(std::sqrt(off_m2ps2), 0.13);
+  EXPECT_LT(std::sqrt(off_m2ps2), 0.31);
   EXPECT_GT(std::sqrt(changed_m2ps2), 0.15);
 }
 
