@@ -94,7 +94,7 @@ class ContinuousOdometry {
   void judgeBias();
   Eigen::Vector3d usualMps(const Eigen::Matrix3d& R_smooth_base) const;
   Eigen::Vector3d steadyMps(const Eigen::Matrix3d& R_smooth_base) const;
-  /// Neither position nor velocity differs from the other by more, as they were seen to.
+  /// Beside the bias, position and velocity go apart by no more within that time, as they did so far [m].
   double byChanceM(double passed_sec) const;
   void shiftIfUnexplained(VehicleState& smooth);
   void noteFrame();
