@@ -51,7 +51,7 @@ class BorderFit {
 
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
   /// (`TwoStepEdge`), and enlarges its spread by what is not known of it.
-  /// \param limits from what was fitted
+  /// \param limits of the front edge, from what was fitted [px]
   void toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const;
 
  private:
