@@ -37,7 +37,7 @@ std::optional<VehicleState> ContinuousOdometry::add(const VehicleState& odometry
       return std::nullopt;
     }
     second_.clear();
-    piece_.reset();
+    apart_.reset();
   }
   const double turned_rad = geometry::wrapAngle(yawOf(odometry) - yawOf(*odometry_));
   const bool comes_back = headingComesBack(turned_rad);

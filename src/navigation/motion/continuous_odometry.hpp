@@ -70,6 +70,11 @@ class ContinuousOdometry {
     Eigen::Vector3d position_m;  ///< in smooth
     Eigen::Vector3d way_m;       ///< integrated velocity
   };
+  /// What the position, without shifts, and the integrated velocity are apart by.
+  struct Apart {
+    double stamp_sec;
+    Eigen::Vector3d apart_m;
+  };
   struct Frame {
     double stamp_sec;
     Eigen::Isometry3d T_smooth_odom;
@@ -110,7 +115,8 @@ class ContinuousOdometry {
   bool is_bias_known_ = false;
   Eigen::Vector3d way_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();    ///< of the frame, so far
-  std::optional<Sample> piece_;                          ///< where the present piece of the way began
+  std::optional<Apart> apart_;                           ///< now, averaged: one sample may be off
+  std::optional<Apart> piece_;                           ///< where the present piece of the way began
   std::deque<Sample> differences_;                       ///< of the last second, positions without shifts
   std::deque<Difference> pieces_;                        ///< the latest
   Difference usual_;                                     ///< middle value of them

@@ -16,6 +16,7 @@ constexpr std::size_t kSteadyPieces = 8;              // longer than a slide las
 constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more do pieces of it differ
 constexpr double kMoreEven = 0.8;                     // of the spread in the other axes, squared
 constexpr double kSigmas = 2.0;                       // of how a position walks, before a bias is known
+constexpr double kOfNewest = 0.4;                     // sample: one may be off, which is no walk
 constexpr double kMostSigmas = 10.0;                  // of it: what is more is no chance
 constexpr double kSigmaOfMedian = 0.849;  // each axis, of lengths in the plane, normally distributed
 
@@ -30,14 +31,16 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
   const Eigen::Vector3d unshifted_m = smooth.T_odom_base.translation() - shift_m_;
   differences_.push_back({smooth.stamp_sec, unshifted_m, way_m_});
   while (differences_.front().stamp_sec < smooth.stamp_sec - kSecond) differences_.pop_front();
-  if (!piece_) piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
-  const double piece_sec = smooth.stamp_sec - piece_->stamp_sec;
+  const Apart now{smooth.stamp_sec, unshifted_m - way_m_};
+  if (!apart_) apart_ = piece_ = now;
+  apart_->stamp_sec += kOfNewest * (now.stamp_sec - apart_->stamp_sec);
+  apart_->apart_m += kOfNewest * (now.apart_m - apart_->apart_m);
+  const double piece_sec = apart_->stamp_sec - piece_->stamp_sec;
   if (piece_sec < kPieceSec) return;
-  const Eigen::Vector3d unexplained_m = (unshifted_m - piece_->position_m) - (way_m_ - piece_->way_m);
-  const Eigen::Vector3d differs_mps = unexplained_m / piece_sec;
+  const Eigen::Vector3d differs_mps = (apart_->apart_m - piece_->apart_m) / piece_sec;
   pieces_.push_back({uprightOf(smooth).transpose() * differs_mps, differs_mps});
   if (pieces_.size() > kPieces) pieces_.pop_front();
-  piece_ = Sample{smooth.stamp_sec, unshifted_m, way_m_};
+  piece_ = apart_;
   if (pieces_.size() >= kFirstPieces) judgePieces();
   if (!is_bias_known_) judgeBias();
 }
