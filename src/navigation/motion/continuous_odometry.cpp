@@ -12,7 +12,8 @@ namespace {
 // because a vehicle in the opening has only centimetres.
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kFramesSec = 3.0;
-constexpr double kTellingM = 0.1;  // between the two ways flown, to tell whether the axes have turned
+// Between the two ways flown, to tell whether the axes have turned; of what is chance in a piece of them.
+constexpr double kTellingM = 0.1, kTellingSigmas = 6.0;
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
 
@@ -104,7 +105,9 @@ VehicleState ContinuousOdometry::inSmooth(const VehicleState& odometry) const {
 void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
   if (!turn_) return;
   const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
-  const Eigen::Vector2d way_m = (way_m_ - turn_->piece.way_m).head<2>();  // upward nothing turns
+  const double passed_sec = odometry.stamp_sec - turn_->piece.stamp_sec;
+  const Eigen::Vector2d way_m = (way_m_ - turn_->piece.way_m + passed_sec * usualMps(uprightOf(*smooth_)))
+                                    .head<2>();  // upward nothing turns
   const Eigen::Vector2d moved_m =
       (T_smooth_axes_.linear() * (position_m - turn_->piece.position_m)).head<2>();
   const Eigen::Rotation2Dd turn_back(-turn_->turn_rad);
@@ -112,9 +115,12 @@ void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
   now.told_m2 += way_m.squaredNorm() * std::pow(2.0 * std::sin(0.5 * turn_->turn_rad), 2);
   now.misfit_m2 += (moved_m - way_m).squaredNorm();
   now.misfit_turned_m2 += (turn_back * moved_m - way_m).squaredNorm();
+  ++now.pieces;
   now.piece = {odometry.stamp_sec, position_m, way_m_};
-  if (now.told_m2 < kTellingM * kTellingM) {
-    if (odometry.stamp_sec - turn_->piece.stamp_sec >= kSecond) turn_ = now;
+  const double by_chance_m2 = std::max(std::pow(drift_m_per_sqrt_sec_, 2) * kSecond,
+                                       std::min(now.misfit_m2, now.misfit_turned_m2) / (2.0 * now.pieces));
+  if (now.told_m2 < std::max(std::pow(kTellingM, 2), std::pow(kTellingSigmas, 2) * by_chance_m2)) {
+    if (passed_sec >= kSecond) turn_ = now;
     return;
   }
   if (now.misfit_turned_m2 < now.misfit_m2) {

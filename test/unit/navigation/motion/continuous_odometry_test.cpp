@@ -231,6 +231,26 @@ TEST(ContinuousOdometry, AHeadingThatComesBackWhileTheVehicleHoversTurnsNoAxes) 
   EXPECT_EQ(wrong, 0);
 }
 
+// Neither the way of the position nor the same way turned is then what the velocity says.
+TEST(ContinuousOdometry, AHeadingThatJumpsBesideAVelocityThatWandersTurnsNoAxes) {
+  int wrong = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    Curve curve;
+    curve.random.seed(seed);
+    ContinuousOdometry continuous;
+    for (int i = 0; i < 600; ++i) {
+      const double phase = 0.5 * curve.time + seed;
+      curve.bias_base = {0.17 * std::sin(phase), 0.17 * std::cos(phase), 0.0};
+      curve.heading_turn = i >= 200 && i < 320 ? -0.3 : 0.0;
+      curve.speed = i < 300 ? 0.1 : 0.6;
+      continuous.add(curve.step());
+    }
+    const Eigen::Vector3d forward = continuous.inOdomAxes(Eigen::Vector3d::UnitX());
+    wrong += std::abs(std::atan2(forward.y(), forward.x())) > 0.05;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   Curve curve;
   ContinuousOdometry continuous;
