@@ -14,6 +14,7 @@ namespace {
 constexpr double kMaxPieceGapSec = 0.5, kShortestPieceSec = 0.5, kLongestPieceSec = 5.0;
 constexpr double kPieceM = 0.25, kMinWayM = 0.5;  // of a piece; before anything is said
 constexpr double kMaxVelocityMisfit = 0.3;        // relative, of way and velocity
+constexpr double kMaxOtherMisfit = 0.4;           // likewise, of the meaning that is named in its place
 constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
@@ -138,7 +139,8 @@ TwistCheck::Sums TwistCheck::sums() const {
 std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
   const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
   const double evidence = 1.5 * static_cast<double>(pieces_.size()) * std::log(sums.misfits[0] / *least);
-  const bool is_better = *least < kOtherMeaningBetter * sums.misfits[0] && evidence > kMinEvidence;
+  const bool is_good = *least < square(kMaxOtherMisfit) * sums.squares;
+  const bool is_better = is_good && *least < kOtherMeaningBetter * sums.misfits[0] && evidence > kMinEvidence;
   return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;
 }
 

@@ -14,10 +14,10 @@ namespace window_ingress::estimation {
 /// and y exchanged, y and z mirrored, the opposite sign.
 ///
 /// Positions drift, jitter and lag, and then way and velocity differ without any fault. So a frame is a fault
-/// only where another meaning explains the very same pieces far better (a likelihood ratio of unknown noise:
-/// bad odometry is as bad for all meanings, and a scale is the same in all of them). Where none does, the
-/// velocity is a fault only if even odometry that drifts much, has a velocity that is always off by the same
-/// (fixed in the body, as estimators have it) and slides now and then cannot explain the difference.
+/// only where another meaning explains the very same pieces, and far better (a likelihood ratio of unknown
+/// noise: bad odometry is as bad for all meanings, and a scale is the same in all of them). Where none does,
+/// the velocity is a fault only if even odometry that drifts much, has a velocity that is always off by the
+/// same (fixed in the body, as estimators have it) and slides now and then cannot explain the difference.
 ///
 /// A heading within some 17 degrees of zero tells body from world too little to matter.
 class TwistCheck {
