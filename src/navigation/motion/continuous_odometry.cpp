@@ -12,7 +12,8 @@ namespace {
 // because a vehicle in the opening has only centimetres.
 constexpr double kJumpInGapM = 0.2, kFastestMps = 1.0, kFastestRadps = 1.0, kTurnJumpRad = 0.08;
 constexpr double kFramesSec = 3.0;
-// Between the two ways flown, to tell whether the axes have turned; of what is chance in a piece of them.
+// Between the two ways flown, to tell whether the axes have turned. In sigmas of chance in one piece: their
+// misfits differ by what lies between them, give or take twice its root times that sigma, so six are three.
 constexpr double kTellingM = 0.1, kTellingSigmas = 6.0;
 
 double yawOf(const VehicleState& vehicle) { return geometry::yawOf(vehicle.T_odom_base.linear()); }
