@@ -8,7 +8,6 @@
 Needs ffmpeg.
 """
 import argparse
-import csv
 import pathlib
 import subprocess
 import sys
@@ -19,6 +18,7 @@ import numpy as np
 import rosbag
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from ingress_tools.command_line import rows_of  # noqa: E402
 from ingress_tools.flight_data import STATE_COLOURS, yaw_of  # noqa: E402
 
 HEIGHT, IMAGE_WIDTH, PATH_WIDTH = 240, 320, 240  # [px]
@@ -53,9 +53,8 @@ def read(bag_file):
 
 def outlines(replay):
     """Corners of the window found, by stamp."""
-    with open(replay / "frames.csv", encoding="utf-8") as file:
-        return {float(row["stamp"]): np.array([[float(row[f"{axis}{i}"]) for axis in "xy"] for i in range(1, 5)])
-                for row in csv.DictReader(file) if row["detected"] == "1" and all(row[f"x{i}"] for i in range(1, 5))}
+    return {float(row["stamp"]): np.array([[float(row[f"{axis}{i}"]) for axis in "xy"] for i in range(1, 5)])
+            for row in rows_of(replay / "frames.csv") if row["detected"] == "1" and all(row[f"x{i}"] for i in range(1, 5))}
 
 
 def image_panel(data, stamp, found):

@@ -5,19 +5,14 @@ OpenCV's methods are; prints the comparison as a Markdown table.
 Writes pose_bound.png and pose_methods.png. --noise chooses the noise of methods and table; --doc puts the table into
 FILE.md, between its marks.
 """
-import csv
 import math
 import os
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from ingress_tools.command_line import Parser  # noqa: E402
+from ingress_tools.command_line import Parser, rows_of  # noqa: E402
+from ingress_tools.plotting import plt  # noqa: E402
 
 METHODS = {
     "ours": ("ours", "black", "o"), "ours_attitude": ("ours, attitude known to 0.02 rad", "tab:green", "D"),
@@ -28,8 +23,7 @@ BEGIN, END = "<!-- methods: begin -->", "<!-- methods: end -->"
 
 
 def read(folder):
-    with open(pathlib.Path(folder) / "cells.csv", newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    return [{key: float(value) for key, value in row.items()} for row in rows_of(pathlib.Path(folder) / "cells.csv")]
 
 
 def ratio(cell, method):

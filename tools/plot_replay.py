@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Draws what replay_bag found: usage plot_replay.py FRAMES.csv IMAGE.png"""
-import csv
 import math
+import os
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from ingress_tools.command_line import rows_of  # noqa: E402
+from ingress_tools.plotting import plt  # noqa: E402
 
 NAN = float("nan")
 WORDS = ("reject_reason", "openness")
@@ -20,8 +19,7 @@ def number(text):
 
 def read(path):
     """Columns by name; what is empty is not a number."""
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(path)
     if not rows:
         sys.exit(f"{path}: no frames in it")
     return {name: [row[name] if name in WORDS else number(row[name]) for row in rows] for name in rows[0]}

@@ -3,7 +3,6 @@
 
 One page that opens from disk: no network, no scripts, drawings inside it, the images beside it in pictures/.
 """
-import csv
 import json
 import math
 import os
@@ -11,6 +10,7 @@ import sys
 from html import escape
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from ingress_tools.command_line import rows_of  # noqa: E402
 from ingress_tools.svg_chart import Chart  # noqa: E402
 
 STYLE = """
@@ -59,11 +59,6 @@ MEANING = {  # of the reasons, as in doc/detection.md
 }
 
 
-def rows_of(folder, name):
-    with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def number(text):
     return float(text) if text else NAN
 
@@ -85,8 +80,8 @@ class Replay:
     """The tables of one replay; times in seconds since the first image."""
 
     def __init__(self, folder):
-        self.frames, self.details = rows_of(folder, "frames.csv"), rows_of(folder, "details.csv")
-        self.latency, self.strip = rows_of(folder, "latency.csv"), rows_of(folder, "strip.csv")
+        self.frames, self.details, self.latency, self.strip = (
+            rows_of(os.path.join(folder, f"{table}.csv")) for table in ("frames", "details", "latency", "strip"))
         with open(os.path.join(folder, "replay.json"), encoding="utf-8") as file:
             self.facts = json.load(file)
         if not self.frames:
@@ -133,6 +128,26 @@ def strip(replay):
     return f'<div class="strip">{"".join(figures)}</div>'
 
 
+def columns_chart(title, table, *columns, factor=1.0):
+    """A chart of columns of one table, each with its name and colour."""
+    def draw(replay):
+        chart = Chart(replay.time, title)
+        for name, key, colour in columns:
+            chart.points(name, column(getattr(replay, table), key, factor), colour)
+        return chart.svg()
+    return draw
+
+
+angles_chart = columns_chart("the paper's angles [deg]", "details", ("theta", "theta_rad", "#1f5fa8"), ("phi", "phi_rad", "#e67e22"),
+                             ("psi", "psi_rad", "#2e9e4f"), factor=180 / math.pi)
+width_chart = columns_chart("opening as wide and as high as seen [m]", "details", ("width", "opening_width_m", "#1f5fa8"),
+                            ("height", "opening_height_m", "#e67e22"))
+sides_chart = columns_chart("length of the borders [px]", "details", ("left", "left_side_px", "#8c6d31"),
+                            ("right", "right_side_px", "#5b7c99"))
+latency_chart = columns_chart("milliseconds an image", "latency", ("detector", "detector_ms", "#1f5fa8"),
+                              ("pose and filter", "pose_ms", "#e0218a"))
+
+
 def detection_chart(replay):
     chart = Chart(replay.time, "score, distance to the reference")
     chart.points("score", column(replay.frames, "score"), "#2e9e4f")
@@ -161,13 +176,6 @@ def filtered_chart(replay):
     return chart.svg()
 
 
-def angles_chart(replay):
-    chart = Chart(replay.time, "the paper's angles [deg]")
-    for name, colour in (("theta", "#1f5fa8"), ("phi", "#e67e22"), ("psi", "#2e9e4f")):
-        chart.points(name, column(replay.details, f"{name}_rad", 180 / math.pi), colour)
-    return chart.svg()
-
-
 def openness_chart(replay):
     chart = Chart(replay.time, "the opening is open: log odds")
     for verdict, colour in (("OPEN", "#2e9e4f"), ("CLOSED", "#d0312d"), ("UNKNOWN", "#8a8a8a")):
@@ -176,32 +184,11 @@ def openness_chart(replay):
     return chart.svg()
 
 
-def width_chart(replay):
-    chart = Chart(replay.time, "opening as wide and as high as seen [m]")
-    chart.points("width", column(replay.details, "opening_width_m"), "#1f5fa8")
-    chart.points("height", column(replay.details, "opening_height_m"), "#e67e22")
-    return chart.svg()
-
-
-def sides_chart(replay):
-    chart = Chart(replay.time, "length of the borders [px]")
-    chart.points("left", column(replay.details, "left_side_px"), "#8c6d31")
-    chart.points("right", column(replay.details, "right_side_px"), "#5b7c99")
-    return chart.svg()
-
-
 def distance_chart(replay):
     chart = Chart(replay.time, "distance of the camera [m]")
     chart.points("image", [math.sqrt(sum(number(row[f"t{c}"]) ** 2 for c in "xyz")) for row in replay.frames], "#1f5fa8")
     if "truth_distance_m" in replay.frames[0]:
         chart.line("truth", column(replay.frames, "truth_distance_m"), "#000000")
-    return chart.svg()
-
-
-def latency_chart(replay):
-    chart = Chart(replay.time, "milliseconds an image")
-    chart.points("detector", column(replay.latency, "detector_ms"), "#1f5fa8")
-    chart.points("pose and filter", column(replay.latency, "pose_ms"), "#e0218a")
     return chart.svg()
 
 

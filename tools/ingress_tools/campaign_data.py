@@ -1,31 +1,41 @@
-"""Tables of flights as `fly` writes them, and the statistics of rates; used by plot_miss and plot_gusts."""
+"""Tables of flights as `fly` writes them, and the statistics of rates; used by plot_miss, plot_gusts and plot_flight."""
 import csv
 import math
 import os
 
 CONTACTS = ("COLLISION", "FALSE_INGRESS")
 NUMBERS = ("seed", "offset_y_m", "offset_z_m", "predicted_miss_m")
+GIVE = "give a folder or flights.csv that 'fly --output' has written"
 
 
-class TableError(ValueError):
+class DataError(ValueError):
     """What is wrong with which file, and what to do: one line."""
+
+
+def table_of(file, give):
+    """Its rows, and the names of its columns; raises DataError, which ends in what to give in its place."""
+    try:
+        with open(file, newline="", encoding="utf-8") as stream:
+            reader = csv.DictReader(stream, strict=True)
+            return list(reader), reader.fieldnames or []
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = error.strerror if isinstance(error, OSError) else f"cannot be read as csv: {error}"
+        raise DataError(f"{file}: {reason}; {give}") from error
+
+
+def need_columns(file, needed, there, give):
+    missing = [name for name in needed if name not in there]
+    if missing:
+        raise DataError(f"{file}: no column {', '.join(missing)}; {give}")
 
 
 def read_flights(place, columns):
     """Rows of one flights.csv, or of the one in a folder; NUMBERS as floats, NaN where there was none."""
     file = os.path.join(place, "flights.csv") if os.path.isdir(place) else place
-    try:
-        with open(file, newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(stream, strict=True)
-            rows, there = list(reader), reader.fieldnames or []
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise TableError(f"{file}: {reason}; give a folder or flights.csv that 'fly --output' has written") from error
-    missing = [name for name in columns if name not in there]
-    if missing:
-        raise TableError(f"{file}: no column {', '.join(missing)}; give a folder or flights.csv that 'fly --output' has written")
+    rows, there = table_of(file, GIVE)
+    need_columns(file, columns, there, GIVE)
     if not rows:
-        raise TableError(f"{file}: no flights in it; was the campaign broken off?")
+        raise DataError(f"{file}: no flights in it; was the campaign broken off?")
     for i, row in enumerate(rows):
         row.update({name: number(file, i + 2, row, name) for name in NUMBERS if name in there})
     return rows
@@ -36,7 +46,7 @@ def number(file, line, row, name):
     try:
         return float(text) if text else math.nan
     except (TypeError, ValueError) as error:
-        raise TableError(f"{file}:{line}: '{text}' in column {name} is no number; was the table cut off?") from error
+        raise DataError(f"{file}:{line}: '{text}' in column {name} is no number; was the table cut off?") from error
 
 
 def miss_of(row):

@@ -44,13 +44,3 @@ def rows_of(file):
     """Rows of a csv table, each by the names of its columns; all text."""
     with open(file, newline="", encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
-
-
-def save(tool, figure, file):
-    """Writes the picture, and its folder if it is missing; ends the program with code 1 if that cannot be done."""
-    try:
-        os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
-        figure.savefig(file, dpi=80)
-    except (OSError, ValueError) as error:
-        fail(1, f"{tool}: {file}: cannot write: {error}")
-    print(f"{tool}: see {file}", file=sys.stderr)

@@ -5,7 +5,8 @@ import numpy as np
 import rosbag
 
 from . import package_paths
-from .flight_data import Flight, FlightError, Images, yaw_of
+from .campaign_data import DataError
+from .flight_data import Flight, Images, yaw_of
 
 KINDS = {"state": "window_ingress/IngressState", "pose": "window_ingress/WindowPose", "odom": "nav_msgs/Odometry",
          "truth": "nav_msgs/Odometry", "window": "geometry_msgs/PoseStamped", "verdict": "window_ingress/FlightVerdict"}
@@ -20,7 +21,7 @@ def read_bag(file, topics):
             for topic, message, _ in bag.read_messages(topics=[topic for topic in chosen.values() if topic]):
                 messages[next(name for name, own in chosen.items() if own == topic)].append(message)
     except (OSError, rosbag.ROSBagException) as error:
-        raise FlightError(f"{file}: {error or type(error).__name__}; if it was not closed, mend it with 'rosbag reindex'") \
+        raise DataError(f"{file}: {error or type(error).__name__}; if it was not closed, mend it with 'rosbag reindex'") \
             from error
     return flight_of(file, messages, chosen)
 
@@ -31,9 +32,9 @@ def choose(file, info, asked):
     for name, kind in KINDS.items():
         own = asked.get(name)
         if own and own not in info:
-            raise FlightError(f"{file}: no topic {own}; it holds {', '.join(sorted(info)) or 'nothing'}")
+            raise DataError(f"{file}: no topic {own}; it holds {', '.join(sorted(info)) or 'nothing'}")
         if own and info[own].msg_type != kind:
-            raise FlightError(f"{file}: {own} is {info[own].msg_type}, not {kind}")
+            raise DataError(f"{file}: {own} is {info[own].msg_type}, not {kind}")
         chosen[name] = own or only_one(file, name, [t for t in sorted(info) if info[t].msg_type == kind])
     return chosen
 
@@ -46,20 +47,20 @@ def only_one(file, name, topics):
         topics = [topic for topic in topics if not topic.endswith(ends["truth"])]
         topics = [topic for topic in topics if topic == "/odom"] or topics
     if len(topics) > 1:
-        raise FlightError(f"{file}: several topics for --{name}: {', '.join(topics)}; say which")
+        raise DataError(f"{file}: several topics for --{name}: {', '.join(topics)}; say which")
     return topics[0] if topics else None
 
 
 def flight_of(file, messages, chosen):
     messages["state"] = [m for m in messages["state"] if stamp(m) > 0]  # before /clock runs there is no time
     if not messages["state"]:
-        raise FlightError(f"{file}: no {KINDS['state']} in it; was the navigator running, and /state recorded?")
+        raise DataError(f"{file}: no {KINDS['state']} in it; was the navigator running, and /state recorded?")
     if messages["pose"] and not hasattr(messages["pose"][0], "image"):
-        raise FlightError(f"{file}: recorded by an earlier version; convert it: rosbag fix -n {file} NEW.bag {RULES}")
+        raise DataError(f"{file}: recorded by an earlier version; convert it: rosbag fix -n {file} NEW.bag {RULES}")
     is_truth = bool(messages["truth"] and messages["window"])
     vehicle = messages["truth" if is_truth else "odom"]
     if len(vehicle) < 2:
-        raise FlightError(f"{file}: no nav_msgs/Odometry with two messages; record the topic, or name it with --odom")
+        raise DataError(f"{file}: no nav_msgs/Odometry with two messages; record the topic, or name it with --odom")
     window = messages["window"][-1].pose if is_truth else trusted_window(file, messages["pose"])
     begin = start_of(messages["state"], messages["verdict"])
     flight = Flight(file, motion_in(window, vehicle, begin), [(stamp(m) - begin, m.state_name) for m in messages["state"]],
@@ -78,7 +79,7 @@ def trusted_window(file, poses):
     """Where the window was, by the last filtered pose that knew its normal."""
     good = [m for m in poses if m.filtered.valid and m.filtered.sign_trusted]
     if not good:
-        raise FlightError(f"{file}: neither ground_truth/odom and ground_truth/window nor a trusted pose of the window; "
+        raise DataError(f"{file}: neither ground_truth/odom and ground_truth/window nor a trusted pose of the window; "
                           "record window_pose, or see its filtered.reason")
     return good[-1].filtered.pose.pose
 

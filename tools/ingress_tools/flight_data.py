@@ -2,11 +2,12 @@
 
 Positions are those of the vehicle in the window's frame: x into the opening, y left, z up, the wall at x = 0.
 """
-import csv
 import math
 import os
 
 import numpy as np
+
+from .campaign_data import DataError, need_columns, table_of
 
 STATE_COLOURS = {
     "IDLE": "#aaaaaa", "SEARCH": "#9b59b6", "ALIGN": "#1f5fa8", "APPROACH": "#56c1e8", "COMMIT": "#e67e22",
@@ -16,10 +17,6 @@ LOG_COLUMNS = ("time_s", "x_m", "y_m", "z_m", "heading_rad", "vx_mps", "vy_mps",
                "image_trusted", "image_width_m", "image_height_m", "image_left_px", "image_right_px", "error_yaw_rad",
                "predicted_miss_m")
 MAY_BE_EMPTY = LOG_COLUMNS[8:]
-
-
-class FlightError(ValueError):
-    """What is wrong with which file, and what to do: one line."""
 
 
 def yaw_of(q):
@@ -94,7 +91,7 @@ class Flight:
         """Only what lies between two times [s]."""
         keep = (self.time >= begin) & (self.time <= end)
         if keep.sum() < 2:
-            raise FlightError(f"{self.file}: fewer than two positions between {begin:g} and {end:g} s; it holds "
+            raise DataError(f"{self.file}: fewer than two positions between {begin:g} and {end:g} s; it holds "
                               f"{self.time[0]:.1f} to {self.time[-1]:.1f} s")
         for name in ("time", "x", "y", "z", "heading", "speed"):
             setattr(self, name, getattr(self, name)[keep])
@@ -107,34 +104,27 @@ class Flight:
 
 
 def read_flight(file, topics=None):
-    """By its ending: a bag, else a log. Raises FlightError."""
+    """By its ending: a bag, else a log. Raises DataError."""
     if os.path.isdir(file):
-        raise FlightError(f"{file}: is a folder; give one flight_N.csv or one bag in it")
+        raise DataError(f"{file}: is a folder; give one flight_N.csv or one bag in it")
     if not os.path.isfile(file):
-        raise FlightError(f"{file}: no such file; record a bag, or write a log with 'fly --log DIR'")
+        raise DataError(f"{file}: no such file; record a bag, or write a log with 'fly --log DIR'")
     if file.endswith(".bag"):
         try:
             from .flight_bag import read_bag  # pylint: disable=import-outside-toplevel  (logs are drawn without ROS)
         except ImportError as error:
-            raise FlightError(f"{file}: bags need ROS: {error}; run it with scripts/run") from error
+            raise DataError(f"{file}: bags need ROS: {error}; run it with scripts/run") from error
         return read_bag(file, topics or {})
     return read_log(file)
 
 
 def read_log(file):
-    try:
-        with open(file, newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(stream, strict=True)
-            rows, columns = list(reader), reader.fieldnames or []
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise FlightError(f"{file}: cannot be read as csv: {error}; give a log of 'fly --log DIR' or a .bag") from error
+    rows, columns = table_of(file, "give a log of 'fly --log DIR' or a .bag")
     if "outcome" in columns:
-        raise FlightError(f"{file}: is the table of a campaign; plot_miss draws it, plot_flight one log of 'fly --log DIR'")
-    missing = [name for name in ("state", "reason", *LOG_COLUMNS) if name not in columns]
-    if missing:
-        raise FlightError(f"{file}: no column {', '.join(missing)}; write the log with 'fly --log DIR' of this version")
+        raise DataError(f"{file}: is the table of a campaign; plot_miss draws it, plot_flight one log of 'fly --log DIR'")
+    need_columns(file, ("state", "reason", *LOG_COLUMNS), columns, "write the log with 'fly --log DIR' of this version")
     if len(rows) < 2:
-        raise FlightError(f"{file}: {len(rows)} rows, a flight needs two; did the flight start?")
+        raise DataError(f"{file}: {len(rows)} rows, a flight needs two; did the flight start?")
     return flight_of_log(file, rows)
 
 
@@ -163,5 +153,5 @@ def number(file, line, row, name):
     except (TypeError, ValueError):
         value = math.nan
     if not math.isfinite(value):
-        raise FlightError(f"{file}:{line}: '{text}' in column {name} is no number; was the log cut off?")
+        raise DataError(f"{file}:{line}: '{text}' in column {name} is no number; was the log cut off?")
     return value
