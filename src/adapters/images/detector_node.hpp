@@ -16,7 +16,7 @@
 #include "adapters/images/reference_source.hpp"
 #include "adapters/inputs/attitude_source.hpp"
 #include "adapters/inputs/camera_source.hpp"
-#include "adapters/inputs/stamp_gate.hpp"
+#include "adapters/inputs/clock_watch.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/lockstep.hpp"
 #include "adapters/runtime/reconfigure.hpp"

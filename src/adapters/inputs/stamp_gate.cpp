@@ -37,10 +37,4 @@ std::optional<std::string> StampGate::whyRefused(const ros::Time& stamp, double 
   return std::nullopt;
 }
 
-bool ClockWatch::jumpedBack(double now_sec) {
-  const bool back = now_sec < last_sec_ - 0.1;
-  last_sec_ = now_sec;
-  return back;
-}
-
 }  // namespace window_ingress::adapters

@@ -5,21 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "adapters/inputs/clock_watch.hpp"
 #include "window_ingress/configuration/common_params.hpp"
 
 namespace window_ingress::adapters {
 
 using configuration::StampLimits;
-
-/// Notices that the clock went back, as it does when a bag is looped or a simulation reset.
-class ClockWatch {
- public:
-  /// \return true once for each jump back by more than 0.1 s
-  bool jumpedBack(double now_sec);
-
- private:
-  double last_sec_ = 0.0;
-};
 
 /// Admits messages of one topic by their stamp: stamped, recent, and newer than the one before. Starts anew
 /// when the clock jumps back.

@@ -15,6 +15,7 @@
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/guard/setpoint_gate.hpp"
+#include "adapters/inputs/clock_watch.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/markers/flight_markers.hpp"
 #include "adapters/navigator/mission_action.hpp"

@@ -15,6 +15,7 @@
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/inputs/attitude_source.hpp"
 #include "adapters/inputs/camera_source.hpp"
+#include "adapters/inputs/clock_watch.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/pose/pose_health.hpp"
 #include "adapters/pose/pose_topics.hpp"

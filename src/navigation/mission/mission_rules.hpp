@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "navigation/behaviours/behaviour.hpp"
 #include "navigation/motion/input_monitor.hpp"
@@ -27,9 +26,5 @@ bool hasRetriesLeft(const MissionState& memory, const BackOffParams& params);
 
 /// For people: the vehicle goes beside what it is told.
 std::string goesAstray(double turned_rad);
-
-/// What speaks against a start, all of it; empty if nothing does.
-std::vector<std::string> unmetToStart(const Situation& situation, bool engaged,
-                                      const NavigatorParams& params);
 
 }  // namespace window_ingress::navigation
