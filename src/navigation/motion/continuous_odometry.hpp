@@ -82,8 +82,8 @@ class ContinuousOdometry {
   /// Have the axes turned with the heading?
   struct Turn {
     double turn_rad;
-    Sample piece;  ///< where the present piece of the way began, in the axes that odometry reports
-    int pieces = 0;
+    Sample piece;          ///< where the present piece of the way began, in the axes that odometry reports
+    int pieces = 0;        ///< of the way, so far
     double told_m2 = 0.0;  ///< squares of what lies between the two answers, piece by piece
     double misfit_m2 = 0.0, misfit_turned_m2 = 0.0;
   };

@@ -16,7 +16,7 @@ constexpr std::size_t kSteadyPieces = 8;              // longer than a slide las
 constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more do pieces of it differ
 constexpr double kMoreEven = 0.8;                     // of the spread in the other axes, squared
 constexpr double kSigmas = 2.0;                       // of how a position walks, before a bias is known
-constexpr double kOfNewest = 0.4;                     // sample: one may be off, which is no walk
+constexpr double kOfNewest = 0.4;                     // in the average, a share: one sample may be off
 constexpr double kMostSigmas = 10.0;                  // of it: what is more is no chance
 constexpr double kSigmaOfMedian = 0.849;  // each axis, of lengths in the plane, normally distributed
 
