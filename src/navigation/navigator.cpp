@@ -10,7 +10,6 @@
 #include "navigation/mission/mission_clock.hpp"
 #include "navigation/mission/mission_report.hpp"
 #include "navigation/mission/mission_rules.hpp"
-#include "navigation/mission/mission_timeouts.hpp"
 #include "navigation/mission/opening_policy.hpp"
 #include "navigation/mission/start_conditions.hpp"
 #include "navigation/mission/window_choice.hpp"

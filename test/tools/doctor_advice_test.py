@@ -9,7 +9,7 @@ import types
 import pytest
 from geometry_msgs.msg import TransformStamped
 
-from ingress_tools import findings, input_checks, live_system, observed_system, remedies
+from ingress_tools import findings, topic_checks, live_system, observed_system, remedies
 from repository import ROOT, load, run
 
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
@@ -68,7 +68,7 @@ def test_mavros_that_is_away_is_one_finding(doctor, capsys, publishers, arrived,
     system.samples = {topic: types.SimpleNamespace(times=[0.0] * (topic in arrived), rate_hz=lambda: 50.0, age_s=lambda: 0.0)
                       for topic in (*kinds, system.setpoints)}
     report = findings.Report()
-    for check in (input_checks.check_inputs, doctor.check_setpoints, doctor.check_what_nodes_say):
+    for check in (topic_checks.check_inputs, doctor.check_setpoints, doctor.check_what_nodes_say):
         check(system, report)
     report.say()
     said = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("OK")]

@@ -9,7 +9,24 @@
 namespace window_ingress::navigation {
 namespace {
 constexpr double kMaxShiftM = 0.8;  // a window this far from the one flown at is another one
+
+double timeoutOf(State state, const TimeoutParams& timeouts) {
+  switch (state) {
+    case State::kSearch:
+      return timeouts.search_sec;
+    case State::kAlign:
+      return timeouts.align_sec;
+    case State::kApproach:
+      return timeouts.approach_sec;
+    case State::kCommit:
+      return timeouts.commit_sec;
+    case State::kBackOff:
+      return timeouts.back_off_sec;
+    default:
+      return timeouts.total_sec;
+  }
 }
+}  // namespace
 
 NavigatorParams checked(NavigatorParams params) {
   auto faults = parameters::outOfRange(params);
@@ -24,6 +41,13 @@ NavigatorParams checked(NavigatorParams params) {
   if (!faults.empty()) throw std::invalid_argument("navigator: " + parameters::joined(faults));
   params.input.max_future_sec = params.vehicle.stamps.max_future_sec;
   return params;
+}
+
+std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts) {
+  if (clock.inMissionSec() > timeouts.total_sec)
+    return std::string("mission timed out in ") + toString(state);
+  if (clock.inStateSec() > timeoutOf(state, timeouts)) return std::string(toString(state)) + " timed out";
+  return "";
 }
 
 std::string missingInput(State state, const Situation& situation) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "navigation/behaviours/behaviour.hpp"
+#include "navigation/mission/mission_clock.hpp"
 #include "navigation/motion/input_monitor.hpp"
 #include "window_ingress/navigation/navigator_params.hpp"
 #include "window_ingress/navigation/transition_table.hpp"
@@ -12,6 +13,10 @@ namespace window_ingress::navigation {
 
 /// The parameters as given. \throws std::invalid_argument that lists every fault
 NavigatorParams checked(NavigatorParams params);
+
+/// What has lasted too long, for people: the mission as a whole, or its stay in this state; empty if neither.
+/// How long HOLD lasts is its own matter (`hold/timeout_sec`).
+std::string whatTimedOut(State state, const MissionClock& clock, const TimeoutParams& timeouts);
 
 /// What this state needs and does not have; empty if it has all.
 std::string missingInput(State state, const Situation& situation);

@@ -1,10 +1,10 @@
+#include "simulation/vehicle/dryden_gusts.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <vector>
-
-#include "simulation/vehicle/wind.hpp"
 
 namespace window_ingress::simulation::dryden_gusts_test {
 

@@ -1,83 +1,23 @@
-/// The topics of the pose node: the window, and the memory of all windows.
 #pragma once
 
 #include <geometry_msgs/PointStamped.h>
-#include <geometry_msgs/PolygonStamped.h>
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <ros/node_handle.h>
 #include <std_msgs/UInt32.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <window_ingress/Facade.h>
 #include <window_ingress/IngressState.h>
 #include <window_ingress/SelectWindow.h>
-#include <window_ingress/WindowPose.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "adapters/conversions/msg_conversion.hpp"
 #include "adapters/inputs/attitude_source.hpp"
-#include "adapters/markers/marker_sketch.hpp"
 #include "adapters/markers/window_markers.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/estimation/target_estimator.hpp"
-#include "window_ingress/estimation/window_filter.hpp"
 
 namespace window_ingress::adapters {
-
-/// The window's pose on all topics that carry it, as markers, and as transform.
-class PosePublisher {
- public:
-  /// \param window_frame empty: no transform is sent
-  PosePublisher(ros::NodeHandle& nh, bool latched, const std::string& odom_frame,
-                const std::string& window_frame)
-      : odom_frame_(odom_frame), window_frame_(window_frame) {
-    pose_ = nh.advertise<window_ingress::WindowPose>("window_pose", 1, latched);
-    covariance_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("window_pose_cov", 1);
-    polygon_ = nh.advertise<geometry_msgs::PolygonStamped>("window_polygon", 1);
-    markers_ = nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
-  }
-
-  /// \param filtered if the window's place is known
-  void publish(const window_ingress::WindowPose& message,
-               const std::optional<estimation::FilteredWindow>& filtered) {
-    pose_.publish(message);
-    if (message.image.reject == window_ingress::ImagePose::OK) publishImage(message);
-    if (filtered) publishFiltered(message, *filtered);
-  }
-
-  /// All markers are gone.
-  void clear(const ros::Time& stamp) { markers_.publish(allGone(stamp, odom_frame_)); }
-
-  ros::Publisher& markers() { return markers_; }
-  std::vector<ros::Publisher> topics() const { return {pose_, covariance_, polygon_, markers_}; }
-
- private:
-  void publishImage(const window_ingress::WindowPose& message) {
-    geometry_msgs::PoseWithCovarianceStamped stamped;
-    stamped.header = message.header;
-    stamped.pose = message.image.pose;
-    covariance_.publish(stamped);
-    if (const auto T_camera_window = fromMsg(message.image.pose.pose))
-      polygon_.publish(openingPolygon(*T_camera_window.value, {message.size.width, message.size.height},
-                                      message.header.stamp, message.header.frame_id));
-  }
-
-  void publishFiltered(const window_ingress::WindowPose& message, const estimation::FilteredWindow& window) {
-    if (markers_.getNumSubscribers() > 0)
-      markers_.publish(windowMarkers(window, windowLabel(message), message.header.stamp, odom_frame_));
-    if (window_frame_.empty()) return;
-    transforms_.sendTransform(toTransformStampedMsg(
-        window.T_odom_window, headerOf(message.header.stamp, odom_frame_), window_frame_));
-  }
-
-  std::string odom_frame_, window_frame_;
-  ros::Publisher pose_, covariance_, polygon_, markers_;
-  tf2_ros::TransformBroadcaster transforms_;
-};
 
 /// The memory of all windows between topics: what it knows goes out (`facade`, `markers`), which of them is
 /// the target comes in (`~select_window`, a click in rviz: `clicked_point`, a goal of the navigator's action:
