@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace window_ingress::navigation {
 namespace {
@@ -27,11 +28,26 @@ bool isBehindWindow(const Eigen::Vector3d& position_m, const MissionState& memor
   return normal.dot(memory.trusted->T_odom_window.translation() - position_m) < 0.0;
 }
 
-/// Direction in which the window lies, where that is known.
-std::optional<Eigen::Vector3d> towardsWindow(const Eigen::Vector3d& position_m, const MissionState& memory) {
-  if (memory.trusted) return uprightRotation(*memory.trusted).col(0);
-  if (!memory.window_odom_m) return std::nullopt;
-  return levelDirection(*memory.window_odom_m - position_m);
+/// Directions in which windows lie in front; along the normal where that is known.
+std::vector<Eigen::Vector3d> towardsWindows(const Eigen::Vector3d& position_m, const MissionState& memory) {
+  std::vector<Eigen::Vector3d> directions;
+  if (isBehindWindow(position_m, memory)) return directions;
+  if (memory.trusted)
+    directions.push_back(uprightRotation(*memory.trusted).col(0));
+  else if (memory.window_odom_m)
+    directions.push_back(levelDirection(*memory.window_odom_m - position_m));
+  for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m})
+    for (const Eigen::Vector3d& window_odom_m : *windows)
+      directions.push_back(levelDirection(window_odom_m - position_m));
+  return directions;
+}
+
+/// Of this way what leads towards no window; nothing where windows on both sides leave none.
+Eigen::Vector3d towardsNoWindow(Eigen::Vector3d way, const std::vector<Eigen::Vector3d>& windows) {
+  constexpr double kTowardsM = 1e-9;
+  for (const Eigen::Vector3d& forward : windows) way -= std::max(0.0, way.dot(forward)) * forward;
+  const auto leadsThere = [&](const Eigen::Vector3d& forward) { return way.dot(forward) > kTowardsM; };
+  return std::any_of(windows.begin(), windows.end(), leadsThere) ? Eigen::Vector3d::Zero().eval() : way;
 }
 
 /// Neither wind nor its own errors take a vehicle so far that keeps its place.
@@ -68,23 +84,14 @@ Eigen::Vector3d onlyToPlace(const Eigen::Vector3d& velocity_odom_mps, const Vehi
                             const MissionState& memory, const HoldParams& params) {
   if (!memory.place_odom_m) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d position_m = vehicle.T_odom_base.translation();
-  Eigen::Vector3d way = *memory.place_odom_m - position_m;
+  const Eigen::Vector3d way = *memory.place_odom_m - position_m;
+  const Eigen::Vector3d level_way =
+      towardsNoWindow({way.x(), way.y(), 0.0}, towardsWindows(position_m, memory));
   const bool leads_back = std::abs(way.z()) >= kThereM && velocity_odom_mps.z() * way.z() > 0.0;
   Eigen::Vector3d velocity(0.0, 0.0, leads_back ? velocity_odom_mps.z() : 0.0);
-  way.z() = 0.0;
-  if (way.norm() >= kThereM)
-    velocity += std::max(0.0, velocity_odom_mps.dot(way.normalized())) * way.normalized();
-  velocity = levelAndVertical(velocity, params.speed_mps);
-  if (isBehindWindow(position_m, memory)) return velocity;
-  if (const auto forward = towardsWindow(position_m, memory))
-    velocity -= std::max(0.0, velocity.dot(*forward)) * *forward;
-  for (const auto* windows : {&memory.left_odom_m, &memory.others_odom_m}) {
-    for (const Eigen::Vector3d& window_odom_m : *windows) {
-      const Eigen::Vector3d forward = levelDirection(window_odom_m - position_m);
-      if (velocity.dot(forward) > 0.0) velocity -= velocity.dot(forward) * forward;
-    }
-  }
-  return velocity;
+  if (level_way.norm() >= kThereM)
+    velocity += std::max(0.0, velocity_odom_mps.dot(level_way.normalized())) * level_way.normalized();
+  return levelAndVertical(velocity, params.speed_mps);
 }
 
 }  // namespace window_ingress::navigation

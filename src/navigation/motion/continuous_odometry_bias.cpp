@@ -11,6 +11,7 @@ namespace window_ingress::navigation {
 namespace {
 
 constexpr double kPieceSec = 0.5, kNoticeableMps = 0.03, kMaxBiasMps = 0.4;
+constexpr double kMaxErrorMps = 0.5;  // of any velocity, before its bias is known
 constexpr std::size_t kLatePieces = 4, kFirstPieces = 2;
 constexpr std::size_t kSteadyPieces = 8;              // longer than a slide lasts
 constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more do pieces of it differ
@@ -46,15 +47,14 @@ void ContinuousOdometry::learnBias(const VehicleState& smooth) {
 }
 
 void ContinuousOdometry::judgePieces() {
-  for (const auto axes : {&Difference::base_mps, &Difference::smooth_mps}) {
-    Eigen::Vector3d usual_mps = middleMps(axes);
-    if (usual_mps.norm() > kMaxBiasMps) usual_mps *= kMaxBiasMps / usual_mps.norm();
-    usual_.*axes = usual_mps;
-  }
+  const Difference middle{middleMps(&Difference::base_mps), middleMps(&Difference::smooth_mps)};
+  usual_ = middle;
+  for (Eigen::Vector3d* usual_mps : {&usual_.base_mps, &usual_.smooth_mps})
+    if (usual_mps->norm() > kMaxBiasMps) *usual_mps *= kMaxBiasMps / usual_mps->norm();
   const auto besides = [&](Axes axes) {
     std::vector<double> lengths_mps;
     for (const Difference& piece : pieces_)
-      lengths_mps.push_back((piece.*axes - usual_.*axes).head<2>().norm());
+      lengths_mps.push_back((piece.*axes - middle.*axes).head<2>().norm());
     return lengths_mps;
   };
   const auto squared = [](const std::vector<double>& v) {
@@ -124,7 +124,10 @@ Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
 }
 
 double ContinuousOdometry::byChanceM(double passed_sec) const {
-  return kMostSigmas * drift_m_per_sqrt_sec_ * std::sqrt(passed_sec);
+  const double by_chance_m = kMostSigmas * drift_m_per_sqrt_sec_ * std::sqrt(passed_sec);
+  if (isBiasKnown()) return by_chance_m;
+  return std::min(by_chance_m,
+                  kMaxErrorMps * passed_sec);  // a slide is among the first pieces, and most of them
 }
 
 double ContinuousOdometry::unexplainedMps() const {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+#include <vector>
+
 #include "navigation_samples.hpp"
 
 namespace window_ingress::navigation::position_hold_test {
@@ -97,6 +100,39 @@ TEST(PositionHold, BehindTheWindowNoOtherWindowKeepsItFromItsPlace) {
         onlyToPlace(ahead, test::vehicleAt({side * 1.5, 0.0, 1.5}, 0.0), memory, params.hold);
     EXPECT_NEAR(velocity.x(), side > 0.0 ? 0.3 : 0.0, 1e-12);
   }
+}
+
+// The limiter goes on from what was permitted: what is cut again each time comes to nothing, and the vehicle
+// drifts past the window to the wall.
+TEST(PositionHold, WhatIsPermittedLeadsTowardsNoWindowAndIsPermittedAgain) {
+  const NavigatorParams params = test::withoutGlass();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> anywhere(-4.0, 4.0);
+  const auto level = [&] {
+    const double x = anywhere(random);
+    return Eigen::Vector3d(x, anywhere(random), 0.0);
+  };
+  int moved = 0;
+  for (int i = 0; i < 2000; ++i) {
+    MissionState memory;
+    memory.place_odom_m = level();
+    memory.others_odom_m = {level()};
+    if (i % 2 == 0) memory.left_odom_m = {level()};
+    if (i % 3 == 0) memory.window_odom_m = level();
+    const auto vehicle = test::vehicleAt(level(), 0.0);
+    const Eigen::Vector3d wish = velocityToPlace(vehicle, memory, params);
+    const Eigen::Vector3d once = onlyToPlace(wish, vehicle, memory, params.hold);
+    const Eigen::Vector3d twice = onlyToPlace(once, vehicle, memory, params.hold);
+    EXPECT_LT((twice - once).norm(), 1e-9);
+    EXPECT_GE(once.dot(wish), 0.0);
+    moved += once.norm() > 0.05 ? 1 : 0;
+    std::vector<Eigen::Vector3d> windows = memory.others_odom_m;
+    windows.insert(windows.end(), memory.left_odom_m.begin(), memory.left_odom_m.end());
+    if (memory.window_odom_m) windows.push_back(*memory.window_odom_m);
+    for (const Eigen::Vector3d& window_odom_m : windows)
+      EXPECT_LT(once.dot(window_odom_m - vehicle.T_odom_base.translation()), 1e-6);
+  }
+  EXPECT_GT(moved, 1000);
 }
 
 TEST(PositionHold, DoesNothingWhereItIsSwitchedOff) {

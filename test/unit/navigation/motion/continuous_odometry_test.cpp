@@ -264,6 +264,21 @@ TEST(ContinuousOdometry, ASlideAtTheStartIsNoBias) {
   EXPECT_LT(continuous.carriedM().norm(), 0.05);
 }
 
+// The first pieces of the way are half good and half slid: by their spread it was no surprise.
+TEST(ContinuousOdometry, ASlideSoonAfterTheStartIsNoChance) {
+  for (const double slide_mps : {0.6, 0.95, 1.5})
+    for (int begins = 6; begins < 120; begins += 6) {
+      Curve curve;
+      ContinuousOdometry continuous;
+      double worst_m = 0.0;
+      for (int i = 0; i < begins + 120; ++i) {
+        if (i >= begins && i < begins + 90) curve.shift.y() += slide_mps * kStep;
+        worst_m = std::max(worst_m, curve.errorM(continuous.add(curve.step())));
+      }
+      EXPECT_LT(worst_m, 0.7) << slide_mps << " m/s from " << begins * kStep << " s on";
+    }
+}
+
 TEST(ContinuousOdometry, WhatLastsLongerThanASlideIsABiasAndWhatItCarriedTheVehicleOffByIsKnown) {
   Curve curve;
   curve.bias_base = {0.15, -0.2, 0.0};
