@@ -137,7 +137,7 @@ double ContinuousOdometry::unexplainedMps() const {
     return kLateSec * beside_bias_mps < byChanceM(kLateSec) ? 0.0 : beside_bias_mps;
   }
   if (pieces_.empty()) return 0.0;
-  const double walk_mps = drift_m_per_sqrt_sec_ / std::sqrt(kPieceSec * static_cast<double>(pieces_.size()));
+  const double walk_mps = drift_m_per_sqrt_sec_ / std::sqrt(kSecond);
   return std::max(latePiecesMps().norm(), std::hypot((usual_.*axes_).norm(), kSigmas * walk_mps));
 }
 
