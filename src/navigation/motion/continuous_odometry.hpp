@@ -123,7 +123,8 @@ class ContinuousOdometry {
   Difference usual_;                                     ///< middle value of them
   Eigen::Vector3d carried_m_ = Eigen::Vector3d::Zero();  ///< against what the velocity said
   Axes axes_ = &Difference::base_mps;                    ///< in which they are more even
-  double drift_m_per_sqrt_sec_ = 0.0;
+  double drift_m_per_sqrt_sec_ = 0.0;                    ///< as a walk, by half seconds
+  double in_second_m_ = 0.0;  ///< apart, each axis: more than the walk makes where a velocity errs for longer
 };
 
 }  // namespace window_ingress::navigation

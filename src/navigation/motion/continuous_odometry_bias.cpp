@@ -18,7 +18,7 @@ constexpr double kAlikeMps = 0.1, kAlikeShare = 0.5;  // of the bias; by no more
 constexpr double kMoreEven = 0.8;                     // of the spread in the other axes, squared
 constexpr double kSigmas = 2.0;                       // of how a position walks, before a bias is known
 constexpr double kOfNewest = 0.4;                     // in the average, a share: one sample may be off
-constexpr double kMostSigmas = 10.0;                  // of it: what is more is no chance
+constexpr double kMostSigmas = 7.0;                   // of it: what is more is no chance
 constexpr double kSigmaOfMedian = 0.849;  // each axis, of lengths in the plane, normally distributed
 
 }  // namespace
@@ -66,6 +66,16 @@ void ContinuousOdometry::judgePieces() {
   axes_ = is_fixed_in_world ? &Difference::smooth_mps : &Difference::base_mps;
   const double middle_mps = std::min(geometry::median(in_body_mps), geometry::median(in_world_mps));
   drift_m_per_sqrt_sec_ = kSigmaOfMedian * middle_mps * std::sqrt(kPieceSec);
+  const auto inSecond = [&](Axes axes) {
+    std::vector<double> lengths_m;
+    for (std::size_t i = 1; i < pieces_.size(); ++i) {
+      const Eigen::Vector3d sum_mps = pieces_[i].*axes + pieces_[i - 1].*axes - 2.0 * middle.*axes;
+      lengths_m.push_back(kPieceSec * sum_mps.head<2>().norm());
+    }
+    return geometry::median(lengths_m);
+  };
+  in_second_m_ =
+      kSigmaOfMedian * std::min(inSecond(&Difference::base_mps), inSecond(&Difference::smooth_mps));
 }
 
 // A bias, in the end, is what half of the pieces are like, or so many that no slide lasts as long.
@@ -124,7 +134,7 @@ Eigen::Vector3d ContinuousOdometry::latePiecesMps() const {
 }
 
 double ContinuousOdometry::byChanceM(double passed_sec) const {
-  const double by_chance_m = kMostSigmas * drift_m_per_sqrt_sec_ * std::sqrt(passed_sec);
+  const double by_chance_m = kMostSigmas * in_second_m_ * std::sqrt(passed_sec / kSecond);
   if (isBiasKnown()) return by_chance_m;
   return std::min(by_chance_m,
                   kMaxErrorMps * passed_sec);  // a slide is among the first pieces, and most of them

@@ -354,6 +354,27 @@ TEST(ContinuousOdometry, HowItsPositionWalksBesideItsVelocityIsMeasured) {
   }
 }
 
+TEST(ContinuousOdometry, ASlideBesideAPositionThatWalksIsSeen) {
+  double worst_m = 0.0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    Curve curve;
+    curve.random.seed(seed);
+    ContinuousOdometry continuous;
+    std::normal_distribution<double> step_m(0.0, 0.03 * std::sqrt(kStep));
+    Eigen::Vector3d before_m = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 450 + 52; ++i) {
+      const Eigen::Vector3d walk_m{step_m(curve.random), step_m(curve.random), 0.0};
+      curve.shift += walk_m;
+      if (i >= 450) curve.shift.y() += 0.42 * kStep;
+      const Eigen::Vector3d astray_m =
+          continuous.add(curve.step())->T_odom_base.translation() - curve.position;
+      if (i < 450) before_m = astray_m;
+      worst_m = std::max(worst_m, (astray_m - before_m).norm());
+    }
+  }
+  EXPECT_LT(worst_m, 0.45);  // of the slide's 0.73 m
+}
+
 TEST(ContinuousOdometry, ASteadyBiasOfTheVelocityIsLearntAndASlideBesideItIsSeen) {
   Curve curve;
   curve.bias_base = {0.15, -0.2, 0.0};
