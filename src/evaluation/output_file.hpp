@@ -34,6 +34,7 @@ class OutputFile : public std::ofstream {
   void check() const {
     if (!*this) cannotBeWritten(file_);
   }
+  /// Also after each row of a table that takes long: who breaks it off finds whole rows.
   void finish() {
     flush();
     check();

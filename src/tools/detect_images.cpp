@@ -231,16 +231,17 @@ int run(const Options& o) {
       row = process(image, job, finder);
       found += row.window.has_value();
       not_compared += job.reference && row.window && !row.window->has_appearance;
-      if (candidates.is_open())
+      if (candidates.is_open()) {
         candidates << evaluation::candidateRows(evaluation::csvField(file), finder.trace());
+        candidates.finish();
+      }
       if (!o.overlay.empty()) writeOverlay(file, image, finder, row, o.overlay);
     }
     output << evaluation::csvField(file) << "," << evaluation::detectionValues(row) << finder.values(row)
            << "\n";
+    output.finish();
     progress.passed();
   }
-  output.finish();
-  if (candidates.is_open()) candidates.finish();
   if (not_compared > 0)
     std::cerr << "detect_images: warning: " << not_compared
               << " found by geometry alone: image and reference must both have colours, or both none\n";

@@ -136,7 +136,6 @@ int run(const Options& options, const std::string& command) {
     progress.passed();
   };
   const adapters::ReplaySummary summary = adapters::replay(bag, params, each, say);
-  tables.close();
   judge(options, params, summary);
   adapters::writeFacts(folder, command, bag, params, summary);
   if (!params.topics.truth.empty()) std::cout << tables.summary().text();

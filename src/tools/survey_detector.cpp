@@ -107,6 +107,7 @@ class Survey {
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     const auto result = evaluation::resultOf(sample, window, detector_.trace(), ms);
     frames_ << evaluation::surveyRow(result) << "\n";
+    frames_.finish();
     table_.add(result);
     if (!options_.overlay.empty() && !isRight(result.verdict)) draw(sample, result);
   }
@@ -115,7 +116,6 @@ class Survey {
     evaluation::OutputFile summary(fs::path(options_.output) / "summary.csv");
     summary << table_.csv();
     summary.finish();
-    frames_.finish();
     std::cout << table_.markdown();
   }
 

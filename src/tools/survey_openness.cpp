@@ -129,8 +129,6 @@ class Survey {
     take(result);
   }
   int finish() {
-    csv_.finish();
-    if (!options_.trace.empty()) trace_.finish();
     std::cout << table_.markdown() << "called open though it is not: " << table_.falseOpen() << std::endl;
     return table_.falseOpen() > 0 ? 1 : 0;
   }
@@ -139,7 +137,9 @@ class Survey {
   void take(const evaluation::OpennessResult& result) {
     table_.add(result);
     csv_ << evaluation::opennessRow(result) << "\n";
+    csv_.finish();
     for (const std::string& line : lines_) trace_ << result.kind << "," << line << "\n";
+    if (trace_.is_open()) trace_.finish();
     lines_.clear();
     progress_.passed();
   }

@@ -2,13 +2,15 @@
 unreadable input, 1 for a job that failed."""
 import pathlib
 import re
+import subprocess
+import time
 
 import cv2
 import numpy
 import pytest
 import rosbag
 
-from repository import NOMINAL, run
+from repository import NOMINAL, ROOT, run
 
 TOOLS = ["detect_images", "draw_stages", "fly", "replay_bag", "survey_detector", "survey_tracker"]
 
@@ -55,6 +57,21 @@ def test_a_log_that_cannot_be_written_is_a_failed_job(tmp_path):
     done = run("fly", "--scenario", NOMINAL, "--no-pictures", "--output", tmp_path / "out", "--log", tmp_path)
     assert done.returncode == 1
     assert f"{tmp_path}/flight_1.csv: cannot be written; is the disk full?" in done.stderr
+
+
+@pytest.mark.parametrize("tool, words, table", [
+    ("detect_images", ["--output", "OUT/found.csv", *["IMAGE"] * 2000], "found.csv"),
+    ("survey_detector", ["--output", "OUT", "--scenario", NOMINAL, "--frames", "2000"], "frames.csv"),
+    ("survey_openness", ["--output", "OUT", "--synthetic", "2000"], "openness.csv")])
+def test_a_tool_that_is_broken_off_leaves_whole_rows(tmp_path, image, tool, words, table):
+    words, table = [str(word).replace("OUT", str(tmp_path)).replace("IMAGE", str(image)) for word in words], tmp_path / table
+    with subprocess.Popen([ROOT / "scripts/run", tool, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        while process.poll() is None and not (table.is_file() and table.stat().st_size):
+            time.sleep(0.02)
+        assert process.poll() is None, "was done before it could be broken off"
+        process.kill()
+    header, *rows = table.read_text().splitlines(keepends=True)
+    assert rows and {row.count(",") for row in rows} == {header.count(",")} and rows[-1].endswith("\n")
 
 
 @pytest.mark.parametrize("tool", TOOLS)

@@ -186,9 +186,6 @@ void ReplayTables::add(const ReplayedFrame& frame) {
            << poseDetails(frame.row.pose) << filterDetails(frame.filtered) << ","
            << evaluation::csvField(frame.why_not_filtered) << "\n";
   latency_ << stamp << formatted(",%.3f,%.3f\n", frame.detector_ms, frame.pose_ms);
-}
-
-void ReplayTables::close() {
   for (evaluation::OutputFile* file : {&frames_, &details_, &latency_}) file->finish();
 }
 

@@ -33,9 +33,8 @@ class ReplayTables {
   /// \throws std::runtime_error if a file cannot be made
   ReplayTables(const std::filesystem::path& folder, const ReplayParams& params);
 
-  void add(const ReplayedFrame& frame);
   /// \throws std::runtime_error if not all could be written
-  void close();
+  void add(const ReplayedFrame& frame);
 
   const evaluation::TruthSummary& summary() const { return summary_; }
 
