@@ -63,8 +63,11 @@ bool CsvReader::next() {
   return true;
 }
 
-bool CsvReader::nextWhole() {
-  if (!next()) return false;
+bool CsvReader::nextWhole() { return next() && isWhole(); }
+
+bool CsvReader::nextFinished() { return next() && !file_.eof() && isWhole(); }
+
+bool CsvReader::isWhole() const {
   if (fields_.size() != columns_.size()) fail("has not " + std::to_string(columns_.size()) + " fields");
   return true;
 }

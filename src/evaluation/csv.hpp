@@ -26,8 +26,9 @@ class CsvReader {
   CsvReader(const std::string& file, const std::string& header);
 
   const std::vector<std::string>& columns() const { return columns_; }
-  bool next();       ///< the next row; false at the end
-  bool nextWhole();  ///< likewise; \throws InputError unless it has a field for each column
+  bool next();          ///< the next row; false at the end
+  bool nextWhole();     ///< likewise; \throws InputError unless it has a field for each column
+  bool nextFinished();  ///< likewise, without a last row that was cut off as it was written: no line ends it
 
   const std::string& line() const { return line_; }  ///< the row as it stands there
   std::string text(std::size_t column) const;        ///< empty in a row that ends before
@@ -35,6 +36,8 @@ class CsvReader {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  bool isWhole() const;
+
   std::string name_, line_;
   std::ifstream file_;
   std::vector<std::string> columns_, fields_;

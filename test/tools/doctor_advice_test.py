@@ -160,7 +160,7 @@ def test_who_rehearses_is_told_the_arguments_of_the_rehearsal(doctor):
 
 @pytest.mark.parametrize("simulated, clocks, heard, said", [
     (True, ["/world"], 3, "OK     time is that of /clock, from /world"),
-    (True, ["/world"], 0, "ERROR  use_sim_time is set, but nothing comes on /clock from /world"),
+    (True, ["/world"], 0, "ERROR  use_sim_time is set, but nothing comes on /clock from /world: time stands still\n       mend: /world hangs"),
     (True, [], 0, "ERROR  use_sim_time is set, but nobody publishes /clock"),
     (False, ["/world"], 0, "OK     time is that of this computer"),
     (False, ["/world"], 3, "WARN   time is that of this computer; use_sim_time is not set, nobody heeds /clock from /world"),

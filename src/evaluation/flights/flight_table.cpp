@@ -153,11 +153,11 @@ std::vector<FlightResult> readFlights(const std::string& folder) {
   std::vector<FlightResult> flights;
   std::map<std::uint32_t, std::vector<TrackPoint>> tracks;
   CsvReader points(folder + "/tracks.csv", trackHeader());
-  while (points.nextWhole())
+  while (points.nextFinished())
     tracks[seedOf(points)].push_back(
         {points.number(1), {points.number(2), points.number(3), points.number(4)}});
   CsvReader rows(folder + "/flights.csv", csvHeader());
-  while (rows.nextWhole()) {
+  while (rows.nextFinished()) {
     flights.push_back(flightOf(rows));
     flights.back().track = tracks[flights.back().seed];
   }

@@ -76,6 +76,16 @@ TEST_F(FlightTable, ReadsBackWhatItWrote) {
   EXPECT_TRUE(read[1].track.empty());
 }
 
+// Of a full disk, or of a process that was killed: its flights can be gone on with.
+TEST_F(FlightTable, LeavesARowOutThatWasCutOff) {
+  const fs::path folder = write("a", {flightWith(2)});
+  std::ofstream(folder / "flights.csv", std::ios::app) << "3,PASSED,8.500,-0.01";
+  std::ofstream(folder / "tracks.csv", std::ios::app) << "3,0.000,1.0000";
+  const auto read = readFlights(folder.string());
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(csvRow(read[0]) + trackRows(read[0]), csvRow(flightWith(2)) + trackRows(flightWith(2)));
+}
+
 TEST_F(FlightTable, JoinsShardsInTheOrderOfTheirSeeds) {
   const auto joined =
       joinFlights({write("a", {flightWith(2), flightWith(4)}), write("b", {flightWith(1), flightWith(3)})});
