@@ -218,7 +218,6 @@ TEST_F(ReplayTest, TablesHaveARowAnImageAndRepeatThemselves) {
       tables.add(frame);
       strip.add(frame);
     });
-    tables.close();
     writeFacts(folder_ / name, "replay_bag --bag a.bag", bag, params, summary);
   }
   for (const char* table : {"frames.csv", "details.csv", "latency.csv", "strip.csv"}) {
