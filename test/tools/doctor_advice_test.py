@@ -9,7 +9,7 @@ import types
 import pytest
 from geometry_msgs.msg import TransformStamped
 
-from ingress_tools import findings, topic_checks, live_system, observed_system, remedies
+from ingress_tools import findings, live_system, observed_system, remedies, topic_checks
 from repository import ROOT, load, run
 
 RAW, COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage"

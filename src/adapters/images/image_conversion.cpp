@@ -178,22 +178,6 @@ std::optional<CompressedSize> compressedSize(const Bytes& bytes) {
   return png ? png : jpegSize(bytes);
 }
 
-// A prime stride: every row and every column is sampled, some ten thousand bytes of a usual image.
-double StuckWatch::sameForSec(const cv::Mat& image, double now_sec) {
-  constexpr std::size_t kStride = 101;
-  std::uint64_t checksum = 1469598103934665603ULL;  // FNV-1a
-  const std::size_t row_bytes = image.cols * image.elemSize();
-  std::size_t offset = 0;
-  for (int row = 0; row < image.rows; ++row) {
-    const unsigned char* bytes = image.ptr(row);
-    for (; offset < row_bytes; offset += kStride) checksum = (checksum ^ bytes[offset]) * 1099511628211ULL;
-    offset -= row_bytes;
-  }
-  if (since_sec_ < 0.0 || checksum != checksum_) since_sec_ = now_sec;
-  checksum_ = checksum;
-  return now_sec - since_sec_;
-}
-
 std::string whyRefused(const sensor_msgs::Image& message, const ImageLimits& limits) {
   const Encoding* encoding = find(message.encoding);
   if (!encoding) return unknownEncoding(message.encoding);

@@ -38,17 +38,6 @@ struct DecodedImage {
   double decode_ms = 0.0;             ///< what it took to decode it [ms]
 };
 
-/// Notices images that stay the same to the last bit, as those of a stuck camera do under new stamps.
-class StuckWatch {
- public:
-  /// \return how long the image has been the same [s]
-  double sameForSec(const cv::Mat& image, double now_sec);
-
- private:
-  std::uint64_t checksum_ = 0;
-  double since_sec_ = -1.0;
-};
-
 /// Why this message must not be decoded: empty, sizes that do not fit, unknown encoding, too large; empty if
 /// it may. Encodings: mono8 8UC1 bgr8 8UC3 rgb8 bgra8 8UC4 rgba8, mono16 16UC1 bgr16 rgb16 bgra16 rgba16
 /// (little endian; the upper eight bits are used), bayer_{rggb,bggr,gbrg,grbg}{8,16}, yuv422 (UYVY). Others

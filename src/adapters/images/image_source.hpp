@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "adapters/images/image_conversion.hpp"
+#include "adapters/images/stuck_camera.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "window_ingress/text/text.hpp"
@@ -58,8 +59,6 @@ class ImageSource {
   }
 
  private:
-  static constexpr double kStuckSec = 1.0;
-
   void subscribeCompressed(ros::NodeHandle& nh) {
     compressed_subscriber_ = subscribeCatching<sensor_msgs::CompressedImage>(
         nh, nh.resolveName("image_raw") + "/compressed", 1, diagnostics_,
@@ -95,7 +94,7 @@ class ImageSource {
     DecodedImage decoded = decode();
     decoded.decode_ms = 1e3 * (steadyNowSec() - begun_sec);
     if (!decoded.reason.empty()) return health_.refused(decoded.reason);
-    if (stuck_.sameForSec(decoded.image, steadyNowSec()) > kStuckSec)
+    if (camera_.isStuck(decoded.image, steadyNowSec()))
       decoded.warning = "the image does not change any more: is the camera stuck?";
     health_.accepted(decoded.warning);
     health_.stamped(header.stamp.toSec());
@@ -104,7 +103,7 @@ class ImageSource {
 
   ImageLimits limits_;
   StampGate gate_;
-  StuckWatch stuck_;
+  StuckCamera camera_;
   Callback callback_;
   Diagnostics& diagnostics_;
   TopicHealth health_;

@@ -31,7 +31,7 @@ PoseNode::PoseNode(ros::NodeHandle& nh, ros::NodeHandle& pnh)
       tracker_(params_.pose, params_.filter, params_.tracker),
       T_base_camera_{std::nullopt, "no image so far"},
       tf_listener_(tf_),
-      facade_(nh, pnh, diagnostics_, tracker_, tf_, vehicle_.frames.odom),
+      selection_(nh, pnh, diagnostics_, tracker_, tf_, vehicle_.frames.odom),
       publisher_(nh, params_.lockstep, vehicle_.frames.odom,
                  params_.publish_tf ? params_.window_frame : std::string()) {
   const int queue = queueFor(params_.lockstep, 10);
@@ -183,7 +183,7 @@ void PoseNode::process(const window_ingress::WindowDetection& message) {
   out.checks = toMsg(verified);
   consistency_ = verified.consistency;
   publisher_.publish(out, state);
-  facade_.publish(message.header.stamp, publisher_.markers());
+  selection_.publish(message.header.stamp, publisher_.markers());
 }
 
 // Fills in what this image shows. Returns why it did not contribute to what is filtered; no reason if it did.
@@ -249,7 +249,7 @@ void PoseNode::forget() {
   consistency_ = estimation::Consistency();
   unused_ = UnusedImages();
   publisher_.clear(ros::Time::now());
-  facade_.tellAnew(ros::Time::now());
+  selection_.tellAnew(ros::Time::now());
 }
 
 bool PoseNode::reset(Trigger::Request&, Trigger::Response& response) {

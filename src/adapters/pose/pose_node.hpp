@@ -17,9 +17,9 @@
 #include "adapters/inputs/camera_source.hpp"
 #include "adapters/inputs/clock_watch.hpp"
 #include "adapters/inputs/stamp_gate.hpp"
-#include "adapters/pose/facade_topics.hpp"
 #include "adapters/pose/pose_health.hpp"
 #include "adapters/pose/pose_publisher.hpp"
+#include "adapters/pose/window_selection.hpp"
 #include "adapters/runtime/diagnostics.hpp"
 #include "adapters/runtime/lockstep.hpp"
 #include "adapters/runtime/run_node.hpp"
@@ -88,7 +88,7 @@ class PoseNode : public Node {
   tf2_ros::Buffer tf_;
   std::optional<TfAttitude> tf_attitude_;
   tf2_ros::TransformListener tf_listener_;
-  FacadeTopics facade_;
+  WindowSelection selection_;
   PosePublisher publisher_;
   ros::Subscriber window_subscriber_, odom_subscriber_, imu_subscriber_;
   ros::ServiceServer reset_;

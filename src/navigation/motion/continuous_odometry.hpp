@@ -49,7 +49,7 @@ class ContinuousOdometry {
   /// By how much positions were set right so far, level [m]: the vehicle may stand as far from its place.
   double shiftM() const { return shift_m_.head<2>().norm(); }
   /// What of it neither the known bias nor chance explains [m/s]; before one is known, what the velocity may
-  /// be off by after all the time so far, if that is more.
+  /// be off by within a second, if that is more.
   double unexplainedMps() const;
   /// How its position walks beside its velocity, each horizontal axis [m/sqrt(s)]; 0 until the bias is known.
   double driftMPerSqrtSec() const { return isBiasKnown() ? drift_m_per_sqrt_sec_ : 0.0; }
@@ -60,7 +60,8 @@ class ContinuousOdometry {
 
  private:
   static constexpr double kSecond = 1.0;
-  static constexpr std::size_t kPieces = 16;  ///< a slide of three seconds is a minority of them
+  static constexpr double kTurnJumpRad = 0.08;  ///< in one sample, beside what a vehicle turns
+  static constexpr std::size_t kPieces = 16;    ///< a slide of three seconds is a minority of them
   /// What position and velocity differ by, as of one piece of the way or as usual.
   struct Difference {
     Eigen::Vector3d base_mps = Eigen::Vector3d::Zero(), smooth_mps = Eigen::Vector3d::Zero();

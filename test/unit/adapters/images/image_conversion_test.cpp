@@ -167,17 +167,6 @@ TEST(ImageFromMsg, NothingRandomGetsThroughOrThrows) {
   }
 }
 
-TEST(StuckWatch, TimesImagesThatStayTheSame) {
-  StuckWatch watch;
-  cv::Mat image = ramp();
-  EXPECT_EQ(watch.sameForSec(image, 10.0), 0.0);
-  EXPECT_EQ(watch.sameForSec(image.clone(), 11.5), 1.5);
-  image += cv::Scalar::all(1);
-  EXPECT_EQ(watch.sameForSec(image, 12.0), 0.0);
-  EXPECT_EQ(watch.sameForSec(image.colRange(0, 40), 12.5), 0.0) << "another size is another image";
-  EXPECT_EQ(watch.sameForSec(cv::Mat(1, 1, CV_8UC1, cv::Scalar(0)), 13.0), 0.0);
-}
-
 sensor_msgs::CompressedImage compressed(const std::string& extension) {
   sensor_msgs::CompressedImage message;
   cv::imencode(extension, ramp(), message.data);

@@ -19,14 +19,15 @@
 
 namespace window_ingress::adapters {
 
-/// The memory of all windows between topics: what it knows goes out (`facade`, `markers`), which of them is
-/// the target comes in (`~select_window`, a click in rviz: `clicked_point`, a goal of the navigator's action:
-/// `chosen_window`), and what the navigator does (`state`).
-class FacadeTopics {
+/// Which of all known windows is the target: `~select_window`, a click in rviz (`clicked_point`), a goal of
+/// the navigator's action (`chosen_window`), or, without these, what the navigator has done so far (`state`).
+/// What is known of all of them goes out (`facade`, `markers`).
+class WindowSelection {
  public:
   /// \param tracker \param tf both outlive this
-  FacadeTopics(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
-               estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf, const std::string& odom_frame)
+  WindowSelection(ros::NodeHandle& nh, ros::NodeHandle& pnh, Diagnostics& diagnostics,
+                  estimation::TargetEstimator& tracker, const tf2_ros::Buffer& tf,
+                  const std::string& odom_frame)
       : tracker_(tracker), tf_(tf), odom_frame_(odom_frame) {
     publisher_ = nh.advertise<window_ingress::Facade>("facade", 1, true);
     click_ = subscribeCatching<geometry_msgs::PointStamped>(
@@ -35,7 +36,7 @@ class FacadeTopics {
                                                   [this](const auto& message) { receiveChoice(*message); });
     state_ = subscribeCatching<window_ingress::IngressState>(
         nh, "state", 1, diagnostics, [this](const auto& message) { receiveState(*message); });
-    select_ = pnh.advertiseService("select_window", &FacadeTopics::select, this);
+    select_ = pnh.advertiseService("select_window", &WindowSelection::select, this);
     diagnostics.add("windows", [this] { return health(); });
   }
 

@@ -1,0 +1,55 @@
+// A heading that jumps, and whether the axes of the positions have turned along.
+#include <algorithm>
+#include <cmath>
+
+#include "navigation/motion/continuous_odometry.hpp"
+#include "window_ingress/geometry/frames.hpp"
+
+namespace window_ingress::navigation {
+namespace {
+
+// Between the two ways flown, to tell whether the axes have turned. In sigmas of chance in one piece: their
+// misfits differ by what lies between them, give or take twice its root times that sigma, so six are three.
+constexpr double kTellingM = 0.1, kTellingSigmas = 6.0;
+
+}  // namespace
+
+// By a jump that may be smaller than the one that went, by noise and by how the vehicle turns.
+bool ContinuousOdometry::headingComesBack(double turned_rad) const {
+  const double error_rad = headingErrorRad();
+  return std::abs(error_rad) > kTurnJumpRad &&
+         std::abs(geometry::wrapAngle(error_rad + turned_rad)) < 0.5 * std::abs(error_rad);
+}
+
+// In pieces of a second: over a long one velocity and position drift apart by themselves.
+void ContinuousOdometry::judgeTurn(const VehicleState& odometry) {
+  if (!turn_) return;
+  const Eigen::Vector3d position_m = odometry.T_odom_base.translation();
+  const double passed_sec = odometry.stamp_sec - turn_->piece.stamp_sec;
+  const Eigen::Vector2d way_m = (way_m_ - turn_->piece.way_m + passed_sec * usualMps(uprightOf(*smooth_)))
+                                    .head<2>();  // upward nothing turns
+  const Eigen::Vector2d moved_m =
+      (T_smooth_axes_.linear() * (position_m - turn_->piece.position_m)).head<2>();
+  const Eigen::Rotation2Dd turn_back(-turn_->turn_rad);
+  Turn now = *turn_;
+  now.told_m2 += way_m.squaredNorm() * std::pow(2.0 * std::sin(0.5 * turn_->turn_rad), 2);
+  now.misfit_m2 += (moved_m - way_m).squaredNorm();
+  now.misfit_turned_m2 += (turn_back * moved_m - way_m).squaredNorm();
+  ++now.pieces;
+  now.piece = {odometry.stamp_sec, position_m, way_m_};
+  const double by_chance_m2 = std::max(std::pow(drift_m_per_sqrt_sec_, 2) * kSecond,
+                                       std::min(now.misfit_m2, now.misfit_turned_m2) / (2.0 * now.pieces));
+  if (now.told_m2 < std::max(std::pow(kTellingM, 2), std::pow(kTellingSigmas, 2) * by_chance_m2)) {
+    if (passed_sec >= kSecond) turn_ = now;
+    return;
+  }
+  if (now.misfit_turned_m2 < now.misfit_m2) {
+    const Eigen::Vector3d smooth_m = T_smooth_axes_ * position_m;
+    T_smooth_axes_.linear() = geometry::yawRotation(-turn_->turn_rad) * T_smooth_axes_.linear();
+    T_smooth_axes_.translation() = smooth_m - T_smooth_axes_.linear() * position_m;
+    second_.clear();
+  }
+  turn_.reset();
+}
+
+}  // namespace window_ingress::navigation
