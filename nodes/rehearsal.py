@@ -138,6 +138,9 @@ class Rehearsal:
 def main():
     rospy.init_node("rehearsal")
     rehearsal = Rehearsal()
+    if not rospy.has_param("window_detector/reference/picture"):
+        rospy.logwarn("no picture of the target: whatever looks most like a window is taken for it, now this, now that; "
+                      "reference:=PICTURE reference_corners:=X1,Y1,... tell them apart")
     while not rospy.is_shutdown():
         rehearsal.conduct()
         rospy.rostime.wallsleep(0.5)

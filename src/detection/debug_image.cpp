@@ -149,7 +149,8 @@ std::string summaryOf(const DetectionTrace& trace, const WindowObservation* wind
   } else {
     text = std::string("no window: ") + (trace.detail.empty() ? toString(trace.outcome) : trace.detail);
   }
-  text += cv::format(" | %d candidates", static_cast<int>(trace.candidates.size()));
+  const std::size_t candidates = trace.candidates.size();
+  text += cv::format(" | %d candidate%s", static_cast<int>(candidates), candidates == 1 ? "" : "s");
   if (trace.budget_exceeded) text += " (not all)";
   if (milliseconds) text += cv::format(" | %.1f ms", *milliseconds);
   return text;

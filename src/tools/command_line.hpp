@@ -1,6 +1,7 @@
 /// What the command-line tools share: their errors, and options that need more than boost's parser.
 #pragma once
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
@@ -165,9 +166,9 @@ int runTool(const char* name, int argc, char** argv, OptionList (*describe)(Opti
       po::store(parser.run(), given);
     } catch (const po::unknown_option& error) {
       const std::string option = error.get_option_name();
-      throw InputError(error.what() +
-                       parameters::didYouMean(option.substr(option.find_first_not_of('-')), list.names()) +
-                       "; see --help");
+      std::string meant = parameters::didYouMean(option.substr(option.find_first_not_of('-')), list.names());
+      boost::replace_first(meant, "did you mean '", "did you mean '--");
+      throw InputError(error.what() + meant + "; see --help");
     }
     if (given.count("help") > 0) {
       std::cout << list;

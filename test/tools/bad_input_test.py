@@ -80,7 +80,7 @@ def test_unknown_option_is_wrong_usage(tool):
 
 
 def test_an_option_mistyped_is_answered_with_the_nearest():
-    assert_refused(run("fly", "--seed", "1..3"), 2, "unrecognised option '--seed'; did you mean 'seeds'?")
+    assert_refused(run("fly", "--seed", "1..3"), 2, "unrecognised option '--seed'; did you mean '--seeds'?")
 
 
 def test_a_value_without_its_option_is_wrong_usage():

@@ -54,6 +54,12 @@ def test_noise_of_the_turn_does_not_become_a_dance():
     assert place == pytest.approx([0.0, 0.0, HEIGHT_M], abs=0.08) and numpy.linalg.norm(velocity) < 0.15
 
 
+def test_a_window_elsewhere_is_no_hand_that_flies():
+    hand = HandOdometry()
+    end_s = carried(hand, [(0.0, 2.0 * (i >= 30), 0.0) for i in range(36)], [numpy.eye(3)] * 36)
+    assert numpy.linalg.norm(hand.at(end_s)[1]) <= 3.0
+
+
 def test_of_two_that_explain_the_image_it_stays_with_the_one_that_it_had():
     hand = HandOdometry()
     for i in range(30):

@@ -9,6 +9,7 @@ PLACE_TIME_S = 0.1          # likewise the window's place in the image and its d
 VELOCITY_TIME_S = 0.25
 LONGEST_GUESS_S = 0.15      # without an image the movement is taken to go on for so long
 FORGOTTEN_AFTER_S = 1.0
+MOST_MPS = 3.0              # no hand carries a camera faster: another window is taken for the one before
 MOST_EVIDENCE, ENOUGH_EVIDENCE = 2.0, 10.0  # [nats] of one image; to take the mirrored solution in place of the one followed
 # Axes of the camera (x right, y down, z ahead) in those of the body (x ahead, y left, z up).
 R_BODY_CAMERA = numpy.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
@@ -55,6 +56,7 @@ class HandOdometry:
         place = self._window[1] - rotation @ self._sight
         moved = dt is not None and 0.0 < dt < FORGOTTEN_AFTER_S
         wish = (place - self.place) / dt if moved else numpy.zeros(3)
+        wish = wish * MOST_MPS / max(numpy.linalg.norm(wish), MOST_MPS)
         self.velocity = self.velocity + min(1.0, dt / VELOCITY_TIME_S) * (wish - self.velocity) if moved else wish
         self.place, self.rotation = place, rotation
 

@@ -65,10 +65,11 @@ std::string faultOf(const VehicleState& vehicle) {
   if (!geometry::isValidPose(vehicle.T_odom_base)) return "odometry: pose is not finite or not a rotation";
   if (!vehicle.velocity_odom_mps.allFinite()) return "odometry: velocity is not finite";
   const double position_m = vehicle.T_odom_base.translation().stableNorm();
-  if (position_m > kFarAwayM) return formatted("odometry: position %.3g m is out of this world", position_m);
+  if (position_m > kFarAwayM)
+    return formatted("odometry: %.3g m from its origin, at most %.3g m are believed", position_m, kFarAwayM);
   const double speed_mps = vehicle.velocity_odom_mps.stableNorm();
   if (speed_mps > kFasterThanAnyMps)
-    return formatted("odometry: speed %.3g m/s is out of this world", speed_mps);
+    return formatted("odometry: speed %.3g m/s, at most %.3g m/s are believed", speed_mps, kFasterThanAnyMps);
   return "";
 }
 
@@ -76,11 +77,11 @@ std::string faultOf(const TargetEstimate& target) {
   if (!std::isfinite(target.stamp_sec)) return "window: stamp is not finite";
   if (!geometry::isValidPose(target.T_odom_window)) return "window: pose is not finite or not a rotation";
   if (target.T_odom_window.translation().stableNorm() > kFarAwayM)
-    return "window: position is out of this world";
+    return formatted("window: further away than the %.3g m that are believed", kFarAwayM);
   const double tilt_rad = std::acos(std::clamp(target.T_odom_window.linear()(2, 2), -1.0, 1.0));
   if (tilt_rad > kMaxTiltRad) return formatted("window: leans by %.2f rad", tilt_rad);
   if (!isPositive(target.covariance)) return "window: covariance unknown";
-  if (!hasUsableMotion(target)) return "window: its motion is out of this world";
+  if (!hasUsableMotion(target)) return "window: moves as no window does";
   const auto& opening = target.opening;
   const bool has_size =
       opening.width_m > 0.0 && opening.height_m > 0.0 && opening.width_m < 20.0 && opening.height_m < 20.0;
