@@ -7,6 +7,9 @@ import xml.etree.ElementTree as ElementTree
 import cv2
 import numpy
 import pytest
+import rosgraph.names
+import roslaunch.config
+import roslaunch.xmlloader
 
 from repository import ROOT, call, run
 
@@ -19,13 +22,19 @@ CHAIN = {"window_detector", "homography_pose", "ingress_navigator", "setpoint_gu
 
 
 def dump(name, *arguments):
+    """What a launch file starts: {"nodes": {name: {"type": "pkg/type", "remaps": {from: to}, ..}}, "params": {name: value}}."""
     named = {text.split(":=")[0] for text in arguments}
     given = [text for text in GIVEN.get(name, []) if text.split(":=")[0] not in named]
-    done = run("python3", ROOT / "test/tools/dump_launch.py", ROOT / f"launch/{name}.launch", *given, *arguments)
-    assert done.returncode == 0, done.stderr
-    launch = json.loads(done.stdout)
-    assert launch["errors"] == []
-    return launch
+    config = roslaunch.config.ROSLaunchConfig()
+    roslaunch.xmlloader.XmlLoader(resolve_anon=False).load(str(ROOT / f"launch/{name}.launch"), config, argv=[*given, *arguments], verbose=False)
+    assert config.config_errors == []
+    nodes = {}
+    for node in config.nodes:
+        own = {source: rosgraph.names.resolve_name(target, "/") for source, target in node.remap_args}
+        nodes[rosgraph.names.ns_join(node.namespace, node.name)] = {
+            "type": f"{node.package}/{node.type}", "remaps": own, "args": node.args, "required": node.required, "respawn": node.respawn,
+            "prefix": node.launch_prefix}
+    return {"nodes": nodes, "params": {name: param.value for name, param in config.params.items()}}
 
 
 def photograph(file):
