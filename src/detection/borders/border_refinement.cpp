@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "detection/borders/border_fit.hpp"
 #include "detection/borders/edge_profiles.hpp"
 #include "detection/borders/lines.hpp"
+#include "detection/borders/subpixel_border.hpp"
 #include "detection/quads.hpp"
 
 namespace window_ingress::detection {
@@ -34,7 +34,7 @@ constexpr double kContradiction = 13.8;  ///< chi squared of two numbers that on
 /// Memory of one object, used again for each side.
 struct BorderRefinement::Workspace {
   EdgeProfiles profiles;
-  BorderFit fit;
+  SubpixelBorder fit;
 };
 
 namespace {
@@ -42,7 +42,8 @@ namespace {
 /// One side while it is being fitted: profiles once, then everything from them.
 class Side {
  public:
-  Side(BorderRefinement::Workspace& memory, const BorderFitLimits& limits, const BorderStart& start, int side)
+  Side(BorderRefinement::Workspace& memory, const SubpixelBorderLimits& limits, const BorderStart& start,
+       int side)
       : memory_(memory),
         limits_(limits),
         start_(start),
@@ -150,8 +151,8 @@ class Side {
     return std::max(std::abs(border_.line.at(-half)), std::abs(border_.line.at(half)));
   }
 
-  bool fit(const BorderFitLimits& limits) {
-    BorderFitLimits all = limits;
+  bool fit(const SubpixelBorderLimits& limits) {
+    SubpixelBorderLimits all = limits;
     inliers_ = 0.0;
     if (!memory_.fit.run(all, border_)) return false;
     inliers_ = static_cast<double>(border_.inliers) / count_;
@@ -159,7 +160,7 @@ class Side {
   }
 
   BorderRefinement::Workspace& memory_;
-  const BorderFitLimits& limits_;  // of the last pass, for this image's size
+  const SubpixelBorderLimits& limits_;  // of the last pass, for this image's size
   const BorderStart& start_;
   const SideSigma known_;
   const bool is_hidden_;
@@ -211,7 +212,7 @@ BorderRefinement& BorderRefinement::operator=(BorderRefinement&&) noexcept = def
 std::optional<RefinedBorders> BorderRefinement::run(const cv::Mat& image, const BorderStart& start,
                                                     const geometry::PinholeCamera* camera,
                                                     double* worst_inliers) const {
-  BorderFitLimits limits;
+  SubpixelBorderLimits limits;
   const double scale = std::max(1.0, std::max(image.cols, image.rows) / kNominalSide);
   limits.radius_px *= scale;
   limits.outlier_px *= scale;

@@ -121,7 +121,7 @@ FollowedBorder EdgeTracker::follow(const cv::Mat& image, const geometry::Pinhole
 bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens, const OffsetLine& coarse,
                       double size_px, FollowedBorder& border) {
   const double scale = scaleOf(image), half = 0.5 * coarse_.length(),
-               radius_px = scale * BorderFitLimits().radius_px;
+               radius_px = scale * SubpixelBorderLimits().radius_px;
   const int count =
       std::clamp(static_cast<int>(2.0 * half * (1.0 - 2.0 * kSkip)), kMinFollowed, kFineProfiles);
   fine_.sample(image, lens,
@@ -130,10 +130,10 @@ bool EdgeTracker::fit(const cv::Mat& image, const geometry::PinholeCamera* lens,
   if (!soft_) soft_ = isColourSoft(fine_);
   fit_.project(fine_, *soft_ ? resolvedPart(memory_.colour()).normalized() : memory_.colour());
   FittedBorder fitted;
-  BorderFitLimits limits{radius_px, kPriorPx * scale,
-                         std::max(kRoughPx, BorderFitLimits().outlier_px) * scale};
+  SubpixelBorderLimits limits{radius_px, kPriorPx * scale,
+                              std::max(kRoughPx, SubpixelBorderLimits().outlier_px) * scale};
   if (!fit_.run(limits, fitted)) return false;
-  limits.outlier_px = BorderFitLimits().outlier_px * scale;
+  limits.outlier_px = SubpixelBorderLimits().outlier_px * scale;
   if (!fit_.run(limits, fitted)) return false;
   edge_ = fitted;
   seen_ = {coarse.offset + fitted.line.offset, coarse.slope + fitted.line.slope};

@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "detection/borders/border_fit.hpp"
 #include "detection/borders/edge_profiles.hpp"
+#include "detection/borders/subpixel_border.hpp"
 #include "detection/tracking/edge_template.hpp"
 #include "window_ingress/detection/border_refinement.hpp"
 #include "window_ingress/detection/detector_params.hpp"
@@ -70,7 +70,7 @@ class EdgeTracker {
 
   EdgeTemplate memory_;
   EdgeProfiles coarse_, fine_;
-  BorderFit fit_;
+  SubpixelBorder fit_;
   FittedBorder edge_;                                 // as followed last, in the fine profiles' axes
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();  // of the side that it was looked for on
   /// From the edge outwards to the border, about the side's middle. The edges of a reveal part with the

@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "detection/borders/border_fit.hpp"
 #include "detection/borders/lines.hpp"
+#include "detection/borders/subpixel_border.hpp"
 #include "detection/tracking/edge_template.hpp"
 #include "detection/tracking/edge_tracker.hpp"
 #include "detection/tracking/quad_motion.hpp"
@@ -66,7 +66,7 @@ TEST(EdgeProfiles, ALensBendsThePathNotTheImage) {
                   0.01);
 }
 
-TEST(BorderFit, SpreadIsHonestForNoise) {
+TEST(SubpixelBorder, SpreadIsHonestForNoise) {
   double squares = 0.0;
   const int trials = 60;
   for (int seed = 0; seed < trials; ++seed) {
@@ -74,7 +74,7 @@ TEST(BorderFit, SpreadIsHonestForNoise) {
     cv::Mat image = bands({{0, kWall}, {row, kHole}}, 0.0);
     test::addNoise(image, 12.0, 50 + seed);
     const EdgeProfiles profiles = across(image, 100, 6);
-    BorderFit fit;
+    SubpixelBorder fit;
     fit.project(profiles, Eigen::Vector3f(90, 110, 125).normalized());
     FittedBorder border;
     ASSERT_TRUE(fit.run({2.5, 1e3, 0.6, 0.03}, border));

@@ -1,4 +1,4 @@
-#include "detection/borders/border_fit.hpp"
+#include "detection/borders/subpixel_border.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ Line FittedBorder::inImage(const EdgeProfiles& profiles) const {
   return border;
 }
 
-void BorderFit::project(const EdgeProfiles& profiles, const Eigen::Vector3f& colour) {
+void SubpixelBorder::project(const EdgeProfiles& profiles, const Eigen::Vector3f& colour) {
   profiles_ = &profiles;
   const int width = profiles.width(), channels = profiles.channels();
   const Eigen::Vector3f weights = 0.5f * (channels == 1 ? Eigen::Vector3f(colour.sum(), 0, 0) : colour);
@@ -53,7 +53,7 @@ void BorderFit::project(const EdgeProfiles& profiles, const Eigen::Vector3f& col
   }
 }
 
-bool BorderFit::projectStrongest(const EdgeProfiles& profiles, double radius_px) {
+bool SubpixelBorder::projectStrongest(const EdgeProfiles& profiles, double radius_px) {
   const int radius = static_cast<int>(std::ceil(radius_px)), width = profiles.width();
   mean_.resize(static_cast<std::size_t>(3) * width);
   profiles.mean(0, profiles.count(), mean_.data());
@@ -81,7 +81,7 @@ bool BorderFit::projectStrongest(const EdgeProfiles& profiles, double radius_px)
 }
 
 // Where a profile has its edge near an offset, to a pixel.
-std::optional<int> BorderFit::steepest(int i, double centre, const BorderFitLimits& limits) const {
+std::optional<int> SubpixelBorder::steepest(int i, double centre, const SubpixelBorderLimits& limits) const {
   const int reach = profiles_->reach() - 2;
   const int first = std::max(-reach, static_cast<int>(std::lround(centre - limits.radius_px)));
   const int last = std::min(reach, static_cast<int>(std::lround(centre + limits.radius_px)));
@@ -101,7 +101,7 @@ std::optional<int> BorderFit::steepest(int i, double centre, const BorderFitLimi
   return at;
 }
 
-void BorderFit::measure(const OffsetLine& about, const BorderFitLimits& limits) {
+void SubpixelBorder::measure(const OffsetLine& about, const SubpixelBorderLimits& limits) {
   positions_.clear();
   offsets_.clear();
   for (int i = 0; i < profiles_->count(); ++i) {
@@ -118,7 +118,7 @@ void BorderFit::measure(const OffsetLine& about, const BorderFitLimits& limits) 
   }
 }
 
-void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) const {
+void SubpixelBorder::spread(const SubpixelBorderLimits& limits, FittedBorder& border) const {
   double squares = 0.0;
   border.inliers = 0;
   for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -137,7 +137,7 @@ void BorderFit::spread(const BorderFitLimits& limits, FittedBorder& border) cons
 }
 
 // Where what was fitted is a reveal's two edges in one, the front one.
-void BorderFit::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const {
+void SubpixelBorder::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const {
   constexpr int kHalf = 4, kSize = 2 * kHalf + 1;
   std::array<float, 3 * kSize> mean;
   if (profiles_->meanAlong(border.line, kHalf, mean.data()) < kMinProfiles) return;
@@ -147,7 +147,7 @@ void BorderFit::toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) c
   border.sigma_rad = border.sigma_px * kUniformSpread / std::max(1.0, border.to - border.from);
 }
 
-bool BorderFit::run(const BorderFitLimits& limits, FittedBorder& border) {
+bool SubpixelBorder::run(const SubpixelBorderLimits& limits, FittedBorder& border) {
   measure(border.line, limits);
   const int count = static_cast<int>(positions_.size());
   if (count < 4) return false;

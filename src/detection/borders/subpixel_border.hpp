@@ -26,7 +26,7 @@ struct FittedBorder {
 };
 
 /// What a fit may take for the border.
-struct BorderFitLimits {
+struct SubpixelBorderLimits {
   double radius_px = 2.0;        ///< reach across the line it is looked for at [px]
   double prior_px = 1e3;         ///< scale of the preference for edges near that line [px]
   double outlier_px = 0.6;       ///< scale of the robust fit [px]
@@ -35,7 +35,7 @@ struct BorderFitLimits {
 
 /// Sub-pixel position of one border: in each profile the steepest change of the wanted colour near a line, to
 /// a fraction of a pixel; a robust line through them; its spread by what is left over. Keeps its memory.
-class BorderFit {
+class SubpixelBorder {
  public:
   /// Takes the profiles along one direction in colour space, unit vector: towards it they rise outwards. Grey
   /// profiles use its sum.
@@ -47,7 +47,7 @@ class BorderFit {
 
   /// Moves `border.line` onto the edges near it. \return false, and only the line changed, if there are fewer
   /// than four profiles on it
-  bool run(const BorderFitLimits& limits, FittedBorder& border);
+  bool run(const SubpixelBorderLimits& limits, FittedBorder& border);
 
   /// After a fit: moves the border to the front edge of its reveal where that is another one than was fitted
   /// (`TwoStepEdge`), and enlarges its spread by what is not known of it.
@@ -55,12 +55,12 @@ class BorderFit {
   void toFront(const TwoStepEdgeLimits& limits, FittedBorder& border) const;
 
  private:
-  std::optional<int> steepest(int i, double centre, const BorderFitLimits& limits) const;
+  std::optional<int> steepest(int i, double centre, const SubpixelBorderLimits& limits) const;
   const float* slopesOf(int i) const {  // its middle: from -reach to reach
     return slopes_.data() + static_cast<std::size_t>(i) * profiles_->width() + profiles_->reach();
   }
-  void measure(const OffsetLine& about, const BorderFitLimits& limits);
-  void spread(const BorderFitLimits& limits, FittedBorder& border) const;
+  void measure(const OffsetLine& about, const SubpixelBorderLimits& limits);
+  void spread(const SubpixelBorderLimits& limits, FittedBorder& border) const;
 
   const EdgeProfiles* profiles_ = nullptr;
   std::vector<float> slopes_;  // of the projected profiles, grey levels a pixel
