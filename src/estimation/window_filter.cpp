@@ -20,6 +20,7 @@ constexpr double kMeanOver = 30.0;            // images
 constexpr double kRestartMeanSquares = 20.0;  // over those; beyond it the filter starts anew
 constexpr double kTurnedRad = 0.15;           // of the window since the start before: odometry turned
 constexpr double kFixedYawSigmaRad = 0.005;   // of the yaw bias then, and after a jump
+constexpr double kTurningSec = 3.0;           // that long at most it goes on turning
 constexpr double kMinScaleMps = 0.1;          // slower than this, the way flown tells nothing about the size
 constexpr double kSystematicRenewalSec = 20.0;  // at one place
 constexpr double kTimeJumpSec = 1.0;            // an image that much older is a jump back in time
@@ -35,6 +36,8 @@ struct WindowFilter::Impl {
   FilterParams params;
   std::optional<SizeEstimate> nominal_size, held_size;
   YawBias yaw_bias{0.0, params.mounting_yaw_sigma_rad};  // to begin with
+  double unlearned_yaw_rad = 0.0;                        // a standard deviation of it, since odometry turned
+  double turned_sec = 0.0;
   Viewpoints viewpoints{FilterParams::kSystematicRenewalM};
   MirrorHypotheses beliefs{params};
   ConsistencyMonitor consistency;
@@ -66,6 +69,7 @@ struct WindowFilter::Impl {
     forgetPlaces();
     held_size.reset();
     yaw_bias = {0.0, params.mounting_yaw_sigma_rad};
+    unlearned_yaw_rad = 0.0;
   }
 
   // A filter that was at odds with its images has nothing worth keeping.
@@ -80,9 +84,20 @@ struct WindowFilter::Impl {
     held_size = found;
   }
 
-  // Where odometry turned a moment ago, what is seen then must not pass for an error that lasts.
+  // Where odometry turned a moment ago, what is seen then must not pass for an error that lasts. What was not
+  // known of that before is not learned for a while, but counts.
   void fixYawBias() {
-    if (params.yaw_bias_lasts) yaw_bias.sigma_rad = std::min(yaw_bias.sigma_rad, kFixedYawSigmaRad);
+    if (!params.yaw_bias_lasts) return;
+    turned_sec = stamp_sec;
+    if (yaw_bias.sigma_rad <= kFixedYawSigmaRad) return;
+    unlearned_yaw_rad = std::hypot(unlearned_yaw_rad, yaw_bias.sigma_rad);
+    yaw_bias.sigma_rad = kFixedYawSigmaRad;
+  }
+
+  void learnYawAgain(double stamp) {
+    if (unlearned_yaw_rad == 0.0 || stamp < turned_sec + kTurningSec) return;
+    beliefs.learnYaw(unlearned_yaw_rad, camera_position);
+    unlearned_yaw_rad = 0.0;
   }
 
   SizeEstimate priorSize(const geometry::OpeningSize& fitted) const {
@@ -189,6 +204,7 @@ struct WindowFilter::Impl {
   bool apply(const WindowPoseEstimate* estimate, double stamp, const FilterView& view) {
     if (beliefs.empty()) return start(estimate, stamp, view);
     if (mean_squares > kRestartMeanSquares && start(estimate, stamp, view)) return true;
+    learnYawAgain(stamp);
     const auto outcome = beliefs.apply(view, stamp - stamp_sec, wayTo(view, stamp));
     if (!outcome) {
       consistency.refuse();
@@ -201,7 +217,7 @@ struct WindowFilter::Impl {
   }
 
   FilteredWindow stateAt(double age_sec) const {
-    FilteredWindow out = filteredWindow(beliefs, params, camera_position, age_sec);
+    FilteredWindow out = filteredWindow(beliefs, params, camera_position, unlearned_yaw_rad, age_sec);
     out.stamp_sec = stamp_sec;
     out.updates = updates;
     out.consistency = consistency.consistency();

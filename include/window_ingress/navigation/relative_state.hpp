@@ -12,8 +12,8 @@ struct RelativeState {
   Eigen::Vector3d velocity_window_mps = Eigen::Vector3d::Zero();  ///< beside the window, its axes
   double bearing_rad = 0.0;        ///< of the opening's centre against the vehicle's heading, left positive
   double heading_error_rad = 0.0;  ///< window's normal against the vehicle's heading, left positive
-  double sigma_lateral_m = 0.0;    ///< of y: its part from the normal's direction grows with the distance
-  double sigma_vertical_m = 0.0;   ///< of z
+  double sigma_lateral_m = 0.0;   ///< of y now, or at the plane, where a wrong heading shows, if that is more
+  double sigma_vertical_m = 0.0;  ///< of z
 
   double distance() const {
     return -position_window_m.x();

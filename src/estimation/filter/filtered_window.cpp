@@ -45,9 +45,11 @@ WindowHypothesis reported(const MirrorHypotheses& beliefs) {
 }  // namespace
 
 FilteredWindow filteredWindow(const MirrorHypotheses& beliefs, const FilterParams& params,
-                              const Eigen::Vector3d& camera_position, double age_sec) {
+                              const Eigen::Vector3d& camera_position, double unlearned_yaw_rad,
+                              double age_sec) {
   const auto predicted = [&](WindowHypothesis window) {
     window.predict(params, std::max(age_sec, 0.0), 0.0, camera_position);
+    window.addTurn(unlearned_yaw_rad, camera_position);
     return window;
   };
   const auto& hypotheses = beliefs.hypotheses();

@@ -19,6 +19,10 @@ class MirrorHypotheses {
     double log_weight;
   };
 
+  /// The camera's yaw is to be learned from now on, once more.
+  void learnYaw(double sigma_rad, const Eigen::Vector3d& camera_position) {
+    for (Weighted& each : hypotheses_) each.window.addTurn(sigma_rad, camera_position, true);
+  }
   bool empty() const { return hypotheses_.empty(); }
   void clear() { hypotheses_.clear(); }
   const std::vector<Weighted>& hypotheses() const { return hypotheses_; }

@@ -155,11 +155,16 @@ void WindowHypothesis::predict(const FilterParams& params, double elapsed_sec, d
   const double drift =
       std::pow(params.drift_m_per_sqrt_sec, 2) * elapsed_sec + std::pow(params.drift_m_per_sqrt_m, 2) * way_m;
   covariance_.topLeftCorner<3, 3>().diagonal().array() += inverse_height * inverse_height * drift;
-  // Odometry's heading drifts about the vehicle: it carries the window around.
+  addTurn(params.drift_rad_per_sqrt_sec * std::sqrt(elapsed_sec), camera_position);
+}
+
+void WindowHypothesis::addTurn(double sigma_rad, const Eigen::Vector3d& camera_position, bool lasts) {
   Vector turn = Vector::Zero();
-  turn.head<3>() = inverse_height * Eigen::Vector3d::UnitZ().cross(state_.position() - camera_position);
+  turn.head<3>() = state_.values(WindowState::kInverseHeight) *
+                   Eigen::Vector3d::UnitZ().cross(state_.position() - camera_position);
   turn(WindowState::kYaw) = 1.0;
-  covariance_ += std::pow(params.drift_rad_per_sqrt_sec, 2) * elapsed_sec * turn * turn.transpose();
+  if (lasts) turn(WindowState::kYawBias) = 1.0;
+  covariance_ += sigma_rad * sigma_rad * turn * turn.transpose();
 }
 
 void WindowHypothesis::move(const MotionModel& motion, double elapsed_sec) {

@@ -42,6 +42,9 @@ class WindowHypothesis {
   /// Time passes and the camera flies a way to its position: odometry drifts, attitude errors fade.
   void predict(const FilterParams& params, double elapsed_sec, double way_m,
                const Eigen::Vector3d& camera_position);
+  /// An error of odometry's heading: it carries the window around the camera.
+  /// \param lasts the camera's yaw on the vehicle is taken to be off by the same, and learned
+  void addTurn(double sigma_rad, const Eigen::Vector3d& camera_position, bool lasts = false);
 
   struct Outcome {
     double squares = 0.0;       ///< normalised innovation squared of `FilterView::alone`

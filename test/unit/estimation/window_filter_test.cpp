@@ -182,6 +182,36 @@ TEST(WindowFilter, AfterAJumpTheHeadingIsNotLearnedAnew) {
   EXPECT_GT(std::sqrt(flight.filter.state(stamp)->camera_turn.covariance(1, 1)), 0.02);
 }
 
+// What was not known of the heading when odometry jumped is not known after it, either: it counts, and is
+// learned once odometry no longer turns.
+TEST(WindowFilter, AHeadingThatWasNotKnownBeforeAJumpCountsAndIsLearnedLater) {
+  double squares = 0.0, errors_rad = 0.0;
+  const int runs = 40;
+  for (int run = 0; run < runs; ++run) {
+    Flight flight(1300 + run);
+    flight.noisy_odometry = true;
+    flight.heading_error_rad = run % 2 ? 0.06 : -0.06;
+    double stamp = 1.0, x_m = -5.5;
+    const auto fly = [&](double sec) {
+      for (const double end = stamp + sec; stamp < end; stamp += 1.0 / 30.0)
+        flight.step({x_m += 0.5 / 30.0, 0.0, 1.5}, stamp);
+      stamp -= 1.0 / 30.0;
+      return *flight.filter.state(stamp);
+    };
+    fly(0.3);
+    flight.filter.forgetPlaces();
+    const auto soon = fly(1.5);
+    const double off_m = soon.T_odom_window.translation().y() - flight.T_world_window.translation().y();
+    EXPECT_GT(std::sqrt(soon.covariance(1, 1)), 0.02 * -x_m) << run;
+    squares += off_m * off_m / soon.covariance(1, 1) / runs;
+    fly(6.0);
+    errors_rad += std::abs(flight.yawError(stamp)) / runs;
+  }
+  std::printf("soon after: mean square of its place %.2f; in the end off by %.3f rad\n", squares, errors_rad);
+  EXPECT_LT(squares, 6.0);  // two standard deviations of the heading, drawn each time
+  EXPECT_LT(errors_rad, 0.03);
+}
+
 // An error of the heading turns the window about the camera: on which side of its axis that is stays as
 // clear.
 TEST(WindowFilter, AnUnknownHeadingHidesNoSign) {

@@ -66,4 +66,13 @@ TEST(RelativeState, LateralSigmaIsThatOfAMonteCarlo) {
   EXPECT_NEAR(relate(vehicle, target).sigma_lateral_m / sigma, 1.0, 0.03);
 }
 
+TEST(RelativeState, AHeadingThatIsOffLeadsPastTheOpening) {
+  const auto vehicle = vehicleAt({-3.0, 0.0, 1.5}, 0.0);
+  auto target = targetAtOrigin(0.0);
+  Eigen::Matrix<double, 6, 1> turn = Eigen::Matrix<double, 6, 1>::Zero();  // of the window, about the vehicle
+  turn(1) = 3.0, turn(5) = 1.0;
+  target.covariance = 0.03 * 0.03 * turn * turn.transpose();
+  EXPECT_NEAR(relate(vehicle, target).sigma_lateral_m, 0.09, 1e-9);
+}
+
 }  // namespace window_ingress::navigation::relative_state_test
