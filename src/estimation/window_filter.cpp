@@ -95,7 +95,7 @@ struct WindowFilter::Impl {
   }
 
   void learnYawAgain(double stamp) {
-    if (unlearned_yaw_rad == 0.0 || stamp < turned_sec + kTurningSec) return;
+    if (unlearned_yaw_rad == 0.0 || std::abs(stamp - turned_sec) < kTurningSec) return;
     beliefs.learnYaw(unlearned_yaw_rad, camera_position);
     unlearned_yaw_rad = 0.0;
   }
