@@ -37,8 +37,8 @@ RelativeState relate(const VehicleState& vehicle, const TargetEstimate& target) 
   relative.bearing_rad =
       geometry::wrapAngle(std::atan2(to_window_odom_m.y(), to_window_odom_m.x()) - heading_rad);
   relative.heading_error_rad = geometry::wrapAngle(geometry::yawOf(R_odom_window) - heading_rad);
-  const double now_m = relative.position_window_m.x();
-  relative.sigma_lateral_m = std::max(lateralSigma(R_odom_window, now_m, target.covariance),
+  const double x_m = relative.position_window_m.x();
+  relative.sigma_lateral_m = std::max(lateralSigma(R_odom_window, x_m, target.covariance),
                                       lateralSigma(R_odom_window, 0.0, target.covariance));
   relative.sigma_vertical_m = std::sqrt(std::max(0.0, target.covariance(2, 2)));
   return relative;
