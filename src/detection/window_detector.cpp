@@ -139,11 +139,7 @@ void WindowDetector::Impl::searchOnColours() {
         return candidate.reject == RejectReason::kOtherFrame ||
                candidate.reject == RejectReason::kOtherAspect;
       });
-  const auto paint = reference.paint();
-  if (paint && !has_decoy)
-    search.runOnPaint(*paint, trace);
-  else
-    search.runOnColours(trace);
+  search.runOnColours(has_decoy ? std::nullopt : reference.paint(), trace);
 }
 
 WindowDetector::WindowDetector(const DetectorParams& params) {
@@ -188,11 +184,6 @@ std::optional<WindowObservation> WindowDetector::detect(const cv::Mat& image, do
   }
   impl_->search.run(image, camera, impl_->trace);
   auto window = impl_->judge(image, stamp_sec, camera);
-  if (!window && impl_->reference.frameless() && impl_->trace.budget_exceeded) {
-    impl_->trace.clear();
-    impl_->search.runAgain(impl_->trace);
-    window = impl_->judge(image, stamp_sec, camera);
-  }
   if (!window) {
     impl_->found_first = impl_->search.kept();
     impl_->searchOnColours();

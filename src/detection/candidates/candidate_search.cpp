@@ -91,28 +91,14 @@ void CandidateSearch::outlineBlobs(const cv::Mat& level, double contrast) {
   done(watch_, Stage::kOutlines);
 }
 
-const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(DetectionTrace& trace) {
-  const cv::Mat& colours = preprocess_.coloursAlone();
+const std::vector<ScoredCandidate>& CandidateSearch::runOnColours(const std::optional<Eigen::Vector3f>& paint,
+                                                                  DetectionTrace& trace) {
+  const cv::Mat& colours = paint ? preprocess_.paintAlone(*paint) : preprocess_.coloursAlone();
   kept_.clear();
   if (colours.empty()) return kept_;
   done(watch_, Stage::kPreprocess);
   look(colours);
-  outlineBlobs(colours, kColourContrast);
-  return combine(SegmentQuads::kThorough, trace);
-}
-
-const std::vector<ScoredCandidate>& CandidateSearch::runOnPaint(const Eigen::Vector3f& paint,
-                                                                DetectionTrace& trace) {
-  const cv::Mat& painted = preprocess_.paintAlone(paint);
-  kept_.clear();
-  if (painted.empty()) return kept_;
-  done(watch_, Stage::kPreprocess);
-  look(painted);
-  outlineBlobs(painted, kPaintContrast);
-  return combine(SegmentQuads::kThorough, trace);
-}
-
-const std::vector<ScoredCandidate>& CandidateSearch::runAgain(DetectionTrace& trace) {
+  outlineBlobs(colours, paint ? kPaintContrast : kColourContrast);
   return combine(SegmentQuads::kThorough, trace);
 }
 

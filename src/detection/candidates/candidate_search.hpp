@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "detection/candidates/candidate.hpp"
@@ -30,18 +32,12 @@ class CandidateSearch {
   const std::vector<ScoredCandidate>& run(const cv::Mat& image, const geometry::PinholeCamera* camera,
                                           DetectionTrace& trace);
 
-  /// The last image once more, with more segments and more of their combinations: for when none of the
-  /// candidates was the target.
-  const std::vector<ScoredCandidate>& runAgain(DetectionTrace& trace);
-
   /// The last image once more, by its colours alone: for borders that differ from what is beside them in hue
   /// but not in brightness, or that are lost among brighter and darker things; and by the outlines of blobs.
-  /// None if it has no colours.
-  const std::vector<ScoredCandidate>& runOnColours(DetectionTrace& trace);
-
-  /// Likewise, by one paint: for thin or blurred frames of a known colour. \param paint see
-  /// `RingMeans::paint`
-  const std::vector<ScoredCandidate>& runOnPaint(const Eigen::Vector3f& paint, DetectionTrace& trace);
+  /// None if it has no colours. \param paint of a thin or blurred frame, where it is known: by that alone,
+  /// see `RingMeans::paint`
+  const std::vector<ScoredCandidate>& runOnColours(const std::optional<Eigen::Vector3f>& paint,
+                                                   DetectionTrace& trace);
 
   /// What the last call returned.
   const std::vector<ScoredCandidate>& kept() const { return kept_; }

@@ -84,7 +84,7 @@ TEST(CandidateSearch, ColoursAloneShowWhatIsLostAmongBrightAndDark) {
   DetectionTrace trace;
   const bool at_once = holds(search.run(image, nullptr, trace), opening, 6.0);
   EXPECT_FALSE(at_once) << "the image is too easy for this test";
-  EXPECT_TRUE(holds(search.runOnColours(trace), opening, 6.0));
+  EXPECT_TRUE(holds(search.runOnColours({}, trace), opening, 6.0));
 }
 
 TEST(CandidateSearch, ABlobIsFoundWhereItsEdgesAreTooSoft) {
@@ -97,7 +97,7 @@ TEST(CandidateSearch, ABlobIsFoundWhereItsEdgesAreTooSoft) {
   CandidateSearch search{DetectorParams()};
   DetectionTrace trace;
   EXPECT_TRUE(search.run(image, nullptr, trace).empty()) << "the image is too easy for this test";
-  const auto& rivals = search.runOnColours(trace);
+  const auto& rivals = search.runOnColours({}, trace);
   ASSERT_TRUE(holds(rivals, opening, 12.0));
   EXPECT_EQ(rivals[0].candidate.source, CandidateSource::kBlob);
 }
@@ -125,9 +125,9 @@ TEST(CandidateSearch, AThinBlurredFrameIsFoundByItsPaintInAnyLight) {
   DetectionTrace trace;
   EXPECT_FALSE(holds(search.run(image, nullptr, trace), opening, 8.0))
       << "the image is too easy for this test";
-  EXPECT_FALSE(holds(search.runOnColours(trace), opening, 8.0)) << "the image is too easy for this test";
-  EXPECT_TRUE(holds(search.runOnPaint(Eigen::Vector3f(-0.76F, 0.12F, 0.64F), trace), opening, 8.0));
-  EXPECT_FALSE(holds(search.runOnPaint(Eigen::Vector3f(-0.41F, 0.82F, -0.41F), trace), opening, 8.0))
+  EXPECT_FALSE(holds(search.runOnColours({}, trace), opening, 8.0)) << "the image is too easy for this test";
+  EXPECT_TRUE(holds(search.runOnColours(Eigen::Vector3f(-0.76F, 0.12F, 0.64F), trace), opening, 8.0));
+  EXPECT_FALSE(holds(search.runOnColours(Eigen::Vector3f(-0.41F, 0.82F, -0.41F), trace), opening, 8.0))
       << "another paint";
 }
 
@@ -137,8 +137,8 @@ TEST(CandidateSearch, AGreyImageHasNoColours) {
   CandidateSearch search{DetectorParams()};
   DetectionTrace trace;
   EXPECT_FALSE(search.run(grey, nullptr, trace).empty());
-  EXPECT_TRUE(search.runOnColours(trace).empty());
-  EXPECT_TRUE(search.runOnPaint(Eigen::Vector3f(-0.7F, 0.0F, 0.7F), trace).empty());
+  EXPECT_TRUE(search.runOnColours({}, trace).empty());
+  EXPECT_TRUE(search.runOnColours(Eigen::Vector3f(-0.7F, 0.0F, 0.7F), trace).empty());
 }
 
 }  // namespace window_ingress::detection::candidate_search_test
