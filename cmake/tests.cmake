@@ -1,6 +1,13 @@
 # Unit tests: every test/unit/<folder>/*_test.cpp goes into unit_<folder>; nothing is listed by hand.
 find_package(GTest REQUIRED)
 
+# Most of the time to test is time to compile: larger batches and less optimization take a third off. The libraries are those
+# that fly.
+function(compile_quickly target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 file(GLOB unit_folders RELATIVE ${PROJECT_SOURCE_DIR}/test/unit CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/unit/*)
 foreach(folder ${unit_folders})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/unit/${folder}/*_test.cpp)
@@ -15,6 +22,7 @@ foreach(folder ${unit_folders})
   else()
     catkin_add_gtest(${target} ${sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
   endif()
+  compile_quickly(${target})
   target_link_libraries(${target} ${PROJECT_NAME}_evaluation yaml-cpp nlohmann_json::nlohmann_json opencv_imgcodecs)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test/support)
   target_compile_definitions(${target} PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -45,6 +53,7 @@ if(NOT WINDOW_INGRESS_CORE_ONLY)
     list(APPEND fault_sources ${PROJECT_SOURCE_DIR}/test/unit/navigation/${shared}_test.cpp)
   endforeach()
   catkin_add_gtest(faults ${fault_sources} ${PROJECT_SOURCE_DIR}/test/support/gtest_main.cpp)
+  compile_quickly(faults)
   target_link_libraries(faults ${PROJECT_NAME}_bags yaml-cpp opencv_imgcodecs)
   target_include_directories(faults PRIVATE ${PROJECT_SOURCE_DIR}/test/support ${PROJECT_SOURCE_DIR}/test/fuzz)
   target_compile_definitions(faults PRIVATE WINDOW_INGRESS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
