@@ -41,7 +41,7 @@ MEANING = {  # of the reasons, as in doc/detection.md
     "refinement": "an edge that could not be fitted in the full image",
     "outer_border": "the outer border of a frame whose inner border was found",
     "duplicate": "the same loop as a better candidate",
-    "pane": "a border behind the opening, such as the back one of its reveal",
+    "pane": "a part of a larger window: pane between mullions, border behind the opening",
     "appearance": "its frame does not look like the reference",
     "other_aspect": "of another aspect than the reference",
     "other_frame": "its frame is wider or narrower than the reference's",

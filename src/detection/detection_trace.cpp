@@ -46,7 +46,7 @@ Wording wording(RejectReason reason) {
     case RejectReason::kDuplicate:
       return {"duplicate", "same loop, rank", "<"};
     case RejectReason::kPane:
-      return {"pane", "behind a larger loop that counts", ""};
+      return {"pane", "within a larger loop that counts", ""};
     case RejectReason::kAppearance:
       return {"appearance", "Bhattacharyya distance", ">"};
     case RejectReason::kOtherAspect:

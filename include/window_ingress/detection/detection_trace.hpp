@@ -25,7 +25,7 @@ enum class RejectReason {
   kRefinement,   ///< an edge could not be fitted in the full image
   kOuterBorder,  ///< the outer border of a frame whose inner border was found
   kDuplicate,    ///< the same loop as a better candidate
-  kPane,         ///< a border behind the opening, such as the back one of its reveal
+  kPane,         ///< a part of a larger window: pane between mullions, border behind the opening
   kAppearance,   ///< its frame does not look like the reference
   kOtherAspect,  ///< of another aspect than the reference
   kOtherFrame,   ///< its frame is wider or narrower than the reference's

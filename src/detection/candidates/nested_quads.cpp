@@ -14,10 +14,10 @@ using geometry::Quadrilateral;
 
 constexpr double kContinued =
     22.0;  ///< a loop further in belongs to the frame if its ring differs less [grey levels]
-constexpr double kMaxRing = 0.25;     ///< width of a frame, in mean sides of its outer border
-constexpr double kRingRatio = 3.0;    ///< widest over narrowest side of a frame
-constexpr double kUniform = 22.0;     ///< colours of a frame's four sides differ less than this [grey levels]
-constexpr double kRoundReveal = 2.0;  ///< area of an opening over that of the border behind it, at most
+constexpr double kMaxRing = 0.25;   ///< width of a frame, in mean sides of its outer border
+constexpr double kRingRatio = 3.0;  ///< widest over narrowest side of a frame
+constexpr double kUniform = 22.0;   ///< colours of a frame's four sides differ less than this [grey levels]
+constexpr double kMaxPanes = 40.0;  ///< area of a window over the area of its smallest pane
 constexpr double kLoopTolerancePx = 0.6;  ///< uncertainty of a loop's position on the search level [px]
 constexpr int kRingSamples = 24;
 
@@ -120,7 +120,7 @@ std::vector<NestedVerdict> nestedVerdicts(const cv::Mat& image, const std::vecto
           continue;
         }
       }
-      if (areas[front] <= kRoundReveal * areas[inner] && scores[front] >= scores[inner])
+      if (areas[front] <= kMaxPanes * areas[inner] && scores[front] >= scores[inner])
         verdicts[inner] = {RejectReason::kPane, front};
     }
   }

@@ -20,8 +20,7 @@ bool isConcentric(const geometry::Quadrilateral& outer, const geometry::Quadrila
 /// Chooses among loops that lie in each other. Of loops round the same centre the front inner border of the
 /// opening wins: from the outermost loop inwards as long as the ring passed over is uniform, as the four
 /// sides of a frame are (same plane, same paint) and those of a reveal are not. Without a uniform ring there
-/// is no frame: the outermost loop is the opening's front. Much smaller loops, as panes and the windows of a
-/// storey are, are left to their scores.
+/// is no frame: the outermost loop is the opening's front. A loop that holds panes wins over each of them.
 /// \param quads in pixels of `image`; scores in the same order
 /// \param tolerance_px uncertainty of a loop's position [px]
 std::vector<NestedVerdict> nestedVerdicts(const cv::Mat& image,

@@ -48,12 +48,14 @@ TEST(NestedLoops, WithoutAFrameTheFrontWinsOverTheBack) {
   EXPECT_EQ(verdicts[1].reject, RejectReason::kNone);
 }
 
-TEST(NestedLoops, PanesBetweenMullionsAreLeftToTheirScores) {
+TEST(NestedLoops, PanesBetweenMullionsLose) {
   cv::Mat image = framed();
   const auto left = test::rectangle(100, 80, 156, 170), right = test::rectangle(164, 80, 220, 170);
   image(cv::Rect(156, 80, 8, 90)).setTo(cv::Scalar(50, 140, 215));
   const auto verdicts = judge(image, {left, right, kOpening});
-  for (const NestedVerdict& verdict : verdicts) EXPECT_EQ(verdict.reject, RejectReason::kNone);
+  EXPECT_EQ(verdicts[0].reject, RejectReason::kPane);
+  EXPECT_EQ(verdicts[1].reject, RejectReason::kPane);
+  EXPECT_EQ(verdicts[2].reject, RejectReason::kNone);
 }
 
 TEST(NestedLoops, LoopsApartDoNotMatterToEachOther) {
