@@ -31,9 +31,10 @@ constexpr float kFirstSpread = 0.2F;  ///< of the residuals, before they are kno
 constexpr float kStepSpread = 0.06F,
                 kPerspectiveSpread = 0.04F;  ///< of a step, before anything is measured [sides]
 constexpr double kMinCorrelation = 0.05;     ///< at a level, to go on
-constexpr double kDependent = 3.0;  ///< samples that share their noise, for one that has noise of its own
-constexpr float kDimRing = 40.0F;   ///< of a darker ring the noise shows in the logarithms [grey levels]
-constexpr double kFloorPx = 0.03;   ///< no side is claimed to be known better than this
+constexpr double kDependent = 3.0;    ///< samples that share their noise, for one that has noise of its own
+constexpr float kDimRing = 40.0F;     ///< of a darker ring the noise shows in the logarithms [grey levels]
+constexpr double kLeastInView = 0.5;  ///< of the ring beside a side, or nothing is known of the side
+constexpr double kFloorPx = 0.03;     ///< no side is claimed to be known better than this
 /// Of a frame: how far it is out of true, and how far it stands out of the opening's plane [sides].
 constexpr double kOutOfTrue = 0.0003, kStandsOut = 0.005;
 
@@ -170,6 +171,16 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
   return best;
 }
 
+// Of the ring beside a side, at the place that was looked at last; all of it where the reference shows none.
+double RingAlignment::partInView(int side) const {
+  const auto& segments = view_.ring().segments;
+  int all = 0, seen = 0;
+  for (int s = 0; s < view_.ring().segmentCount(); ++s)
+    for (int i = segments[s]; sideOf(s) == side && i < segments[s + 1]; ++i)
+      ++all, seen += view_.weight(i) > 0.0F;
+  return all > 0 ? static_cast<double>(seen) / all : 1.0;
+}
+
 // From the spread of what is left over, and how flat and straight such frames are.
 std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   std::array<SideSigma, 4> sides{};
@@ -179,7 +190,7 @@ std::array<SideSigma, 4> RingAlignment::sidesOf(const Matrix3d& map) const {
   const auto views = prior_->viewsOfSides(map);
   const bool framed = view_.model().framed();
   for (int i = 0; i < 4; ++i) {
-    if (framed && views[i].from_beyond) continue;
+    if (partInView(i) < kLeastInView || (framed && views[i].from_beyond)) continue;
     const int next = (i + 1) % 4;
     const Eigen::Vector2d along = quad[next] - quad[i];
     const double length = along.norm();

@@ -18,7 +18,8 @@ namespace window_ingress::detection {
 struct AlignedRing {
   geometry::Quadrilateral quad;  ///< order as the start, pixels of the image as it came
   RingMatch match;
-  /// How well its sides are known, in that order; that of a frame from beyond which the camera looks is not.
+  /// How well its sides are known, in that order; that of a frame from beyond which the camera looks is not,
+  /// nor one beside which less than half of the ring is in the image.
   std::array<SideSigma, 4> sides;
   std::optional<int> hidden;  ///< side before which something stands: known by the three others alone
 };
@@ -58,6 +59,7 @@ class RingAlignment {
   void accumulate(const RingSegment& segment, NormalSum& normal, DerivativeSum& right, Matrix8f& explained);
   int sideOf(int segment) const { return 4 * segment / view_.ring().segmentCount(); }
   double beyondChance(double correlation) const;
+  double partInView(int side) const;
   void readSegments();
   std::optional<int> hiddenSide() const;
   std::optional<Eigen::Matrix3d> change(const Eigen::Matrix3d& map);

@@ -259,6 +259,20 @@ TEST(RingAlignment, TheSideOfAFrameFromBeyondWhichTheCameraLooksIsNotKnown) {
   EXPECT_EQ(known(&camera), 3);
 }
 
+TEST(RingAlignment, ASideWhoseRingTheImageCutsOffIsNotKnown) {
+  Scene scene{PatchedWall(3)};
+  scene.model.setAspect(OpeningAspect{PatchedWall::kAspect, 0.01});
+  scene.look(seenFrom(2.5, 0.0));
+  const int cut = static_cast<int>(std::min(scene.opening[0].x(), scene.opening[3].x())) - 5;
+  scene.image = scene.image.colRange(cut, scene.image.cols).clone();
+  for (Eigen::Vector2d& corner : scene.opening) corner.x() -= cut;
+  RingAlignment alignment;
+  alignment.set(scene.model, scene.image, nullptr);
+  const auto aligned = alignment.align(scene.opening, 400.0, 100.0);
+  ASSERT_TRUE(aligned);
+  for (int side = 0; side < 4; ++side) EXPECT_EQ(aligned->sides[side].known(), side != 3) << side;
+}
+
 TEST(RingAlignment, HazeTakesContrast) {
   Scene scene{PatchedWall(7)};
   scene.look(seenFrom(3.0, 0.2));
