@@ -1,7 +1,7 @@
 # Unit tests: every test/unit/<folder>/*_test.cpp goes into unit_<folder>; nothing is listed by hand.
 find_package(GTest REQUIRED)
 
-# Most of the time to test is time to compile: larger batches and less optimization take a third off. The libraries are those
+# To compile takes longer than to test: larger batches and less optimization take three tenths off. The libraries are those
 # that fly.
 function(compile_quickly target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
