@@ -1,8 +1,7 @@
 # Unit tests: every test/unit/<folder>/*_test.cpp goes into unit_<folder>; nothing is listed by hand.
 find_package(GTest REQUIRED)
 
-# To compile takes longer than to test: larger batches and less optimization take three tenths off. The libraries are those
-# that fly.
+# Larger batches and less optimization take three tenths off the time to compile the tests. The libraries are those that fly.
 function(compile_quickly target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

@@ -173,12 +173,11 @@ RingMatch RingAlignment::refine(const RingView::Scale& scale, const Quadrilatera
 
 // Of the ring beside a side, at the place that was looked at last; all of it where the reference shows none.
 double RingAlignment::partInView(int side) const {
-  const auto& segments = view_.ring().segments;
-  int all = 0, seen = 0;
-  for (int s = 0; s < view_.ring().segmentCount(); ++s)
-    for (int i = segments[s]; sideOf(s) == side && i < segments[s + 1]; ++i)
-      ++all, seen += view_.weight(i) > 0.0F;
-  return all > 0 ? static_cast<double>(seen) / all : 1.0;
+  const int a_side = view_.ring().segmentCount() / 4;
+  const int begin = view_.ring().segments[side * a_side], end = view_.ring().segments[(side + 1) * a_side];
+  int seen = 0;
+  for (int i = begin; i < end; ++i) seen += view_.weight(i) > 0.0F;
+  return end > begin ? static_cast<double>(seen) / (end - begin) : 1.0;
 }
 
 // From the spread of what is left over, and how flat and straight such frames are.
