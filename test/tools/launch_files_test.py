@@ -2,6 +2,8 @@
 import json
 import pathlib
 import re
+import shutil
+import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import cv2
@@ -357,6 +359,22 @@ def test_the_demo_says_why_it_did_not_fly():
     assert nowhere.returncode == 2 and "/nowhere.yaml" in nowhere.stderr and "building" not in nowhere.stdout
     mistyped = call(ROOT / "scripts/demo", "--sead", "3")
     assert mistyped.returncode == 2 and "unknown option '--sead'" in mistyped.stderr
+
+
+def test_the_demo_says_how_far_the_build_is_while_it_builds(tmp_path):
+    scripts = tmp_path / "scripts"
+    scripts.mkdir()
+    for name in ("demo", "env.sh"):
+        shutil.copy(ROOT / "scripts" / name, scripts)
+    build = f"echo '[ 12%] one'; for i in {{1..100}}; do [ ! -e {tmp_path}/seen ] || break; sleep 0.1; done; touch {tmp_path}/ended; exit 1"
+    for name, text in (("setup", ""), ("build", build)):
+        (scripts / name).write_text(f"#!/bin/bash\n{text}\n")
+        (scripts / name).chmod(0o755)
+    with subprocess.Popen([scripts / "demo"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as demo:
+        assert "building" in demo.stdout.readline() and demo.stdout.readline() == "demo: 10 % built\n"
+        assert not (tmp_path / "ended").exists(), "not before the build ended"
+        (tmp_path / "seen").touch()
+    assert demo.returncode == 1
 
 
 def test_contradictions_are_said(tmp_path):
