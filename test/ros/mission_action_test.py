@@ -124,37 +124,58 @@ class MissionActionTest(unittest.TestCase):
         self.assertTrue(any(0.0 < state.predicted_miss < 1.0 for state in near))
         self.assertTrue(all(state.reason for state in self.feedback))
 
+    def reach(self, state):
+        """Flies until the navigator is in that state, and moves where that state moves."""
+        self.plant.sign_trusted = state != "ALIGN"
+        if state in ("SEARCH", "HOLD"):
+            self.send()
+            self.setpoints.wait(lambda s: not support.is_zero(s), "motion")
+        else:
+            self.fly_to("APPROACH" if state == "BACK_OFF" else state)
+        if state == "HOLD":
+            self.plant.pause_odometry()
+        if state == "APPROACH":
+            self.setpoints.wait(lambda s: s.twist.linear.x > 0.2, "motion towards the window")
+        if state == "BACK_OFF":
+            support.wait_for(lambda: self.plant.place[0] > 0.5, "a way towards the window")
+            self.plant.shows_window = False
+        self.wait_for_state(state)
+
     def test_cancelled_in_search(self):
-        self.send()
-        self.setpoints.wait(lambda s: not support.is_zero(s), "motion")
+        self.reach("SEARCH")
         self.cancel()
 
     def test_cancelled_in_align(self):
-        self.plant.sign_trusted = False
-        self.fly_to("ALIGN")
+        self.reach("ALIGN")
         self.cancel()
 
     def test_cancelled_in_approach(self):
-        self.fly_to("APPROACH")
-        self.setpoints.wait(lambda s: s.twist.linear.x > 0.2, "motion towards the window")
+        self.reach("APPROACH")
         self.cancel()
 
     def test_cancelled_in_commit(self):
-        self.fly_to("COMMIT")
+        self.reach("COMMIT")
         self.cancel()
 
     def test_cancelled_in_hold(self):
-        self.send()
-        self.plant.pause_odometry()
-        self.wait_for_state("HOLD")
+        self.reach("HOLD")
         self.cancel()
 
     def test_cancelled_in_back_off(self):
-        self.fly_to("APPROACH")
-        support.wait_for(lambda: self.plant.place[0] > 0.5, "a way towards the window")
-        self.plant.shows_window = False
-        self.wait_for_state("BACK_OFF")
+        self.reach("BACK_OFF")
         self.cancel()
+
+    def test_abort_stops_at_once_in_every_state(self):
+        for state in ("SEARCH", "ALIGN", "APPROACH", "COMMIT", "HOLD", "BACK_OFF"):
+            with self.subTest(state):
+                self.reach(state)
+                self.assertTrue(call("abort").success)
+                answered = time.monotonic() + 0.1  # what was sent before may still be on its way
+                self.assertEqual((self.result().outcome, self.result().reason), (IngressResult.ABORTED, "aborted by the operator"))
+                self.states.wait(lambda s: s.state_name == "ABORTED" and s.reason == "aborted by the operator", "the end", begin=answered)
+                self.setpoints.wait(lambda s: True, "setpoints after the answer", begin=answered + 0.2)
+                self.assertTrue(all(support.is_zero(s) for s in self.setpoints.since(answered)))
+            self.setUp()
 
     def test_refused_with_every_reason_as_the_service_is(self):
         self.plant.pause_odometry()
