@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <cstdint>
 #include <string>
 
 #include "adapters/runtime/diagnostics.hpp"
@@ -25,9 +25,8 @@ class ProcessingTime {
 
   /// An image has come. \param decode_ms spent on it before
   void begin(const std_msgs::Header& header, double decode_ms) {
-    notePeriod(header);
+    notePeriod(header.seq);
     decode_ms_ = decode_ms;
-    begun_sec_ = clock_();
     watch_.begin();
   }
 
@@ -65,19 +64,20 @@ class ProcessingTime {
 
  private:
   static constexpr double kTimeSmoothing = 0.1;
-  static constexpr double kLongestPeriodMs = 2000.0;  // beyond that the camera has paused
+  static constexpr double kLongestPeriodMs = 10000.0;  // beyond that the camera has paused
 
   double budgetMs() const { return budget_ms_ > 0.0 ? budget_ms_ : period_ms_; }
-  // Images that are dropped for want of time are counted by their numbers.
-  void notePeriod(const std_msgs::Header& header) {
-    if (before_) {
-      const double since_ms = 1e3 * (header.stamp.toSec() - before_->stamp.toSec());
-      const double numbers = header.seq > before_->seq ? header.seq - before_->seq : 1.0;
-      const double period_ms = since_ms / numbers;
-      if (period_ms > 0.0 && period_ms < kLongestPeriodMs)
+  // By the clock that the work is timed with: a bag may be played slowly. Images that are dropped for want of
+  // time are counted by their numbers.
+  void notePeriod(std::uint32_t number) {
+    const double now_sec = clock_();
+    if (images_ > 0) {
+      const double period_ms = 1e3 * (now_sec - begun_sec_) / (number > number_ ? number - number_ : 1);
+      if (period_ms < kLongestPeriodMs)
         period_ms_ += (period_ms_ > 0.0 ? kTimeSmoothing : 1.0) * (period_ms - period_ms_);
     }
-    before_ = header;
+    number_ = number;
+    begun_sec_ = now_sec;
   }
 
   detection::StageTimer watch_;
@@ -86,7 +86,7 @@ class ProcessingTime {
   double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // but for the last: means of late
   double period_ms_ = 0.0;
   std::array<double, detection::kStages> stage_ms_{};  // means of late
-  std::optional<std_msgs::Header> before_;
+  std::uint32_t number_ = 0;                           // of the last image
   long images_ = 0;
 };
 
