@@ -160,11 +160,20 @@ void printTiming(const evaluation::FlightTiming& timing) {
                timing.frames(), timing.simulatedSec(), usage.ru_maxrss / 1024.0);
 }
 
+std::vector<evaluation::FlightResult> readable(const std::string& folder) {
+  try {
+    return evaluation::readFlights(folder);
+  } catch (const InputError& fault) {
+    throw InputError("--resume: " + std::string(fault.what()) + "; to fly all of them anew: rm " + folder +
+                     "/flights.csv");
+  }
+}
+
 // The last of the flights there is flown again: that it ends as it did shows that the others would.
 std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   const std::string& folder = job.asked.output;
   if (!job.asked.resume || !job.holdsFlights()) return {};
-  auto flights = evaluation::readFlights(folder);
+  auto flights = readable(folder);
   for (const auto& flight : flights)
     if (std::find(job.seeds.begin(), job.seeds.end(), flight.seed) == job.seeds.end())
       throw InputError("--resume: " + folder + " holds seed " + std::to_string(flight.seed) +

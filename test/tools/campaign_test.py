@@ -137,6 +137,18 @@ def test_a_campaign_that_is_broken_off_before_its_first_flight_has_ended_goes_on
     assert resumed.returncode == 0 and "| short | 2 |" in resumed.stdout, resumed.stderr
 
 
+def test_flights_whose_header_was_cut_off_are_refused_with_what_to_do(tmp_path):
+    scenario, out = scenario_in(tmp_path), tmp_path / "out"
+    for name, text in (("flights.csv", "seed,outc"), ("flights.csv", ""), ("tracks.csv", "seed,ti")):
+        assert fly(scenario, out, "--seeds", "1..2", "--overwrite").returncode == 0
+        (out / name).write_text(text)
+        done = fly(scenario, out, "--seeds", "1..2", "--resume")
+        assert done.returncode == 2 and f"{name}:" in done.stderr and ("cut off" if text else "empty") in done.stderr, done.stderr
+        assert done.stderr.endswith(f"to fly all of them anew: rm {out}/flights.csv\n"), done.stderr
+        (out / "flights.csv").unlink()
+        assert fly(scenario, out, "--seeds", "1..2", "--resume").returncode == 0
+
+
 def test_a_failed_shard_is_an_error_and_no_result(tmp_path):
     bad = tmp_path / "bad.yaml"
     bad.write_text("start: {distance_m: 500}\n")
