@@ -64,6 +64,11 @@ std::string found(const YAML::Node& node) {
   return node.IsSequence() ? "a list" : node.IsMap() ? "a mapping" : "empty";
 }
 
+bool isNumber(const YAML::Node& word) {
+  double number = 0.0;
+  return YAML::convert<double>::decode(word, number);
+}
+
 }  // namespace
 
 YAML::Node loadYaml(const std::string& file) {
@@ -108,8 +113,11 @@ std::vector<YamlEntry> entriesOf(const std::string& file, const YAML::Node& mapp
     else if (!names.insert(entry.first.Scalar()).second)
       faults.add(faultAt(file, entry.first, path + entry.first.Scalar() + kSecondTime));
     else if (entry.second.IsNull())  // its own mark is that of what follows
-      faults.add(faultAt(file, entry.first,
-                         path + entry.first.Scalar() + ": is empty; give it a value, or leave it out"));
+      faults.add(faultAt(
+          file, entry.first,
+          path + entry.first.Scalar() +
+              (isNumber(entry.first) ? ": is a number without a key: a comma in place of a decimal point?"
+                                     : ": is empty; give it a value, or leave it out")));
     else
       entries.push_back({entry.first.Scalar(), entry.first, entry.second});
   }

@@ -13,7 +13,7 @@
 
 namespace window_ingress::tools {
 
-constexpr double kMaxShownPx = 1200.0;  // of the image on the screen
+constexpr double kMaxShownPx = 1000.0;  // of the image on the screen: 300 more are the panel's
 constexpr double kFitRadiusPx = 6.0;    // on the screen
 constexpr double kMaxMovedPx = 3.0;     // of a side by the fit, on the screen: clicks are better than that
 constexpr double kMaxMovedPart = 0.04;  // the same as part of the shortest side

@@ -171,6 +171,9 @@ Job prepare(const Options& o) {
     if (job.camera) job.estimator.emplace(params);
   }
   if (!o.overlay.empty()) tools::makeFolder(o.overlay);
+  for (const std::string& input : o.inputs)  // the next run would take the overlays for photographs
+    if (!o.overlay.empty() && fs::is_directory(input) && fs::equivalent(input, o.overlay))
+      throw InputError("--overlay " + o.overlay + ": the photographs lie there: give another folder");
   return job;
 }
 

@@ -277,6 +277,12 @@ def test_a_reference_without_corners_is_said_to_be_guessed(tmp_path, image):
         assert said.returncode == code and "warning: the opening in the reference image is guessed" in said.stderr, said.stderr
 
 
+def test_overlays_are_not_drawn_among_the_photographs(tmp_path, image):
+    done = run("detect_images", "--output", tmp_path / "found.csv", "--overlay", image.parent, image.parent)
+    assert_refused(done, 2, "--overlay", "the photographs lie there")
+    assert not (tmp_path / "plain.png.png").exists()
+
+
 def test_a_good_parameter_file_is_named_on_a_line(tmp_path):
     (tmp_path / "drone.yaml").write_text("vehicle: {half_width_m: 0.3}\n")
     assert run("check_overlay", tmp_path / "drone.yaml").stdout == f"{tmp_path}/drone.yaml\n"

@@ -330,6 +330,17 @@ def test_corners_are_clicked(labelled, tmp_path, display, off, times):
     assert numpy.abs(numpy.array(kept) - numpy.array(true).ravel()).max() < 3.0
 
 
+def test_a_large_image_and_the_keys_beside_it_are_on_the_screen_of_a_laptop(labelled, tmp_path, display):
+    cv2.imwrite(str(tmp_path / "large.png"), cv2.resize(cv2.imread(str(labelled / "a.png")), (1280, 720)))
+    with subprocess.Popen([str(ROOT / "scripts/run"), "make_reference", str(tmp_path / "large.png"), "--output", str(tmp_path / "a.png")],
+                          env={**os.environ, "DISPLAY": display}) as process:
+        window = titled(display, "click the top left inner corner")
+        size = subprocess.run(["xdotool", "getwindowgeometry", "--shell", window], env={**os.environ, "DISPLAY": display}, timeout=60,
+                              capture_output=True, text=True, check=True).stdout
+        process.kill()
+    assert int(re.search(r"WIDTH=(\d+)", size)[1]) <= 1366, size
+
+
 @pytest.mark.parametrize("arguments, words", [
     ([], "no image given"), (["/nowhere.png"], "/nowhere.png"), (["IMAGE"], "no display"),
     (["IMAGE", "--corners", "1,2,3"], "--corners"), (["IMAGE", "--corners", "1,1,5,5,5,1,1,5"], "no convex quadrilateral"),
