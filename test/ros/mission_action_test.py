@@ -64,9 +64,8 @@ class MissionActionTest(unittest.TestCase):
         support.wait_for(lambda: self.client.get_state() not in under_way, "the end of the goal before")
         self.plant.restart()
         self.feedback = []
-        self.begin = 0.0
+        self.begin = time.monotonic() + 0.1  # states of the test before do not count, nor where the vehicle was
         self.wait_for_state("IDLE")
-        self.begin = time.monotonic()  # states of the test before do not count
 
     def wait_for_state(self, *names):
         begin = max(self.begin, time.monotonic() - 0.3)
@@ -137,8 +136,9 @@ class MissionActionTest(unittest.TestCase):
         if state == "APPROACH":
             self.setpoints.wait(lambda s: s.twist.linear.x > 0.2, "motion towards the window")
         if state == "BACK_OFF":
-            support.wait_for(lambda: self.plant.place[0] > 0.5, "a way towards the window")
+            support.wait_for(lambda: self.plant.place[0] > 1.5, "a way towards the window")
             self.plant.shows_window = False
+            self.setpoints.wait(lambda s: s.twist.linear.x < -0.05, "motion away from the window", begin=time.monotonic())
         self.wait_for_state(state)
 
     def test_cancelled_in_search(self):
