@@ -218,6 +218,7 @@ int flyJob(const FlyJob& job, const std::vector<std::uint32_t>& seeds, FlyResult
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
     printProgress(before, done, left, results.passed(), spent.count());
   };
+  if (!seeds.empty()) std::fprintf(stderr, "%d of %zu flights so far\n", before, before + seeds.size());
   try {
     evaluation::flyAll(seeds, job.asked.jobs, flyTimed, report);
   } catch (const Stopped&) {
