@@ -77,7 +77,7 @@ TEST_F(YamlFile, NamesFileLineAndKeyOfEveryKindOfFault) {
   for (const char* text : {"fast: true\nspeed_mps:\n\nname: x\n", "fast: true\nspeed_mps: # quick\n"})
     EXPECT_EQ(error(text), file_ + ":2: speed_mps: is empty; give it a value, or leave it out");
   EXPECT_EQ(error("inner:\nfast: true\n"), file_ + ":1: inner: is empty; give it a value, or leave it out");
-  EXPECT_EQ(error("inner: {speed_mps: 1,30}\n"),
+  EXPECT_EQ(error("inner: {count: 1,30}\n"),
             file_ + ":1: inner/30: is a number without a key: a comma in place of a decimal point?");
   EXPECT_TRUE(test::says(error("speed_mps: .nan\n"), "not within"));
   EXPECT_EQ(error("fast: true\nfast: false\n"), file_ + ":2: fast: stands here for the second time");
