@@ -64,7 +64,7 @@ class ProcessingTime {
 
  private:
   static constexpr double kTimeSmoothing = 0.1;
-  static constexpr double kLongestPeriodMs = 10000.0;  // beyond that the camera has paused
+  static constexpr double kPausePeriods = 3.0;  // after as many a camera has paused, once in a row
 
   double budgetMs() const { return budget_ms_ > 0.0 ? budget_ms_ : period_ms_; }
   // By the clock that the work is timed with: a bag may be played slowly. Images that are dropped for want of
@@ -73,8 +73,8 @@ class ProcessingTime {
     const double now_sec = clock_();
     if (images_ > 0) {
       const double period_ms = 1e3 * (now_sec - begun_sec_) / (number > number_ ? number - number_ : 1);
-      if (period_ms < kLongestPeriodMs)
-        period_ms_ += (period_ms_ > 0.0 ? kTimeSmoothing : 1.0) * (period_ms - period_ms_);
+      paused_ = !paused_ && period_ms_ > 0.0 && period_ms > kPausePeriods * period_ms_;
+      if (!paused_) period_ms_ += (period_ms_ > 0.0 ? kTimeSmoothing : 1.0) * (period_ms - period_ms_);
     }
     number_ = number;
     begun_sec_ = now_sec;
@@ -85,6 +85,7 @@ class ProcessingTime {
   double budget_ms_, begun_sec_ = 0.0, decode_ms_ = 0.0;
   double whole_ms_ = 0.0, decoding_ms_ = 0.0, slowest_ms_ = 0.0;  // but for the last: means of late
   double period_ms_ = 0.0;
+  bool paused_ = false;
   std::array<double, detection::kStages> stage_ms_{};  // means of late
   std::uint32_t number_ = 0;                           // of the last image
   long images_ = 0;
