@@ -19,11 +19,12 @@ constexpr std::size_t kMaxPieces = 24;
 constexpr std::size_t kMinPieces =
     14;  // for a bias: positions that slide for three seconds are a minority of them
 constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // taken for seen: satellites
-constexpr double kMaxBiasMps = 0.35;  // 0.29 m/s has been seen of an autopilot that flies by satellites
+constexpr double kMaxBiasMps = 0.42;  // 0.3 m/s by satellites, whose positions walk while it is measured
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
 constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
 constexpr double kMaxSquares = 9.0;          // of one piece: mad numbers and slides are no frame
-constexpr double kMaxMeanSquares = 2.0;      // of its errors, normalised; 1 is expected
+constexpr double kMaxMeanSquares = 2.2;      // of its errors, normalised; 1 is expected
+constexpr double kLeastMeanSquares = 0.2;    // fewer are chance
 constexpr double kOtherMeaningBetter = 0.5;  // of the other meaning's squares
 constexpr double kMinEvidence = 10.0;        // for it [nats]
 
@@ -138,7 +139,8 @@ TwistCheck::Sums TwistCheck::sums() const {
 // Zero if there is none.
 std::size_t TwistCheck::betterMeaning(const Sums& sums) const {
   const auto least = std::min_element(sums.misfits.begin(), sums.misfits.end());
-  const double evidence = 1.5 * static_cast<double>(pieces_.size()) * std::log(sums.misfits[0] / *least);
+  const double numbers = 3.0 * static_cast<double>(pieces_.size()), floor = kLeastMeanSquares * numbers;
+  const double evidence = 0.5 * numbers * std::log((sums.misfits[0] + floor) / (*least + floor));
   const bool is_good = *least < square(kMaxOtherMisfit) * sums.squares;
   const bool is_better = is_good && *least < kOtherMeaningBetter * sums.misfits[0] && evidence > kMinEvidence;
   return is_better ? static_cast<std::size_t>(least - sums.misfits.begin()) : 0;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "estimation/checks/twist_check.hpp"
+#include "simulation/scenario/vehicle_profiles.hpp"
 #include "simulation/sensors/odometry_sensor.hpp"
 #include "window_ingress/geometry/frames.hpp"
 
@@ -125,6 +126,16 @@ TEST(TwistSurvey, OdometryThatIsMerelyBadRaisesNoAlarm) {
       EXPECT_EQ(count(kBody, 0.1 * tenth, turns, "", 100 * tenth + 1, 5, true).alarms, 0) << tenth;
       EXPECT_EQ(count(kBody, 0.1 * tenth, turns, "", 100 * tenth + 1, 5, false).alarms, 0) << tenth;
     }
+}
+
+TEST(TwistSurvey, AnAutopilotsVelocityBySatellitesHardlyEverRaisesOne) {
+  simulation::QuadrotorParams vehicle;
+  simulation::OdometryParams params;
+  simulation::applyProfile("px4_1_13_gps", vehicle, params);
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 400; ++seed)
+    alarms += fly(params, seed, std::remainder(0.7 * seed, 2.0 * M_PI), seed % 2 == 0, kBody).alarm;
+  EXPECT_LE(alarms, 12);
 }
 
 TEST(TwistSurvey, WrongAxesAreNamedWhateverTheOdometry) {
