@@ -170,9 +170,10 @@ Job prepare(const Options& o) {
     tools::takeWindowSize("--window-size", o.size, params);
     if (job.camera) job.estimator.emplace(params);
   }
-  if (!o.overlay.empty()) tools::makeFolder(o.overlay);
+  if (o.overlay.empty()) return job;
+  tools::makeFolder(o.overlay);
   for (const std::string& input : o.inputs)  // the next run would take the overlays for photographs
-    if (!o.overlay.empty() && fs::is_directory(input) && fs::equivalent(input, o.overlay))
+    if (fs::is_directory(input) && fs::equivalent(input, o.overlay))
       throw InputError("--overlay " + o.overlay + ": the photographs lie there: give another folder");
   return job;
 }

@@ -160,7 +160,8 @@ void printTiming(const evaluation::FlightTiming& timing) {
                timing.frames(), timing.simulatedSec(), usage.ru_maxrss / 1024.0);
 }
 
-std::vector<evaluation::FlightResult> readable(const std::string& folder) {
+// As `readFlights`; the error says how to begin anew.
+std::vector<evaluation::FlightResult> readToResume(const std::string& folder) {
   try {
     return evaluation::readFlights(folder);
   } catch (const InputError& fault) {
@@ -173,7 +174,7 @@ std::vector<evaluation::FlightResult> readable(const std::string& folder) {
 std::vector<evaluation::FlightResult> flownBefore(const FlyJob& job) {
   const std::string& folder = job.asked.output;
   if (!job.asked.resume || !job.holdsFlights()) return {};
-  auto flights = readable(folder);
+  auto flights = readToResume(folder);
   for (const auto& flight : flights)
     if (std::find(job.seeds.begin(), job.seeds.end(), flight.seed) == job.seeds.end())
       throw InputError("--resume: " + folder + " holds seed " + std::to_string(flight.seed) +

@@ -64,7 +64,8 @@ class ProcessingTime {
 
  private:
   static constexpr double kTimeSmoothing = 0.1;
-  static constexpr double kPausePeriods = 3.0;  // after as many a camera has paused, once in a row
+  /// An image that comes after so many ends a pause of the camera; two in a row show a slower camera.
+  static constexpr double kPausePeriods = 3.0;
 
   double budgetMs() const { return budget_ms_ > 0.0 ? budget_ms_ : period_ms_; }
   // By the clock that the work is timed with: a bag may be played slowly. Images that are dropped for want of

@@ -22,9 +22,9 @@ constexpr double kFirstDriftMPerSqrtSec = 0.05, kFirstDriftAxes = 6.0;  // taken
 constexpr double kMaxBiasMps = 0.42;  // 0.3 m/s by satellites, whose positions walk while it is measured
 // Odometry that drifts much: jitter, random walk, error of scale, velocity late against the position.
 constexpr double kJitterM = 0.02, kVelocityDriftMPerSqrtSec = 0.07, kScale = 0.1, kLateSec = 0.15;
-constexpr double kMaxSquares = 9.0;          // of one piece: mad numbers and slides are no frame
-constexpr double kMaxMeanSquares = 2.2;      // of its errors, normalised; 1 is expected
-constexpr double kLeastMeanSquares = 0.2;    // where meanings are compared: what fits better does by chance
+constexpr double kMaxSquares = 9.0;        // of one piece: mad numbers and slides are no frame
+constexpr double kMaxMeanSquares = 2.2;    // of its errors, normalised; 1 is expected
+constexpr double kLeastMeanSquares = 0.2;  // where meanings are compared: what fits better does so by chance
 constexpr double kOtherMeaningBetter = 0.5;  // of the other meaning's squares
 constexpr double kMinEvidence = 10.0;        // for it [nats]
 
