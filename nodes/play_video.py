@@ -65,7 +65,7 @@ def play(video, info, frame):
         images.publish(message_of(image, info.header))
         there, image = video.read()
         rate.sleep()
-    rospy.loginfo("the video is over")
+    rospy.loginfo("the video is over, so the launch ends: what roslaunch writes in red is no error")
 
 
 def main():

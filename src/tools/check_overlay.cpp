@@ -158,22 +158,23 @@ bool saysOpening(const configuration::Overlay& overlay) {
   return says(overlay, "homography_pose/pose/", {"opening_width_m", "opening_height_m"});
 }
 
-// A drone does not fly by the size of somebody else's window, nor, unsaid, by that of somebody else's
-// vehicle.
-void checkSizesAreSaid(const Options& o, const configuration::Overlay& overlay) {
-  if (o.needs_window_size != "true") return;
+// A drone does not fly by the size of somebody else's window.
+void checkOpeningIsSaid(const Options& o, const configuration::Overlay& overlay) {
   const bool is_found_out = overlay.homography_pose.pose.scale_sigma > 0.0;  // in flight
   if (!is_found_out && given(o.window_size).empty() && !saysOpening(overlay))
     throw InputError(
         "the opening's size is not said: window_size:=W,H [m], or in the file of config:= "
         "homography_pose: {pose: {opening_width_m: W, opening_height_m: H}}; measure it");
-  if (o.fly != "true" || says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"}))
-    return;
+}
+
+// Nor, unsaid, by that of somebody else's vehicle.
+void checkVehicleIsSaid(const configuration::Overlay& overlay) {
+  if (says(overlay, "vehicle/", {"half_length_m", "half_width_m", "half_height_m"})) return;
   const auto& vehicle = overlay.vehicle;
   warn(
-      formatted("the vehicle's size is not said: it flies as one of %g x %g x %g m; measure it, propellers "
-                "included, and say in the file of config:= vehicle: {half_length_m: L, half_width_m: W, "
-                "half_height_m: H}",
+      formatted("the vehicle's size is not said: px4 and ardupilot.launch take it for one of %g x %g x %g m; "
+                "measure it, propellers included, and say in the file of config:= vehicle: "
+                "{half_length_m: L, half_width_m: W, half_height_m: H}",
                 2.0 * vehicle.half_length_m, 2.0 * vehicle.half_width_m, 2.0 * vehicle.half_height_m));
 }
 
@@ -256,11 +257,14 @@ void checkOverlay(const Options& o, const std::string& file, configuration::Over
   if (aspect > 0.0 && (saysOpening(overlay) || !given(o.window_size).empty()))
     checkAspect(aspect, overlay.homography_pose.pose);
   checkSpeeds(overlay);
-  faults.collect([&] { checkSizesAreSaid(o, overlay); });
+  const bool is_drone = o.needs_window_size == "true";
+  if (is_drone) faults.collect([&] { checkOpeningIsSaid(o, overlay); });
+  const bool by_hand = o.launch_folder.empty() && o.fly.empty();
+  if (by_hand ? saysOpening(overlay) : is_drone && o.fly == "true") checkVehicleIsSaid(overlay);
   faults.collect([&] { checkNavigator(file, overlay.ingress_navigator.navigator); });
   const bool says_both = saysOpening(overlay) && (says(overlay, "vehicle/", {"half_width_m"}) ||
                                                   says(overlay, "vehicle/", {"half_height_m"}));
-  if (o.fly == "true" || (o.fly.empty() && says_both))
+  if (o.fly == "true" || (by_hand && says_both))
     faults.collect([&] { checkFits(overlay.vehicle, overlay.homography_pose.pose); });
 }
 

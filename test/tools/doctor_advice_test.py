@@ -96,6 +96,22 @@ def test_a_relay_of_mavros_that_has_died_is_named_not_the_pilot(doctor, monkeypa
     assert said.startswith(words) and "arm, and switch" not in said
 
 
+@pytest.mark.parametrize("parameters, alive, words", [
+    (["/uav1/setpoint_guard"], ["window_detector"], "WARN   setpoint_guard is not running"),
+    ([], ["window_detector"], "OK     setpoint_guard is not part of this launch (fly:=false)"),
+    ([], ["window_detector", "ingress_navigator"], "ERROR  setpoint_guard is not running"),
+    ([], [], "WARN   setpoint_guard is not running")])
+def test_a_node_that_the_launch_leaves_out_is_not_missed(doctor, monkeypatch, capsys, parameters, alive, words):
+    monkeypatch.setattr(observed_system.rospy, "has_param", lambda name: name in parameters)
+    system = seen()
+    system.nodes = system.alive = {name: f"/uav1/{name}" for name in alive}
+    system.graph.nodes = lambda: list(system.nodes.values())
+    report = findings.Report()
+    doctor.check_nodes(system, report)
+    report.say()
+    assert words in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("mounting, window, known", [(0, 0, True), (2, 0, False), (0, 2, False), (None, None, False)])
 def test_a_transform_that_the_pose_node_has_is_not_missed(mounting, window, known):
     levels = {"/homography_pose: camera mounting": mounting, "/homography_pose: window": window}

@@ -171,7 +171,7 @@ def test_a_drone_does_not_fly_by_the_size_of_somebody_elses_vehicle(tmp_path, ve
     launch = (ROOT / "launch/px4.launch", "window_size:=1.2,1.0", f"config:={tmp_path}/drone.yaml")
     done = run("roslaunch", "--nodes", *launch)
     width = 2 * vehicle.get("half_width_m", 0.25)
-    assert done.returncode == 0 and f"the vehicle's size is not said: it flies as one of 0.5 x {width:g} x " in done.stderr
+    assert done.returncode == 0 and f"the vehicle's size is not said: px4 and ardupilot.launch take it for one of 0.5 x {width:g} x " in done.stderr
     done = run("roslaunch", "--nodes", *launch, "fly:=false")
     assert done.returncode == 0 and "warning: no reference image" in done.stderr
 
@@ -386,6 +386,9 @@ def test_contradictions_are_said(tmp_path):
     assert f"window_size 1.2,1.4 counts more than {config}, which says 1.6,1.4" in done.stderr
     assert "max_speed_mps 0.5 is not above ingress_navigator/navigator/limits/speed_mps 0.6" in done.stderr
     config.write_text("homography_pose: {pose: {opening_width_m: 1.6, opening_height_m: 1.4}}\n")
+    said = run("check_overlay", config, "--window-size", "1.6,1.4").stderr
+    assert said.count("warning: ") == 1 and "the vehicle's size is not said: px4 and ardupilot.launch take it for " in said
+    config.write_text(config.read_text() + "vehicle: {half_length_m: 0.2, half_width_m: 0.2, half_height_m: 0.1}\n")
     assert run("check_overlay", config, "--window-size", "1.6,1.4").stderr == ""
 
 

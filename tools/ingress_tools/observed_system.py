@@ -14,6 +14,7 @@ NODES = {"window_detector": "detector.yaml", "homography_pose": "pose.yaml", "in
 PIPELINE = "world", "window_detector", "homography_pose", "ingress_navigator", "setpoint_guard"
 ARGUMENTS = {"sensor_msgs/Image": "image", "sensor_msgs/CompressedImage": "image_transport:=compressed image",
              "sensor_msgs/CameraInfo": "camera_info", "sensor_msgs/Imu": "imu", "nav_msgs/Odometry": "odom"}
+WANTED = "window_detector", "homography_pose"  # whatever is launched
 SETPOINTS = "geometry_msgs/TwistStamped"
 
 
@@ -69,6 +70,13 @@ class System:
         if name == "vehicle":
             return self.namespace_of("ingress_navigator").rsplit("/", 1)[0] + "/vehicle"
         return self.nodes.get(name, "/" + name)
+
+    def is_launched(self, name):
+        """Whether a launch file wanted this node: ingress.launch loads the parameters of those that it starts."""
+        beside = next((node for other, node in self.alive.items() if other in WANTED), None)
+        if name in WANTED or beside is None or "ingress_navigator" in self.alive:
+            return True
+        return rospy.has_param(f"{beside.rsplit('/', 1)[0]}/{name}")
 
     def parameter(self, name, path, default=None):
         return rospy.get_param(f"{self.namespace_of(name)}/{path}", default)
